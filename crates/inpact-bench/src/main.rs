@@ -1,0 +1,2 @@
+//! Deck generator and benchmarks of inpact.
+fn main() {}

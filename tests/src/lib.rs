@@ -1,0 +1,1 @@
+//! Whole-program tests of inpact; see the files beside this one.
