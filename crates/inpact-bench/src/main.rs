@@ -1,2 +1,184 @@
-//! Deck generator and benchmarks of inpact.
-fn main() {}
+//! The generator's command line: arguments, files, exit codes.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use inpact_bench::deck::{self, Content, DeckRequest};
+use inpact_bench::nodes::{self, NodesRequest};
+
+/// Generates decks and node tables for measurements.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Write a deck that is valid by the spec.
+    Generate {
+        /// The deck to write, or `-` for standard output.
+        out: PathBuf,
+        /// What the deck holds besides its interactions.
+        #[arg(long, value_enum, default_value_t = Kind::Mesh)]
+        kind: Kind,
+        /// Size of a meshed deck in units of 10^6 bytes [default: 100]; a deck of tables is as large as its rows.
+        #[arg(long, value_parser = positive)]
+        megabytes: Option<f64>,
+        /// Rows of each conductance table, two at least.
+        #[arg(long, default_value_t = 20, value_parser = at_least::<2>)]
+        rows: usize,
+        #[command(flatten)]
+        shared: Shared,
+    },
+    /// Write a node table for the deck generated with the same --interactions and --seed.
+    GenerateNodes {
+        /// The node table to write (CSV), or `-` for standard output.
+        out: PathBuf,
+        /// Rows of the node table; with fewer nodes than rows each node has a history.
+        #[arg(long)]
+        rows: u64,
+        /// Number of nodes [default: one for each row].
+        #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+        nodes: Option<u64>,
+        /// Rows of each conductance table of the deck.
+        #[arg(long, default_value_t = 20, value_parser = at_least::<2>)]
+        table_rows: usize,
+        #[command(flatten)]
+        shared: Shared,
+    },
+}
+
+/// Options that both commands must be given alike for a deck and its node table.
+#[derive(Debug, Clone, Copy, Args)]
+struct Shared {
+    /// Number of interactions.
+    #[arg(long, default_value_t = 50, value_parser = at_least::<1>)]
+    interactions: usize,
+    /// Seed of all numbers: equal options give equal bytes.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Kind {
+    /// Parts of C3D8 elements, sets, surfaces, contact pairs, two steps.
+    Mesh,
+    /// Nothing: conductance tables only.
+    Tables,
+}
+
+fn main() -> ExitCode {
+    match run(Arguments::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        // The reader has seen enough: `generate - | head`.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            // Where standard error is closed as well there is nobody left to tell.
+            let _ = writeln!(io::stderr(), "error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(command: Command) -> io::Result<()> {
+    match command {
+        Command::Generate {
+            out,
+            kind,
+            megabytes,
+            rows,
+            shared,
+        } => {
+            let content = match (kind, megabytes) {
+                (Kind::Mesh, size) => Content::Mesh {
+                    bytes: bytes(size.unwrap_or(100.0)),
+                },
+                (Kind::Tables, None) => Content::Tables,
+                (Kind::Tables, Some(_)) => {
+                    return Err(io::Error::new(
+                        io::ErrorKind::InvalidInput,
+                        "a deck of tables is as large as its rows: give --interactions and --rows, not --megabytes",
+                    ));
+                }
+            };
+            let request = deck_request(content, rows, shared);
+            let size = deck::write(&request, open(&out)?)?;
+            report(&out, size)
+        }
+        Command::GenerateNodes {
+            out,
+            rows,
+            nodes,
+            table_rows,
+            shared,
+        } => {
+            let deck = deck_request(Content::Tables, table_rows, shared);
+            let interfaces: Vec<_> = deck.interfaces().collect();
+            let nodes = nodes.unwrap_or(rows).max(1);
+            let request = NodesRequest {
+                rows,
+                nodes,
+                seed: shared.seed,
+            };
+            let size = nodes::write(&request, &interfaces, open(&out)?)?;
+            report(&out, size)
+        }
+    }
+}
+
+fn deck_request(content: Content, rows: usize, shared: Shared) -> DeckRequest {
+    DeckRequest {
+        content,
+        interactions: shared.interactions,
+        rows,
+        seed: shared.seed,
+    }
+}
+
+fn open(path: &Path) -> io::Result<BufWriter<Box<dyn Write>>> {
+    let target: Box<dyn Write> = if path == Path::new("-") {
+        Box::new(io::stdout().lock())
+    } else {
+        let file = File::create(path).map_err(|error| {
+            io::Error::new(
+                error.kind(),
+                format!("cannot write `{}`: {error}", path.display()),
+            )
+        })?;
+        Box::new(file)
+    };
+    Ok(BufWriter::with_capacity(1 << 16, target))
+}
+
+fn report(path: &Path, size: u64) -> io::Result<()> {
+    writeln!(io::stderr(), "{}: {size} bytes", path.display())
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`positive` lets no other number through"
+)]
+fn bytes(megabytes: f64) -> u64 {
+    (megabytes * 1e6) as u64
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if value > 0.0 && value < 1e9 => Ok(value),
+        _ => Err("a number above 0 and below 1e9 is needed".to_owned()),
+    }
+}
+
+fn at_least<const LEAST: usize>(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(value) if value >= LEAST => Ok(value),
+        _ => Err(format!("a whole number of at least {LEAST} is needed")),
+    }
+}

@@ -1,0 +1,13 @@
+//! Deck generator and benchmarks of inpact.
+//!
+//! The generator writes decks and node tables of any size for measurements and tests.
+//! It knows the layout of decks and node tables, and none of the other crates: what they read is
+//! generated from the spec alone, so a mistake of theirs cannot hide in it.
+//! It holds no more in memory than the interfaces of a node table, whatever the size of the output.
+
+pub mod deck;
+pub mod interface;
+pub mod nodes;
+pub mod plate;
+pub mod random;
+pub mod size;

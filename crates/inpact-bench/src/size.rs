@@ -1,0 +1,44 @@
+//! Counting bytes: what a writer has been given, and what a text would take.
+
+use std::io::{self, Write};
+
+/// A writer that counts the bytes it passes on.
+#[derive(Debug)]
+pub struct Counted<W> {
+    inner: W,
+    bytes: u64,
+}
+
+impl<W: Write> Counted<W> {
+    /// Counts what goes to `inner` from now on.
+    pub fn new(inner: W) -> Self {
+        Self { inner, bytes: 0 }
+    }
+
+    /// The bytes passed on so far.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}
+
+impl<W: Write> Write for Counted<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.inner.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+/// The bytes that `write` would write, found by writing them nowhere.
+///
+/// # Errors
+/// Those of `write`.
+pub fn measure(write: impl FnOnce(&mut Counted<io::Sink>) -> io::Result<()>) -> io::Result<u64> {
+    let mut counted = Counted::new(io::sink());
+    write(&mut counted)?;
+    Ok(counted.bytes())
+}
