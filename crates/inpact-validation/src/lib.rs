@@ -1,1 +1,17 @@
-//! placeholder
+//! The rules of `inpact check`: over a deck and its model, one file a rule.
+//!
+//! [`check`] runs every rule and gives the [`Diagnostic`]s in the order of the deck.
+//! A rule sees the deck, the grammar, the model and what the reader met; it opens no file, prints nothing and cannot fail.
+//! Its doc comment is its page, its `explain` text and its test: the examples in it are run.
+
+pub mod diagnostic;
+
+pub mod rule;
+
+pub mod rules;
+
+mod checking;
+
+pub use checking::check;
+pub use diagnostic::{Diagnostic, Edit, Fix, FixSafety, Label, Severity};
+pub use rule::{Context, Report, Rule};

@@ -1,2 +1,7 @@
-//! The command line of inpact.
-fn main() {}
+//! `inpact`: checks, converts and evaluates the contact interfaces of Abaqus input decks.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    inpact::run(std::env::args_os())
+}

@@ -1,0 +1,256 @@
+//! The deck as it stands in its files: blocks of a keyword line and the rows behind it.
+//!
+//! Lossless: the blocks printed in order are the file, byte for byte, whatever the bytes are.
+//! Never fails: a line that means nothing is still a line of some block.
+//! Rows are a range of bytes until somebody reads them, so a mesh costs no number parsing (S-03 to S-37).
+
+mod data_line;
+mod keyword_line;
+pub mod lines;
+mod scan;
+mod text;
+
+pub use data_line::items;
+pub use scan::{Keep, ScanOptions, Scanner, scan};
+pub use text::Source;
+
+use crate::grammar::{KeywordId, Lookup};
+use crate::span::{Position, SourceId, Span};
+use lines::{LineKind, line_kind, without_line_end};
+
+/// A deck: its source files, cut into blocks in reading order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deck {
+    sources: Vec<Source>,
+    blocks: Vec<Block>,
+    notes: Vec<LineNote>,
+}
+
+/// A keyword line and everything up to the next one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// The keyword line; `None` for what stands before the first keyword of a file.
+    pub keyword: Option<KeywordLine>,
+    /// The lines behind the keyword line: data, comments, blank lines.
+    pub rows: Span,
+    /// Whether the deck holds the text of `rows`; mesh rows are not kept when a deck is only checked.
+    pub rows_kept: bool,
+}
+
+/// `*KEYWORD, PARAMETER=VALUE, …`, with the lines that continue it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeywordLine {
+    /// All of it, line ends included.
+    pub span: Span,
+    /// The words behind the asterisk.
+    pub name: Span,
+    /// Which keyword the words mean (S-13).
+    pub resolved: Lookup<KeywordId>,
+    /// The parameters in the order of the line.
+    pub parameters: Vec<Parameter>,
+    /// Where a quote opens that does not close on its line (S-41).
+    pub unterminated_quote: Option<Span>,
+    /// The comma at the end of the line, when the next line is not its continuation (S-19).
+    pub dangling_comma: Option<Span>,
+}
+
+/// `NAME` or `NAME=VALUE` on a keyword line (S-17).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// The name, without blanks around it.
+    pub name: Span,
+    /// The value; `None` when there is no `=`.
+    pub value: Option<Span>,
+    /// Which parameter of the keyword is meant, as an index into its definition's list; unknown where the grammar has no definition.
+    pub resolved: Lookup<usize>,
+}
+
+/// Something seen while lines were cut, in rows whose text may not be kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LineNote {
+    /// What was seen.
+    pub kind: LineNoteKind,
+    /// The first line of the block for which it holds.
+    pub span: Span,
+    /// How many lines of the block it holds for.
+    pub lines: u64,
+}
+
+/// What a [`LineNote`] is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum LineNoteKind {
+    /// More than 256 characters on a keyword or data line (S-06).
+    TooLong,
+    /// A byte above 0x7F on a keyword or data line, outside quotes (S-01).
+    NonAscii,
+    /// `**` behind blanks (S-04).
+    IndentedComment,
+}
+
+/// One line of rows: data or blank; comments are passed over (S-04).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DataLine<'deck> {
+    /// The line without its line end.
+    pub span: Span,
+    /// Its bytes.
+    pub text: &'deck [u8],
+}
+
+impl DataLine<'_> {
+    /// Whether the line holds blanks only (S-08).
+    pub fn is_blank(&self) -> bool {
+        self.text.trim_ascii().is_empty()
+    }
+
+    /// The items between the commas, as spans of the deck (S-31).
+    pub fn items(&self) -> impl Iterator<Item = Span> {
+        let line = self.span;
+        items(self.text)
+            .map(move |range| Span::new(line.source, line.start + range.start as u64, line.start + range.end as u64))
+    }
+}
+
+impl Deck {
+    /// The source files: the deck itself, then what it includes.
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// The source file that a span points into.
+    pub fn source(&self, id: SourceId) -> &Source {
+        &self.sources[id.0 as usize]
+    }
+
+    /// The blocks in reading order.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// What was seen while lines were cut, in reading order.
+    pub fn notes(&self) -> &[LineNote] {
+        &self.notes
+    }
+
+    /// The bytes of a span; empty where the scan did not keep them.
+    pub fn text(&self, span: Span) -> &[u8] {
+        self.source(span.source).text(span.start..span.end)
+    }
+
+    /// The kept bytes around the start of a span without a gap, and the offset in its file where they begin.
+    ///
+    /// They begin at the start of a line.
+    pub fn surroundings(&self, span: Span) -> (u64, &[u8]) {
+        self.source(span.source).surroundings(span.start)
+    }
+
+    /// The text of a span for a person to read; bytes that are not UTF-8 are replaced.
+    pub fn shown(&self, span: Span) -> String {
+        String::from_utf8_lossy(self.text(span)).into_owned()
+    }
+
+    /// The data and blank lines of a block, comments passed over; nothing when its rows were not kept.
+    pub fn data_lines(&self, block: &Block) -> impl Iterator<Item = DataLine<'_>> {
+        self.data_lines_in(block.rows)
+    }
+
+    /// The data and blank lines of a span of rows.
+    pub fn data_lines_in(&self, rows: Span) -> impl Iterator<Item = DataLine<'_>> {
+        let text = self.text(rows);
+        let skipped = if rows.start == 0 { byte_order_mark(text) } else { 0 };
+        lines::lines(&text[skipped..]).filter_map(move |range| {
+            let range = range.start + skipped..range.end + skipped;
+            let line = &text[range.clone()];
+            let content = without_line_end(line);
+            let start = rows.start + range.start as u64;
+            let span = Span::new(rows.source, start, start + content.len() as u64);
+            match line_kind(line) {
+                LineKind::Comment | LineKind::IndentedComment => None,
+                _ => Some(DataLine { span, text: content }),
+            }
+        })
+    }
+
+    /// Line and column of the start of every span, in the order given; one sweep a file.
+    pub fn positions(&self, spans: &[Span]) -> Vec<Position> {
+        let mut order: Vec<usize> = (0..spans.len()).collect();
+        order.sort_by_key(|index| (spans[*index].source, spans[*index].start));
+        let mut positions = vec![Position { line: 1, column: 1 }; spans.len()];
+        for group in order.chunk_by(|a, b| spans[*a].source == spans[*b].source) {
+            let offsets: Vec<u64> = group.iter().map(|index| spans[*index].start).collect();
+            let found = self.source(spans[group[0]].source).positions(&offsets);
+            for (index, position) in group.iter().zip(found) {
+                positions[*index] = position;
+            }
+        }
+        positions
+    }
+
+    /// Writes a source file back: its blocks, in order.
+    ///
+    /// The bytes are those of the file when the deck was scanned with [`Keep::Everything`];
+    /// otherwise rows that were not kept are missing (see [`Source::is_complete`]).
+    pub fn print(&self, source: SourceId) -> Vec<u8> {
+        let mut printed = Vec::new();
+        for block in self.blocks.iter().filter(|block| block.rows.source == source) {
+            if let Some(keyword) = &block.keyword {
+                printed.extend_from_slice(self.text(keyword.span));
+            }
+            printed.extend_from_slice(self.text(block.rows));
+        }
+        printed
+    }
+}
+
+impl Block {
+    /// The keyword, when its words mean exactly one.
+    pub fn keyword_id(&self) -> Option<KeywordId> {
+        self.keyword.as_ref()?.id()
+    }
+
+    /// The keyword line; for rows before the first keyword an empty span at their start.
+    pub fn span_of_keyword(&self) -> Span {
+        let start = Span::new(self.rows.source, self.rows.start, self.rows.start);
+        self.keyword.as_ref().map_or(start, |keyword| keyword.span)
+    }
+
+    /// Keyword line and rows.
+    pub fn span(&self) -> Span {
+        self.keyword.as_ref().map_or(self.rows, |keyword| keyword.span.to(self.rows))
+    }
+}
+
+impl KeywordLine {
+    /// The keyword, when the words mean exactly one.
+    pub fn id(&self) -> Option<KeywordId> {
+        match self.resolved {
+            Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),
+            Lookup::Ambiguous(_) | Lookup::Unknown => None,
+        }
+    }
+
+    /// The line without its line end: what a label underlines.
+    pub fn visible_span(&self, deck: &Deck) -> Span {
+        let length = deck.text(self.span).trim_ascii_end().len() as u64;
+        Span::new(self.span.source, self.span.start, self.span.start + length)
+    }
+}
+
+impl Parameter {
+    /// The parameter's index in the keyword's definition, when the name means exactly one.
+    pub fn index(&self) -> Option<usize> {
+        match self.resolved {
+            Lookup::Exact(index) | Lookup::Abbreviated(index) => Some(index),
+            Lookup::Ambiguous(_) | Lookup::Unknown => None,
+        }
+    }
+
+    /// Name and value.
+    pub fn span(&self) -> Span {
+        self.value.map_or(self.name, |value| self.name.to(value))
+    }
+}
+
+/// The length of the UTF-8 byte order mark that `text` begins with, or 0.
+fn byte_order_mark(text: &[u8]) -> usize {
+    if text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 }
+}

@@ -1,0 +1,177 @@
+//! Physical lines: where one ends, and whether it is a comment, a keyword line or data (S-02 to S-05).
+//!
+//! Works on bytes alone; an LF, a CR LF and a lone CR each end a line.
+
+use memchr::{memchr, memchr_iter, memchr2};
+
+/// What kind of line it is (S-03).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LineKind {
+    /// `*` in columns 1 and 2 (S-04).
+    Comment,
+    /// `**` behind blanks: formally a keyword line, meant as a comment (S-04); taken as a comment.
+    IndentedComment,
+    /// The first character that is not a blank is `*` (S-05).
+    Keyword,
+    /// Nothing but blanks (S-08).
+    Blank,
+    /// Anything else.
+    Data,
+}
+
+/// The kind of the line that `line` holds; its line end may be there or not.
+pub fn line_kind(line: &[u8]) -> LineKind {
+    let content = line.trim_ascii_start();
+    match content {
+        [] => LineKind::Blank,
+        [b'*', b'*', ..] if content.len() == line.len() => LineKind::Comment,
+        [b'*', b'*', ..] => LineKind::IndentedComment,
+        [b'*', ..] => LineKind::Keyword,
+        _ => LineKind::Data,
+    }
+}
+
+/// The offset behind the line end of the line that begins at `from`, or the length of `bytes` for an unfinished line.
+pub fn next_line(bytes: &[u8], from: usize) -> usize {
+    match memchr2(b'\n', b'\r', &bytes[from..]) {
+        None => bytes.len(),
+        Some(found) => {
+            let end = from + found;
+            if bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n') { end + 2 } else { end + 1 }
+        }
+    }
+}
+
+/// The line without its line end.
+pub fn without_line_end(line: &[u8]) -> &[u8] {
+    match line {
+        [content @ .., b'\r', b'\n'] | [content @ .., b'\n' | b'\r'] => content,
+        _ => line,
+    }
+}
+
+/// The physical lines of `bytes`, each with its line end, as ranges.
+pub fn lines(bytes: &[u8]) -> impl Iterator<Item = std::ops::Range<usize>> {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        if from == bytes.len() {
+            return None;
+        }
+        let start = from;
+        from = next_line(bytes, from);
+        Some(start..from)
+    })
+}
+
+/// The number of line ends in `bytes`; a CR at the very end counts, so callers must not cut a CR LF in two.
+pub fn count_line_ends(bytes: &[u8]) -> u64 {
+    let line_feeds = memchr_iter(b'\n', bytes).count();
+    (line_feeds + lone_carriage_returns(bytes)) as u64
+}
+
+/// How many CRs stand without an LF behind them; almost always none, and found out at the speed of memory.
+fn lone_carriage_returns(bytes: &[u8]) -> usize {
+    let Some(first) = memchr(b'\r', bytes) else { return 0 };
+    let rest = &bytes[first..];
+    // Written without a branch so that it is vectorised: a file with CR LF ends has a CR in every line.
+    let is_lone = |(first, second): (&u8, &u8)| usize::from(*first == b'\r') & usize::from(*second != b'\n');
+    let inner: usize = rest.iter().zip(&rest[1..]).map(is_lone).sum();
+    inner + usize::from(rest.last() == Some(&b'\r'))
+}
+
+/// Where the next line of kind [`LineKind::Keyword`] begins at or behind `from`, which must be the start of a line.
+///
+/// Looks at asterisks only, so that megabytes of mesh rows cost one `memchr`.
+/// The comments it passes that stand behind blanks (S-04) are handed to `indented_comment`, as the start of their line.
+pub fn find_keyword_line(bytes: &[u8], from: usize, mut indented_comment: impl FnMut(usize)) -> Option<usize> {
+    let mut at = from;
+    while let Some(found) = memchr(b'*', &bytes[at..]) {
+        let star = at + found;
+        if let Some(start) = line_start_before(bytes, from, star) {
+            if bytes.get(star + 1) != Some(&b'*') {
+                return Some(start);
+            }
+            // A comment: nothing in the rest of its line matters.
+            if start < star {
+                indented_comment(start);
+            }
+            at = next_line(bytes, star);
+        } else {
+            at = star + 1;
+        }
+    }
+    None
+}
+
+/// The start of the line of `at` when only blanks stand between it and `at`.
+fn line_start_before(bytes: &[u8], from: usize, at: usize) -> Option<usize> {
+    let mut start = at;
+    while start > from {
+        match bytes[start - 1] {
+            b'\n' | b'\r' => return Some(start),
+            byte if byte.is_ascii_whitespace() => start -= 1,
+            _ => return None,
+        }
+    }
+    Some(start)
+}
+
+/// The first line of `bytes` that is longer than `limit` bytes (line end not counted, trailing blanks counted).
+///
+/// Jumps from line end to line end in strides of `limit`, so that short lines cost next to nothing.
+pub fn find_long_line(bytes: &[u8], from: usize, limit: usize) -> Option<std::ops::Range<usize>> {
+    let mut start = from;
+    while bytes.len() - start > limit {
+        // A line of `limit` bytes has its line end within the next `limit + 1`.
+        let window = &bytes[start..=start + limit];
+        match memchr::memrchr2(b'\n', b'\r', window) {
+            Some(last) => start += last + 1,
+            None => return Some(start..next_line(bytes, start)),
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_03_comments_and_keywords() {
+        assert_eq!(line_kind(b"** *GAP CONDUCTANCE"), LineKind::Comment);
+        assert_eq!(line_kind(b" *GAP CONDUCTANCE"), LineKind::Keyword);
+        assert_eq!(line_kind(b"***X"), LineKind::Comment);
+        assert_eq!(line_kind(b"  ** x"), LineKind::IndentedComment);
+        assert_eq!(line_kind(b" \t\r\n"), LineKind::Blank);
+        assert_eq!(line_kind(b"1, 2"), LineKind::Data);
+    }
+
+    #[test]
+    fn all_three_line_ends() {
+        let bytes = b"a\nb\r\nc\rd";
+        let found: Vec<&[u8]> = lines(bytes).map(|range| &bytes[range]).collect();
+        assert_eq!(found, [&b"a\n"[..], b"b\r\n", b"c\r", b"d"]);
+        assert_eq!(count_line_ends(bytes), 3);
+        assert_eq!(count_line_ends(b"a\r\r\n\r"), 3);
+    }
+
+    #[test]
+    fn keyword_lines_are_found_behind_rows_and_comments() {
+        let bytes = b"1, 2*3\n** *NODE\n  ** x\n\t *STEP\n";
+        assert_eq!(find_keyword_line(bytes, 0, |_| {}), Some(23));
+        assert_eq!(find_keyword_line(b"1,2\n3,4\n", 0, |_| {}), None);
+        assert_eq!(find_keyword_line(b"*A\n", 0, |_| {}), Some(0));
+        assert_eq!(find_keyword_line(b"1\r*A\r", 0, |_| {}), Some(2));
+    }
+
+    #[test]
+    fn long_lines_are_found_exactly() {
+        let fits = [vec![b'x'; 256], b"\n".to_vec()].concat();
+        let long = [vec![b'y'; 257], b"\n".to_vec()].concat();
+        let text = [fits.clone(), fits.clone(), long, fits.clone()].concat();
+        assert_eq!(find_long_line(&text, 0, 256), Some(514..772));
+        assert_eq!(find_long_line(&fits, 0, 256), None);
+        assert_eq!(find_long_line(&vec![b'z'; 257], 0, 256), Some(0..257));
+        assert_eq!(find_long_line(&vec![b'z'; 256], 0, 256), None);
+    }
+}

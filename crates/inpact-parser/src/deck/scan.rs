@@ -1,0 +1,377 @@
+//! Cuts bytes into blocks: the arrow from a file to a [`Deck`].
+//!
+//! Bytes are pushed in pieces of any size, so a file is read once and need not fit into memory.
+//! Knows the grammar only to tell which keyword a line means, whether its rows are worth keeping,
+//! and whether the line behind a trailing comma continues it (S-19).
+
+use super::lines::{
+    LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
+};
+use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line};
+use crate::grammar::{Definition, Grammar, Lookup, ParameterKind, RowShape};
+use crate::span::{SourceId, Span};
+use std::ops::Range;
+
+/// The most characters of a keyword or data line (S-06).
+const LINE_CHARACTERS: usize = 256;
+
+/// How much of the rows before the first keyword is kept when only interpreted blocks are: enough to tell a fragment from a file that is no deck.
+const LEADING_ROWS_KEPT: u64 = 64 * 1024;
+
+/// Which rows keep their text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Keep {
+    /// All of them: the deck can be printed.
+    Everything,
+    /// Those of keywords whose rows somebody interprets: the deck can be checked and evaluated, in memory that follows the interpreted blocks and not the file.
+    Interpreted,
+}
+
+/// How a deck is scanned.
+#[derive(Debug, Clone, Copy)]
+pub struct ScanOptions<'grammar> {
+    /// The keyword language.
+    pub grammar: &'grammar Grammar,
+    /// Which rows keep their text.
+    pub keep: Keep,
+}
+
+/// Scans the bytes of one file and keeps all of them.
+pub fn scan(name: &str, bytes: &[u8], grammar: &Grammar) -> Deck {
+    let mut scanner = Scanner::new(name, ScanOptions { grammar, keep: Keep::Everything });
+    scanner.push(bytes);
+    scanner.finish()
+}
+
+/// Takes the bytes of one file piece by piece and cuts them into blocks.
+#[derive(Debug)]
+pub struct Scanner<'grammar> {
+    options: ScanOptions<'grammar>,
+    source: Source,
+    blocks: Vec<Block>,
+    notes: Vec<LineNote>,
+    /// Bytes behind the last complete line that was processed.
+    pending: Vec<u8>,
+    /// Offset and line number of the next byte to be processed.
+    offset: u64,
+    line: u64,
+    /// A keyword line that ends in a comma and may go on.
+    open_keyword: Option<OpenKeyword>,
+    block: OpenBlock,
+}
+
+/// A keyword line that may be continued (S-19).
+#[derive(Debug)]
+struct OpenKeyword {
+    start: u64,
+    /// The physical lines taken so far, comments between them included.
+    text: Vec<u8>,
+    /// How much of `text` belongs to the keyword line for sure: comments at its end do not.
+    accepted: usize,
+}
+
+/// The block whose rows are being read.
+#[derive(Debug)]
+struct OpenBlock {
+    keyword: Option<KeywordLine>,
+    rows_start: u64,
+    keeps_rows: KeepsRows,
+    /// Whether the rows are free text, in which any byte may stand (S-70).
+    free_text: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum KeepsRows {
+    All,
+    None,
+    /// All until so many bytes of the file have gone by.
+    UpTo(u64),
+}
+
+impl<'grammar> Scanner<'grammar> {
+    /// A scanner for the file of that name.
+    pub fn new(name: &str, options: ScanOptions<'grammar>) -> Self {
+        let keeps_rows = match options.keep {
+            Keep::Everything => KeepsRows::All,
+            Keep::Interpreted => KeepsRows::UpTo(LEADING_ROWS_KEPT),
+        };
+        Self {
+            options,
+            source: Source::new(name),
+            blocks: Vec::new(),
+            notes: Vec::new(),
+            pending: Vec::new(),
+            offset: 0,
+            line: 1,
+            open_keyword: None,
+            block: OpenBlock { keyword: None, rows_start: 0, keeps_rows, free_text: false },
+        }
+    }
+
+    /// Takes the next bytes of the file.
+    pub fn push(&mut self, bytes: &[u8]) {
+        let mut bytes = bytes;
+        if !self.pending.is_empty() {
+            let Some(end) = end_of_pending_line(&self.pending, bytes) else {
+                self.pending.extend_from_slice(bytes);
+                return;
+            };
+            let mut line = std::mem::take(&mut self.pending);
+            line.extend_from_slice(&bytes[..end]);
+            self.process(&line);
+            bytes = &bytes[end..];
+        }
+        let complete = end_of_last_line(bytes);
+        self.process(&bytes[..complete]);
+        self.pending.extend_from_slice(&bytes[complete..]);
+    }
+
+    /// The end of the file: gives the deck.
+    pub fn finish(mut self) -> Deck {
+        let last_line = std::mem::take(&mut self.pending);
+        self.process(&last_line);
+        self.close_keyword();
+        self.close_block();
+        self.source.set_length(self.offset);
+        Deck { sources: vec![self.source], blocks: self.blocks, notes: self.notes }
+    }
+
+    /// Processes complete lines.
+    fn process(&mut self, bytes: &[u8]) {
+        let mut at = 0;
+        if self.offset == 0 {
+            at = byte_order_mark(bytes);
+            self.rows(&bytes[..at], &[]);
+        }
+        while at < bytes.len() {
+            if self.open_keyword.is_some() {
+                at = self.continue_keyword(bytes, at);
+                continue;
+            }
+            let mut indented = Vec::new();
+            let keyword = find_keyword_line(bytes, at, |start| indented.push(start - at));
+            self.rows(&bytes[at..keyword.unwrap_or(bytes.len())], &indented);
+            let Some(keyword) = keyword else { return };
+            at = next_line(bytes, keyword);
+            self.open_keyword(&bytes[keyword..at]);
+        }
+    }
+
+    /// Takes rows and comments of the open block; `indented` are the starts of the comments that stand behind blanks.
+    fn rows(&mut self, bytes: &[u8], indented: &[usize]) {
+        if bytes.is_empty() {
+            return;
+        }
+        if !self.block.free_text {
+            let mut noted = noteworthy_lines(bytes, self.offset);
+            noted.extend(indented.iter().map(|start| (*start..next_line(bytes, *start), LineNoteKind::IndentedComment)));
+            self.note(noted, bytes);
+        }
+        match self.block.keeps_rows {
+            KeepsRows::All => self.source.keep(self.offset, self.line, bytes),
+            KeepsRows::UpTo(limit) if self.offset < limit => self.source.keep(self.offset, self.line, bytes),
+            KeepsRows::UpTo(_) => self.block.keeps_rows = KeepsRows::None,
+            KeepsRows::None => {}
+        }
+        self.advance(bytes);
+    }
+
+    /// Notes lines of `bytes`, which begin at the current offset; a second line of a kind in one block is only counted.
+    fn note(&mut self, mut lines: Vec<(Range<usize>, LineNoteKind)>, bytes: &[u8]) {
+        lines.sort_by_key(|(line, _)| line.start);
+        let block_start = self.block.keyword.as_ref().map_or(self.block.rows_start, |keyword| keyword.span.start);
+        for (line, kind) in lines {
+            let of_this_block = |note: &&mut LineNote| note.span.start >= block_start;
+            if let Some(note) = self.notes.iter_mut().rev().take_while(of_this_block).find(|note| note.kind == kind) {
+                note.lines += 1;
+                continue;
+            }
+            let start = self.offset + line.start as u64;
+            let content = without_line_end(&bytes[line.clone()]).len() as u64;
+            self.notes.push(LineNote { kind, span: Span::new(SourceId::ROOT, start, start + content), lines: 1 });
+            if self.block.keeps_rows == KeepsRows::None {
+                let line_number = self.line + count_line_ends(&bytes[..line.start]);
+                self.source.keep(start, line_number, &bytes[line]);
+            }
+        }
+    }
+
+    fn open_keyword(&mut self, line: &[u8]) {
+        self.close_block();
+        self.open_keyword = Some(OpenKeyword { start: self.offset, text: line.to_vec(), accepted: line.len() });
+        self.source.keep(self.offset, self.line, line);
+        self.block.keeps_rows = KeepsRows::All;
+        self.block.rows_start = self.offset;
+        self.note(noteworthy_lines(line, self.offset), line);
+        self.advance(line);
+        if !keyword_line::ends_in_comma(line) {
+            self.close_keyword();
+        }
+    }
+
+    /// Looks at the line at `at` behind a keyword line that ends in a comma; gives where to go on.
+    fn continue_keyword(&mut self, bytes: &[u8], at: usize) -> usize {
+        let end = next_line(bytes, at);
+        let line = &bytes[at..end];
+        let Some(open) = &mut self.open_keyword else { return at };
+        let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
+        if !is_comment && !continues(&open.text[..open.accepted], line, self.options.grammar) {
+            self.close_keyword();
+            return at;
+        }
+        open.text.extend_from_slice(line);
+        self.source.keep(self.offset, self.line, line);
+        if !is_comment {
+            open.accepted = open.text.len();
+            self.note(noteworthy_lines(line, self.offset), line);
+        }
+        self.advance(line);
+        if !is_comment && !keyword_line::ends_in_comma(line) {
+            self.close_keyword();
+        }
+        end
+    }
+
+    /// Ends the keyword line that is open, if any, and begins the rows of its block.
+    fn close_keyword(&mut self) {
+        let Some(open) = self.open_keyword.take() else { return };
+        let text = &open.text[..open.accepted];
+        let keyword = keyword_line(text, open.start, self.options.grammar);
+        let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
+        self.block = OpenBlock {
+            rows_start: keyword.span.end,
+            keeps_rows: keeps_rows(definition, self.options.keep),
+            free_text: definition.is_some_and(|definition| definition.rows() == RowShape::Text),
+            keyword: Some(keyword),
+        };
+    }
+
+    fn close_block(&mut self) {
+        let rows = Span::new(SourceId::ROOT, self.block.rows_start, self.offset);
+        let keyword = self.block.keyword.take();
+        if keyword.is_some() || !rows.is_empty() {
+            let rows_kept = self.block.keeps_rows != KeepsRows::None;
+            self.blocks.push(Block { keyword, rows, rows_kept });
+        }
+    }
+
+    fn advance(&mut self, line: &[u8]) {
+        self.offset += line.len() as u64;
+        self.line += count_line_ends(line);
+    }
+}
+
+/// The lines that are too long or not ASCII (S-01, S-06); comments may be both. `offset` is where `bytes` stand in the file.
+fn noteworthy_lines(bytes: &[u8], offset: u64) -> Vec<(Range<usize>, LineNoteKind)> {
+    let mut found = Vec::new();
+    let is_row = |line: &Range<usize>| matches!(line_kind(&bytes[line.clone()]), LineKind::Data | LineKind::Keyword);
+    let mut from = 0;
+    while let Some(long) = find_long_line(bytes, from, LINE_CHARACTERS) {
+        from = long.end;
+        if is_row(&long) && bytes[long.clone()].trim_ascii_end().len() > LINE_CHARACTERS {
+            found.push((long, LineNoteKind::TooLong));
+        }
+    }
+    if bytes.is_ascii() {
+        return found;
+    }
+    let skipped = if offset == 0 { byte_order_mark(bytes) } else { 0 };
+    for line in lines(&bytes[skipped..]) {
+        let line = line.start + skipped..line.end + skipped;
+        if is_row(&line) && !is_ascii_outside_quotes(&bytes[line.clone()]) {
+            found.push((line, LineNoteKind::NonAscii));
+        }
+    }
+    found
+}
+
+/// Where in `bytes` the line ends that `pending` begins, if it does.
+fn end_of_pending_line(pending: &[u8], bytes: &[u8]) -> Option<usize> {
+    if pending.last() == Some(&b'\r') {
+        return bytes.first().map(|first| usize::from(*first == b'\n'));
+    }
+    let end = next_line(bytes, 0);
+    // Without an end, or with a CR as the very last byte, nobody knows yet whether an LF follows.
+    let ended = without_line_end(&bytes[..end]).len() < end && !(end == bytes.len() && bytes[end - 1] == b'\r');
+    ended.then_some(end)
+}
+
+/// Where the last complete line of `bytes` ends; a CR at the very end may be half of a CR LF.
+fn end_of_last_line(bytes: &[u8]) -> usize {
+    let certain = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+    memchr::memrchr2(b'\n', b'\r', certain).map_or(0, |last| last + 1)
+}
+
+/// Whether `line` reads as parameters of the keyword line `so_far`: it has `=`, or its words are flags the keyword knows (S-19).
+fn continues(so_far: &[u8], line: &[u8], grammar: &Grammar) -> bool {
+    if line_kind(line) != LineKind::Data {
+        return false;
+    }
+    let pieces = keyword_line::parse(so_far);
+    let definition = id_of(&so_far[pieces.name], grammar).and_then(|id| grammar.keyword(id).definition());
+    let is_parameter = |item: &[u8]| {
+        let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
+        let known = definition.map_or(Lookup::Unknown, |definition| definition.parameter_named(name));
+        let has_value = item.contains(&b'=');
+        match (definition, known) {
+            (Some(definition), Lookup::Exact(index) | Lookup::Abbreviated(index)) => {
+                has_value || definition.parameters[index].kind == ParameterKind::Flag
+            }
+            // Rows of free text may hold `=` without being parameters: `x = 5` behind `*PARAMETER,`.
+            (Some(definition), _) => has_value && definition.rows() != RowShape::Text,
+            (None, _) => has_value,
+        }
+    };
+    let has_value = line.contains(&b'=');
+    let mut words = items(line).map(|range| &line[range]).filter(|item| !item.is_empty()).peekable();
+    words.peek().is_some() && if has_value { words.any(is_parameter) } else { words.all(is_parameter) }
+}
+
+fn id_of(name: &[u8], grammar: &Grammar) -> Option<crate::grammar::KeywordId> {
+    match grammar.keyword_named(name) {
+        Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),
+        Lookup::Ambiguous(_) | Lookup::Unknown => None,
+    }
+}
+
+/// Resolves the pieces of a keyword line that stands at `start` in the file.
+fn keyword_line(text: &[u8], start: u64, grammar: &Grammar) -> KeywordLine {
+    let pieces = keyword_line::parse(text);
+    let span = |range: Range<usize>| {
+        Span::new(SourceId::ROOT, start + range.start as u64, start + range.end as u64)
+    };
+    let point = |at: usize| span(at..at + 1);
+    let resolved = grammar.keyword_named(&text[pieces.name.clone()]);
+    let definition = match resolved {
+        Lookup::Exact(id) | Lookup::Abbreviated(id) => grammar.keyword(id).definition(),
+        Lookup::Ambiguous(_) | Lookup::Unknown => None,
+    };
+    let parameters = pieces.parameters.into_iter().map(|parameter| Parameter {
+        resolved: definition.map_or(Lookup::Unknown, |known| known.parameter_named(&text[parameter.name.clone()])),
+        name: span(parameter.name),
+        value: parameter.value.map(span),
+    });
+    KeywordLine {
+        span: span(0..text.len()),
+        name: span(pieces.name),
+        resolved,
+        parameters: parameters.collect(),
+        unterminated_quote: pieces.unterminated_quote.map(point),
+        dangling_comma: pieces.final_comma.map(point),
+    }
+}
+
+/// Rows are kept when somebody reads them: those of sub-options, and of keywords whose rows the grammar describes.
+fn keeps_rows(definition: Option<&Definition>, keep: Keep) -> KeepsRows {
+    let interpreted = definition
+        .is_some_and(|definition| definition.rows() != RowShape::Uninterpreted || !definition.parents.is_empty());
+    if interpreted || keep == Keep::Everything { KeepsRows::All } else { KeepsRows::None }
+}
+
+fn is_ascii_outside_quotes(line: &[u8]) -> bool {
+    let mut quoted = false;
+    line.iter().all(|byte| {
+        quoted ^= *byte == b'"';
+        quoted || byte.is_ascii()
+    })
+}

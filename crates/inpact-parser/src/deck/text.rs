@@ -1,0 +1,147 @@
+//! The bytes of one source file that the scan kept, found again by their offset in the file.
+//!
+//! A deck is mostly mesh, and nobody asks for the text of a mesh: the store holds stretches of a file, not the file.
+
+use std::ops::Range;
+
+use super::lines::count_line_ends;
+use crate::span::Position;
+
+/// One source file: its name, its size, and the stretches of it that were kept.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Source {
+    name: String,
+    length: u64,
+    stretches: Vec<Stretch>,
+    /// The kept bytes, stretch behind stretch.
+    bytes: Vec<u8>,
+}
+
+/// A run of kept bytes without a gap.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Stretch {
+    /// Offset in the file.
+    start: u64,
+    /// Offset in [`Source::bytes`].
+    kept_at: usize,
+    /// Number of the line that `start` lies in, from 1; `start` is the first byte of it.
+    first_line: u64,
+}
+
+impl Source {
+    /// An empty source of that name.
+    pub(super) fn new(name: &str) -> Self {
+        Self { name: name.to_owned(), ..Self::default() }
+    }
+
+    /// The name it was given: a path, or `-` for standard input.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The size of the whole file in bytes.
+    pub fn length(&self) -> u64 {
+        self.length
+    }
+
+    /// Whether every byte of the file was kept.
+    pub fn is_complete(&self) -> bool {
+        self.bytes.len() as u64 == self.length
+    }
+
+    /// Keeps `bytes`, which stand at `start` in the file, at the beginning of line `first_line`.
+    ///
+    /// Stretches come in ascending order; what was kept already is not kept twice.
+    pub(super) fn keep(&mut self, start: u64, first_line: u64, bytes: &[u8]) {
+        let end_of_last = self.end_of_last_stretch();
+        if bytes.is_empty() || end_of_last.is_some_and(|end| start < end) {
+            return;
+        }
+        if end_of_last != Some(start) {
+            self.stretches.push(Stretch { start, kept_at: self.bytes.len(), first_line });
+        }
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    pub(super) fn set_length(&mut self, length: u64) {
+        self.length = length;
+    }
+
+    /// The kept bytes at the beginning of `range`; empty when the scan kept none of them.
+    pub(super) fn text(&self, range: Range<u64>) -> &[u8] {
+        let Some((stretch, kept)) = self.stretch_at(range.start) else { return &[] };
+        let kept_range = range.start - stretch.start..(range.end.max(range.start) - stretch.start).min(kept.len() as u64);
+        let as_index = |offset| usize::try_from(offset).unwrap_or(usize::MAX);
+        kept.get(as_index(kept_range.start)..as_index(kept_range.end)).unwrap_or(&[])
+    }
+
+    /// The kept bytes around `offset` without a gap, and where they begin in the file.
+    pub(super) fn surroundings(&self, offset: u64) -> (u64, &[u8]) {
+        self.stretch_at(offset).map_or((offset, &[]), |(stretch, kept)| (stretch.start, kept))
+    }
+
+    /// Line and column of every offset in `offsets`, which must be ascending; one sweep over the kept bytes.
+    ///
+    /// An offset in bytes that were not kept gets the line reached so far.
+    pub(super) fn positions(&self, offsets: &[u64]) -> Vec<Position> {
+        let mut sweep = Sweep { offset: 0, line: 1, line_start: 0 };
+        offsets.iter().map(|offset| self.advance(&mut sweep, *offset)).collect()
+    }
+
+    fn advance(&self, sweep: &mut Sweep, offset: u64) -> Position {
+        let Some((stretch, _)) = self.stretch_at(offset) else {
+            return Position { line: sweep.line, column: 1 };
+        };
+        if sweep.offset < stretch.start || (sweep.offset == 0 && stretch.start == 0) {
+            *sweep = Sweep { offset: stretch.start, line: stretch.first_line, line_start: stretch.start };
+        }
+        let passed = self.text(sweep.offset..offset);
+        sweep.line += count_line_ends(passed);
+        if let Some(last) = passed.iter().rposition(|byte| matches!(byte, b'\n' | b'\r')) {
+            sweep.line_start = sweep.offset + last as u64 + 1;
+        }
+        sweep.offset = sweep.offset.max(offset);
+        let column = self.text(sweep.line_start..offset).iter().filter(|byte| **byte & 0xC0 != 0x80).count();
+        Position { line: sweep.line, column: column as u64 + 1 }
+    }
+
+    /// The stretch that holds `offset`, or ends there, and its bytes.
+    fn stretch_at(&self, offset: u64) -> Option<(&Stretch, &[u8])> {
+        let index = self.stretches.partition_point(|stretch| stretch.start <= offset).checked_sub(1)?;
+        let stretch = &self.stretches[index];
+        let end = self.stretches.get(index + 1).map_or(self.bytes.len(), |next| next.kept_at);
+        let kept = &self.bytes[stretch.kept_at..end];
+        (offset - stretch.start <= kept.len() as u64).then_some((stretch, kept))
+    }
+
+    fn end_of_last_stretch(&self) -> Option<u64> {
+        let last = self.stretches.last()?;
+        Some(last.start + (self.bytes.len() - last.kept_at) as u64)
+    }
+}
+
+/// How far a sweep over ascending offsets has come.
+struct Sweep {
+    offset: u64,
+    line: u64,
+    line_start: u64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_found_in_each_stretch() {
+        let mut source = Source::new("x");
+        source.keep(0, 1, b"*A\nb c\n");
+        source.keep(100, 10, b"*D\r\n e\n");
+        source.set_length(200);
+        let found = source.positions(&[0, 3, 5, 100, 105, 106]);
+        let pairs: Vec<_> = found.iter().map(|position| (position.line, position.column)).collect();
+        assert_eq!(pairs, [(1, 1), (2, 1), (2, 3), (10, 1), (11, 2), (11, 3)]);
+        assert_eq!(source.text(100..102), b"*D");
+        assert_eq!(source.text(50..52), b"");
+        assert!(!source.is_complete());
+    }
+}

@@ -1,0 +1,203 @@
+//! The lossless view: every line of every file as it stands.
+//!
+//! A line is a string when it is UTF-8 and ends the way most lines of its file do; otherwise it is an object that says
+//! its bytes or its line end. What is derived from the lines (`keyword`, `parameters`) is there for reading;
+//! when the JSON comes back it must still agree with them, so that an edit to it is refused rather than ignored.
+
+use super::{JsonError, parse};
+use crate::deck::lines::{lines, without_line_end};
+use crate::deck::{Block, Deck, scan};
+use crate::grammar::Grammar;
+use crate::span::SourceId;
+use serde::{Deserialize, Serialize};
+
+/// The value of the `schema` field.
+pub const SCHEMA: &str = "inpact/syntax/1";
+
+/// The document.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    schema: String,
+    files: Vec<File>,
+}
+
+/// One source file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    source: String,
+    /// The line end of every line that does not say another.
+    line_end: String,
+    blocks: Vec<BlockDocument>,
+}
+
+/// A keyword line and the lines behind it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BlockDocument {
+    /// The keyword in full; `null` when it is unknown or there is none.
+    keyword: Option<String>,
+    parameters: Vec<ParameterDocument>,
+    /// The physical lines of the keyword line.
+    keyword_lines: Vec<Line>,
+    rows: Vec<Line>,
+}
+
+/// A parameter as it is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParameterDocument {
+    name: String,
+    value: Option<String>,
+}
+
+/// A line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+enum Line {
+    Plain(String),
+    Ended(EndedLine),
+    Bytes(ByteLine),
+}
+
+/// A line with a line end of its own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EndedLine {
+    text: String,
+    end: String,
+}
+
+/// A line that is not UTF-8.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ByteLine {
+    bytes: Vec<u8>,
+    end: String,
+}
+
+/// The lossless view of a deck that was scanned with everything kept, as pretty-printed JSON.
+pub fn write(deck: &Deck, grammar: &Grammar) -> String {
+    let files = deck.sources().iter().enumerate().map(|(index, source)| {
+        let id = SourceId(u32::try_from(index).unwrap_or(u32::MAX));
+        let blocks: Vec<&Block> = deck.blocks().iter().filter(|block| block.rows.source == id).collect();
+        let line_end = usual_line_end(deck, &blocks);
+        let blocks = blocks.iter().map(|block| block_document(deck, grammar, block, line_end)).collect();
+        File { source: source.name().to_owned(), line_end: line_end.to_owned(), blocks }
+    });
+    let document = Document { schema: SCHEMA.to_owned(), files: files.collect() };
+    // A document of strings and numbers has no reason to fail.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+/// Reads the lossless view back: the files by name, each with its bytes.
+///
+/// # Errors
+/// JSON that is not of this view, or whose `keyword` and `parameters` say something else than its lines.
+pub fn read(text: &str, grammar: &Grammar) -> Result<Vec<(String, Vec<u8>)>, JsonError> {
+    let document: Document = parse(text)?;
+    if document.schema != SCHEMA {
+        return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
+    }
+    let files = document.files.into_iter().enumerate().map(|(number, file)| {
+        let mut bytes = Vec::new();
+        for block in &file.blocks {
+            for line in block.keyword_lines.iter().chain(&block.rows) {
+                line.write(&file.line_end, &mut bytes);
+            }
+        }
+        compare(&file, &scan(&file.source, &bytes, grammar), grammar, number)?;
+        Ok((file.source, bytes))
+    });
+    files.collect()
+}
+
+/// Refuses a file whose derived fields do not follow from its lines.
+fn compare(file: &File, deck: &Deck, grammar: &Grammar, number: usize) -> Result<(), JsonError> {
+    let path = format!("files[{number}].blocks");
+    if deck.blocks().len() != file.blocks.len() {
+        let found = format!("the lines form {} blocks, not {}", deck.blocks().len(), file.blocks.len());
+        return Err(JsonError::new(path, found));
+    }
+    for (index, (block, stated)) in deck.blocks().iter().zip(&file.blocks).enumerate() {
+        let derived = block_document(deck, grammar, block, &file.line_end);
+        let path = format!("{path}[{index}]");
+        let says = "does not agree with the lines of the block: change the lines instead";
+        if derived.keyword != stated.keyword {
+            return Err(JsonError::new(format!("{path}.keyword"), says));
+        }
+        if derived.parameters != stated.parameters {
+            return Err(JsonError::new(format!("{path}.parameters"), says));
+        }
+        if derived.keyword_lines.len() != stated.keyword_lines.len() {
+            return Err(JsonError::new(format!("{path}.keyword_lines"), "these lines are no keyword line"));
+        }
+    }
+    Ok(())
+}
+
+fn block_document(deck: &Deck, grammar: &Grammar, block: &Block, line_end: &str) -> BlockDocument {
+    let keyword = block.keyword.as_ref();
+    let parameters = keyword.iter().flat_map(|keyword| &keyword.parameters).map(|parameter| ParameterDocument {
+        name: deck.shown(parameter.name),
+        value: parameter.value.map(|value| deck.shown(value)),
+    });
+    BlockDocument {
+        keyword: block.keyword_id().map(|id| grammar.keyword(id).name.clone()),
+        parameters: parameters.collect(),
+        keyword_lines: keyword.map_or_else(Vec::new, |keyword| line_documents(deck.text(keyword.span), line_end)),
+        rows: line_documents(deck.text(block.rows), line_end),
+    }
+}
+
+fn line_documents(text: &[u8], line_end: &str) -> Vec<Line> {
+    lines(text).map(|range| Line::of(&text[range], line_end)).collect()
+}
+
+/// The line end that most lines of a file have.
+fn usual_line_end(deck: &Deck, blocks: &[&Block]) -> &'static str {
+    let (mut line_feeds, mut pairs, mut returns) = (0_u64, 0_u64, 0_u64);
+    for block in blocks {
+        let keyword = block.keyword.as_ref().map_or(&[][..], |keyword| deck.text(keyword.span));
+        for text in [keyword, deck.text(block.rows)] {
+            for line in lines(text) {
+                match &text[line] {
+                    [.., b'\r', b'\n'] => pairs += 1,
+                    [.., b'\r'] => returns += 1,
+                    [.., b'\n'] => line_feeds += 1,
+                    _ => {}
+                }
+            }
+        }
+    }
+    match () {
+        () if pairs > line_feeds && pairs >= returns => "\r\n",
+        () if returns > line_feeds => "\r",
+        () => "\n",
+    }
+}
+
+impl Line {
+    fn of(line: &[u8], line_end: &str) -> Self {
+        let content = without_line_end(line);
+        // A line end is ASCII.
+        let end = String::from_utf8_lossy(&line[content.len()..]).into_owned();
+        match std::str::from_utf8(content) {
+            Ok(text) if end == line_end => Self::Plain(text.to_owned()),
+            Ok(text) => Self::Ended(EndedLine { text: text.to_owned(), end }),
+            Err(_) => Self::Bytes(ByteLine { bytes: content.to_vec(), end }),
+        }
+    }
+
+    fn write(&self, line_end: &str, bytes: &mut Vec<u8>) {
+        match self {
+            Self::Plain(text) => bytes.extend_from_slice(format!("{text}{line_end}").as_bytes()),
+            Self::Ended(line) => bytes.extend_from_slice(format!("{}{}", line.text, line.end).as_bytes()),
+            Self::Bytes(line) => {
+                bytes.extend_from_slice(&line.bytes);
+                bytes.extend_from_slice(line.end.as_bytes());
+            }
+        }
+    }
+}

@@ -1,0 +1,459 @@
+//! The typed model of a deck: its interactions, their properties, and where they are used.
+//!
+//! Built by [`read`] from the blocks of a [`Deck`](crate::deck::Deck); knows nothing of how lines are cut,
+//! and judges nothing: a table that does not ascend is a table all the same.
+//! What cannot be placed, or is replaced by a later definition, is in [`Model::set_aside`], so that it can be judged too.
+
+mod name;
+mod print;
+mod read;
+mod rows;
+mod table;
+
+pub use name::Name;
+pub use print::{PrintError, print};
+pub use read::{MOST_FIELD_VARIABLES, read};
+pub use table::{CellText, Table};
+
+use crate::span::Span;
+use indexmap::IndexMap;
+
+/// The contact interfaces of a deck and what uses them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Model {
+    /// The interactions by name, in the order of the deck.
+    pub interactions: IndexMap<Name, Interaction>,
+    /// The *CONTACT PAIR options (C-02).
+    pub contact_pairs: Vec<ContactPair>,
+    /// The lines of *CONTACT PROPERTY ASSIGNMENT (C-05); the last that fits wins.
+    pub property_assignments: Vec<PropertyAssignment>,
+    /// The *SURFACE definitions (C-01).
+    pub surfaces: Vec<Surface>,
+    /// The procedures of the steps (section 9.2).
+    pub procedures: Vec<Procedure>,
+    /// What the deck holds beside that: misplaced sub-options and definitions that a later one replaced.
+    pub set_aside: Vec<SetAside>,
+}
+
+/// A *SURFACE INTERACTION with its sub-options (2.1).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interaction {
+    /// NAME.
+    pub name: Name,
+    /// The keyword line.
+    pub span: Span,
+    /// Out-of-plane thickness, or area per node of a node-based surface; 1 unless given (K-01).
+    pub thickness: f64,
+    /// The parameters besides NAME: USER, DEPVAR, PROPERTIES, UNSYMM, PAD THICKNESS, TRACKING THICKNESS.
+    pub parameters: Vec<GivenParameter>,
+    /// The constants of USER, PROPERTIES=n (K-02).
+    pub properties: Vec<f64>,
+    /// *GAP ELECTRICAL CONDUCTANCE (2.2).
+    pub gap_electrical_conductance: Option<ElectricalConductance>,
+    /// *CONTACT PERMEABILITY (2.3).
+    pub contact_permeability: Option<ContactPermeability>,
+    /// *GAP HEAT GENERATION (2.5).
+    pub gap_heat_generation: Option<HeatGeneration>,
+    /// Every other sub-option.
+    pub other: Vec<SubOption>,
+}
+
+/// *GAP ELECTRICAL CONDUCTANCE: both branches, or a user subroutine (2.2).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ElectricalConductance {
+    /// The keyword line that has USER.
+    pub user: Option<Span>,
+    /// Conductance against clearance: without PRESSURE.
+    pub clearance: Option<Table>,
+    /// Conductance against contact pressure: with PRESSURE.
+    pub pressure: Option<Table>,
+    /// TYPE, kept as it is written and not interpreted.
+    pub kind: Option<String>,
+}
+
+/// *CONTACT PERMEABILITY (2.3).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ContactPermeability {
+    /// The keyword line.
+    pub span: Span,
+    /// Permeability against contact pressure; `None` is an infinite permeability (K-20).
+    pub table: Option<Table>,
+    /// CUTOFF FLOW ACROSS, dimension L: no flow across above this clearance.
+    pub cutoff_flow_across: Option<f64>,
+    /// CUTOFF GAP FILL, dimension L: a change of the gap draws no fluid above this clearance.
+    pub cutoff_gap_fill: Option<f64>,
+    /// CONSTRAINT METHOD.
+    pub constraint_method: Option<ConstraintMethod>,
+}
+
+/// CONSTRAINT METHOD of *CONTACT PERMEABILITY.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ConstraintMethod {
+    /// Enforced directly.
+    Direct,
+    /// Approximated by a large permeability.
+    Penalty,
+}
+
+/// *GAP HEAT GENERATION (2.5).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeatGeneration {
+    /// The keyword line.
+    pub span: Span,
+    /// The row, when there is one.
+    pub row: Option<Span>,
+    /// η, the fraction of dissipated energy that becomes heat.
+    pub fraction: f64,
+    /// f, the fraction of that heat that goes into the slave surface.
+    pub slave_weight: f64,
+}
+
+/// A keyword with its parameters and rows, not interpreted further.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SubOption {
+    /// The keyword, in full and in upper case.
+    pub keyword: String,
+    /// The keyword line.
+    pub span: Span,
+    /// Its parameters.
+    pub parameters: Vec<GivenParameter>,
+    /// Its rows as numbers, where the grammar says they form a table.
+    pub table: Option<Table>,
+    /// Its rows as texts otherwise: the items of every line.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A parameter as it is given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenParameter {
+    /// Its name: in full and in upper case when the keyword has it, as it is written otherwise.
+    pub name: String,
+    /// Its value, without blanks around it.
+    pub value: Option<String>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A *CONTACT PAIR (C-02).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactPair {
+    /// The keyword line.
+    pub span: Span,
+    /// INTERACTION.
+    pub interaction: Option<Reference>,
+    /// The other parameters.
+    pub parameters: Vec<GivenParameter>,
+    /// The lines: slave and master; one surface alone is in contact with itself.
+    pub pairs: Vec<SurfacePair>,
+}
+
+/// A slave surface and its master.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfacePair {
+    /// The slave (secondary) surface.
+    pub slave: Reference,
+    /// The master (main) surface; `None` for self-contact.
+    pub master: Option<Reference>,
+}
+
+/// A line of *CONTACT PROPERTY ASSIGNMENT (C-05).
+#[derive(Debug, Clone, PartialEq)]
+pub struct PropertyAssignment {
+    /// The line.
+    pub span: Span,
+    /// The first surface; blank is the whole domain.
+    pub first: Option<Reference>,
+    /// The second surface; blank is the first once more.
+    pub second: Option<Reference>,
+    /// The interaction; blank is the unnamed default.
+    pub interaction: Option<Reference>,
+}
+
+/// A name that refers to something defined elsewhere, and where it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// The name.
+    pub name: Name,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A *SURFACE definition (C-01).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// The keyword line.
+    pub span: Span,
+    /// NAME.
+    pub name: Reference,
+}
+
+/// The procedure of a step (section 9.2).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Procedure {
+    /// The step it belongs to, from 1; 0 when no *STEP is open.
+    pub step: usize,
+    /// The keyword, parameters and rows.
+    pub option: SubOption,
+}
+
+/// Steady state or transient.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Regime {
+    /// No storage, no gap filling: q_gap = 0 (C-24).
+    SteadyState,
+    /// Heat by the average over the increment (H-08), gap filling (P-42).
+    Transient,
+}
+
+/// Something the deck holds that governs nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SetAside {
+    /// Why.
+    pub reason: SetAsideReason,
+    /// What.
+    pub item: SetAsideItem,
+}
+
+/// Why something was set aside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SetAsideReason {
+    /// It stands outside a *SURFACE INTERACTION, or at a level where it may not stand.
+    Misplaced,
+    /// A later definition of the same name or kind replaced it; the span is that of the later one.
+    ReplacedBy(Span),
+}
+
+/// What was set aside.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SetAsideItem {
+    /// An interaction whose name is defined again.
+    Interaction(Box<Interaction>),
+    /// A table of a kind the interaction has again, or of a misplaced option.
+    Table(Table),
+    /// A *CONTACT PERMEABILITY that stands twice or misplaced.
+    ContactPermeability(ContactPermeability),
+    /// A *GAP HEAT GENERATION that stands twice or misplaced.
+    HeatGeneration(HeatGeneration),
+    /// Another sub-option that is misplaced.
+    SubOption(SubOption),
+}
+
+/// Whose law a table is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TableKind {
+    /// *GAP ELECTRICAL CONDUCTANCE against clearance.
+    ElectricalClearance,
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE.
+    ElectricalPressure,
+    /// *GAP CONDUCTANCE against clearance.
+    ThermalClearance,
+    /// *GAP CONDUCTANCE, PRESSURE.
+    ThermalPressure,
+    /// *CONTACT PERMEABILITY.
+    Permeability,
+    /// Any other option with a table, *GAP DIFFUSIVITY among them.
+    Other,
+}
+
+impl TableKind {
+    /// The kind of the tables of a keyword, given the table's columns.
+    pub fn of(keyword: &str, table: &Table) -> Self {
+        let against_pressure = table.columns.get(1).is_some_and(|column| column == "pressure");
+        match (keyword, against_pressure) {
+            ("GAP ELECTRICAL CONDUCTANCE", false) => Self::ElectricalClearance,
+            ("GAP ELECTRICAL CONDUCTANCE", true) => Self::ElectricalPressure,
+            ("GAP CONDUCTANCE", false) => Self::ThermalClearance,
+            ("GAP CONDUCTANCE", true) => Self::ThermalPressure,
+            ("CONTACT PERMEABILITY", _) => Self::Permeability,
+            _ => Self::Other,
+        }
+    }
+
+    /// Whether the abscissa is the clearance, which must start at zero (T-24).
+    pub fn is_against_clearance(self) -> bool {
+        matches!(self, Self::ElectricalClearance | Self::ThermalClearance)
+    }
+
+    /// Whether it is a conductance against contact pressure, which must start at zero or below.
+    pub fn is_conductance_against_pressure(self) -> bool {
+        matches!(self, Self::ElectricalPressure | Self::ThermalPressure)
+    }
+}
+
+/// A table of the model with what it belongs to.
+#[derive(Debug, Clone, Copy)]
+pub struct TableOf<'model> {
+    /// Whose law it is.
+    pub kind: TableKind,
+    /// The keyword in full.
+    pub keyword: &'model str,
+    /// The interaction; `None` for a misplaced one.
+    pub interaction: Option<&'model Interaction>,
+    /// The table.
+    pub table: &'model Table,
+}
+
+impl Model {
+    /// Every interaction the deck defines, those that a later one of the same name replaced last.
+    pub fn all_interactions(&self) -> impl Iterator<Item = &Interaction> {
+        let replaced = self.set_aside.iter().filter_map(|aside| match &aside.item {
+            SetAsideItem::Interaction(interaction) => Some(&**interaction),
+            _ => None,
+        });
+        self.interactions.values().chain(replaced)
+    }
+
+    /// Every table the deck defines, those that govern nothing too: a table is judged wherever it stands.
+    pub fn tables(&self) -> Vec<TableOf<'_>> {
+        let mut tables: Vec<_> = self.all_interactions().flat_map(Interaction::tables).collect();
+        tables.extend(self.set_aside.iter().filter_map(|aside| {
+            let (keyword, table) = match &aside.item {
+                SetAsideItem::Table(table) => ("GAP ELECTRICAL CONDUCTANCE", Some(table)),
+                SetAsideItem::ContactPermeability(option) => ("CONTACT PERMEABILITY", option.table.as_ref()),
+                SetAsideItem::SubOption(option) => (option.keyword.as_str(), option.table.as_ref()),
+                SetAsideItem::Interaction(_) | SetAsideItem::HeatGeneration(_) => return None,
+            };
+            let table = table?;
+            Some(TableOf { kind: TableKind::of(keyword, table), keyword, interaction: None, table })
+        }));
+        tables
+    }
+}
+
+impl Model {
+    /// The model without the places it was read from, and without what was set aside: what two decks that mean the same agree in.
+    ///
+    /// *SURFACE definitions are left out as well: their rows name sets of a mesh, which a model does not hold.
+    #[must_use]
+    pub fn without_places(&self) -> Self {
+        let mut model = self.clone();
+        model.set_aside.clear();
+        model.surfaces.clear();
+        model.interactions.values_mut().for_each(Interaction::forget_places);
+        for pair in &mut model.contact_pairs {
+            pair.span = Span::default();
+            pair.parameters.iter_mut().for_each(GivenParameter::forget_place);
+            let surfaces = pair.pairs.iter_mut().flat_map(|pair| [Some(&mut pair.slave), pair.master.as_mut()]);
+            surfaces.flatten().chain(pair.interaction.as_mut()).for_each(Reference::forget_place);
+        }
+        for assignment in &mut model.property_assignments {
+            assignment.span = Span::default();
+            let references = [&mut assignment.first, &mut assignment.second, &mut assignment.interaction];
+            references.into_iter().flatten().for_each(Reference::forget_place);
+        }
+        model.procedures.iter_mut().for_each(|procedure| procedure.option.forget_places());
+        model
+    }
+}
+
+impl Interaction {
+    fn forget_places(&mut self) {
+        self.span = Span::default();
+        self.parameters.iter_mut().for_each(GivenParameter::forget_place);
+        if let Some(law) = &mut self.gap_electrical_conductance {
+            law.user = law.user.map(|_| Span::default());
+            [&mut law.clearance, &mut law.pressure].into_iter().flatten().for_each(Table::forget_places);
+        }
+        if let Some(permeability) = &mut self.contact_permeability {
+            permeability.span = Span::default();
+            permeability.table.iter_mut().for_each(Table::forget_places);
+        }
+        if let Some(heat) = &mut self.gap_heat_generation {
+            (heat.span, heat.row) = (Span::default(), None);
+        }
+        self.other.iter_mut().for_each(SubOption::forget_places);
+    }
+}
+
+impl SubOption {
+    fn forget_places(&mut self) {
+        self.span = Span::default();
+        self.parameters.iter_mut().for_each(GivenParameter::forget_place);
+        self.table.iter_mut().for_each(Table::forget_places);
+    }
+}
+
+impl GivenParameter {
+    fn forget_place(&mut self) {
+        self.span = Span::default();
+    }
+}
+
+impl Reference {
+    fn forget_place(&mut self) {
+        self.span = Span::default();
+    }
+}
+
+impl Interaction {
+    /// An interaction of that name with nothing in it: thickness 1, no property (K-01).
+    pub fn new(name: Name, span: Span) -> Self {
+        Self {
+            name,
+            span,
+            thickness: 1.0,
+            parameters: Vec::new(),
+            properties: Vec::new(),
+            gap_electrical_conductance: None,
+            contact_permeability: None,
+            gap_heat_generation: None,
+            other: Vec::new(),
+        }
+    }
+
+    /// Whether the parameter is given.
+    pub fn has_parameter(&self, name: &str) -> bool {
+        self.parameters.iter().any(|parameter| parameter.name == name)
+    }
+
+    /// The tables of its sub-options, in no order that means anything.
+    pub fn tables(&self) -> Vec<TableOf<'_>> {
+        let electrical = self.gap_electrical_conductance.iter();
+        let electrical = electrical.flat_map(|option| [&option.clearance, &option.pressure]).flatten();
+        let permeability = self.contact_permeability.iter().filter_map(|option| option.table.as_ref());
+        let other = self.other.iter().filter_map(|option| Some((option.keyword.as_str(), option.table.as_ref()?)));
+        let named = electrical.map(|table| ("GAP ELECTRICAL CONDUCTANCE", table));
+        let named = named.chain(permeability.map(|table| ("CONTACT PERMEABILITY", table))).chain(other);
+        let of = |(keyword, table)| TableOf { kind: TableKind::of(keyword, table), keyword, interaction: Some(self), table };
+        named.map(of).collect()
+    }
+}
+
+impl SubOption {
+    /// The parameter of that name, when it is given.
+    pub fn parameter(&self, name: &str) -> Option<&GivenParameter> {
+        self.parameters.iter().find(|parameter| parameter.name == name)
+    }
+}
+
+impl Procedure {
+    /// Steady state or transient, for the procedures of section 9.2; `None` for those that know no difference.
+    ///
+    /// *SOILS is steady unless CONSOLIDATION is given; the coupled procedures are transient unless STEADY STATE is (C-20).
+    pub fn regime(&self) -> Option<Regime> {
+        let flagged = |name| self.option.parameter(name).is_some();
+        let steady_if = |steady| Some(if steady { Regime::SteadyState } else { Regime::Transient });
+        match self.option.keyword.as_str() {
+            "COUPLED THERMAL-ELECTRICAL" | "COUPLED TEMPERATURE-DISPLACEMENT" | "HEAT TRANSFER" => {
+                steady_if(flagged("STEADY STATE"))
+            }
+            "SOILS" => steady_if(!flagged("CONSOLIDATION")),
+            "GEOSTATIC" => Some(Regime::SteadyState),
+            _ => None,
+        }
+    }
+
+    /// Whether the procedure conducts electric current across interfaces (section 9.2).
+    pub fn solves_electrical(&self) -> bool {
+        match self.option.keyword.as_str() {
+            "COUPLED THERMAL-ELECTRICAL" => true,
+            "COUPLED TEMPERATURE-DISPLACEMENT" => self.option.parameter("ELECTRICAL").is_some(),
+            _ => false,
+        }
+    }
+
+    /// Whether the procedure solves pore pressure (section 9.2).
+    pub fn solves_pore_pressure(&self) -> bool {
+        matches!(self.option.keyword.as_str(), "SOILS" | "GEOSTATIC")
+    }
+}

@@ -1,0 +1,100 @@
+//! Names of interactions, surfaces and sets, and when two of them are the same (S-40, S-41).
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+
+/// A label as the deck writes it, compared the way Abaqus compares labels.
+///
+/// Unquoted, case and blanks carry no meaning: `SteelGap`, `STEEL GAP` and `steelgap` are one name.
+/// Quoted, both are kept: `"Steel Gap"` differs from each of them, while `"STEELGAP"` is the same as they.
+#[derive(Debug, Clone)]
+pub struct Name {
+    written: String,
+    canonical: String,
+}
+
+impl Name {
+    /// The name that `text` writes; quotes around it make it a quoted one.
+    ///
+    /// In a dotted name (S-44) each quoted component keeps its blanks and its case.
+    pub fn new(text: &str) -> Self {
+        let text = text.trim();
+        let mut canonical = String::with_capacity(text.len());
+        let mut quoted = false;
+        for character in text.chars() {
+            match character {
+                '"' => quoted = !quoted,
+                _ if quoted => canonical.push(character),
+                ' ' | '\t' => {}
+                _ => canonical.push(character.to_ascii_uppercase()),
+            }
+        }
+        Self { written: text.to_owned(), canonical }
+    }
+
+    /// The name as it is written, quotes included.
+    pub fn written(&self) -> &str {
+        &self.written
+    }
+
+    /// The form that is compared: upper case without blanks, or the text between the quotes.
+    pub fn canonical(&self) -> &str {
+        &self.canonical
+    }
+
+    /// Whether any part of it is quoted.
+    pub fn is_quoted(&self) -> bool {
+        self.written.contains('"')
+    }
+
+    /// Whether two names differ, but only by case or blanks that a quote protects on one side (S-41).
+    pub fn differs_by_quotes_only(&self, other: &Self) -> bool {
+        let folded = |name: &Self| {
+            let kept = name.canonical.chars().filter(|character| !character.is_ascii_whitespace());
+            kept.map(|character| character.to_ascii_uppercase()).collect::<String>()
+        };
+        self != other && self.is_quoted() != other.is_quoted() && folded(self) == folded(other)
+    }
+}
+
+impl PartialEq for Name {
+    fn eq(&self, other: &Self) -> bool {
+        self.canonical == other.canonical
+    }
+}
+
+impl Eq for Name {}
+
+impl Hash for Name {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.canonical.hash(state);
+    }
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.written)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Name;
+
+    #[test]
+    fn a_05_equal_names() {
+        let same = ["SteelGap", "STEEL GAP", "steelgap", " steel gap ", "\"STEELGAP\""].map(Name::new);
+        assert!(same.iter().all(|name| *name == same[0]));
+        let quoted = Name::new("\"Steel Gap\"");
+        assert!(same.iter().all(|name| *name != quoted));
+        assert!(quoted.differs_by_quotes_only(&same[0]));
+        assert!(!same[1].differs_by_quotes_only(&same[0]));
+        assert_eq!(quoted.canonical(), "Steel Gap");
+        assert_eq!(quoted.to_string(), "\"Steel Gap\"");
+    }
+
+    #[test]
+    fn dotted_names_keep_quoted_components() {
+        assert_eq!(Name::new("Hinge. Flange-1.\"Set 1\"").canonical(), "HINGE.FLANGE-1.Set 1");
+    }
+}

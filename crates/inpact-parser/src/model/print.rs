@@ -1,0 +1,250 @@
+//! A deck written from a model: what `inpact inp` makes of the model view.
+//!
+//! The text is read again and compared with the model, so a model that no deck can hold is refused, never bent.
+
+use super::{
+    ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction, Model,
+    Procedure, PropertyAssignment, Reference, SubOption, Table, read,
+};
+use crate::deck::scan;
+use crate::grammar::{Definition, Grammar};
+use crate::number::float_text;
+use std::fmt::Write;
+use thiserror::Error;
+
+/// The longest keyword line that is written in one piece (S-06 allows 256).
+const KEYWORD_LINE: usize = 120;
+
+/// A model that no deck can hold.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("no deck can say this: {what} reads back as something else")]
+pub struct PrintError {
+    what: String,
+}
+
+/// Writes the model as a deck: interactions first, then what uses them, then the steps with their procedures.
+///
+/// # Errors
+/// When the deck would read back as another model: a name with a comma and no quotes, a keyword the grammar does not
+/// know, a row that begins with an asterisk.
+pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
+    let mut out = String::new();
+    for interaction in model.interactions.values() {
+        print_interaction(&mut out, interaction, grammar);
+    }
+    for pair in &model.contact_pairs {
+        print_contact_pair(&mut out, pair);
+    }
+    print_property_assignments(&mut out, &model.property_assignments);
+    print_procedures(&mut out, &model.procedures);
+    let (again, _) = read(&scan("", out.as_bytes(), grammar), grammar);
+    match difference(&model.without_places(), &again.without_places()) {
+        None => Ok(out),
+        Some(what) => Err(PrintError { what }),
+    }
+}
+
+/// What two models differ in, if anything.
+fn difference(model: &Model, again: &Model) -> Option<String> {
+    for (name, interaction) in &model.interactions {
+        if again.interactions.get(name).is_none_or(|found| !same(found, interaction)) {
+            return Some(format!("interaction `{name}`"));
+        }
+    }
+    if model.interactions.len() != again.interactions.len() {
+        return Some("the list of interactions".to_owned());
+    }
+    if !same(&model.contact_pairs, &again.contact_pairs) {
+        return Some("the list of contact pairs".to_owned());
+    }
+    if !same(&model.property_assignments, &again.property_assignments) {
+        return Some("the list of property assignments".to_owned());
+    }
+    (!same(&model.procedures, &again.procedures)).then(|| "the list of procedures".to_owned())
+}
+
+/// Equality in which a NaN, the value of a cell written as a parameter, equals itself.
+fn same<T: std::fmt::Debug + PartialEq>(a: &T, b: &T) -> bool {
+    a == b || format!("{a:?}") == format!("{b:?}")
+}
+
+fn print_interaction(out: &mut String, interaction: &Interaction, grammar: &Grammar) {
+    let name = GivenParameter {
+        name: "NAME".to_owned(),
+        value: Some(interaction.name.written().to_owned()),
+        span: interaction.span,
+    };
+    let named = !interaction.name.written().is_empty();
+    let parameters: Vec<_> = named.then_some(&name).into_iter().chain(&interaction.parameters).collect();
+    print_keyword(out, "SURFACE INTERACTION", parameters);
+    let is_default = interaction.thickness.to_bits() == 1.0_f64.to_bits();
+    if !is_default || !interaction.properties.is_empty() {
+        let _ = writeln!(out, "{},", float_text(interaction.thickness));
+    }
+    for line in interaction.properties.chunks(8) {
+        let _ = writeln!(out, "{}", line.iter().map(|value| float_text(*value)).collect::<Vec<_>>().join(", "));
+    }
+    if let Some(law) = &interaction.gap_electrical_conductance {
+        print_electrical(out, law, grammar);
+    }
+    if let Some(permeability) = &interaction.contact_permeability {
+        print_permeability(out, permeability, grammar);
+    }
+    if let Some(heat) = &interaction.gap_heat_generation {
+        print_keyword(out, "GAP HEAT GENERATION", []);
+        let _ = writeln!(out, "{}, {}", float_text(heat.fraction), float_text(heat.slave_weight));
+    }
+    for option in &interaction.other {
+        print_option(out, option, grammar);
+    }
+}
+
+fn print_electrical(out: &mut String, law: &ElectricalConductance, grammar: &Grammar) {
+    let keyword = "GAP ELECTRICAL CONDUCTANCE";
+    let kind = law.kind.iter().map(|kind| parameter("TYPE", Some(kind.clone())));
+    let kind: Vec<_> = kind.collect();
+    for (table, flag) in [(&law.clearance, None), (&law.pressure, Some("PRESSURE"))] {
+        if let Some(table) = table {
+            let mut parameters = kind.clone();
+            parameters.extend(flag.map(|flag| parameter(flag, None)));
+            print_table_option(out, keyword, parameters, table, grammar);
+        }
+    }
+    let has_table = law.clearance.is_some() || law.pressure.is_some();
+    if law.user.is_some() || !has_table {
+        let mut parameters = kind;
+        parameters.extend(law.user.map(|_| parameter("USER", None)));
+        print_keyword(out, keyword, &parameters);
+    }
+}
+
+fn print_permeability(out: &mut String, permeability: &ContactPermeability, grammar: &Grammar) {
+    let cutoff = |name, value: Option<f64>| value.map(|value| parameter(name, Some(float_text(value))));
+    let method = permeability.constraint_method.map(|method| match method {
+        ConstraintMethod::Direct => "DIRECT",
+        ConstraintMethod::Penalty => "PENALTY",
+    });
+    let parameters = [
+        cutoff("CUTOFF FLOW ACROSS", permeability.cutoff_flow_across),
+        cutoff("CUTOFF GAP FILL", permeability.cutoff_gap_fill),
+        method.map(|method| parameter("CONSTRAINT METHOD", Some(method.to_owned()))),
+    ];
+    let parameters: Vec<_> = parameters.into_iter().flatten().collect();
+    match &permeability.table {
+        Some(table) => print_table_option(out, "CONTACT PERMEABILITY", parameters, table, grammar),
+        None => print_keyword(out, "CONTACT PERMEABILITY", &parameters),
+    }
+}
+
+fn parameter(name: &str, value: Option<String>) -> GivenParameter {
+    GivenParameter { name: name.to_owned(), value, span: crate::span::Span::default() }
+}
+
+/// A keyword with a table; DEPENDENCIES follows from the columns unless it is given.
+fn print_table_option(
+    out: &mut String,
+    keyword: &str,
+    mut parameters: Vec<GivenParameter>,
+    table: &Table,
+    grammar: &Grammar,
+) {
+    let dependencies = table.dependencies();
+    if dependencies > 0 && !parameters.iter().any(|parameter| parameter.name == "DEPENDENCIES") {
+        parameters.push(parameter("DEPENDENCIES", Some(dependencies.to_string())));
+    }
+    print_keyword(out, keyword, &parameters);
+    let definition = grammar.id_of(keyword).and_then(|id| grammar.keyword(id).definition());
+    print_rows(out, table, definition);
+}
+
+fn print_rows(out: &mut String, table: &Table, definition: Option<&Definition>) {
+    let width = table.width();
+    let layout = definition.and_then(|definition| definition.layout(|_| false, table.dependencies()));
+    let (first_line, following) = layout.map_or((width, width), |layout| (layout.first_line, layout.following.max(1)));
+    let mut kept = table.texts.iter().peekable();
+    let texts = table.values.iter().enumerate().map(|(cell, value)| {
+        kept.next_if(|kept| kept.cell == cell).map_or_else(|| float_text(*value), |kept| kept.text.clone())
+    });
+    let texts: Vec<String> = texts.collect();
+    for row in texts.chunks(width.max(1)) {
+        let (first, further) = row.split_at(first_line.min(row.len()));
+        for line in std::iter::once(first).chain(further.chunks(following)) {
+            let _ = writeln!(out, "{}", line.join(", "));
+        }
+    }
+}
+
+fn print_option(out: &mut String, option: &SubOption, grammar: &Grammar) {
+    match &option.table {
+        Some(table) => print_table_option(out, &option.keyword, option.parameters.clone(), table, grammar),
+        None => print_keyword(out, &option.keyword, &option.parameters),
+    }
+    for row in &option.rows {
+        // A line without an item would be a blank line, which is not the same (S-08).
+        let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
+    }
+}
+
+fn print_contact_pair(out: &mut String, pair: &ContactPair) {
+    let interaction = pair.interaction.as_ref().map(|found| parameter("INTERACTION", Some(found.name.to_string())));
+    let parameters: Vec<_> = interaction.iter().chain(&pair.parameters).collect();
+    print_keyword(out, "CONTACT PAIR", parameters);
+    for surfaces in &pair.pairs {
+        let _ = match &surfaces.master {
+            Some(master) => writeln!(out, "{}, {}", surfaces.slave.name, master.name),
+            None => writeln!(out, "{},", surfaces.slave.name),
+        };
+    }
+}
+
+fn print_property_assignments(out: &mut String, assignments: &[PropertyAssignment]) {
+    if assignments.is_empty() {
+        return;
+    }
+    print_keyword(out, "CONTACT", []);
+    print_keyword(out, "CONTACT PROPERTY ASSIGNMENT", []);
+    let text = |reference: &Option<Reference>| reference.as_ref().map_or(String::new(), |found| found.name.to_string());
+    for assignment in assignments {
+        let items = [&assignment.first, &assignment.second, &assignment.interaction].map(text);
+        let _ = writeln!(out, "{}", items.join(", "));
+    }
+}
+
+/// Each procedure in the step it belongs to.
+fn print_procedures(out: &mut String, procedures: &[Procedure]) {
+    let last = procedures.iter().map(|procedure| procedure.step).max().unwrap_or(0);
+    for step in 0..=last {
+        let of_step: Vec<_> = procedures.iter().filter(|procedure| procedure.step == step).collect();
+        if step > 0 {
+            print_keyword(out, "STEP", []);
+        }
+        for procedure in of_step {
+            print_keyword(out, &procedure.option.keyword, &procedure.option.parameters);
+            for row in &procedure.option.rows {
+                let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
+            }
+        }
+        if step > 0 {
+            print_keyword(out, "END STEP", []);
+        }
+    }
+}
+
+fn print_keyword<'a>(out: &mut String, keyword: &str, parameters: impl IntoIterator<Item = &'a GivenParameter>) {
+    let mut line = format!("*{keyword}");
+    for parameter in parameters {
+        let text = match &parameter.value {
+            Some(value) => format!("{}={value}", parameter.name),
+            None => parameter.name.clone(),
+        };
+        line.push(',');
+        // A flag alone on a continuation line is taken for data by some readers, a value is not (S-19).
+        if line.len() + text.len() > KEYWORD_LINE && parameter.value.is_some() {
+            let _ = writeln!(out, "{line}");
+            line.clear();
+        }
+        line.push(' ');
+        line.push_str(&text);
+    }
+    let _ = writeln!(out, "{line}");
+}

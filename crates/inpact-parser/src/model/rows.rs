@@ -1,0 +1,157 @@
+//! Rows of numbers: from the lines of a block to a [`Table`] (S-30 to S-37, K-50 to K-56).
+//!
+//! Knows the layout of a row, not what its numbers mean. Reads every line, whatever is wrong with the one before.
+
+use super::table::{CellText, Table};
+use crate::deck::{Block, DataLine, Deck};
+use crate::grammar::Layout;
+use crate::number::{FLOAT_CHARACTERS, read_float};
+use crate::problem::{Problem, ProblemKind};
+use crate::span::Span;
+
+/// Reads the rows of a block.
+pub(super) fn read_table(deck: &Deck, block: &Block, layout: Layout, problems: &mut Vec<Problem>) -> Table {
+    let keyword = block.span_of_keyword();
+    let mut reader = RowReader { deck, keyword, layout: &layout, lines: layout.lines_per_row(), problems, table: Table::default() };
+    reader.table.keyword = keyword;
+    let mut line_of_row = 0;
+    for line in deck.data_lines(block) {
+        if line.is_blank() {
+            reader.report(ProblemKind::BlankRow, line.span);
+            continue;
+        }
+        line_of_row = reader.take_line(&line, line_of_row);
+    }
+    reader.finish(line_of_row);
+    let mut table = reader.table;
+    table.columns = layout.columns;
+    table
+}
+
+/// A table in the making.
+struct RowReader<'a> {
+    deck: &'a Deck,
+    keyword: Span,
+    layout: &'a Layout,
+    lines: usize,
+    problems: &'a mut Vec<Problem>,
+    table: Table,
+}
+
+impl RowReader<'_> {
+    fn report(&mut self, kind: ProblemKind, span: Span) {
+        self.problems.push(Problem { kind, span, keyword: self.keyword });
+    }
+
+    /// Takes line number `line_of_row` of a row; gives the number of the next line, 0 when the row is complete.
+    fn take_line(&mut self, line: &DataLine<'_>, line_of_row: usize) -> usize {
+        let content = trimmed(line);
+        let room = items_on(self.layout, line_of_row);
+        let width = self.layout.columns.len();
+        let given = count_items(line);
+        // K-53: too much for a first line, but exactly a whole row.
+        let whole_row = line_of_row == 0 && self.lines > 1 && given == width;
+        let room = if whole_row { width } else { room };
+        if whole_row {
+            let (first, following) = (self.layout.first_line, self.layout.following);
+            self.report(ProblemKind::RowOnOneLine { lines: self.lines, first, following }, content);
+        } else if given > room {
+            self.report_surplus(line, room, given);
+        }
+        let column = self.table.values.len() % width.max(1);
+        let mut items = line.items();
+        for column in column..column + room {
+            match items.next() {
+                Some(item) => self.take_item(item, column),
+                None => self.table.values.push(self.layout.defaults[column]),
+            }
+        }
+        match line_of_row {
+            0 => self.table.rows.push(content),
+            _ => self.extend_last_row(content),
+        }
+        if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
+    }
+
+    fn report_surplus(&mut self, line: &DataLine<'_>, allowed: usize, given: usize) {
+        let surplus = line.items().skip(allowed).filter(|item| !item.is_empty()).reduce(Span::to);
+        let span = surplus.unwrap_or(line.span);
+        self.report(ProblemKind::TooManyItems { allowed, given, lines: self.lines }, span);
+    }
+
+    fn take_item(&mut self, item: Span, column: usize) {
+        let text = self.deck.text(item);
+        if text.is_empty() {
+            if column == 0 && self.layout.columns.len() > 1 {
+                self.report(ProblemKind::EmptyValue { column: self.layout.columns[column].clone() }, item);
+            }
+            self.table.values.push(self.layout.defaults[column]);
+            return;
+        }
+        if matches!(text, [b'<', .., b'>']) {
+            return self.take_text(item);
+        }
+        match read_float(text) {
+            Ok(value) => {
+                if text.len() > FLOAT_CHARACTERS {
+                    self.report(ProblemKind::NumberTooLong { characters: text.len() }, item);
+                }
+                self.table.values.push(value);
+            }
+            Err(error) => {
+                let column = self.layout.columns[column].clone();
+                self.report(ProblemKind::MalformedNumber { error, column }, item);
+                self.take_text(item);
+            }
+        }
+    }
+
+    /// Keeps the text of a cell that is no number.
+    fn take_text(&mut self, item: Span) {
+        self.table.texts.push(CellText { cell: self.table.values.len(), text: self.deck.shown(item) });
+        self.table.values.push(f64::NAN);
+    }
+
+    fn extend_last_row(&mut self, line: Span) {
+        if let Some(row) = self.table.rows.last_mut() {
+            *row = row.to(line);
+        }
+    }
+
+    /// Completes a row that the block leaves unfinished (K-55).
+    fn finish(&mut self, line_of_row: usize) {
+        if line_of_row == 0 {
+            return;
+        }
+        let row = self.table.rows.last().copied().unwrap_or(self.keyword);
+        self.report(ProblemKind::IncompleteRow { lines: self.lines, given: line_of_row }, row);
+        let width = self.layout.columns.len();
+        let missing = (width - self.table.values.len() % width) % width;
+        self.table.values.extend_from_slice(&self.layout.defaults[width - missing..]);
+    }
+}
+
+/// How many items belong on line `line` of a row, counted from 0.
+fn items_on(layout: &Layout, line: usize) -> usize {
+    let before = if line == 0 { 0 } else { layout.first_line + (line - 1) * layout.following };
+    let room = if line == 0 { layout.first_line } else { layout.following };
+    room.min(layout.columns.len().saturating_sub(before))
+}
+
+/// The number of items of a line, empty ones at its end not counted (S-33).
+fn count_items(line: &DataLine<'_>) -> usize {
+    let mut count = 0;
+    for (index, item) in line.items().enumerate() {
+        if !item.is_empty() {
+            count = index + 1;
+        }
+    }
+    count
+}
+
+/// The line without blanks around it.
+fn trimmed(line: &DataLine<'_>) -> Span {
+    let before = (line.text.len() - line.text.trim_ascii_start().len()) as u64;
+    let start = line.span.start + before;
+    Span::new(line.span.source, start, start + line.text.trim_ascii().len() as u64)
+}

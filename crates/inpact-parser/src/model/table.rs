@@ -1,0 +1,98 @@
+//! A table of a sub-option: rows of numbers with the places they were read from (section 4 of the semantics).
+
+use crate::span::Span;
+
+/// Rows of numbers in the order of the deck.
+///
+/// The first column is the dependent value; the others are its independent variables, the one that varies fastest
+/// first (T-02, T-03). Rows are kept as they stand, in order or not: the rules judge them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// The names of the columns: `conductance`, `clearance`, `temp`, `fv1`, ….
+    pub columns: Vec<String>,
+    /// The cells, row behind row; `columns.len()` a row. Units are those of the columns (see the grammar).
+    ///
+    /// A cell that is no number is NaN; see [`Table::texts`].
+    pub values: Vec<f64>,
+    /// Where each row stands; shorter than the number of rows when the table was not read from a deck.
+    pub rows: Vec<Span>,
+    /// What stands in the cells that are no number: a parameter, `<name>` (S-62), or something malformed (S006).
+    /// In ascending order of [`CellText::cell`].
+    pub texts: Vec<CellText>,
+    /// The keyword line the table belongs to.
+    pub keyword: Span,
+}
+
+/// The text of a cell that is no number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CellText {
+    /// Index into [`Table::values`].
+    pub cell: usize,
+    /// What stands there, without the blanks around it.
+    pub text: String,
+}
+
+impl Table {
+    /// The number of columns.
+    pub fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The number of rows.
+    pub fn row_count(&self) -> usize {
+        self.values.len() / self.width().max(1)
+    }
+
+    /// The numbers of each row.
+    pub fn row_values(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.values.chunks_exact(self.width().max(1))
+    }
+
+    /// The numbers of row `index`, counted from 0.
+    pub fn row(&self, index: usize) -> &[f64] {
+        &self.values[index * self.width()..(index + 1) * self.width()]
+    }
+
+    /// Where row `index` stands; an empty span at the keyword when the table was not read from a deck.
+    pub fn row_span(&self, index: usize) -> Span {
+        self.rows.get(index).copied().unwrap_or(self.keyword)
+    }
+
+    /// The position of a column of that name.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column == name)
+    }
+
+    /// The number of field variables, columns `fv1` and on.
+    pub fn dependencies(&self) -> usize {
+        self.columns.iter().filter(|column| is_field(column)).count()
+    }
+
+    pub(super) fn forget_places(&mut self) {
+        self.rows.clear();
+        self.keyword = Span::default();
+    }
+
+    /// The ranges of rows that form a group: all independent variables but the first are equal, bit for bit (T-09, T-10).
+    pub fn groups(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
+        let outer = |row: usize| self.row(row).get(2..).unwrap_or(&[]);
+        let mut start = 0;
+        std::iter::from_fn(move || {
+            let count = self.row_count();
+            if start == count {
+                return None;
+            }
+            let first = start;
+            start += 1;
+            while start < count && outer(start) == outer(first) {
+                start += 1;
+            }
+            Some(first..start)
+        })
+    }
+}
+
+/// Whether a column holds a field variable: `fv1`, `fv2`, ….
+fn is_field(column: &str) -> bool {
+    column.strip_prefix("fv").is_some_and(|number| number.parse::<usize>().is_ok())
+}

@@ -1,0 +1,86 @@
+//! What is wrong with rows and places, as the reader finds it: values, not errors.
+//!
+//! The reader says what it met and where; the rules of validation say what that means, how grave it is and what to do.
+//! What a rule can see from the deck, the grammar and the model alone is no problem here.
+
+use crate::grammar::{KeywordId, Level};
+use crate::number::NumberError;
+use crate::span::Span;
+
+/// Something the reader met that does not fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// What it is.
+    pub kind: ProblemKind,
+    /// Where it is: the cell, the line, or the keyword line.
+    pub span: Span,
+    /// The keyword line of the block it is in.
+    pub keyword: Span,
+}
+
+/// What a [`Problem`] is about.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProblemKind {
+    /// An item that should be a number is none (S-34).
+    MalformedNumber {
+        /// In what way.
+        error: NumberError,
+        /// The column it stands in.
+        column: String,
+    },
+    /// A float of more than 20 characters; read in full (S-34).
+    NumberTooLong {
+        /// How many characters it has.
+        characters: usize,
+    },
+    /// An empty line inside a table; skipped (S-08).
+    BlankRow,
+    /// A row has more items than the option has columns; the rest was dropped (S-33).
+    TooManyItems {
+        /// How many items the line may have.
+        allowed: usize,
+        /// How many it has.
+        given: usize,
+        /// Whether every line the row could go over is counted in `allowed`.
+        lines: usize,
+    },
+    /// The block ends inside a row that goes over several lines (K-55).
+    IncompleteRow {
+        /// How many lines a row has.
+        lines: usize,
+        /// How many the last row has.
+        given: usize,
+    },
+    /// A row behind the first, of an option that has only one (S-38).
+    SurplusRow,
+    /// A row that should go over several lines stands on one; read all the same (K-53).
+    RowOnOneLine {
+        /// How many lines it should have.
+        lines: usize,
+        /// How many items belong on the first line.
+        first: usize,
+        /// How many belong on every further line.
+        following: usize,
+    },
+    /// The dependent value is left empty and reads as 0 (S-32).
+    EmptyValue {
+        /// The column's name.
+        column: String,
+    },
+    /// A sub-option stands where no block of its parent is open (S-21, K012).
+    Misplaced {
+        /// The sub-option.
+        keyword: KeywordId,
+        /// The keyword that closed the last *SURFACE INTERACTION block, when there was one.
+        closed_by: Option<Span>,
+    },
+    /// The keyword is not allowed at this level (S-73, K013).
+    WrongLevel {
+        /// The keyword.
+        keyword: KeywordId,
+        /// Where it stands.
+        level: Level,
+        /// The keyword line that opened the level.
+        opened_by: Option<Span>,
+    },
+}

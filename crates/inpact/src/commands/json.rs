@@ -1,0 +1,44 @@
+//! `inpact json`: a deck in, JSON out.
+
+use crate::failure::{Failure, Outcome};
+use crate::files;
+use clap::{Args, ValueEnum};
+use inpact_parser::deck::Keep;
+use inpact_parser::grammar::Grammar;
+use inpact_parser::{json, model};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct JsonArguments {
+    /// The deck or fragment; `-` reads standard input.
+    #[arg(value_name = "DECK")]
+    deck: PathBuf,
+    /// What to print: what the deck says, or every line of it.
+    #[arg(long, value_enum, default_value_t = View::Model)]
+    view: View,
+    /// Where to write, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum View {
+    /// The interactions, contact pairs and procedures as typed data.
+    Model,
+    /// The lossless form: every line, from which the deck comes back byte for byte.
+    Syntax,
+}
+
+pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
+    let grammar = Grammar::builtin();
+    let text = match arguments.view {
+        View::Model => {
+            let deck = files::scan(&arguments.deck, Keep::Interpreted)?;
+            let (model, _) = model::read(&deck, grammar);
+            json::model::write(&model, &arguments.deck.display().to_string())
+        }
+        View::Syntax => json::syntax::write(&files::scan(&arguments.deck, Keep::Everything)?, grammar),
+    };
+    files::write_result(arguments.output.as_deref(), text.as_bytes())?;
+    Ok(Outcome::Clean)
+}

@@ -1,0 +1,76 @@
+//! How a command ends: the exit codes, and what is said when it cannot go on.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use thiserror::Error;
+
+/// How a command that could do its work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// Done, no errors found: exit code 0.
+    Clean,
+    /// The deck or the data has errors: exit code 1.
+    HasErrors,
+}
+
+/// Why a command could not do its work: exit code 2, but for [`Failure::Data`].
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    /// A file that cannot be read.
+    #[error("cannot read `{}`: {error}", path.display())]
+    Read { path: PathBuf, error: io::Error },
+    /// A file that cannot be written.
+    #[error("cannot write `{}`: {error}", path.display())]
+    Write { path: PathBuf, error: io::Error },
+    /// Standard output that cannot be written.
+    #[error("cannot write to standard output: {0}")]
+    Output(io::Error),
+    /// Arguments that do not go together.
+    #[error("{0}")]
+    Usage(String),
+    /// Something that was said already while the work went on.
+    #[error("")]
+    AlreadySaid,
+    /// The data has errors that leave nothing to go on with: exit code 1.
+    #[error("{0}")]
+    Data(String),
+}
+
+impl Failure {
+    pub(crate) fn read(path: &Path, error: io::Error) -> Self {
+        Self::Read { path: path.to_owned(), error }
+    }
+
+    pub(crate) fn write(path: &Path, error: io::Error) -> Self {
+        Self::Write { path: path.to_owned(), error }
+    }
+}
+
+/// The exit code of a command, after saying on standard error why it failed.
+pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
+    match result {
+        Ok(Outcome::Clean) => ExitCode::SUCCESS,
+        Ok(Outcome::HasErrors) => ExitCode::from(1),
+        // Whoever reads our output has seen enough.
+        Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::AlreadySaid) => ExitCode::from(2),
+        Err(failure) => {
+            say(&format!("error: {failure}"));
+            ExitCode::from(if matches!(failure, Failure::Data(_)) { 1 } else { 2 })
+        }
+    }
+}
+
+/// Prints what clap has to say: help and version to standard output, a usage error to standard error.
+pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
+    // Nobody is left to be told when this fails.
+    let _ = error.print();
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// Writes a line to standard error; a standard error that is closed is no reason to stop.
+pub(crate) fn say(line: &str) {
+    use std::io::Write;
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}

@@ -1,0 +1,120 @@
+//! Decks in, results out: the only place where files are opened.
+
+use crate::failure::Failure;
+use inpact_parser::deck::{Deck, Keep, ScanOptions, Scanner};
+use inpact_parser::grammar::Grammar;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// How much of a deck is read at a time: small enough to stay in cache.
+const PIECE: usize = 256 * 1024;
+
+/// The name that stands for standard input and standard output.
+pub(crate) const STANDARD_STREAM: &str = "-";
+
+/// Scans the deck at `path`, or standard input for `-`.
+pub(crate) fn scan(path: &Path, keep: Keep) -> Result<Deck, Failure> {
+    let mut input = open(path)?;
+    let grammar = Grammar::builtin();
+    let mut scanner = Scanner::new(&path.display().to_string(), ScanOptions { grammar, keep });
+    let mut piece = vec![0; PIECE];
+    loop {
+        match input.read(&mut piece) {
+            Ok(0) => return Ok(scanner.finish()),
+            Ok(count) => scanner.push(&piece[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(Failure::read(path, error)),
+        }
+    }
+}
+
+/// Opens a file for reading, or standard input for `-`.
+pub(crate) fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
+    if path.as_os_str() == STANDARD_STREAM {
+        return Ok(Box::new(io::stdin().lock()));
+    }
+    let file = File::open(path).map_err(|error| Failure::read(path, error))?;
+    let is_folder = file.metadata().is_ok_and(|metadata| metadata.is_dir());
+    if is_folder {
+        return Err(Failure::read(path, io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")));
+    }
+    Ok(Box::new(file))
+}
+
+/// Reads all of a text file, or of standard input for `-`.
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+    let mut text = String::new();
+    open(path)?.read_to_string(&mut text).map_err(|error| Failure::read(path, error))?;
+    Ok(text)
+}
+
+/// Writes a result to `target`, or to standard output when there is none or it is `-`.
+pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
+    let mut output = ResultFile::create(target)?;
+    output.write_all(bytes).map_err(|error| output.failure(error))?;
+    output.finish()
+}
+
+/// Where a result goes: standard output, or a file that gets its name only when it is complete.
+///
+/// The file is written beside its target and renamed, so a stopped run never leaves half a result under the name that was asked for.
+pub(crate) enum ResultFile {
+    Standard(io::BufWriter<io::StdoutLock<'static>>),
+    File { beside: io::BufWriter<tempfile::NamedTempFile>, target: std::path::PathBuf },
+}
+
+impl ResultFile {
+    pub(crate) fn create(target: Option<&Path>) -> Result<Self, Failure> {
+        let Some(target) = target.filter(|target| target.as_os_str() != STANDARD_STREAM) else {
+            return Ok(Self::Standard(io::BufWriter::with_capacity(PIECE, io::stdout().lock())));
+        };
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".inpact-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // What any other program would give a new file; the umask takes its share.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let beside = builder.tempfile_in(folder).map_err(|error| Failure::write(target, error))?;
+        Ok(Self::File { beside: io::BufWriter::with_capacity(PIECE, beside), target: target.to_owned() })
+    }
+
+    /// What failed, for an error of writing.
+    pub(crate) fn failure(&self, error: io::Error) -> Failure {
+        match self {
+            Self::Standard(_) => Failure::Output(error),
+            Self::File { target, .. } => Failure::write(target, error),
+        }
+    }
+
+    /// Writes out what is left and gives the file its name.
+    pub(crate) fn finish(self) -> Result<(), Failure> {
+        match self {
+            Self::Standard(mut output) => output.flush().map_err(Failure::Output),
+            Self::File { beside, target } => {
+                let failed = |error| Failure::write(&target, error);
+                let beside = beside.into_inner().map_err(|error| failed(error.into_error()))?;
+                beside.persist(&target).map(drop).map_err(|error| failed(error.error))
+            }
+        }
+    }
+}
+
+impl Write for ResultFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Standard(output) => output.write(bytes),
+            Self::File { beside, .. } => beside.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Standard(output) => output.flush(),
+            Self::File { beside, .. } => beside.flush(),
+        }
+    }
+}

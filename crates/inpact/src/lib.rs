@@ -1,0 +1,47 @@
+//! The command line of inpact: arguments, files, exit codes, rendering.
+//!
+//! No domain logic lives here; only here are files opened, colours known and exit codes chosen.
+//! Exit codes: 0 done, no errors found; 1 the deck or the data has errors; 2 wrong usage, or a file that cannot be read or written.
+//! A closed pipe (`inpact check … | head`) ends quietly with 0.
+
+mod commands;
+mod failure;
+mod files;
+mod render;
+
+use clap::{Parser, Subcommand};
+use failure::{Failure, Outcome};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Checks, converts and evaluates the contact interfaces of Abaqus input decks.
+#[derive(Debug, Parser)]
+#[command(name = "inpact", version, about, long_about = None, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Check decks and fragments: what is wrong, where, and how to mend it.
+    Check(commands::check::CheckArguments),
+    /// Print a deck as JSON.
+    Json(commands::json::JsonArguments),
+    /// Write a deck from JSON, either view.
+    Inp(commands::inp::InpArguments),
+}
+
+/// Runs the program with these arguments, the name of the program first.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => return failure::report_usage(&error),
+    };
+    let result = match arguments.command {
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Json(arguments) => commands::json::run(&arguments),
+        Command::Inp(arguments) => commands::inp::run(&arguments),
+    };
+    failure::exit_code(result)
+}

@@ -1,0 +1,94 @@
+//! The full format: an excerpt of the deck with labels, the reason and the cure, drawn by miette.
+
+use super::Style;
+use super::excerpt::Excerpt;
+use inpact_parser::deck::Deck;
+use inpact_validation::{Diagnostic, Label, Severity};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+use std::fmt;
+
+/// How many lines are shown before and behind a label.
+const CONTEXT: usize = 1;
+
+pub(super) fn write(found: &Diagnostic, deck: &Deck, style: Style) -> String {
+    let theme = match style {
+        Style::Coloured => GraphicalTheme::unicode(),
+        Style::Plain => GraphicalTheme::unicode_nocolor(),
+    };
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_links(false)
+        .with_width(100)
+        .with_context_lines(CONTEXT);
+    let excerpt = Excerpt::around(deck, labels(found), CONTEXT);
+    let mut text = String::new();
+    // Only the writer could fail, and it is a string.
+    let _ = handler.render_report(&mut text, &Rendered { found, excerpt, deck });
+    text.push('\n');
+    text
+}
+
+/// The labels in the file of the primary one: an excerpt is of one file.
+fn labels(found: &Diagnostic) -> impl Iterator<Item = &Label> {
+    let source = found.primary.span.source;
+    std::iter::once(&found.primary).chain(found.secondary.iter().filter(move |label| label.span.source == source))
+}
+
+/// A finding in the terms of the renderer.
+#[derive(Debug)]
+struct Rendered<'a> {
+    found: &'a Diagnostic,
+    excerpt: Excerpt,
+    deck: &'a Deck,
+}
+
+impl fmt::Display for Rendered<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.found.message)
+    }
+}
+
+impl std::error::Error for Rendered<'_> {}
+
+impl miette::Diagnostic for Rendered<'_> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(format!("{}[{}] {}", self.found.severity, self.found.code, self.found.name)))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.found.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Note => miette::Severity::Advice,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let source = self.found.primary.span.source;
+        let elsewhere = self.found.secondary.iter().filter(|label| label.span.source != source);
+        let elsewhere = elsewhere.map(|label| {
+            let file = self.deck.source(label.span.source).name();
+            format!("see {file}:{}:{}: {}", label.position.line, label.position.column, label.text)
+        });
+        let note = self.found.note.iter().map(|note| format!("note: {note}"));
+        let parts: Vec<String> = self.found.help.iter().cloned().chain(note).chain(elsewhere).collect();
+        if parts.is_empty() { None } else { Some(Box::new(parts.join("\n"))) }
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&self.excerpt)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let labels = labels(self.found).enumerate().map(|(index, label)| {
+            let text = (!label.text.is_empty()).then(|| label.text.clone());
+            let offset = usize::try_from(label.span.start).unwrap_or(usize::MAX);
+            let length = usize::try_from(label.span.len()).unwrap_or(0);
+            if index == 0 {
+                LabeledSpan::new_primary_with_span(text, (offset, length))
+            } else {
+                LabeledSpan::new_with_span(text, (offset, length))
+            }
+        });
+        Some(Box::new(labels))
+    }
+}
