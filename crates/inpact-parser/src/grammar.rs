@@ -1,0 +1,196 @@
+//! The keyword language as data: which keywords there are, what parameters and rows they take, and how names are matched.
+//!
+//! Everything here comes from the files of `grammar/` in the repository: two lists of names, and one TOML a keyword.
+//! They are compiled in; a definition is parsed when it is first asked for.
+//! Knows nothing of decks, files or spans: it answers questions about words (S-11 to S-16) and about the layout of rows (K-50 to K-56).
+
+mod data;
+mod definition;
+mod dimension;
+mod lookup;
+mod nearest;
+mod release;
+
+pub use data::{Column, ColumnKind, Counted, Data, Layout, RowShape};
+pub use definition::{
+    Definition, DefinitionError, Level, ParameterDefinition, ParameterKind, Product, ValueUse,
+};
+pub use dimension::{Base, Dimension, DimensionError};
+pub use lookup::{Lookup, lookup_name};
+pub use release::{Release, ReleaseError};
+
+use lookup::Folded;
+use std::sync::{LazyLock, OnceLock};
+
+/// The keyword files: the name in full and the text of the TOML.
+const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/keyword_files.rs"));
+
+/// Every keyword of Abaqus, one a line.
+const ABAQUS_NAMES: &str = include_str!("../../../grammar/names/abaqus.txt");
+
+/// Every keyword of CalculiX, one a line, without blanks.
+const CALCULIX_NAMES: &str = include_str!("../../../grammar/names/calculix.txt");
+
+/// The keyword language: every keyword by name, and what is known of it.
+#[derive(Debug)]
+pub struct Grammar {
+    /// Sorted by folded name, so that all names with one prefix stand together.
+    keywords: Vec<Keyword>,
+    /// Folded and sorted.
+    calculix_names: Vec<&'static str>,
+}
+
+/// A keyword, by its place in its [`Grammar`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct KeywordId(u16);
+
+/// A keyword of the language.
+#[derive(Debug)]
+pub struct Keyword {
+    /// The name in full: upper case, single blanks between its words.
+    pub name: String,
+    folded: String,
+    source: Option<&'static str>,
+    definition: OnceLock<Option<Box<Definition>>>,
+}
+
+impl Grammar {
+    /// The language as it is compiled in.
+    pub fn builtin() -> &'static Self {
+        static BUILTIN: LazyLock<Grammar> = LazyLock::new(Grammar::from_compiled_files);
+        &BUILTIN
+    }
+
+    fn from_compiled_files() -> Self {
+        let unlisted = FILES.iter().map(|(name, _)| *name);
+        let mut keywords: Vec<Keyword> = ABAQUS_NAMES
+            .lines()
+            .chain(unlisted)
+            .map(Keyword::new)
+            .collect();
+        keywords.sort_by(|a, b| a.folded.cmp(&b.folded));
+        keywords.dedup_by(|a, b| a.folded == b.folded);
+        let mut calculix_names: Vec<&str> = CALCULIX_NAMES.lines().collect();
+        calculix_names.sort_unstable();
+        Self {
+            keywords,
+            calculix_names,
+        }
+    }
+
+    /// The keyword that is written so, in the newest release (S-11 to S-13).
+    ///
+    /// Blanks, tabs and case do not count; an exact name wins; otherwise the text must begin exactly one name.
+    /// A text of blanks only, or one longer than every name (S-14), is unknown.
+    pub fn keyword_named(&self, written: &[u8]) -> Lookup<KeywordId> {
+        self.keyword_named_in(written, Release::NEWEST)
+    }
+
+    /// The keyword that is written so in a deck for `release`: names that came later or went before do not count (S-15).
+    pub fn keyword_named_in(&self, written: &[u8], release: Release) -> Lookup<KeywordId> {
+        let Some(folded) = Folded::new(written) else {
+            return Lookup::Unknown;
+        };
+        let from = self
+            .keywords
+            .partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
+        let candidates = (from..self.keywords.len())
+            .take_while(|index| {
+                self.keywords[*index]
+                    .folded
+                    .as_bytes()
+                    .starts_with(folded.as_bytes())
+            })
+            .filter(|index| self.keywords[*index].is_in(release));
+        let candidates =
+            candidates.map(|index| (KeywordId::new(index), &*self.keywords[index].folded));
+        lookup::decide(folded.as_bytes(), candidates)
+    }
+
+    /// The keyword behind an id of this grammar.
+    pub fn keyword(&self, id: KeywordId) -> &Keyword {
+        &self.keywords[usize::from(id.0)]
+    }
+
+    /// All keywords, by name.
+    pub fn keywords(&self) -> impl Iterator<Item = (KeywordId, &Keyword)> {
+        self.keywords
+            .iter()
+            .enumerate()
+            .map(|(index, keyword)| (KeywordId::new(index), keyword))
+    }
+
+    /// The keyword of that full name, in whatever release; no abbreviation.
+    pub fn id_of(&self, name: &str) -> Option<KeywordId> {
+        let folded = Folded::new(name.as_bytes())?;
+        let found = self
+            .keywords
+            .binary_search_by(|keyword| keyword.folded.as_bytes().cmp(folded.as_bytes()));
+        found.ok().map(KeywordId::new)
+    }
+
+    /// Whether the keyword may be a sub-option of *SURFACE INTERACTION (2.1).
+    pub fn is_interaction_option(&self, id: KeywordId) -> bool {
+        self.keyword(id)
+            .definition()
+            .is_some_and(|definition| definition.has_parent("SURFACE INTERACTION"))
+    }
+
+    /// Whether CalculiX has a keyword of that name, written in full.
+    pub fn is_calculix_keyword(&self, written: &[u8]) -> bool {
+        Folded::new(written).is_some_and(|folded| {
+            self.calculix_names
+                .binary_search_by(|name| name.as_bytes().cmp(folded.as_bytes()))
+                .is_ok()
+        })
+    }
+
+    /// Names of keywords that somebody who wrote this may have meant, the nearest first.
+    ///
+    /// A comparison with every name: ask for what is shown to somebody, not for every line of a deck.
+    pub fn nearest_keywords(&self, written: &str, at_most: usize) -> Vec<&str> {
+        nearest::nearest(
+            written.as_bytes(),
+            self.keywords.iter().map(|keyword| keyword.name.as_str()),
+            at_most,
+        )
+    }
+}
+
+impl KeywordId {
+    fn new(index: usize) -> Self {
+        Self(u16::try_from(index).expect("there are fewer than 65536 keywords"))
+    }
+}
+
+impl Keyword {
+    fn new(name: &str) -> Self {
+        let source = FILES
+            .iter()
+            .find(|(defined, _)| *defined == name)
+            .map(|(_, text)| *text);
+        let folded = name
+            .chars()
+            .filter(|character| !character.is_ascii_whitespace())
+            .collect();
+        Self {
+            name: name.to_owned(),
+            folded,
+            source,
+            definition: OnceLock::new(),
+        }
+    }
+
+    /// What the keyword means; `None` when only its name is known.
+    pub fn definition(&self) -> Option<&Definition> {
+        // A test loads every definition that is compiled in, so none is lost here.
+        let parse = || Definition::parse(self.source?).ok().map(Box::new);
+        self.definition.get_or_init(parse).as_deref()
+    }
+
+    /// Whether the release has the keyword; true where nothing is known of it.
+    pub fn is_in(&self, release: Release) -> bool {
+        self.definition()
+            .is_none_or(|definition| release.is_within(definition.since, definition.until))
+    }
+}

@@ -1,0 +1,316 @@
+//! What a keyword means: where it may stand, its parameters, its rows. One TOML file each, read strictly.
+
+use super::data::{Data, Layout, RowShape};
+use super::dimension::Dimension;
+use super::lookup::{Lookup, lookup_among, lookup_name};
+use super::nearest;
+use super::release::Release;
+use serde::Deserialize;
+use std::collections::HashSet;
+
+/// The definition of a keyword.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    /// The keyword in full: upper case, single blanks between its words.
+    pub name: String,
+    /// What it is for, in one line.
+    pub summary: String,
+    /// Where it may stand; at a level that is not listed it is misplaced (S-73).
+    pub levels: Vec<Level>,
+    /// The keywords whose block it must stand in; none when it stands alone (S-21).
+    pub parents: Vec<String>,
+    /// The products that read it.
+    pub products: Vec<Product>,
+    /// The first release that has it, where that is known.
+    pub since: Option<Release>,
+    /// The last release that has it, where there is one.
+    pub until: Option<Release>,
+    /// Whether it is the procedure of a step (section 9.2).
+    #[serde(default)]
+    pub procedure: bool,
+    /// Where all that is said: manual section, rule number.
+    pub source: String,
+    /// A piece of a deck that uses it and is right.
+    pub example: String,
+    /// Whether `parameters` are all there are; a parameter that is not listed is no error otherwise.
+    #[serde(default = "complete")]
+    pub parameters_complete: bool,
+    /// Its parameters, in the order of the manual.
+    #[serde(default)]
+    pub parameters: Vec<ParameterDefinition>,
+    /// Its rows.
+    pub data: Data,
+}
+
+/// A parameter of a keyword line.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterDefinition {
+    /// The name in full.
+    pub name: String,
+    /// What its value is.
+    pub kind: ParameterKind,
+    /// Whether the keyword line means nothing without it.
+    #[serde(default)]
+    pub required: bool,
+    /// What leaving it out means, as it would be written.
+    pub default: Option<String>,
+    /// The dimension of a number.
+    pub dimension: Option<Dimension>,
+    /// The least number that is legal.
+    pub minimum: Option<f64>,
+    /// The greatest number that is legal.
+    pub maximum: Option<f64>,
+    /// The words that are legal, where the kind is a choice.
+    #[serde(default)]
+    pub choices: Vec<String>,
+    /// Whether it may stand without a value although it can have one.
+    #[serde(default)]
+    pub value_optional: bool,
+    /// The parameters that it must stand beside.
+    #[serde(default)]
+    pub needs: Vec<String>,
+    /// The parameters that it must not stand beside.
+    #[serde(default)]
+    pub excludes: Vec<String>,
+    /// The parameters beside which it means nothing (K-12).
+    #[serde(default)]
+    pub ignored_with: Vec<String>,
+    /// The first release that has it, where that is known.
+    pub since: Option<Release>,
+    /// The last release that has it, where there is one.
+    pub until: Option<Release>,
+    /// What it is.
+    pub description: String,
+    /// Where that is said: manual section, rule number.
+    pub source: String,
+}
+
+/// What the value of a parameter is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ParameterKind {
+    /// There is none (S-17).
+    Flag,
+    /// A number without a fraction (S-35).
+    Integer,
+    /// A number (S-34).
+    Float,
+    /// A name (S-40).
+    Label,
+    /// Any other text.
+    Text,
+    /// One of a few words, which may be abbreviated (S-13).
+    Choice,
+    /// The name of a file (S-22).
+    File,
+}
+
+/// Whether a parameter has a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ValueUse {
+    /// A flag.
+    Never,
+    /// It may stand alone.
+    Optional,
+    /// It must have one.
+    Always,
+}
+
+/// A part of a deck in which keywords stand (S-71 to S-74).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// Outside of all others: model data.
+    Model,
+    /// Between *PART and *END PART.
+    Part,
+    /// Between *INSTANCE and *END INSTANCE.
+    Instance,
+    /// Between *ASSEMBLY and *END ASSEMBLY.
+    Assembly,
+    /// Between *STEP and *END STEP: history data.
+    Step,
+}
+
+/// A program that reads decks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Product {
+    /// Abaqus/Standard.
+    Standard,
+    /// Abaqus/Explicit.
+    Explicit,
+}
+
+/// Why a text is no definition of a keyword.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct DefinitionError {
+    message: String,
+}
+
+impl Definition {
+    /// Reads a definition from its TOML.
+    ///
+    /// # Errors
+    ///
+    /// When the text is no TOML, has a key that is not known, lacks one, or contradicts itself.
+    pub fn parse(toml: &str) -> Result<Self, DefinitionError> {
+        let error = |message: String| DefinitionError { message };
+        let definition: Self = toml::from_str(toml).map_err(|reason| error(reason.to_string()))?;
+        match definition.contradiction() {
+            Some(contradiction) => Err(error(format!("{}: {contradiction}", definition.name))),
+            None => Ok(definition),
+        }
+    }
+
+    /// What its rows are.
+    pub fn rows(&self) -> RowShape {
+        self.data.shape
+    }
+
+    /// Whether it may stand in the block of that keyword, given by its full name.
+    pub fn has_parent(&self, keyword: &str) -> bool {
+        self.parents.iter().any(|parent| parent == keyword)
+    }
+
+    /// The parameter of that full name.
+    pub fn parameter(&self, name: &str) -> Option<&ParameterDefinition> {
+        self.parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
+    }
+
+    /// The parameter that is written so, in the newest release, as its place in the list (S-13, S-16).
+    pub fn parameter_named(&self, written: &[u8]) -> Lookup<usize> {
+        self.parameter_named_in(written, Release::NEWEST)
+    }
+
+    /// The parameter that is written so in a deck for `release`.
+    pub fn parameter_named_in(&self, written: &[u8], release: Release) -> Lookup<usize> {
+        let parameters = self.parameters.iter().enumerate();
+        let there =
+            parameters.filter(|(_, parameter)| release.is_within(parameter.since, parameter.until));
+        lookup_among(
+            written,
+            there.map(|(index, parameter)| (index, parameter.name.as_str())),
+        )
+    }
+
+    /// Names of parameters that somebody who wrote this may have meant, the nearest first.
+    pub fn nearest_parameters(&self, written: &str, at_most: usize) -> Vec<&str> {
+        nearest::nearest(
+            written.as_bytes(),
+            self.parameters
+                .iter()
+                .map(|parameter| parameter.name.as_str()),
+            at_most,
+        )
+    }
+
+    /// How the rows are laid out when these parameters are given and so many columns are counted; see [`Data::layout`].
+    pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
+        self.data.layout(given, count)
+    }
+
+    fn contradiction(&self) -> Option<String> {
+        if !is_description(&self.summary)
+            || self.source.is_empty()
+            || self.example.trim().is_empty()
+        {
+            return Some("summary, source and example must say something, and a summary ends without a full stop".to_owned());
+        }
+        if self.levels.is_empty() {
+            return Some("it may stand nowhere".to_owned());
+        }
+        if let Some(name) = first_repeated(
+            self.parameters
+                .iter()
+                .map(|parameter| parameter.name.as_str()),
+        ) {
+            return Some(format!("parameter `{name}` stands twice"));
+        }
+        let has_parameter = |name: &str| self.parameter(name).is_some();
+        let of_parameters = self.parameters.iter().find_map(|parameter| {
+            let contradiction = parameter.contradiction(has_parameter)?;
+            Some(format!("parameter `{}`: {contradiction}", parameter.name))
+        });
+        of_parameters.or_else(|| self.data.contradiction(has_parameter))
+    }
+}
+
+impl ParameterDefinition {
+    /// Whether it has a value (S-17).
+    pub fn value_use(&self) -> ValueUse {
+        match self.kind {
+            ParameterKind::Flag => ValueUse::Never,
+            _ if self.value_optional => ValueUse::Optional,
+            _ => ValueUse::Always,
+        }
+    }
+
+    /// The choice that is written so (S-13); `None` when there is none, or more than one.
+    pub fn choice_named(&self, written: &[u8]) -> Option<&str> {
+        let index = lookup_name(written, self.choices.iter().map(String::as_str)).found()?;
+        Some(&self.choices[index])
+    }
+
+    fn contradiction(&self, has_parameter: impl Fn(&str) -> bool) -> Option<String> {
+        let mut related = self
+            .needs
+            .iter()
+            .chain(&self.excludes)
+            .chain(&self.ignored_with);
+        if let Some(unknown) = related.find(|name| !has_parameter(name) || **name == self.name) {
+            return Some(format!("`{unknown}` is no other parameter of the keyword"));
+        }
+        let is_number = matches!(self.kind, ParameterKind::Float | ParameterKind::Integer);
+        let wrong = [
+            (
+                !is_description(&self.description) || self.source.is_empty(),
+                "no description or no source",
+            ),
+            (
+                (self.kind == ParameterKind::Choice) == self.choices.is_empty(),
+                "choices belong to the kind `choice`",
+            ),
+            (
+                self.kind == ParameterKind::Flag && self.value_optional,
+                "a flag has no value",
+            ),
+            (
+                self.required && self.default.is_some(),
+                "what is required has no default",
+            ),
+            (
+                !is_number && (self.minimum.is_some() || self.maximum.is_some()),
+                "only numbers have bounds",
+            ),
+            (
+                self.dimension.is_some() != (self.kind == ParameterKind::Float),
+                "a float has a dimension, nothing else has",
+            ),
+        ];
+        let found = wrong.into_iter().find(|(is_wrong, _)| *is_wrong);
+        found.map(|(_, message)| message.to_owned())
+    }
+}
+
+fn complete() -> bool {
+    true
+}
+
+/// Whether a text says something and, being one sentence, ends without a full stop.
+pub(super) fn is_description(text: &str) -> bool {
+    !text.trim().is_empty() && !text.ends_with('.')
+}
+
+/// The first name that stands a second time.
+pub(super) fn first_repeated<'name>(
+    mut names: impl Iterator<Item = &'name str>,
+) -> Option<&'name str> {
+    let mut seen = HashSet::new();
+    names.find(|name| !seen.insert(*name))
+}

@@ -1,0 +1,129 @@
+//! How a written word finds the name it means: blanks and case removed, exact or abbreviated (S-11 to S-13).
+//!
+//! The same for keywords, parameters and enumerated values. Works on bytes, allocates only to list what an ambiguous word may mean.
+
+/// What a written word means among a set of names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Lookup<T> {
+    /// The name in full.
+    Exact(T),
+    /// The beginning of one name and of no other.
+    Abbreviated(T),
+    /// The beginning of several names, in their order.
+    Ambiguous(Vec<T>),
+    /// The beginning of none.
+    Unknown,
+}
+
+impl<T> Lookup<T> {
+    /// What was found, when it is one.
+    pub fn found(self) -> Option<T> {
+        match self {
+            Self::Exact(found) | Self::Abbreviated(found) => Some(found),
+            Self::Ambiguous(_) | Self::Unknown => None,
+        }
+    }
+}
+
+/// Which of `names` is meant by what is written, as its place in the list (S-13).
+///
+/// Right for parameters and enumerated values; never for numbers and file names, which are not abbreviated.
+pub fn lookup_name<'name>(
+    written: &[u8],
+    names: impl IntoIterator<Item = &'name str>,
+) -> Lookup<usize> {
+    let indexed = names.into_iter().enumerate();
+    lookup_among(written, indexed)
+}
+
+/// Which of the named things is meant by what is written.
+pub(super) fn lookup_among<'name, T>(
+    written: &[u8],
+    named: impl IntoIterator<Item = (T, &'name str)>,
+) -> Lookup<T> {
+    match Folded::new(written) {
+        Some(folded) => decide(folded.as_bytes(), named),
+        None => Lookup::Unknown,
+    }
+}
+
+/// Decides between names: the exact one, else the only one that begins so.
+pub(super) fn decide<'name, T>(
+    folded: &[u8],
+    named: impl IntoIterator<Item = (T, &'name str)>,
+) -> Lookup<T> {
+    let mut only = None;
+    let mut others = Vec::new();
+    for (thing, name) in named {
+        match begins_with(name, folded) {
+            Match::Exact => return Lookup::Exact(thing),
+            Match::Prefix if only.is_none() => only = Some(thing),
+            Match::Prefix => others.push(thing),
+            Match::No => {}
+        }
+    }
+    match only {
+        None => Lookup::Unknown,
+        Some(only) if others.is_empty() => Lookup::Abbreviated(only),
+        Some(first) => {
+            others.insert(0, first);
+            Lookup::Ambiguous(others)
+        }
+    }
+}
+
+enum Match {
+    Exact,
+    Prefix,
+    No,
+}
+
+/// Whether a name, blanks not counted, begins with the folded text. Names are upper case.
+fn begins_with(name: &str, folded: &[u8]) -> Match {
+    let mut letters = name.bytes().filter(|byte| *byte != b' ');
+    if !folded.iter().all(|byte| letters.next() == Some(*byte)) {
+        return Match::No;
+    }
+    if letters.next().is_none() {
+        Match::Exact
+    } else {
+        Match::Prefix
+    }
+}
+
+/// A written word without blanks and tabs, in upper case (S-07, S-11, S-12).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Folded {
+    bytes: [u8; Self::LONGEST],
+    length: usize,
+}
+
+impl Folded {
+    /// More than any name has; a test holds the names against it.
+    pub(super) const LONGEST: usize = 64;
+
+    /// `None` when nothing is left, or more than any name has: such a word means nothing.
+    pub(super) fn new(written: &[u8]) -> Option<Self> {
+        let mut folded = Self {
+            bytes: [0; Self::LONGEST],
+            length: 0,
+        };
+        for byte in fold(written) {
+            *folded.bytes.get_mut(folded.length)? = byte;
+            folded.length += 1;
+        }
+        (folded.length > 0).then_some(folded)
+    }
+
+    pub(super) fn as_bytes(&self) -> &[u8] {
+        &self.bytes[..self.length]
+    }
+}
+
+/// The bytes that count, in upper case. Line ends are none of them: a keyword line may go on behind one (S-19).
+pub(super) fn fold(written: &[u8]) -> impl Iterator<Item = u8> {
+    written
+        .iter()
+        .filter(|byte| !byte.is_ascii_whitespace())
+        .map(u8::to_ascii_uppercase)
+}
