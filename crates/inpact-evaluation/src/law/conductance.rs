@@ -1,0 +1,208 @@
+//! Contact conductance by its two branches, against clearance and against contact pressure.
+//!
+//! Semantics T-20 to T-25, J-5, Q-1, Q-12; Analysis User's Guide 37.3.1 (electrical) and 37.2.1 (thermal), 6.14.
+//!
+//! | tables given | closed | open |
+//! |---|---|---|
+//! | clearance only | clearance table, overclosure taken as d = 0 | clearance table |
+//! | pressure only | pressure table | 0 |
+//! | both | pressure table | clearance table, d < 0 taken as d = 0 |
+//!
+//! Both tables may depend on the average temperature and on averaged field variables as well.
+//! The conductance jumps where the two branches meet, where a pressure table alone opens, and at the last clearance under [`crate::table::Tail::Zero`].
+
+use super::contact::{Clearance, ContactPressure, ContactState};
+use crate::table::{PiecewiseTable, Sides};
+
+/// The tables of a conductance: axis 0 clearance or pressure, axis 1 average temperature, then the field variables.
+#[derive(Clone, Debug)]
+pub enum ConductanceTables {
+    /// Conductance against clearance only.
+    Clearance(PiecewiseTable),
+    /// Conductance against contact pressure only.
+    Pressure(PiecewiseTable),
+    /// One table for the open and one for the closed interface.
+    Both {
+        /// Conductance against clearance, while open.
+        clearance: PiecewiseTable,
+        /// Conductance against contact pressure, while closed.
+        pressure: PiecewiseTable,
+    },
+}
+
+/// The state of one point of contact as far as a conductance depends on it.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactPoint<'a> {
+    /// Clearance d.
+    pub clearance: Clearance,
+    /// Contact pressure p.
+    pub pressure: ContactPressure,
+    /// Closed or open.
+    pub state: ContactState,
+    /// The average temperature of the two sides, then the averages of the field variables, as far as the tables depend on them; the rest may be NaN or left out.
+    pub variables: &'a [f64],
+}
+
+/// Which table a conductance came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branch {
+    /// The table against clearance.
+    Clearance,
+    /// The table against contact pressure.
+    Pressure,
+    /// No table: open with a pressure table alone, or a state that cannot be told.
+    Neither,
+}
+
+/// A conductance and where it came from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conductance {
+    /// The conductance, in the unit of the table's first column.
+    pub value: f64,
+    /// The branch in force.
+    pub branch: Branch,
+    /// Along which axes of that branch's table the point lies outside.
+    pub sides: Sides,
+}
+
+impl ConductanceTables {
+    /// The conductance at a point.
+    ///
+    /// NaN where the state is undetermined or an input the branch depends on is NaN.
+    #[inline]
+    pub fn conductance(&self, point: &ContactPoint<'_>) -> Conductance {
+        let (branch, table) = self.branch(point.state);
+        match table {
+            Some(table) => {
+                let (value, sides) =
+                    table.value_and_sides_at(abscissa(branch, point), point.variables);
+                Conductance {
+                    value,
+                    branch,
+                    sides,
+                }
+            }
+            None => Conductance {
+                value: value_without_table(point.state),
+                branch,
+                sides: Sides::default(),
+            },
+        }
+    }
+
+    /// The slope of the conductance along axis 0 of the branch in force, and along temperature and field variables in `variables`.
+    ///
+    /// Slope of the containing segment, right-hand at an abscissa, zero outside the table (semantics 4.4).
+    /// So it is zero in overclosure, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it ([`Self::jumps_at`]).
+    pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
+        let (branch, table) = self.branch(point.state);
+        let Some(table) = table else {
+            let nothing = value_without_table(point.state);
+            variables.fill(nothing);
+            return ConductanceSlopes {
+                clearance: nothing,
+                pressure: nothing,
+            };
+        };
+        let first = abscissa(branch, point);
+        for (variable, slope) in variables.iter_mut().enumerate() {
+            *slope = table.slope_at(variable + 1, first, point.variables);
+        }
+        let along = |branch_of_slope| {
+            if branch_of_slope != branch || (branch == Branch::Clearance && point.clearance.0 < 0.0)
+            {
+                0.0
+            } else {
+                table.slope_at(0, first, point.variables)
+            }
+        };
+        ConductanceSlopes {
+            clearance: along(Branch::Clearance),
+            pressure: along(Branch::Pressure),
+        }
+    }
+
+    /// Whether the conductance jumps at this very point: at d = 0 between branches of different value, or at the last clearance of a table that is zero beyond it.
+    pub fn jumps_at(&self, point: &ContactPoint<'_>) -> bool {
+        let value_when = |state, clearance| {
+            let point = ContactPoint {
+                clearance: Clearance(clearance),
+                state,
+                ..*point
+            };
+            self.conductance(&point).value
+        };
+        let d = point.clearance.0;
+        if d == 0.0 && value_when(ContactState::Open, 0.0) != value_when(ContactState::Closed, 0.0)
+        {
+            return true;
+        }
+        let here = self.conductance(point);
+        if here.branch != Branch::Clearance || here.value == 0.0 || d < 0.0 {
+            return false;
+        }
+        let beyond = ContactPoint {
+            clearance: Clearance(d.next_up()),
+            ..*point
+        };
+        let next = self.conductance(&beyond);
+        let drops = match self {
+            Self::Clearance(table)
+            | Self::Both {
+                clearance: table, ..
+            } => table.tail() == crate::table::Tail::Zero,
+            Self::Pressure(_) => false,
+        };
+        drops && !here.sides.is_above(0) && next.sides.is_above(0)
+    }
+
+    /// The branch and table that hold in a state.
+    fn branch(&self, state: ContactState) -> (Branch, Option<&PiecewiseTable>) {
+        match (self, state) {
+            (Self::Clearance(table), _)
+            | (
+                Self::Both {
+                    clearance: table, ..
+                },
+                ContactState::Open,
+            ) => (Branch::Clearance, Some(table)),
+            (
+                Self::Pressure(table)
+                | Self::Both {
+                    pressure: table, ..
+                },
+                ContactState::Closed,
+            ) => (Branch::Pressure, Some(table)),
+            (Self::Pressure(_), ContactState::Open) | (_, ContactState::Undetermined) => {
+                (Branch::Neither, None)
+            }
+        }
+    }
+}
+
+/// Slopes of a conductance along the two quantities of contact; one of the two is zero, as only one branch holds at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConductanceSlopes {
+    /// Per unit of clearance.
+    pub clearance: f64,
+    /// Per unit of contact pressure.
+    pub pressure: f64,
+}
+
+/// The coordinate of axis 0 of a branch's table; overclosure counts as zero clearance (J-5).
+fn abscissa(branch: Branch, point: &ContactPoint<'_>) -> f64 {
+    match branch {
+        Branch::Pressure => point.pressure.0,
+        // NaN stays NaN: f64::max would drop it.
+        _ if point.clearance.0 < 0.0 => 0.0,
+        _ => point.clearance.0,
+    }
+}
+
+/// The conductance, and all its slopes, where no table holds.
+fn value_without_table(state: ContactState) -> f64 {
+    match state {
+        ContactState::Undetermined => f64::NAN,
+        _ => 0.0,
+    }
+}

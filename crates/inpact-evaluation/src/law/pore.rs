@@ -1,0 +1,307 @@
+//! Pore fluid across an interface and into its changing gap: *CONTACT PERMEABILITY.
+//!
+//! q_slave = q_gap,slave + q_across, q_master = q_gap,master − q_across: volume per area and time, positive **into** each body (P-10).
+//!
+//! - across: q_across = k (p_master − p_slave), positive out of the master into the slave (P-11, P-31);
+//!   without a table the permeability is infinite, both pore pressures are equal and q_across is an unknown of the equations (P-30);
+//! - gap filling: q_gap,slave = −w ḋ, q_gap,master = −(1 − w) ḋ with w = k₁ / (k₁ + k₂) of the bulk permeabilities of slave and master,
+//!   and w = ½ where the interface's permeability is infinite or the bulk's unknown (P-40 to P-42); zero in steady state (P-13).
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | k | permeability of the interface, a table against contact pressure, mean pore pressure, mean temperature, field variables | L² T M⁻¹ |
+//! | p_slave, p_master | pore pressures | M L⁻¹ T⁻² |
+//! | d, ḋ | clearance and its rate | L, L T⁻¹ |
+//! | k₁, k₂ | bulk permeabilities behind slave and master | any, the same for both |
+//!
+//! Both parts end at a cutoff of their own, by default the characteristic element length of the surfaces (P-20, P-21), at which they are still in force (P-22, Q-4).
+//! While the interface is open, k is the table's value at contact pressure 0 (P-34).
+//! Output PFL is the flow leaving the slave, −q_slave (section 3.6).
+//!
+//! Derivatives: slopes of the table as in semantics 4.4; ∂q_across/∂p_master = k + ½ k_p̄ (p_master − p_slave), ∂q_across/∂p_slave = −k + ½ k_p̄ (p_master − p_slave) (section 8).
+//! Limits: k = 0 is a sealed interface; a cutoff of 0 confines its part to the closed interface.
+//! Source: semantics P-10 to P-42; Analysis User's Guide 37.4.1, Theory Guide 5.2.2 (6.14).
+
+use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
+use crate::numbers::{ratio, scaled_difference_product};
+use crate::table::{PiecewiseTable, Sides};
+
+/// The pore fluid law of one surface interaction.
+#[derive(Clone, Debug)]
+pub struct PoreLaw {
+    /// Resistance to flow across.
+    pub permeability: Permeability,
+    /// How far apart the surfaces may be.
+    pub cutoffs: Cutoffs,
+    /// Whether a part is in force at its very cutoff.
+    pub boundary: CutoffBoundary,
+}
+
+/// The permeability of an interface.
+#[derive(Clone, Debug)]
+pub enum Permeability {
+    /// No resistance: equal pore pressures on both sides (P-30).
+    Infinite,
+    /// A table: axis 0 contact pressure, 1 mean pore pressure, 2 mean temperature, then field variables (P-32).
+    Finite(PiecewiseTable),
+}
+
+/// The clearances up to which fluid flows; `None` where the characteristic element length takes their place (P-20).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cutoffs {
+    /// CUTOFF FLOW ACROSS.
+    pub flow_across: Option<f64>,
+    /// CUTOFF GAP FILL.
+    pub gap_fill: Option<f64>,
+}
+
+/// Whether flow at a clearance equal to the cutoff is still in force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CutoffBoundary {
+    /// Yes, as the user's guide has it: off above the cutoff.
+    #[default]
+    Inclusive,
+    /// No, as the theory guide has it: off from the cutoff on.
+    Exclusive,
+}
+
+/// The state of one point of the interface as far as pore flow depends on it.
+#[derive(Clone, Copy, Debug)]
+pub struct PorePoint<'a> {
+    /// Clearance d.
+    pub clearance: Clearance,
+    /// Contact pressure p, the effective one (P-01).
+    pub pressure: ContactPressure,
+    /// Closed or open.
+    pub state: ContactState,
+    /// Pore pressure at the slave surface.
+    pub slave: PorePressure,
+    /// Pore pressure at the master surface.
+    pub master: PorePressure,
+    /// The mean of the two pore pressures, the mean temperature, then the field variables, as far as the table depends on them; the rest may be NaN or left out.
+    pub variables: &'a [f64],
+    /// The characteristic element length, if known.
+    pub characteristic_length: Option<f64>,
+    /// Bulk permeabilities behind slave and master, if both are known.
+    pub bulk: Option<BulkPermeabilities>,
+    /// What the gap does.
+    pub gap: Gap,
+    /// q_across where it is known although the permeability is infinite, from a solution of the equations it is an unknown of.
+    pub multiplier: Option<f64>,
+}
+
+/// Permeabilities of the materials on both sides, in any one unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BulkPermeabilities {
+    /// Behind the slave surface, k₁.
+    pub slave: f64,
+    /// Behind the master surface, k₂.
+    pub master: f64,
+}
+
+/// Whether a changing gap takes up fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gap {
+    /// Steady state: it does not change (P-13).
+    Steady,
+    /// Its clearance changes at this rate.
+    Changing(ClearanceRate),
+}
+
+/// Whether one of the two parts of the flow is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// It is.
+    Active,
+    /// The surfaces are beyond its cutoff.
+    CutOff,
+    /// The cutoff is the characteristic element length, which is not known and would decide.
+    NeedsCharacteristicLength,
+}
+
+/// What flows at one point of the interface. `None` is a number nobody knows here: see `across` and `gap_fill` for why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoreFlow {
+    /// Whether fluid crosses the interface.
+    pub across: Flow,
+    /// Whether the gap takes up fluid, were it to change.
+    pub gap_fill: Flow,
+    /// k in force: 0 beyond the cutoff, `None` where it is infinite.
+    pub permeability: Option<f64>,
+    /// Whether an infinite permeability holds the two pore pressures equal here.
+    pub is_constrained: bool,
+    /// Flow from master to slave.
+    pub q_across: Option<f64>,
+    /// Flow into the slave out of the closing gap.
+    pub q_gap_slave: Option<f64>,
+    /// Flow into the master out of the closing gap.
+    pub q_gap_master: Option<f64>,
+    /// w, the slave's share of gap filling.
+    pub slave_share: f64,
+    /// Along which axes of the table the point lies outside.
+    pub sides: Sides,
+}
+
+impl PoreFlow {
+    /// All flow into the slave, q_s.
+    pub fn into_slave(&self) -> Option<f64> {
+        Some(self.q_gap_slave? + self.q_across?)
+    }
+
+    /// All flow into the master, q_m.
+    pub fn into_master(&self) -> Option<f64> {
+        Some(self.q_gap_master? - self.q_across?)
+    }
+
+    /// Pore volume flux leaving the slave (output PFL), −q_s.
+    pub fn leaving_slave(&self) -> Option<f64> {
+        // 0 − q and not −q: no flow is 0, not −0.
+        Some(0.0 - self.into_slave()?)
+    }
+}
+
+impl PoreLaw {
+    /// The flow at a point.
+    pub fn flow(&self, point: &PorePoint<'_>) -> PoreFlow {
+        let across = self.flow_across(point);
+        let gap_fill = self.gap_fill(point);
+        let (permeability, sides) = self.permeability_in_force(across, point);
+        let is_constrained =
+            across == Flow::Active && matches!(self.permeability, Permeability::Infinite);
+        let q_across = match permeability {
+            Some(permeability) if across == Flow::Active => Some(scaled_difference_product(
+                permeability,
+                point.master.0,
+                point.slave.0,
+            )),
+            _ if is_constrained => point.multiplier,
+            _ if across == Flow::CutOff => Some(0.0),
+            _ => None,
+        };
+        let (slave_share, master_share) = self.gap_shares(point.bulk);
+        let (q_gap_slave, q_gap_master) = match (gap_fill, point.gap) {
+            (_, Gap::Steady) | (Flow::CutOff, _) => (Some(0.0), Some(0.0)),
+            (Flow::Active, Gap::Changing(rate)) => (
+                Some(0.0 - slave_share * rate.0),
+                Some(0.0 - master_share * rate.0),
+            ),
+            (Flow::NeedsCharacteristicLength, Gap::Changing(_)) => (None, None),
+        };
+        PoreFlow {
+            across,
+            gap_fill,
+            permeability,
+            is_constrained,
+            q_across,
+            q_gap_slave,
+            q_gap_master,
+            slave_share,
+            sides,
+        }
+    }
+
+    /// The slope of the permeability in force along contact pressure, and in `variables` along mean pore pressure, mean temperature and field variables.
+    ///
+    /// Zero along the contact pressure while open, and altogether where there is no flow across or the permeability is infinite.
+    pub fn permeability_slopes(&self, point: &PorePoint<'_>, variables: &mut [f64]) -> f64 {
+        variables.fill(0.0);
+        let (Permeability::Finite(table), Flow::Active) =
+            (&self.permeability, self.flow_across(point))
+        else {
+            return 0.0;
+        };
+        let pressure = effective_pressure(point);
+        for (variable, slope) in variables.iter_mut().enumerate() {
+            *slope = table.slope_at(variable + 1, pressure, point.variables);
+        }
+        match point.state {
+            ContactState::Open => 0.0,
+            _ => table.slope_at(0, pressure, point.variables),
+        }
+    }
+
+    /// Whether fluid crosses the interface at a point.
+    fn flow_across(&self, point: &PorePoint<'_>) -> Flow {
+        self.flow_within(self.cutoffs.flow_across, point)
+    }
+
+    /// Whether a change of the gap draws fluid at a point; without a change the cutoff does not matter.
+    fn gap_fill(&self, point: &PorePoint<'_>) -> Flow {
+        match (self.flow_within(self.cutoffs.gap_fill, point), point.gap) {
+            (Flow::NeedsCharacteristicLength, Gap::Steady) => Flow::Active,
+            (Flow::NeedsCharacteristicLength, Gap::Changing(rate)) if rate.0 == 0.0 => Flow::Active,
+            (flow, _) => flow,
+        }
+    }
+
+    fn flow_within(&self, cutoff: Option<f64>, point: &PorePoint<'_>) -> Flow {
+        let d = point.clearance.0;
+        let Some(cutoff) = cutoff.or(point.characteristic_length) else {
+            // Any length is positive, so a closed interface is within it.
+            return if d > 0.0 {
+                Flow::NeedsCharacteristicLength
+            } else {
+                Flow::Active
+            };
+        };
+        let is_beyond = match self.boundary {
+            CutoffBoundary::Inclusive => d > cutoff,
+            CutoffBoundary::Exclusive => d >= cutoff,
+        };
+        if is_beyond {
+            Flow::CutOff
+        } else {
+            Flow::Active
+        }
+    }
+
+    fn permeability_in_force(&self, across: Flow, point: &PorePoint<'_>) -> (Option<f64>, Sides) {
+        let nowhere = Sides::default();
+        match (across, &self.permeability) {
+            (Flow::CutOff, _) => (Some(0.0), nowhere),
+            (Flow::NeedsCharacteristicLength, _) | (Flow::Active, Permeability::Infinite) => {
+                (None, nowhere)
+            }
+            (Flow::Active, Permeability::Finite(_)) if point.clearance.0.is_nan() => {
+                (Some(f64::NAN), nowhere)
+            }
+            (Flow::Active, Permeability::Finite(table)) => {
+                let (permeability, sides) =
+                    table.value_and_sides_at(effective_pressure(point), point.variables);
+                (Some(permeability), sides)
+            }
+        }
+    }
+
+    /// The shares of slave and master in gap filling (P-42).
+    fn gap_shares(&self, bulk: Option<BulkPermeabilities>) -> (f64, f64) {
+        match (&self.permeability, bulk) {
+            (Permeability::Finite(_), Some(BulkPermeabilities { slave, master }))
+                if slave != 0.0 || master != 0.0 =>
+            {
+                (ratio(slave, master), ratio(master, slave))
+            }
+            _ => (0.5, 0.5),
+        }
+    }
+}
+
+/// The contact pressure the table is read at: 0 while open (P-34).
+fn effective_pressure(point: &PorePoint<'_>) -> f64 {
+    match point.state {
+        ContactState::Closed => point.pressure.0,
+        ContactState::Open => 0.0,
+        ContactState::Undetermined => f64::NAN,
+    }
+}
+
+/// Slopes of q_across along the pore pressures of slave and master, in this order (section 8), for a permeability and its slope along the mean pore pressure.
+pub fn across_slopes(
+    permeability: f64,
+    mean_pressure_slope: f64,
+    slave: PorePressure,
+    master: PorePressure,
+) -> (f64, f64) {
+    let common = 0.5 * scaled_difference_product(mean_pressure_slope, master.0, slave.0);
+    (common - permeability, common + permeability)
+}

@@ -1,0 +1,23 @@
+//! Floating-point building blocks of the laws: interpolation, products, means and sums that keep their accuracy at the extremes.
+//!
+//! Everything here is a function of plain `f64`; tables, laws and files are unknown to it.
+//! Three promises hold for all finite inputs, subnormal numbers and values near the overflow limit included:
+//!
+//! - interpolation between two values of one sign is within 2 ulp of the exact value, exact at both ends and never outside them ([`interpolate`], [`between`]);
+//! - a product or a dissipation whose exact value is a finite number is one, whatever its intermediate results would do ([`product`]);
+//! - a sum keeps the digits its terms lose against each other ([`CompensatedSum`]).
+//!
+//! Ordinary exponents take a short path of plain arithmetic; all others go through [`Scaled`], a number of 106 bits whose exponent cannot overflow.
+
+mod float;
+mod product;
+mod scaled;
+mod segment;
+mod sum;
+
+pub(crate) use float::is_zero_or_ordinary;
+pub use float::{two_difference, two_product, two_sum, ulp};
+pub use product::{mean, product, ratio, scaled_difference_product};
+pub use scaled::Scaled;
+pub use segment::{between, interpolate, kernel_slope, slope};
+pub use sum::CompensatedSum;

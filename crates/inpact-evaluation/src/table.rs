@@ -1,0 +1,131 @@
+//! Tables of a property against any number of variables: nested piecewise-linear functions.
+//!
+//! A table's rows stand in the order of the deck, the first variable running fastest (semantics T-01 to T-03; Analysis User's Guide 1.2.1 and 21.1.2).
+//! They need not form a grid: each combination of the outer variables has its own abscissae of the inner ones (T-05), and the value is found from the inside out (T-06):
+//! each group is interpolated at its own abscissae with its own constant ends, then the results are interpolated over the next variable.
+//!
+//! Knows nothing of keywords or files: numbers in, numbers out, no allocation at a query.
+
+mod build;
+mod evaluate;
+mod sides;
+
+pub use build::{TableError, TableFault};
+pub use sides::Sides;
+
+/// A nested piecewise-linear function of any number of variables ("axes"), compiled for evaluation.
+///
+/// Axis 0 is the first variable of the deck's rows and runs fastest; the last axis runs slowest.
+/// Without any axis the function is a constant.
+///
+/// Between rows the function is linear along each axis, outside the rows of a group it is constant (T-04), or zero beyond the last row where [`Tail::Zero`] says so for axis 0.
+/// A group with one row is constant along its axis (T-07), whatever the tail.
+#[derive(Clone, Debug)]
+pub struct PiecewiseTable {
+    /// How many axes the rows have.
+    axis_count: usize,
+    /// What follows the last row of a group of axis 0.
+    tail: Tail,
+    /// The axes the value depends on, fastest first. An axis every group of which has one row is left out.
+    levels: Vec<Level>,
+    /// One value a row.
+    values: Vec<f64>,
+    /// For each row the slope towards the next in the form [`crate::numbers::interpolate`] wants; of no meaning in the last row of a group.
+    slopes: Vec<f64>,
+    /// What the rows say of each axis, left out or not.
+    axes: Vec<AxisSummary>,
+}
+
+/// What a table is beyond the last abscissa of axis 0 within each group.
+///
+/// Electrical conductance against clearance is constant by the words of Analysis User's Guide 37.3.1 and zero by its figure;
+/// thermal conductance against clearance is zero (37.2.1). At the last abscissa itself the row's value holds in either case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tail {
+    /// The last row's value.
+    #[default]
+    Constant,
+    /// Zero immediately beyond the last row.
+    Zero,
+}
+
+/// One axis of a table as its rows have it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisSummary {
+    /// The smallest abscissa.
+    pub least: f64,
+    /// The largest abscissa.
+    pub greatest: f64,
+    /// How many groups of this axis there are: 1 for the last axis, and for the others one for each row of the axis outside it.
+    pub group_count: usize,
+    /// How many abscissae the groups have together.
+    pub knot_count: usize,
+    /// How many of these differ.
+    pub distinct_count: usize,
+}
+
+impl AxisSummary {
+    /// Whether the table's value depends on this axis at all: some group has two abscissae.
+    pub fn matters(&self) -> bool {
+        self.knot_count > self.group_count
+    }
+
+    /// Whether all groups have one and the same single abscissa, as a blank column has (T-02).
+    pub fn has_one_value(&self) -> bool {
+        self.distinct_count == 1
+    }
+}
+
+/// One axis the value depends on: the abscissae of all its groups in row order.
+#[derive(Clone, Debug)]
+struct Level {
+    /// Which axis of the rows this is.
+    axis: usize,
+    knots: Vec<f64>,
+    /// Knot j owns the knots `children[j]..children[j + 1]` of the level below. Empty in the innermost level, whose knot j owns row j.
+    children: Vec<usize>,
+}
+
+impl PiecewiseTable {
+    /// A table of one value that depends on nothing.
+    pub fn constant(value: f64) -> Self {
+        Self {
+            axis_count: 0,
+            tail: Tail::Constant,
+            levels: Vec::new(),
+            values: vec![value],
+            slopes: vec![0.0],
+            axes: Vec::new(),
+        }
+    }
+
+    /// How many axes the rows have, those the value does not depend on included.
+    pub fn axis_count(&self) -> usize {
+        self.axis_count
+    }
+
+    /// How many rows the table was built from.
+    pub fn row_count(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Each axis' range and size, in the order of the columns.
+    pub fn axes(&self) -> &[AxisSummary] {
+        &self.axes
+    }
+
+    /// How many groups of axis 0 there are, that is combinations of the outer variables; 1 for a table without axes.
+    pub fn group_count(&self) -> usize {
+        self.axes.first().map_or(1, |axis| axis.group_count)
+    }
+
+    /// The values of the rows, in row order.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// What follows the last row of a group of axis 0.
+    pub fn tail(&self) -> Tail {
+        self.tail
+    }
+}

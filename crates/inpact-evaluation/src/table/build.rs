@@ -1,0 +1,244 @@
+//! From the rows of a deck to a table that can be evaluated: validation (semantics T-08 to T-10) and grouping (T-02, T-05).
+
+use std::fmt;
+
+use super::{AxisSummary, Level, PiecewiseTable, Tail};
+use crate::numbers::kernel_slope;
+
+/// Rows that do not form a table: which row it is, counted from zero, and what is wrong with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TableError {
+    /// The row, counted from zero.
+    pub row: usize,
+    /// What is wrong with it.
+    pub fault: TableFault,
+}
+
+/// What can be wrong with a row of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TableFault {
+    /// There are no rows.
+    NoRows,
+    /// The cells do not divide into rows of `width`, which is at least 1: the last row has only `found`.
+    IncompleteRow {
+        /// Cells a row has.
+        width: usize,
+        /// Cells the last row has.
+        found: usize,
+    },
+    /// A cell holds an infinity or NaN.
+    NotFinite {
+        /// The column, 0 for the value and a + 1 for axis a.
+        column: usize,
+        /// What stands there.
+        found: f64,
+    },
+    /// A second row of a table without axes, which is a single constant.
+    SecondConstant,
+    /// The abscissa of `axis` is not above the row before while all outer axes are unchanged.
+    NotAscending {
+        /// The axis, counted from zero.
+        axis: usize,
+        /// The abscissa of the row before.
+        previous: f64,
+        /// The abscissa of this row.
+        found: f64,
+    },
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let row = self.row + 1;
+        match self.fault {
+            TableFault::NoRows => write!(f, "the table has no rows"),
+            TableFault::IncompleteRow { width, found } => {
+                write!(f, "row {row} has {found} of {width} cells")
+            }
+            TableFault::NotFinite { column, found } => {
+                write!(f, "row {row} has {found} in column {}", column + 1)
+            }
+            TableFault::SecondConstant => {
+                write!(f, "row {row} follows a constant, which has one row")
+            }
+            TableFault::NotAscending {
+                axis,
+                previous,
+                found,
+            } => {
+                write!(
+                    f,
+                    "row {row} has {found:?} after {previous:?} in column {}, which must ascend",
+                    axis + 2
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for TableError {}
+
+impl PiecewiseTable {
+    /// Builds a table from `cells`, rows of `width` numbers each: the value, then axis 0 (fastest) to the last axis (slowest).
+    ///
+    /// # Errors
+    /// The first row that breaks the order (T-08, T-09: an abscissa that does not rise while all outer ones stand still, or an outer one that falls),
+    /// holds a number that is not finite, or is incomplete. Abscissae are compared as numbers (T-10).
+    pub fn from_rows(cells: &[f64], width: usize, tail: Tail) -> Result<Self, TableError> {
+        check_cells(cells, width)?;
+        let axis_count = width - 1;
+        let mut axes = vec![Vec::<f64>::new(); axis_count];
+        // For each axis but the first, where in the axis below the children of its knots begin.
+        let mut starts = vec![Vec::<usize>::new(); axis_count];
+        let mut group_counts = vec![0; axis_count];
+        let mut previous: Option<&[f64]> = None;
+        for (row, cells) in cells.chunks_exact(width).enumerate() {
+            let abscissae = &cells[1..];
+            let changed = match previous {
+                None => axis_count,
+                Some(previous) => {
+                    first_change(previous, abscissae).map_err(|fault| TableError { row, fault })?
+                }
+            };
+            // The outermost changed axis goes on in its group; all inside it begin new groups.
+            for axis in (0..axis_count)
+                .take(changed + usize::from(changed < axis_count))
+                .rev()
+            {
+                if axis > 0 {
+                    let children = axes[axis - 1].len();
+                    starts[axis].push(children);
+                }
+                axes[axis].push(abscissae[axis]);
+                if axis < changed {
+                    group_counts[axis] += 1;
+                }
+            }
+            previous = Some(abscissae);
+        }
+        let values: Vec<f64> = cells.iter().step_by(width).copied().collect();
+        let summaries: Vec<AxisSummary> = axes
+            .iter()
+            .zip(&group_counts)
+            .map(|(knots, &group_count)| AxisSummary {
+                least: knots.iter().copied().fold(f64::INFINITY, f64::min),
+                greatest: knots.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+                group_count,
+                knot_count: knots.len(),
+                distinct_count: distinct_count(knots, group_count),
+            })
+            .collect();
+        let levels = levels_that_matter(axes, starts, &summaries);
+        let slopes = row_slopes(&levels, &values);
+        Ok(Self {
+            axis_count,
+            tail,
+            levels,
+            values,
+            slopes,
+            axes: summaries,
+        })
+    }
+}
+
+/// Refuses cells that are no complete rows of finite numbers.
+fn check_cells(cells: &[f64], width: usize) -> Result<(), TableError> {
+    let fault = |row, fault| Err(TableError { row, fault });
+    if cells.is_empty() {
+        return fault(0, TableFault::NoRows);
+    }
+    let found = cells.len() % width.max(1);
+    if width == 0 || found != 0 {
+        return fault(
+            cells.len() / width.max(1),
+            TableFault::IncompleteRow { width, found },
+        );
+    }
+    match cells.iter().position(|cell| !cell.is_finite()) {
+        None => Ok(()),
+        Some(index) => fault(
+            index / width,
+            TableFault::NotFinite {
+                column: index % width,
+                found: cells[index],
+            },
+        ),
+    }
+}
+
+/// The slowest axis on which a row differs from the one before, which must have risen.
+fn first_change(previous: &[f64], found: &[f64]) -> Result<usize, TableFault> {
+    let changed = (0..found.len())
+        .rev()
+        .find(|&axis| previous[axis] != found[axis])
+        .unwrap_or(0);
+    match (previous.get(changed), found.get(changed)) {
+        (Some(&previous), Some(&found)) if found > previous => Ok(changed),
+        (Some(&previous), Some(&found)) => Err(TableFault::NotAscending {
+            axis: changed,
+            previous,
+            found,
+        }),
+        _ => Err(TableFault::SecondConstant),
+    }
+}
+
+/// How many different abscissae an axis has over all its groups.
+fn distinct_count(knots: &[f64], group_count: usize) -> usize {
+    if group_count == 1 {
+        return knots.len();
+    }
+    let mut sorted = knots.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted.dedup();
+    sorted.len()
+}
+
+/// The levels of the axes some group of which has more than one knot, each linked to the next such axis inside it.
+///
+/// An axis left out has one knot a group, so its knot j is the only child of knot j of the axis outside it:
+/// knot j of the next axis that matters owns what knot j of the outermost left-out axis owns.
+fn levels_that_matter(
+    axes: Vec<Vec<f64>>,
+    mut starts: Vec<Vec<usize>>,
+    summaries: &[AxisSummary],
+) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    for (axis, knots) in axes.into_iter().enumerate() {
+        if !summaries[axis].matters() {
+            continue;
+        }
+        let children = levels.last().map_or_else(Vec::new, |below| {
+            let mut children = std::mem::take(&mut starts[below.axis + 1]);
+            children.push(below.knots.len());
+            children
+        });
+        levels.push(Level {
+            axis,
+            knots,
+            children,
+        });
+    }
+    levels
+}
+
+/// The kernel slope from each row to the next of its group; of no meaning in the last row of a group.
+fn row_slopes(levels: &[Level], values: &[f64]) -> Vec<f64> {
+    let Some(innermost) = levels.first() else {
+        return vec![0.0; values.len()];
+    };
+    let mut slopes: Vec<f64> = innermost
+        .knots
+        .windows(2)
+        .zip(values.windows(2))
+        .map(|(knots, values)| {
+            // Within a group abscissae rise. Where they do not, the next row opens a group; where that happens unseen, the slope is never asked for.
+            if knots[0] < knots[1] {
+                kernel_slope((knots[0], values[0]), (knots[1], values[1]))
+            } else {
+                0.0
+            }
+        })
+        .collect();
+    slopes.push(0.0);
+    slopes
+}
