@@ -4,6 +4,7 @@
 //! [`syntax`] is how it says it: schema `inpact/syntax/1`, from which the files come back byte for byte.
 //! Reading is strict: an unknown field, a wrong type or a missing field is refused with its JSON path.
 
+mod layout;
 pub mod model;
 pub mod syntax;
 

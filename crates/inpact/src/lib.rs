@@ -10,7 +10,6 @@ mod files;
 mod render;
 
 use clap::{Parser, Subcommand};
-use failure::{Failure, Outcome};
 use std::ffi::OsString;
 use std::process::ExitCode;
 

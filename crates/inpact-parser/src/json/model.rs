@@ -3,7 +3,7 @@
 //! The structs here are the JSON, field by field; the model itself knows nothing of JSON.
 //! Places (`span`) are byte ranges of the deck the JSON was made from; they are optional on the way back.
 
-use super::{JsonError, parse};
+use super::{JsonError, layout, parse};
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, HeatGeneration,
     Interaction, Model, Name, Procedure, PropertyAssignment, Reference, Regime, SubOption, SurfacePair, Table,
@@ -240,8 +240,7 @@ pub fn write(model: &Model, source: &str) -> String {
         property_assignments: model.property_assignments.iter().map(Into::into).collect(),
         procedures: model.procedures.iter().map(Into::into).collect(),
     };
-    // A document of strings and numbers has no reason to fail.
-    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+    layout::to_string(&document)
 }
 
 impl From<&Interaction> for InteractionDocument {

@@ -4,7 +4,7 @@
 //! its bytes or its line end. What is derived from the lines (`keyword`, `parameters`) is there for reading;
 //! when the JSON comes back it must still agree with them, so that an edit to it is refused rather than ignored.
 
-use super::{JsonError, parse};
+use super::{JsonError, layout, parse};
 use crate::deck::lines::{lines, without_line_end};
 use crate::deck::{Block, Deck, scan};
 use crate::grammar::Grammar;
@@ -87,8 +87,7 @@ pub fn write(deck: &Deck, grammar: &Grammar) -> String {
         File { source: source.name().to_owned(), line_end: line_end.to_owned(), blocks }
     });
     let document = Document { schema: SCHEMA.to_owned(), files: files.collect() };
-    // A document of strings and numbers has no reason to fail.
-    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+    layout::to_string(&document)
 }
 
 /// Reads the lossless view back: the files by name, each with its bytes.
