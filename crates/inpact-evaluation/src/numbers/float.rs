@@ -1,6 +1,6 @@
 //! The f64 itself: error-free sums and products, exponents, powers of two, the unit in the last place.
 
-/// The sum of `a` and `b`, rounded, and what the rounding took away: `a + b = sum + error` exactly, unless the sum overflows.
+/// The sum of `a` and `b`, rounded, and what the rounding took away: `a + b = sum + error` exactly, for magnitudes up to 2¹⁰²².
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -9,7 +9,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - a_part) + (b - b_part))
 }
 
-/// The difference `a - b`, rounded, and what the rounding took away: `a - b = difference + error` exactly, unless the difference overflows.
+/// The difference `a - b`, rounded, and what the rounding took away: `a - b = difference + error` exactly, for magnitudes up to 2¹⁰²².
 #[inline]
 pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
     two_sum(a, -b)
@@ -37,8 +37,11 @@ pub fn ulp(value: f64) -> f64 {
     scale_by_power(1.0, exponent - 52)
 }
 
+/// A quarter of the largest f64, just below 2¹⁰²²: sums of two such numbers are far from overflow.
+pub(super) const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
+
 /// The exponent of the smallest normal f64.
-const LEAST_NORMAL: i32 = -1022;
+pub(super) const LEAST_NORMAL: i32 = -1022;
 
 /// Whether the magnitude of `value` lies between 2⁻²⁵⁰ and 2²⁵¹, so that a handful of products and quotients of such numbers neither over- nor underflows.
 /// False for zero, infinities and NaN.

@@ -2,7 +2,9 @@
 
 use std::ops::{Add, Div, Mul, Neg};
 
-use super::float::{exponent_of, scale_by_power, two_difference, two_product, two_sum};
+use super::float::{
+    LEAST_NORMAL, SAFE_TO_ADD, exponent_of, scale_by_power, two_difference, two_product, two_sum,
+};
 
 /// A finite real number (high + low) × 2^exponent, with 1 <= |high| < 2 or high = 0, and |low| at most half an ulp of high.
 ///
@@ -33,17 +35,30 @@ impl Scaled {
 
     /// The difference `a - b` of two finite numbers, also where it exceeds the range of f64.
     pub fn difference(a: f64, b: f64) -> Self {
-        let (high, low) = two_difference(a, b);
-        if high.is_finite() {
+        if a.abs().max(b.abs()) <= SAFE_TO_ADD {
+            let (high, low) = two_difference(a, b);
             return Self::normalised(high, low, 0);
         }
-        let (high, low) = two_difference(0.5 * a, 0.5 * b);
-        Self::normalised(high, low, 1)
+        let (high, low) = two_difference(0.25 * a, 0.25 * b);
+        Self::normalised(high, low, 2)
     }
 
     /// The nearest f64; infinite where the number exceeds its range, subnormal or zero where it falls below.
     pub fn to_f64(self) -> f64 {
-        scale_by_power(self.high, self.exponent)
+        let nearest = scale_by_power(self.high, self.exponent);
+        if self.exponent >= LEAST_NORMAL {
+            return nearest;
+        }
+        // Below the normal range `high` is rounded a second time. What that took away decides together with `low` which neighbour is nearest.
+        let taken = (self.high - scale_by_power(nearest, -self.exponent)) + self.low;
+        let half_step = scale_by_power(1.0, LEAST_NORMAL - 53 - self.exponent);
+        if taken > half_step {
+            nearest.next_up()
+        } else if taken < -half_step {
+            nearest.next_down()
+        } else {
+            nearest
+        }
     }
 
     /// (high + low) × 2^exponent brought into the form the type promises; `low` must not exceed `high` by much.

@@ -13,11 +13,8 @@
 //! Values of opposite sign: `between` is good to half an ulp of the result plus 2⁻¹⁰² of the larger value, so that relative accuracy is lost only within 2⁻⁵⁰
 //! of the zero crossing; `kernel_slope` sends such segments there.
 
-use super::float::{is_ordinary, two_difference, two_product, two_sum};
+use super::float::{SAFE_TO_ADD, is_ordinary, two_difference, two_product, two_sum};
 use super::scaled::Scaled;
-
-/// The largest value for which the sum of two cannot overflow, with room to spare: 2¹⁰²².
-const HALF_RANGE: f64 = f64::MAX / 4.0;
 
 /// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), with `slope` from [`kernel_slope`] of the same segment.
 ///
@@ -49,7 +46,7 @@ pub fn kernel_slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let slope = slope((x0, y0), (x1, y1));
     let harmless = (slope.is_normal() || y0 == y1)
         && (x1 - x0).is_finite()
-        && y0.abs().max(y1.abs()) <= HALF_RANGE
+        && y0.abs().max(y1.abs()) <= SAFE_TO_ADD
         && !(y0.min(y1) < 0.0 && y0.max(y1) > 0.0);
     if harmless { slope } else { f64::NAN }
 }
