@@ -1,1 +1,1 @@
-//! Whole-program tests of inpact; see the files beside this one.
+//! Whole-program tests of inpact: `whole_program/` runs the binary on the sample decks, `corpus.rs` reads public decks.

@@ -414,7 +414,8 @@ impl Interaction {
         let other = self.other.iter().filter_map(|option| Some((option.keyword.as_str(), option.table.as_ref()?)));
         let named = electrical.map(|table| ("GAP ELECTRICAL CONDUCTANCE", table));
         let named = named.chain(permeability.map(|table| ("CONTACT PERMEABILITY", table))).chain(other);
-        let of = |(keyword, table)| TableOf { kind: TableKind::of(keyword, table), keyword, interaction: Some(self), table };
+        let of =
+            |(keyword, table)| TableOf { kind: TableKind::of(keyword, table), keyword, interaction: Some(self), table };
         named.map(of).collect()
     }
 }

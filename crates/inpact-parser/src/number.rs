@@ -104,7 +104,8 @@ mod tests {
 
     #[test]
     fn shortest_texts_read_back() {
-        let cases = [(10.0, "10."), (1.5, "1.5"), (0.0, "0."), (-0.0, "-0."), (2e-7, "2E-7"), (1e16, "1E16"), (0.1, "0.1")];
+        let cases =
+            [(10.0, "10."), (1.5, "1.5"), (0.0, "0."), (-0.0, "-0."), (2e-7, "2E-7"), (1e16, "1E16"), (0.1, "0.1")];
         for (value, text) in cases {
             assert_eq!(float_text(value), text);
         }

@@ -24,7 +24,9 @@ pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]
 
 /// Finds line and column of every label, in one sweep over the deck.
 fn locate(deck: &Deck, diagnostics: &mut [Diagnostic]) {
-    let labels = |found: &Diagnostic| [found.primary.span].into_iter().chain(found.secondary.iter().map(|l| l.span)).collect::<Vec<_>>();
+    let labels = |found: &Diagnostic| {
+        [found.primary.span].into_iter().chain(found.secondary.iter().map(|l| l.span)).collect::<Vec<_>>()
+    };
     let spans: Vec<_> = diagnostics.iter().flat_map(labels).collect();
     let mut positions = deck.positions(&spans).into_iter();
     for found in diagnostics {

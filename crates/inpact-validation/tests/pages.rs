@@ -49,7 +49,10 @@ fn findings(text: &str) -> Vec<Diagnostic> {
 }
 
 fn shown(found: &[Diagnostic]) -> String {
-    found.iter().map(|found| format!("\n  {} at line {}: {}", found.code, found.primary.position.line, found.message)).collect()
+    found
+        .iter()
+        .map(|found| format!("\n  {} at line {}: {}", found.code, found.primary.position.line, found.message))
+        .collect()
 }
 
 /// The example after every fix of the rule has been applied.
@@ -138,9 +141,8 @@ fn messages_read_alike() {
 fn every_file_of_the_folder_is_listed() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/rules");
     let files = std::fs::read_dir(folder).expect("the folder is there");
-    let codes: BTreeSet<String> = files
-        .map(|file| file.expect("readable").file_name().to_string_lossy()[..4].to_uppercase())
-        .collect();
+    let codes: BTreeSet<String> =
+        files.map(|file| file.expect("readable").file_name().to_string_lossy()[..4].to_uppercase()).collect();
     let listed: Vec<&str> = RULES.iter().map(|rule| rule.code).collect();
     assert!(listed.is_sorted(), "{listed:?}");
     assert_eq!(codes, listed.iter().map(|code| (*code).to_owned()).collect());

@@ -7,7 +7,9 @@
 use super::lines::{
     LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
 };
-use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line};
+use super::{
+    Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line,
+};
 use crate::grammar::{Definition, Grammar, Lookup, ParameterKind, RowShape};
 use crate::span::{SourceId, Span};
 use std::ops::Range;
@@ -164,7 +166,8 @@ impl<'grammar> Scanner<'grammar> {
         }
         if !self.block.free_text {
             let mut noted = noteworthy_lines(bytes, self.offset);
-            noted.extend(indented.iter().map(|start| (*start..next_line(bytes, *start), LineNoteKind::IndentedComment)));
+            noted
+                .extend(indented.iter().map(|start| (*start..next_line(bytes, *start), LineNoteKind::IndentedComment)));
             self.note(noted, bytes);
         }
         match self.block.keeps_rows {
@@ -337,9 +340,7 @@ fn id_of(name: &[u8], grammar: &Grammar) -> Option<crate::grammar::KeywordId> {
 /// Resolves the pieces of a keyword line that stands at `start` in the file.
 fn keyword_line(text: &[u8], start: u64, grammar: &Grammar) -> KeywordLine {
     let pieces = keyword_line::parse(text);
-    let span = |range: Range<usize>| {
-        Span::new(SourceId::ROOT, start + range.start as u64, start + range.end as u64)
-    };
+    let span = |range: Range<usize>| Span::new(SourceId::ROOT, start + range.start as u64, start + range.end as u64);
     let point = |at: usize| span(at..at + 1);
     let resolved = grammar.keyword_named(&text[pieces.name.clone()]);
     let definition = match resolved {

@@ -70,7 +70,8 @@ impl Source {
     /// The kept bytes at the beginning of `range`; empty when the scan kept none of them.
     pub(super) fn text(&self, range: Range<u64>) -> &[u8] {
         let Some((stretch, kept)) = self.stretch_at(range.start) else { return &[] };
-        let kept_range = range.start - stretch.start..(range.end.max(range.start) - stretch.start).min(kept.len() as u64);
+        let kept_range =
+            range.start - stretch.start..(range.end.max(range.start) - stretch.start).min(kept.len() as u64);
         let as_index = |offset| usize::try_from(offset).unwrap_or(usize::MAX);
         kept.get(as_index(kept_range.start)..as_index(kept_range.end)).unwrap_or(&[])
     }

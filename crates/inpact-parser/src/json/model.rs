@@ -5,8 +5,9 @@
 
 use super::{JsonError, layout, parse};
 use crate::model::{
-    CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, HeatGeneration,
-    Interaction, Model, Name, Procedure, PropertyAssignment, Reference, Regime, SubOption, SurfacePair, Table,
+    CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
+    HeatGeneration, Interaction, Model, Name, Procedure, PropertyAssignment, Reference, Regime, SubOption, SurfacePair,
+    Table,
 };
 use crate::span::{SourceId, Span};
 use indexmap::IndexMap;
@@ -253,10 +254,9 @@ impl From<&Interaction> for InteractionDocument {
             properties: interaction.properties.clone(),
             gap_electrical_conductance: interaction.gap_electrical_conductance.as_ref().map(Into::into),
             contact_permeability: interaction.contact_permeability.as_ref().map(Into::into),
-            gap_heat_generation: interaction.gap_heat_generation.map(|heat| HeatDocument {
-                fraction: heat.fraction,
-                slave_weight: heat.slave_weight,
-            }),
+            gap_heat_generation: interaction
+                .gap_heat_generation
+                .map(|heat| HeatDocument { fraction: heat.fraction, slave_weight: heat.slave_weight }),
             other: interaction.other.iter().map(Into::into).collect(),
         }
     }
@@ -386,7 +386,8 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
         model.interactions.insert(interaction.name.clone(), interaction);
     }
     model.contact_pairs = document.contact_pairs.into_iter().map(ContactPairDocument::into_model).collect();
-    model.property_assignments = document.property_assignments.into_iter().map(AssignmentDocument::into_model).collect();
+    model.property_assignments =
+        document.property_assignments.into_iter().map(AssignmentDocument::into_model).collect();
     let procedures = document.procedures.into_iter().enumerate();
     model.procedures = procedures.map(|(index, found)| found.into_model(index)).collect::<Result<_, _>>()?;
     Ok(model)
@@ -400,9 +401,8 @@ impl InteractionDocument {
         interaction.parameters = given_parameters(self.parameters);
         interaction.properties = self.properties;
         let electrical = self.gap_electrical_conductance;
-        interaction.gap_electrical_conductance = electrical
-            .map(|law| law.into_model(&format!("{path}.gap_electrical_conductance")))
-            .transpose()?;
+        interaction.gap_electrical_conductance =
+            electrical.map(|law| law.into_model(&format!("{path}.gap_electrical_conductance"))).transpose()?;
         interaction.contact_permeability = self
             .contact_permeability
             .map(|option| option.into_model(&format!("{path}.contact_permeability")))
@@ -414,8 +414,9 @@ impl InteractionDocument {
             slave_weight: heat.slave_weight,
         });
         let other = self.other.into_iter().enumerate();
-        interaction.other =
-            other.map(|(index, option)| option.into_model(&format!("{path}.other[{index}]"))).collect::<Result<_, _>>()?;
+        interaction.other = other
+            .map(|(index, option)| option.into_model(&format!("{path}.other[{index}]")))
+            .collect::<Result<_, _>>()?;
         Ok(interaction)
     }
 }
@@ -516,10 +517,10 @@ impl TableDocument {
 
 impl ContactPairDocument {
     fn into_model(self) -> ContactPair {
-        let pairs = self.pairs.into_iter().map(|pair| SurfacePair {
-            slave: reference_to(pair.slave),
-            master: pair.master.map(reference_to),
-        });
+        let pairs = self
+            .pairs
+            .into_iter()
+            .map(|pair| SurfacePair { slave: reference_to(pair.slave), master: pair.master.map(reference_to) });
         ContactPair {
             span: Span::default(),
             interaction: self.interaction.map(reference_to),

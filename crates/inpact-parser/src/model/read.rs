@@ -248,7 +248,8 @@ impl<'a> Reader<'a> {
 
     fn set_parts_aside(&mut self, interaction: Interaction) {
         let electrical = interaction.gap_electrical_conductance.into_iter();
-        let tables = electrical.flat_map(|option| [option.clearance, option.pressure]).flatten().map(SetAsideItem::Table);
+        let tables =
+            electrical.flat_map(|option| [option.clearance, option.pressure]).flatten().map(SetAsideItem::Table);
         let items = tables
             .chain(interaction.contact_permeability.map(SetAsideItem::ContactPermeability))
             .chain(interaction.gap_heat_generation.map(SetAsideItem::HeatGeneration))
@@ -356,7 +357,6 @@ impl<'a> Reader<'a> {
         items.collect()
     }
 
-
     fn value_of(&self, option: Entry<'_>, name: &str) -> Option<String> {
         Some(self.deck.shown(option.parameter(name)?.value?))
     }
@@ -413,8 +413,7 @@ impl<'a> Reader<'a> {
         for line in self.deck.data_lines(option.block).filter(|line| !line.is_blank()) {
             let mut items = line.items();
             let mut next = || items.next().and_then(|item| self.reference(item));
-            let assignment =
-                PropertyAssignment { span: line.span, first: next(), second: next(), interaction: next() };
+            let assignment = PropertyAssignment { span: line.span, first: next(), second: next(), interaction: next() };
             self.model.property_assignments.push(assignment);
         }
     }

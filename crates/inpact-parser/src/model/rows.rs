@@ -12,7 +12,8 @@ use crate::span::Span;
 /// Reads the rows of a block.
 pub(super) fn read_table(deck: &Deck, block: &Block, layout: Layout, problems: &mut Vec<Problem>) -> Table {
     let keyword = block.span_of_keyword();
-    let mut reader = RowReader { deck, keyword, layout: &layout, lines: layout.lines_per_row(), problems, table: Table::default() };
+    let mut reader =
+        RowReader { deck, keyword, layout: &layout, lines: layout.lines_per_row(), problems, table: Table::default() };
     reader.table.keyword = keyword;
     let mut line_of_row = 0;
     for line in deck.data_lines(block) {

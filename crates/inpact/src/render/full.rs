@@ -15,10 +15,8 @@ pub(super) fn write(found: &Diagnostic, deck: &Deck, style: Style) -> String {
         Style::Coloured => GraphicalTheme::unicode(),
         Style::Plain => GraphicalTheme::unicode_nocolor(),
     };
-    let handler = GraphicalReportHandler::new_themed(theme)
-        .with_links(false)
-        .with_width(100)
-        .with_context_lines(CONTEXT);
+    let handler =
+        GraphicalReportHandler::new_themed(theme).with_links(false).with_width(100).with_context_lines(CONTEXT);
     let excerpt = Excerpt::around(deck, labels(found), CONTEXT);
     let mut text = String::new();
     // Only the writer could fail, and it is a string.
