@@ -34,30 +34,17 @@ impl ElectricalHistory {
     /// Goes on to the row at `time` with its jump of potential.
     pub fn begin(&mut self, time: f64, jump: PotentialJump) -> ElectricalIncrement {
         let increment = match self.previous {
-            None => ElectricalIncrement {
-                duration: None,
-                jump_at_start: jump,
-            },
-            Some((start, jump_at_start)) => ElectricalIncrement {
-                duration: Some(time - start),
-                jump_at_start,
-            },
+            None => ElectricalIncrement { duration: None, jump_at_start: jump },
+            Some((start, jump_at_start)) => ElectricalIncrement { duration: Some(time - start), jump_at_start },
         };
         self.previous = Some((time, jump));
         increment
     }
 
     /// Adds the increment's flow; `area` is the node's area at its end, if known.
-    pub fn finish(
-        &mut self,
-        increment: &ElectricalIncrement,
-        flow: &ElectricalFlow,
-        area: Option<f64>,
-    ) {
-        self.current
-            .add_increment(flow.current_density, increment.duration, area);
-        self.heat
-            .add_increment(flow.heat.total, increment.duration, area);
+    pub fn finish(&mut self, increment: &ElectricalIncrement, flow: &ElectricalFlow, area: Option<f64>) {
+        self.current.add_increment(flow.current_density, increment.duration, area);
+        self.heat.add_increment(flow.heat.total, increment.duration, area);
     }
 
     /// The integral of the current density (ECDT).
@@ -102,12 +89,7 @@ pub struct PoreIncrement {
 
 impl PoreHistory {
     /// Goes on to the row at `time` with its clearance and, where the data has it, the rate of the clearance.
-    pub fn begin(
-        &mut self,
-        time: f64,
-        clearance: Clearance,
-        given_rate: Option<ClearanceRate>,
-    ) -> PoreIncrement {
+    pub fn begin(&mut self, time: f64, clearance: Clearance, given_rate: Option<ClearanceRate>) -> PoreIncrement {
         let (duration, clearance_change) = match self.previous {
             None => (None, (0.0, 0.0)),
             Some((start, before)) => (Some(time - start), two_difference(clearance.0, before.0)),
@@ -117,23 +99,13 @@ impl PoreHistory {
             Some(duration) if duration != 0.0 => clearance_change.0 / duration,
             _ => 0.0,
         };
-        PoreIncrement {
-            duration,
-            clearance_change,
-            clearance_rate: given_rate.unwrap_or(ClearanceRate(from_history)),
-        }
+        PoreIncrement { duration, clearance_change, clearance_rate: given_rate.unwrap_or(ClearanceRate(from_history)) }
     }
 
     /// Adds the increment's flow; `gap` is what the law was given, `area` the node's area at its end, if known.
     ///
     /// The flow across counts for the whole increment; gap filling counts with the change of the clearance, also where a rate was given.
-    pub fn finish(
-        &mut self,
-        increment: &PoreIncrement,
-        gap: Gap,
-        flow: &PoreFlow,
-        area: Option<f64>,
-    ) {
+    pub fn finish(&mut self, increment: &PoreIncrement, gap: Gap, flow: &PoreFlow, area: Option<f64>) {
         let Some(duration) = increment.duration else {
             self.volume.add_increment(0.0, None, area);
             return;
@@ -145,11 +117,9 @@ impl PoreHistory {
         self.volume.add_increment(-q_across, Some(duration), area);
         if gap != Gap::Steady && flow.gap_fill == Flow::Active {
             let (change, error) = increment.clearance_change;
-            self.volume
-                .add_increment(flow.slave_share, Some(change), area);
+            self.volume.add_increment(flow.slave_share, Some(change), area);
             if error != 0.0 && error.is_finite() {
-                self.volume
-                    .add_increment(flow.slave_share, Some(error), area);
+                self.volume.add_increment(flow.slave_share, Some(error), area);
             }
         }
     }
@@ -161,11 +131,7 @@ impl PoreHistory {
 
     /// The integral of that flow times area (PTLA); `None` once a flow or an area was unknown.
     pub fn volume_of_area(&self) -> Option<f64> {
-        if self.is_unknown {
-            None
-        } else {
-            self.volume.of_area()
-        }
+        if self.is_unknown { None } else { self.volume.of_area() }
     }
 }
 

@@ -19,5 +19,5 @@ pub(crate) use float::is_zero_or_ordinary;
 pub use float::{two_difference, two_product, two_sum, ulp};
 pub use product::{mean, product, ratio, scaled_difference_product};
 pub use scaled::Scaled;
-pub use segment::{between, interpolate, kernel_slope, slope};
+pub use segment::{KernelSlope, between, interpolate, slope};
 pub use sum::CompensatedSum;

@@ -13,6 +13,8 @@ mod sides;
 pub use build::{TableError, TableFault};
 pub use sides::Sides;
 
+use crate::numbers::KernelSlope;
+
 /// A nested piecewise-linear function of any number of variables ("axes"), compiled for evaluation.
 ///
 /// Axis 0 is the first variable of the deck's rows and runs fastest; the last axis runs slowest.
@@ -30,8 +32,8 @@ pub struct PiecewiseTable {
     levels: Vec<Level>,
     /// One value a row.
     values: Vec<f64>,
-    /// For each row the slope towards the next in the form [`crate::numbers::interpolate`] wants; of no meaning in the last row of a group.
-    slopes: Vec<f64>,
+    /// For each row the slope towards the next; of no meaning in the last row of a group.
+    slopes: Vec<KernelSlope>,
     /// What the rows say of each axis, left out or not.
     axes: Vec<AxisSummary>,
 }
@@ -94,7 +96,7 @@ impl PiecewiseTable {
             tail: Tail::Constant,
             levels: Vec::new(),
             values: vec![value],
-            slopes: vec![0.0],
+            slopes: vec![KernelSlope::UNUSED],
             axes: Vec::new(),
         }
     }

@@ -74,19 +74,10 @@ impl ConductanceTables {
         let (branch, table) = self.branch(point.state);
         match table {
             Some(table) => {
-                let (value, sides) =
-                    table.value_and_sides_at(abscissa(branch, point), point.variables);
-                Conductance {
-                    value,
-                    branch,
-                    sides,
-                }
+                let (value, sides) = table.value_and_sides_at(abscissa(branch, point), point.variables);
+                Conductance { value, branch, sides }
             }
-            None => Conductance {
-                value: value_without_table(point.state),
-                branch,
-                sides: Sides::default(),
-            },
+            None => Conductance { value: value_without_table(point.state), branch, sides: Sides::default() },
         }
     }
 
@@ -99,58 +90,40 @@ impl ConductanceTables {
         let Some(table) = table else {
             let nothing = value_without_table(point.state);
             variables.fill(nothing);
-            return ConductanceSlopes {
-                clearance: nothing,
-                pressure: nothing,
-            };
+            return ConductanceSlopes { clearance: nothing, pressure: nothing };
         };
         let first = abscissa(branch, point);
         for (variable, slope) in variables.iter_mut().enumerate() {
             *slope = table.slope_at(variable + 1, first, point.variables);
         }
         let along = |branch_of_slope| {
-            if branch_of_slope != branch || (branch == Branch::Clearance && point.clearance.0 < 0.0)
-            {
+            if branch_of_slope != branch || (branch == Branch::Clearance && point.clearance.0 < 0.0) {
                 0.0
             } else {
                 table.slope_at(0, first, point.variables)
             }
         };
-        ConductanceSlopes {
-            clearance: along(Branch::Clearance),
-            pressure: along(Branch::Pressure),
-        }
+        ConductanceSlopes { clearance: along(Branch::Clearance), pressure: along(Branch::Pressure) }
     }
 
     /// Whether the conductance jumps at this very point: at d = 0 between branches of different value, or at the last clearance of a table that is zero beyond it.
     pub fn jumps_at(&self, point: &ContactPoint<'_>) -> bool {
         let value_when = |state, clearance| {
-            let point = ContactPoint {
-                clearance: Clearance(clearance),
-                state,
-                ..*point
-            };
+            let point = ContactPoint { clearance: Clearance(clearance), state, ..*point };
             self.conductance(&point).value
         };
         let d = point.clearance.0;
-        if d == 0.0 && value_when(ContactState::Open, 0.0) != value_when(ContactState::Closed, 0.0)
-        {
+        if d == 0.0 && value_when(ContactState::Open, 0.0) != value_when(ContactState::Closed, 0.0) {
             return true;
         }
         let here = self.conductance(point);
         if here.branch != Branch::Clearance || here.value == 0.0 || d < 0.0 {
             return false;
         }
-        let beyond = ContactPoint {
-            clearance: Clearance(d.next_up()),
-            ..*point
-        };
+        let beyond = ContactPoint { clearance: Clearance(d.next_up()), ..*point };
         let next = self.conductance(&beyond);
         let drops = match self {
-            Self::Clearance(table)
-            | Self::Both {
-                clearance: table, ..
-            } => table.tail() == crate::table::Tail::Zero,
+            Self::Clearance(table) | Self::Both { clearance: table, .. } => table.tail() == crate::table::Tail::Zero,
             Self::Pressure(_) => false,
         };
         drops && !here.sides.is_above(0) && next.sides.is_above(0)
@@ -159,23 +132,13 @@ impl ConductanceTables {
     /// The branch and table that hold in a state.
     fn branch(&self, state: ContactState) -> (Branch, Option<&PiecewiseTable>) {
         match (self, state) {
-            (Self::Clearance(table), _)
-            | (
-                Self::Both {
-                    clearance: table, ..
-                },
-                ContactState::Open,
-            ) => (Branch::Clearance, Some(table)),
-            (
-                Self::Pressure(table)
-                | Self::Both {
-                    pressure: table, ..
-                },
-                ContactState::Closed,
-            ) => (Branch::Pressure, Some(table)),
-            (Self::Pressure(_), ContactState::Open) | (_, ContactState::Undetermined) => {
-                (Branch::Neither, None)
+            (Self::Clearance(table), _) | (Self::Both { clearance: table, .. }, ContactState::Open) => {
+                (Branch::Clearance, Some(table))
             }
+            (Self::Pressure(table) | Self::Both { pressure: table, .. }, ContactState::Closed) => {
+                (Branch::Pressure, Some(table))
+            }
+            (Self::Pressure(_), ContactState::Open) | (_, ContactState::Undetermined) => (Branch::Neither, None),
         }
     }
 }

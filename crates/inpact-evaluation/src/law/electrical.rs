@@ -49,12 +49,7 @@ pub enum Dissipation {
 impl ElectricalLaw {
     /// Current and heat for a conductance found with [`ConductanceTables::conductance`].
     #[inline]
-    pub fn flow(
-        &self,
-        conductance: f64,
-        jump: PotentialJump,
-        dissipation: Dissipation,
-    ) -> ElectricalFlow {
+    pub fn flow(&self, conductance: f64, jump: PotentialJump, dissipation: Dissipation) -> ElectricalFlow {
         ElectricalFlow {
             current_density: conductance * jump.0,
             heat: generated_heat(conductance, jump, dissipation, self.heat_generation),
@@ -84,14 +79,9 @@ pub fn generated_heat(
         Dissipation::Steady => end,
         Dissipation::Transient { jump_at_start } => jump_at_start.0,
     };
-    let HeatGeneration {
-        fraction,
-        slave_weight,
-    } = generation;
+    let HeatGeneration { fraction, slave_weight } = generation;
     let inputs = [conductance, end, start, fraction, slave_weight];
-    if !inputs.iter().all(|&input| is_zero_or_ordinary(input))
-        && inputs.iter().all(|input| input.is_finite())
-    {
+    if !inputs.iter().all(|&input| is_zero_or_ordinary(input)) && inputs.iter().all(|input| input.is_finite()) {
         return generated_heat_of_extremes(conductance, (end, start), generation);
     }
     let mean_square = match dissipation {
@@ -99,25 +89,15 @@ pub fn generated_heat(
         Dissipation::Transient { .. } => (end * end + end * start + start * start) / 3.0,
     };
     let total = fraction * (conductance * mean_square);
-    GeneratedHeat {
-        total,
-        slave: slave_weight * total,
-        master: (1.0 - slave_weight) * total,
-    }
+    GeneratedHeat { total, slave: slave_weight * total, master: (1.0 - slave_weight) * total }
 }
 
 /// [`generated_heat`] for finite inputs of extreme size, whose intermediate products may leave the range of f64.
 #[cold]
-fn generated_heat_of_extremes(
-    conductance: f64,
-    (end, start): (f64, f64),
-    generation: HeatGeneration,
-) -> GeneratedHeat {
+fn generated_heat_of_extremes(conductance: f64, (end, start): (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
     let (end, start) = (Scaled::new(end), Scaled::new(start));
     let square_sum = end * end + end * start + start * start;
-    let total = Scaled::new(generation.fraction)
-        * Scaled::new(conductance)
-        * (square_sum / Scaled::new(3.0));
+    let total = Scaled::new(generation.fraction) * Scaled::new(conductance) * (square_sum / Scaled::new(3.0));
     let slave_weight = Scaled::new(generation.slave_weight);
     GeneratedHeat {
         total: total.to_f64(),

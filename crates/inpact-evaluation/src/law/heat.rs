@@ -21,10 +21,7 @@ pub struct HeatGeneration {
 impl Default for HeatGeneration {
     /// All dissipated energy becomes heat, half of it on either side, as when the keyword is absent.
     fn default() -> Self {
-        Self {
-            fraction: 1.0,
-            slave_weight: 0.5,
-        }
+        Self { fraction: 1.0, slave_weight: 0.5 }
     }
 }
 

@@ -166,14 +166,11 @@ impl PoreLaw {
         let across = self.flow_across(point);
         let gap_fill = self.gap_fill(point);
         let (permeability, sides) = self.permeability_in_force(across, point);
-        let is_constrained =
-            across == Flow::Active && matches!(self.permeability, Permeability::Infinite);
+        let is_constrained = across == Flow::Active && matches!(self.permeability, Permeability::Infinite);
         let q_across = match permeability {
-            Some(permeability) if across == Flow::Active => Some(scaled_difference_product(
-                permeability,
-                point.master.0,
-                point.slave.0,
-            )),
+            Some(permeability) if across == Flow::Active => {
+                Some(scaled_difference_product(permeability, point.master.0, point.slave.0))
+            }
             _ if is_constrained => point.multiplier,
             _ if across == Flow::CutOff => Some(0.0),
             _ => None,
@@ -181,10 +178,9 @@ impl PoreLaw {
         let (slave_share, master_share) = self.gap_shares(point.bulk);
         let (q_gap_slave, q_gap_master) = match (gap_fill, point.gap) {
             (_, Gap::Steady) | (Flow::CutOff, _) => (Some(0.0), Some(0.0)),
-            (Flow::Active, Gap::Changing(rate)) => (
-                Some(0.0 - slave_share * rate.0),
-                Some(0.0 - master_share * rate.0),
-            ),
+            (Flow::Active, Gap::Changing(rate)) => {
+                (Some(0.0 - slave_share * rate.0), Some(0.0 - master_share * rate.0))
+            }
             (Flow::NeedsCharacteristicLength, Gap::Changing(_)) => (None, None),
         };
         PoreFlow {
@@ -205,9 +201,7 @@ impl PoreLaw {
     /// Zero along the contact pressure while open, and altogether where there is no flow across or the permeability is infinite.
     pub fn permeability_slopes(&self, point: &PorePoint<'_>, variables: &mut [f64]) -> f64 {
         variables.fill(0.0);
-        let (Permeability::Finite(table), Flow::Active) =
-            (&self.permeability, self.flow_across(point))
-        else {
+        let (Permeability::Finite(table), Flow::Active) = (&self.permeability, self.flow_across(point)) else {
             return 0.0;
         };
         let pressure = effective_pressure(point);
@@ -238,36 +232,23 @@ impl PoreLaw {
         let d = point.clearance.0;
         let Some(cutoff) = cutoff.or(point.characteristic_length) else {
             // Any length is positive, so a closed interface is within it.
-            return if d > 0.0 {
-                Flow::NeedsCharacteristicLength
-            } else {
-                Flow::Active
-            };
+            return if d > 0.0 { Flow::NeedsCharacteristicLength } else { Flow::Active };
         };
         let is_beyond = match self.boundary {
             CutoffBoundary::Inclusive => d > cutoff,
             CutoffBoundary::Exclusive => d >= cutoff,
         };
-        if is_beyond {
-            Flow::CutOff
-        } else {
-            Flow::Active
-        }
+        if is_beyond { Flow::CutOff } else { Flow::Active }
     }
 
     fn permeability_in_force(&self, across: Flow, point: &PorePoint<'_>) -> (Option<f64>, Sides) {
         let nowhere = Sides::default();
         match (across, &self.permeability) {
             (Flow::CutOff, _) => (Some(0.0), nowhere),
-            (Flow::NeedsCharacteristicLength, _) | (Flow::Active, Permeability::Infinite) => {
-                (None, nowhere)
-            }
-            (Flow::Active, Permeability::Finite(_)) if point.clearance.0.is_nan() => {
-                (Some(f64::NAN), nowhere)
-            }
+            (Flow::NeedsCharacteristicLength, _) | (Flow::Active, Permeability::Infinite) => (None, nowhere),
+            (Flow::Active, Permeability::Finite(_)) if point.clearance.0.is_nan() => (Some(f64::NAN), nowhere),
             (Flow::Active, Permeability::Finite(table)) => {
-                let (permeability, sides) =
-                    table.value_and_sides_at(effective_pressure(point), point.variables);
+                let (permeability, sides) = table.value_and_sides_at(effective_pressure(point), point.variables);
                 (Some(permeability), sides)
             }
         }
@@ -276,9 +257,7 @@ impl PoreLaw {
     /// The shares of slave and master in gap filling (P-42).
     fn gap_shares(&self, bulk: Option<BulkPermeabilities>) -> (f64, f64) {
         match (&self.permeability, bulk) {
-            (Permeability::Finite(_), Some(BulkPermeabilities { slave, master }))
-                if slave != 0.0 || master != 0.0 =>
-            {
+            (Permeability::Finite(_), Some(BulkPermeabilities { slave, master })) if slave != 0.0 || master != 0.0 => {
                 (ratio(slave, master), ratio(master, slave))
             }
             _ => (0.5, 0.5),

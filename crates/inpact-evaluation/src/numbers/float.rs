@@ -29,11 +29,7 @@ pub fn ulp(value: f64) -> f64 {
     if !value.is_finite() {
         return f64::NAN;
     }
-    let exponent = if value == 0.0 {
-        LEAST_NORMAL
-    } else {
-        exponent_of(value).max(LEAST_NORMAL)
-    };
+    let exponent = if value == 0.0 { LEAST_NORMAL } else { exponent_of(value).max(LEAST_NORMAL) };
     scale_by_power(1.0, exponent - 52)
 }
 

@@ -8,11 +8,7 @@ use super::scaled::Scaled;
 pub fn mean(a: f64, b: f64) -> f64 {
     let sum = a + b;
     // A sum beyond the range needs two large values, which halving does not round.
-    if sum.is_finite() {
-        0.5 * sum
-    } else {
-        0.5 * a + 0.5 * b
-    }
+    if sum.is_finite() { 0.5 * sum } else { 0.5 * a + 0.5 * b }
 }
 
 /// The product of all `factors`: finite and right wherever the exact product is, in whatever order plain multiplication would over- or underflow.
@@ -31,38 +27,20 @@ pub fn product(factors: &[f64]) -> f64 {
 /// [`product`] where some factor is zero, extreme, infinite or NaN.
 #[cold]
 fn product_of_extremes(factors: &[f64]) -> f64 {
-    if factors
-        .iter()
-        .any(|factor| *factor == 0.0 || !factor.is_finite())
-    {
+    if factors.iter().any(|factor| *factor == 0.0 || !factor.is_finite()) {
         // The finite factors decide nothing but the sign.
         return factors
             .iter()
-            .map(|&factor| {
-                if factor == 0.0 || !factor.is_finite() {
-                    factor
-                } else {
-                    factor.signum()
-                }
-            })
+            .map(|&factor| if factor == 0.0 || !factor.is_finite() { factor } else { factor.signum() })
             .product();
     }
-    factors
-        .iter()
-        .fold(Scaled::new(1.0), |product, &factor| {
-            product * Scaled::new(factor)
-        })
-        .to_f64()
+    factors.iter().fold(Scaled::new(1.0), |product, &factor| product * Scaled::new(factor)).to_f64()
 }
 
 /// `a` / (`a` + `b`) for two values of one sign, without overflow of the sum; NaN where both are zero.
 pub fn ratio(a: f64, b: f64) -> f64 {
     let sum = a + b;
-    if sum.is_finite() {
-        a / sum
-    } else {
-        (0.5 * a) / (0.5 * a + 0.5 * b)
-    }
+    if sum.is_finite() { a / sum } else { (0.5 * a) / (0.5 * a + 0.5 * b) }
 }
 
 /// `factor` × (`a` − `b`), also where the difference alone exceeds the range of f64.

@@ -2,9 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg};
 
-use super::float::{
-    LEAST_NORMAL, SAFE_TO_ADD, exponent_of, scale_by_power, two_difference, two_product, two_sum,
-};
+use super::float::{LEAST_NORMAL, SAFE_TO_ADD, exponent_of, scale_by_power, two_difference, two_product, two_sum};
 
 /// A finite real number (high + low) × 2^exponent, with 1 <= |high| < 2 or high = 0, and |low| at most half an ulp of high.
 ///
@@ -22,11 +20,7 @@ const OUT_OF_SIGHT: i32 = 220;
 
 impl Scaled {
     /// The number zero.
-    pub const ZERO: Self = Self {
-        high: 0.0,
-        low: 0.0,
-        exponent: 0,
-    };
+    pub const ZERO: Self = Self { high: 0.0, low: 0.0, exponent: 0 };
 
     /// A finite f64 as it is.
     pub fn new(value: f64) -> Self {
@@ -61,22 +55,19 @@ impl Scaled {
         }
     }
 
+    /// The nearest f64 and the rest, as far as that is within the range of f64.
+    pub(super) fn to_pair(self) -> (f64, f64) {
+        (self.to_f64(), scale_by_power(self.low, self.exponent))
+    }
+
     /// (high + low) × 2^exponent brought into the form the type promises; `low` must not exceed `high` by much.
     fn normalised(high: f64, low: f64, exponent: i32) -> Self {
         let (high, low) = two_sum(high, low);
         if high == 0.0 {
-            return Self {
-                high,
-                low: 0.0,
-                exponent: 0,
-            };
+            return Self { high, low: 0.0, exponent: 0 };
         }
         let shift = exponent_of(high);
-        Self {
-            high: scale_by_power(high, -shift),
-            low: scale_by_power(low, -shift),
-            exponent: exponent + shift,
-        }
+        Self { high: scale_by_power(high, -shift), low: scale_by_power(low, -shift), exponent: exponent + shift }
     }
 }
 
@@ -90,11 +81,7 @@ impl Add for Scaled {
         if other.high == 0.0 {
             return self;
         }
-        let (big, small) = if self.exponent >= other.exponent {
-            (self, other)
-        } else {
-            (other, self)
-        };
+        let (big, small) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
         let shift = small.exponent - big.exponent;
         if shift < -OUT_OF_SIGHT {
             return big;
@@ -132,10 +119,6 @@ impl Neg for Scaled {
     type Output = Self;
 
     fn neg(self) -> Self {
-        Self {
-            high: -self.high,
-            low: -self.low,
-            exponent: self.exponent,
-        }
+        Self { high: -self.high, low: -self.low, exponent: self.exponent }
     }
 }

@@ -2,71 +2,89 @@
 //!
 //! Two forms, both from the nearer end, so that each end is met exactly and no digits are lost against a far larger value at the other:
 //!
-//! - [`interpolate`], for the segments of a table: one fused multiply-add with a slope computed beforehand.
-//!   The offset x − x0 and the slope carry half an ulp each; as their significands multiply to the product's, both together cost at most 1.5 ulp of it,
-//!   and the product never exceeds the result; with the final rounding that is 2 ulp.
-//!   Either half is clamped at the midpoint's value, which makes the form monotone without exception.
+//! - [`interpolate`], for the segments of a table: one fused multiply-add of the offset x − x0 and a slope computed beforehand,
+//!   then a correction by what the roundings of offset and slope took away. Two roundings remain, of the fused operation and of the correction: 1 ulp,
+//!   or 1.5 where the first crosses a power of two that the second takes back. As the sum before the last rounding is off by half an ulp at most,
+//!   the result never turns back by more than one ulp, and near an end the correction is too small to leave it.
 //! - [`between`], for values known only at the query, as those of the groups of a nested table are: the same expression in twice the precision, 0.5 ulp.
 //!
-//! A segment on which the short form could fail has NaN for its kernel slope and goes through `between`, which for extreme exponents uses [`Scaled`] numbers.
+//! A segment on which the short form could fail has no kernel slope and goes through `between`, which for extreme exponents uses [`Scaled`] numbers.
 //!
 //! Values of opposite sign: `between` is good to half an ulp of the result plus 2⁻¹⁰² of the larger value, so that relative accuracy is lost only within 2⁻⁵⁰
-//! of the zero crossing; `kernel_slope` sends such segments there.
+//! of the zero crossing; such segments have no kernel slope.
 
 use super::float::{SAFE_TO_ADD, is_ordinary, two_difference, two_product, two_sum};
 use super::scaled::Scaled;
 
-/// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), with `slope` from [`kernel_slope`] of the same segment.
-///
-/// For `x0 <= x <= x1` and values of one sign: within 2 ulp of the exact value, exact at both ends, never outside the two values, monotone in `x`.
-/// NaN if `x` is NaN. Outside the segment the result is of no use.
-#[inline]
-pub fn interpolate(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64), slope: f64) -> f64 {
-    if slope.is_nan() || x.is_nan() {
-        return between(x, (x0, y0), (x1, y1));
-    }
-    let left = x - x0;
-    let right = x1 - x;
-    let (offset, base) = if left <= right {
-        (left, y0)
-    } else {
-        (-right, y1)
-    };
-    let middle = 0.5 * (y0 + y1);
-    offset
-        .mul_add(slope, base)
-        .max(base.min(middle))
-        .min(base.max(middle))
+/// The slope of a segment as [`interpolate`] wants it: a rounded quotient and what its rounding took away.
+#[derive(Clone, Copy, Debug)]
+pub struct KernelSlope {
+    high: f64,
+    low: f64,
 }
 
-/// The slope that [`interpolate`] wants for a segment with `x0 < x1`: the exact slope rounded to f64, or NaN where the short form is not good enough.
+/// Slopes below this one have a `low` that may be subnormal: 2⁻⁹⁰⁰.
+const LEAST_KERNEL_SLOPE: f64 = 1.183_052_186_166_774_7e-271;
+
+impl KernelSlope {
+    /// A slope for segments that are never asked for.
+    pub(crate) const UNUSED: Self = Self { high: f64::NAN, low: 0.0 };
+
+    /// The slope of a segment with `x0 < x1`.
+    ///
+    /// There is none, and [`interpolate`] goes the long way, where the slope is infinite or extremely small, a number is within a factor of four of overflow,
+    /// or the values are of opposite sign.
+    pub fn of_segment((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> Self {
+        let (high, low) = precise_slope((x0, y0), (x1, y1));
+        let largest = y0.abs().max(y1.abs()).max(x0.abs()).max(x1.abs());
+        let is_harmless = (high.abs() >= LEAST_KERNEL_SLOPE || y0 == y1)
+            && high.is_finite()
+            && largest <= SAFE_TO_ADD
+            && !(y0.min(y1) < 0.0 && y0.max(y1) > 0.0);
+        if is_harmless { Self { high, low } } else { Self::UNUSED }
+    }
+
+    /// Whether the segment can only be interpolated the long way.
+    pub fn is_missing(self) -> bool {
+        self.high.is_nan()
+    }
+}
+
+/// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), with the slope of the same segment.
 ///
-/// That is the case where the width overflows, the slope is infinite or subnormal, the values are within a factor of four of overflow or of opposite sign.
-pub fn kernel_slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
-    let slope = slope((x0, y0), (x1, y1));
-    let harmless = (slope.is_normal() || y0 == y1)
-        && (x1 - x0).is_finite()
-        && y0.abs().max(y1.abs()) <= SAFE_TO_ADD
-        && !(y0.min(y1) < 0.0 && y0.max(y1) > 0.0);
-    if harmless { slope } else { f64::NAN }
+/// For `x0 <= x <= x1` and values of one sign: within 1.5 ulp of the exact value, exact at both ends, never outside the two values, monotone to one ulp.
+/// NaN if `x` is NaN. Outside the segment the result is of no use.
+#[inline]
+pub fn interpolate(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64), slope: KernelSlope) -> f64 {
+    if slope.is_missing() {
+        return between(x, (x0, y0), (x1, y1));
+    }
+    let (near, base) = if x - x0 <= x1 - x { (x0, y0) } else { (x1, y1) };
+    let (offset, offset_error) = two_difference(x, near);
+    let value = offset.mul_add(slope.high, base);
+    value + offset.mul_add(slope.low, offset_error * slope.high)
 }
 
 /// The slope (y1 − y0) / (x1 − x0) of a segment with `x0 < x1`, rounded to f64 (0.5 ulp plus 2⁻⁵⁰); infinite where it exceeds the range of f64.
 ///
 /// NaN where one of the values is infinite or NaN.
-pub fn slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
+pub fn slope(start: (f64, f64), end: (f64, f64)) -> f64 {
+    precise_slope(start, end).0
+}
+
+/// The slope of a segment, rounded, and what the rounding took away, where that can be told within the range of f64.
+fn precise_slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> (f64, f64) {
     let (rise, rise_error) = two_difference(y1, y0);
     let (width, width_error) = two_difference(x1, x0);
     if is_ordinary(rise) && is_ordinary(width) {
         let quotient = rise / width;
-        let remainder =
-            (-quotient).mul_add(width, rise) + (-quotient).mul_add(width_error, rise_error);
-        return quotient + remainder / width;
+        let remainder = (-quotient).mul_add(width, rise) + (-quotient).mul_add(width_error, rise_error);
+        return two_sum(quotient, remainder / width);
     }
     if !(y0.is_finite() && y1.is_finite()) {
-        return f64::NAN;
+        return (f64::NAN, 0.0);
     }
-    (Scaled::difference(y1, y0) / Scaled::difference(x1, x0)).to_f64()
+    (Scaled::difference(y1, y0) / Scaled::difference(x1, x0)).to_pair()
 }
 
 /// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), in twice the precision of f64.
@@ -78,11 +96,7 @@ pub fn between(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
         return f64::NAN;
     }
     let from_left = x - x0 <= x1 - x;
-    let ((near, base), (far, other)) = if from_left {
-        ((x0, y0), (x1, y1))
-    } else {
-        ((x1, y1), (x0, y0))
-    };
+    let ((near, base), (far, other)) = if from_left { ((x0, y0), (x1, y1)) } else { ((x1, y1), (x0, y0)) };
     if x == near || base == other {
         return base;
     }

@@ -40,11 +40,7 @@ impl CompensatedSum {
     /// The sum, rounded once.
     #[inline]
     pub fn total(&self) -> f64 {
-        if self.sum.is_finite() {
-            self.sum + self.compensation
-        } else {
-            self.sum
-        }
+        if self.sum.is_finite() { self.sum + self.compensation } else { self.sum }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{AxisSummary, Level, PiecewiseTable, Tail};
-use crate::numbers::kernel_slope;
+use crate::numbers::KernelSlope;
 
 /// Rows that do not form a table: which row it is, counted from zero, and what is wrong with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,16 +60,8 @@ impl fmt::Display for TableError {
             TableFault::SecondConstant => {
                 write!(f, "row {row} follows a constant, which has one row")
             }
-            TableFault::NotAscending {
-                axis,
-                previous,
-                found,
-            } => {
-                write!(
-                    f,
-                    "row {row} has {found:?} after {previous:?} in column {}, which must ascend",
-                    axis + 2
-                )
+            TableFault::NotAscending { axis, previous, found } => {
+                write!(f, "row {row} has {found:?} after {previous:?} in column {}, which must ascend", axis + 2)
             }
         }
     }
@@ -95,15 +87,10 @@ impl PiecewiseTable {
             let abscissae = &cells[1..];
             let changed = match previous {
                 None => axis_count,
-                Some(previous) => {
-                    first_change(previous, abscissae).map_err(|fault| TableError { row, fault })?
-                }
+                Some(previous) => first_change(previous, abscissae).map_err(|fault| TableError { row, fault })?,
             };
             // The outermost changed axis goes on in its group; all inside it begin new groups.
-            for axis in (0..axis_count)
-                .take(changed + usize::from(changed < axis_count))
-                .rev()
-            {
+            for axis in (0..axis_count).take(changed + usize::from(changed < axis_count)).rev() {
                 if axis > 0 {
                     let children = axes[axis - 1].len();
                     starts[axis].push(children);
@@ -129,14 +116,7 @@ impl PiecewiseTable {
             .collect();
         let levels = levels_that_matter(axes, starts, &summaries);
         let slopes = row_slopes(&levels, &values);
-        Ok(Self {
-            axis_count,
-            tail,
-            levels,
-            values,
-            slopes,
-            axes: summaries,
-        })
+        Ok(Self { axis_count, tail, levels, values, slopes, axes: summaries })
     }
 }
 
@@ -148,36 +128,20 @@ fn check_cells(cells: &[f64], width: usize) -> Result<(), TableError> {
     }
     let found = cells.len() % width.max(1);
     if width == 0 || found != 0 {
-        return fault(
-            cells.len() / width.max(1),
-            TableFault::IncompleteRow { width, found },
-        );
+        return fault(cells.len() / width.max(1), TableFault::IncompleteRow { width, found });
     }
     match cells.iter().position(|cell| !cell.is_finite()) {
         None => Ok(()),
-        Some(index) => fault(
-            index / width,
-            TableFault::NotFinite {
-                column: index % width,
-                found: cells[index],
-            },
-        ),
+        Some(index) => fault(index / width, TableFault::NotFinite { column: index % width, found: cells[index] }),
     }
 }
 
 /// The slowest axis on which a row differs from the one before, which must have risen.
 fn first_change(previous: &[f64], found: &[f64]) -> Result<usize, TableFault> {
-    let changed = (0..found.len())
-        .rev()
-        .find(|&axis| previous[axis] != found[axis])
-        .unwrap_or(0);
+    let changed = (0..found.len()).rev().find(|&axis| previous[axis] != found[axis]).unwrap_or(0);
     match (previous.get(changed), found.get(changed)) {
         (Some(&previous), Some(&found)) if found > previous => Ok(changed),
-        (Some(&previous), Some(&found)) => Err(TableFault::NotAscending {
-            axis: changed,
-            previous,
-            found,
-        }),
+        (Some(&previous), Some(&found)) => Err(TableFault::NotAscending { axis: changed, previous, found }),
         _ => Err(TableFault::SecondConstant),
     }
 }
@@ -197,11 +161,7 @@ fn distinct_count(knots: &[f64], group_count: usize) -> usize {
 ///
 /// An axis left out has one knot a group, so its knot j is the only child of knot j of the axis outside it:
 /// knot j of the next axis that matters owns what knot j of the outermost left-out axis owns.
-fn levels_that_matter(
-    axes: Vec<Vec<f64>>,
-    mut starts: Vec<Vec<usize>>,
-    summaries: &[AxisSummary],
-) -> Vec<Level> {
+fn levels_that_matter(axes: Vec<Vec<f64>>, mut starts: Vec<Vec<usize>>, summaries: &[AxisSummary]) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     for (axis, knots) in axes.into_iter().enumerate() {
         if !summaries[axis].matters() {
@@ -212,33 +172,29 @@ fn levels_that_matter(
             children.push(below.knots.len());
             children
         });
-        levels.push(Level {
-            axis,
-            knots,
-            children,
-        });
+        levels.push(Level { axis, knots, children });
     }
     levels
 }
 
 /// The kernel slope from each row to the next of its group; of no meaning in the last row of a group.
-fn row_slopes(levels: &[Level], values: &[f64]) -> Vec<f64> {
+fn row_slopes(levels: &[Level], values: &[f64]) -> Vec<KernelSlope> {
     let Some(innermost) = levels.first() else {
-        return vec![0.0; values.len()];
+        return vec![KernelSlope::UNUSED; values.len()];
     };
-    let mut slopes: Vec<f64> = innermost
+    let mut slopes: Vec<KernelSlope> = innermost
         .knots
         .windows(2)
         .zip(values.windows(2))
         .map(|(knots, values)| {
             // Within a group abscissae rise. Where they do not, the next row opens a group; where that happens unseen, the slope is never asked for.
             if knots[0] < knots[1] {
-                kernel_slope((knots[0], values[0]), (knots[1], values[1]))
+                KernelSlope::of_segment((knots[0], values[0]), (knots[1], values[1]))
             } else {
-                0.0
+                KernelSlope::UNUSED
             }
         })
         .collect();
-    slopes.push(0.0);
+    slopes.push(KernelSlope::UNUSED);
     slopes
 }

@@ -1,10 +1,6 @@
 //! The judge of the numerical tests: exact rationals, written from the manual's text and not from the kernels, and random numbers over all decades.
 
-#![allow(
-    dead_code,
-    unreachable_pub,
-    reason = "each test file uses its own part"
-)]
+#![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
 use std::io::Write as _;
 
@@ -22,14 +18,7 @@ pub fn units(value: f64) -> BigInt {
         0 => BigUint::from(fraction),
         _ => BigUint::from(fraction | (1 << 52)) << (biased - 1),
     };
-    BigInt::from_biguint(
-        if value.is_sign_negative() {
-            Sign::Minus
-        } else {
-            Sign::Plus
-        },
-        magnitude,
-    )
+    BigInt::from_biguint(if value.is_sign_negative() { Sign::Minus } else { Sign::Plus }, magnitude)
 }
 
 /// A finite f64 as a rational.
@@ -52,11 +41,7 @@ pub fn ulps_from(computed: f64, exact: &BigRational) -> f64 {
 pub fn difference(a: &BigRational, b: &BigRational) -> f64 {
     let difference = a - b;
     let magnitude = as_f64(&difference.numer().abs(), difference.denom());
-    if difference.is_negative() {
-        -magnitude
-    } else {
-        magnitude
-    }
+    if difference.is_negative() { -magnitude } else { magnitude }
 }
 
 /// The power of two, in units of 2⁻¹⁰⁷⁴, of the ulp of |numerator / denominator|.
@@ -66,13 +51,8 @@ fn ulp_power(numerator: &BigInt, denominator: &BigInt) -> u64 {
     }
     let numerator = numerator.abs();
     // floor(log2 of the quotient) is the difference of the bit lengths or one less.
-    let guess =
-        i64::try_from(numerator.bits()).unwrap() - i64::try_from(denominator.bits()).unwrap();
-    let log2 = if shifted(denominator, guess) > shifted(&numerator, -guess) {
-        guess - 1
-    } else {
-        guess
-    };
+    let guess = i64::try_from(numerator.bits()).unwrap() - i64::try_from(denominator.bits()).unwrap();
+    let log2 = if shifted(denominator, guess) > shifted(&numerator, -guess) { guess - 1 } else { guess };
     u64::try_from((log2 - 52).max(0)).unwrap()
 }
 
@@ -110,11 +90,7 @@ pub fn table_value(rows: &[Vec<f64>], point: &[f64], ending: Ending) -> BigRatio
     }
     if x >= groups[last].0 {
         let drops = inner.is_empty() && ending == Ending::Zero && x > groups[last].0;
-        return if drops {
-            BigRational::zero()
-        } else {
-            of_group(last)
-        };
+        return if drops { BigRational::zero() } else { of_group(last) };
     }
     let right = groups.iter().position(|(knot, _)| *knot > x).unwrap();
     let (x0, x1) = (exact(groups[right - 1].0), exact(groups[right].0));
@@ -135,8 +111,7 @@ pub fn table_slope(rows: &[Vec<f64>], point: &[f64], axis: usize, ending: Ending
         return match right {
             Some(right) if right > 0 => {
                 let value = |group: usize| table_value(groups[group].1, inner, ending);
-                (value(right) - value(right - 1))
-                    / (exact(groups[right].0) - exact(groups[right - 1].0))
+                (value(right) - value(right - 1)) / (exact(groups[right].0) - exact(groups[right - 1].0))
             }
             _ => BigRational::zero(),
         };
@@ -156,9 +131,7 @@ pub fn table_slope(rows: &[Vec<f64>], point: &[f64], axis: usize, ending: Ending
 
 /// The rows in groups of one abscissa of the axis in `column`, in order.
 fn groups_of(rows: &[Vec<f64>], column: usize) -> Vec<(f64, &[Vec<f64>])> {
-    rows.chunk_by(|a, b| a[column] == b[column])
-        .map(|group| (group[0][column], group))
-        .collect()
+    rows.chunk_by(|a, b| a[column] == b[column]).map(|group| (group[0][column], group)).collect()
 }
 
 /// Random numbers, the same in every run.
@@ -220,11 +193,7 @@ impl Random {
     /// A number of either sign over all decades.
     pub fn signed(&mut self) -> f64 {
         let magnitude = self.of_any_decade();
-        if self.below(2) == 0 {
-            magnitude
-        } else {
-            -magnitude
-        }
+        if self.below(2) == 0 { magnitude } else { -magnitude }
     }
 
     /// An abscissa above `x`: next to it, near it, of its own size or anywhere above.
@@ -236,11 +205,7 @@ impl Random {
             3 => x + self.positive(-60, 60),
             _ => self.signed(),
         };
-        if candidate > x && candidate.is_finite() {
-            candidate
-        } else {
-            x.next_up().min(f64::MAX)
-        }
+        if candidate > x && candidate.is_finite() { candidate } else { x.next_up().min(f64::MAX) }
     }
 
     /// A point of the segment from `a` to `b`: at, next to or a random way from either end, about the middle, or of any size.
@@ -258,20 +223,13 @@ impl Random {
             4 => b - (b * 0.5 - a * 0.5) * part * 2.0,
             _ => a * (1.0 - part) + b * part,
         };
-        if candidate.is_nan() {
-            a
-        } else {
-            candidate.clamp(a, b)
-        }
+        if candidate.is_nan() { a } else { candidate.clamp(a, b) }
     }
 }
 
 /// How many random cases a test runs: INPACT_RANDOM_CASES if that is set, for a long run, otherwise `usual`.
 pub fn cases(usual: usize) -> usize {
-    std::env::var("INPACT_RANDOM_CASES")
-        .ok()
-        .and_then(|cases| cases.parse().ok())
-        .unwrap_or(usual)
+    std::env::var("INPACT_RANDOM_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(usual)
 }
 
 /// Says what a long run measured.
