@@ -12,9 +12,7 @@ mod nearest;
 mod release;
 
 pub use data::{Column, ColumnKind, Counted, Data, Layout, RowShape};
-pub use definition::{
-    Definition, DefinitionError, Level, ParameterDefinition, ParameterKind, Product, ValueUse,
-};
+pub use definition::{Definition, DefinitionError, Level, ParameterDefinition, ParameterKind, Product, ValueUse};
 pub use dimension::{Base, Dimension, DimensionError};
 pub use lookup::{Lookup, lookup_name};
 pub use release::{Release, ReleaseError};
@@ -63,19 +61,12 @@ impl Grammar {
 
     fn from_compiled_files() -> Self {
         let unlisted = FILES.iter().map(|(name, _)| *name);
-        let mut keywords: Vec<Keyword> = ABAQUS_NAMES
-            .lines()
-            .chain(unlisted)
-            .map(Keyword::new)
-            .collect();
+        let mut keywords: Vec<Keyword> = ABAQUS_NAMES.lines().chain(unlisted).map(Keyword::new).collect();
         keywords.sort_by(|a, b| a.folded.cmp(&b.folded));
         keywords.dedup_by(|a, b| a.folded == b.folded);
         let mut calculix_names: Vec<&str> = CALCULIX_NAMES.lines().collect();
         calculix_names.sort_unstable();
-        Self {
-            keywords,
-            calculix_names,
-        }
+        Self { keywords, calculix_names }
     }
 
     /// The keyword that is written so, in the newest release (S-11 to S-13).
@@ -91,19 +82,11 @@ impl Grammar {
         let Some(folded) = Folded::new(written) else {
             return Lookup::Unknown;
         };
-        let from = self
-            .keywords
-            .partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
+        let from = self.keywords.partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
         let candidates = (from..self.keywords.len())
-            .take_while(|index| {
-                self.keywords[*index]
-                    .folded
-                    .as_bytes()
-                    .starts_with(folded.as_bytes())
-            })
+            .take_while(|index| self.keywords[*index].folded.as_bytes().starts_with(folded.as_bytes()))
             .filter(|index| self.keywords[*index].is_in(release));
-        let candidates =
-            candidates.map(|index| (KeywordId::new(index), &*self.keywords[index].folded));
+        let candidates = candidates.map(|index| (KeywordId::new(index), &*self.keywords[index].folded));
         lookup::decide(folded.as_bytes(), candidates)
     }
 
@@ -114,34 +97,25 @@ impl Grammar {
 
     /// All keywords, by name.
     pub fn keywords(&self) -> impl Iterator<Item = (KeywordId, &Keyword)> {
-        self.keywords
-            .iter()
-            .enumerate()
-            .map(|(index, keyword)| (KeywordId::new(index), keyword))
+        self.keywords.iter().enumerate().map(|(index, keyword)| (KeywordId::new(index), keyword))
     }
 
     /// The keyword of that full name, in whatever release; no abbreviation.
     pub fn id_of(&self, name: &str) -> Option<KeywordId> {
         let folded = Folded::new(name.as_bytes())?;
-        let found = self
-            .keywords
-            .binary_search_by(|keyword| keyword.folded.as_bytes().cmp(folded.as_bytes()));
+        let found = self.keywords.binary_search_by(|keyword| keyword.folded.as_bytes().cmp(folded.as_bytes()));
         found.ok().map(KeywordId::new)
     }
 
     /// Whether the keyword may be a sub-option of *SURFACE INTERACTION (2.1).
     pub fn is_interaction_option(&self, id: KeywordId) -> bool {
-        self.keyword(id)
-            .definition()
-            .is_some_and(|definition| definition.has_parent("SURFACE INTERACTION"))
+        self.keyword(id).definition().is_some_and(|definition| definition.has_parent("SURFACE INTERACTION"))
     }
 
     /// Whether CalculiX has a keyword of that name, written in full.
     pub fn is_calculix_keyword(&self, written: &[u8]) -> bool {
         Folded::new(written).is_some_and(|folded| {
-            self.calculix_names
-                .binary_search_by(|name| name.as_bytes().cmp(folded.as_bytes()))
-                .is_ok()
+            self.calculix_names.binary_search_by(|name| name.as_bytes().cmp(folded.as_bytes())).is_ok()
         })
     }
 
@@ -149,11 +123,7 @@ impl Grammar {
     ///
     /// A comparison with every name: ask for what is shown to somebody, not for every line of a deck.
     pub fn nearest_keywords(&self, written: &str, at_most: usize) -> Vec<&str> {
-        nearest::nearest(
-            written.as_bytes(),
-            self.keywords.iter().map(|keyword| keyword.name.as_str()),
-            at_most,
-        )
+        nearest::nearest(written.as_bytes(), self.keywords.iter().map(|keyword| keyword.name.as_str()), at_most)
     }
 }
 
@@ -165,20 +135,9 @@ impl KeywordId {
 
 impl Keyword {
     fn new(name: &str) -> Self {
-        let source = FILES
-            .iter()
-            .find(|(defined, _)| *defined == name)
-            .map(|(_, text)| *text);
-        let folded = name
-            .chars()
-            .filter(|character| !character.is_ascii_whitespace())
-            .collect();
-        Self {
-            name: name.to_owned(),
-            folded,
-            source,
-            definition: OnceLock::new(),
-        }
+        let source = FILES.iter().find(|(defined, _)| *defined == name).map(|(_, text)| *text);
+        let folded = name.chars().filter(|character| !character.is_ascii_whitespace()).collect();
+        Self { name: name.to_owned(), folded, source, definition: OnceLock::new() }
     }
 
     /// What the keyword means; `None` when only its name is known.
@@ -190,7 +149,6 @@ impl Keyword {
 
     /// Whether the release has the keyword; true where nothing is known of it.
     pub fn is_in(&self, release: Release) -> bool {
-        self.definition()
-            .is_none_or(|definition| release.is_within(definition.since, definition.until))
+        self.definition().is_none_or(|definition| release.is_within(definition.since, definition.until))
     }
 }

@@ -44,8 +44,8 @@ pub enum RowShape {
     Table,
     /// One line of other items, then rows of numbers (2.6).
     HeadedTable,
-    /// Lines of names, such as the slave and the master surface.
-    Pairs,
+    /// Lines of items that are kept as text, such as the names of slave and master.
+    Items,
     /// Free text, in which commas and quotes mean nothing (S-70).
     Text,
     /// Rows that are kept or skipped as bytes.
@@ -119,12 +119,18 @@ pub struct Layout {
     pub following: usize,
 }
 
+impl RowShape {
+    /// Whether the rows are numbers in columns.
+    pub fn is_numbers(self) -> bool {
+        matches!(self, Self::Line | Self::Table | Self::HeadedTable)
+    }
+}
+
 impl Data {
     /// The columns of a row when these parameters are given, without the counted ones.
     pub fn columns_for(&self, given: impl Fn(&str) -> bool) -> impl Iterator<Item = &Column> {
         self.columns.iter().filter(move |column| {
-            column.with.as_deref().is_none_or(&given)
-                && !column.without.as_deref().is_some_and(&given)
+            column.with.as_deref().is_none_or(&given) && !column.without.as_deref().is_some_and(&given)
         })
     }
 
@@ -132,11 +138,7 @@ impl Data {
     ///
     /// `count` is the value of the parameter that counts columns, 0 where it is not given.
     pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
-        let is_numbers = matches!(
-            self.shape,
-            RowShape::Line | RowShape::Table | RowShape::HeadedTable
-        );
-        if !is_numbers || self.ignored_with.iter().any(|parameter| given(parameter)) {
+        if !self.shape.is_numbers() || self.ignored_with.iter().any(|parameter| given(parameter)) {
             return None;
         }
         let lead: Vec<&Column> = self.columns_for(given).collect();
@@ -147,47 +149,24 @@ impl Data {
             Some(format!("{}{}", counted.prefix, number + 1))
         });
         Some(Layout {
-            columns: lead
-                .iter()
-                .map(|column| column.name.clone())
-                .chain(names)
-                .collect(),
-            defaults: lead
-                .iter()
-                .map(|column| column.default.unwrap_or(0.0))
-                .chain(numbers.map(|_| 0.0))
-                .collect(),
-            first_line: lead.len()
-                + self
-                    .counted
-                    .as_ref()
-                    .map_or(0, |counted| counted.first_line),
-            following: self
-                .counted
-                .as_ref()
-                .map_or(ITEMS_ON_A_LINE, |counted| counted.following),
+            columns: lead.iter().map(|column| column.name.clone()).chain(names).collect(),
+            defaults: lead.iter().map(|column| column.default.unwrap_or(0.0)).chain(numbers.map(|_| 0.0)).collect(),
+            first_line: lead.len() + self.counted.as_ref().map_or(0, |counted| counted.first_line),
+            following: self.counted.as_ref().map_or(ITEMS_ON_A_LINE, |counted| counted.following),
         })
     }
 
     /// What contradicts itself in the definition of these rows.
     pub(super) fn contradiction(&self, has_parameter: impl Fn(&str) -> bool) -> Option<String> {
-        let needs_columns = !matches!(
-            self.shape,
-            RowShape::None | RowShape::Text | RowShape::Uninterpreted
-        );
-        if needs_columns == self.columns.is_empty() {
-            return Some(format!(
-                "rows of shape {:?} with {} columns",
-                self.shape,
-                self.columns.len()
-            ));
+        let is_numbers = self.shape.is_numbers();
+        if is_numbers && self.columns.is_empty() {
+            return Some("rows of numbers need columns".to_owned());
+        }
+        if !is_numbers && self.shape != RowShape::Items && !self.columns.is_empty() {
+            return Some(format!("rows of shape {:?} have no columns", self.shape));
         }
         if self.head.is_empty() == (self.shape == RowShape::HeadedTable) {
-            return Some(format!(
-                "rows of shape {:?} with {} items before them",
-                self.shape,
-                self.head.len()
-            ));
+            return Some(format!("rows of shape {:?} with {} items before them", self.shape, self.head.len()));
         }
         if self.required && self.shape == RowShape::None {
             return Some("rows are required and there are none".to_owned());
@@ -201,43 +180,26 @@ impl Data {
         if let Some(name) = first_repeated(columns().map(|column| column.name.as_str())) {
             return Some(format!("column `{name}` stands twice"));
         }
-        let of_columns = columns()
-            .flat_map(|column| [&column.with, &column.without])
-            .flatten();
+        let of_columns = columns().flat_map(|column| [&column.with, &column.without]).flatten();
         let of_counted = self.counted.iter().map(|counted| &counted.count);
         let mut named = self.ignored_with.iter().chain(of_columns).chain(of_counted);
         if let Some(unknown) = named.find(|name| !has_parameter(name)) {
             return Some(format!("`{unknown}` is no parameter of the keyword"));
         }
-        let counted = self
-            .counted
-            .iter()
-            .map(|counted| (&counted.description, &counted.source));
-        let mut texts = columns()
-            .map(|column| (&column.description, &column.source))
-            .chain(counted);
+        let counted = self.counted.iter().map(|counted| (&counted.description, &counted.source));
+        let mut texts = columns().map(|column| (&column.description, &column.source)).chain(counted);
         if texts.any(|(description, source)| !is_description(description) || source.is_empty()) {
             return Some("a column without a description or a source".to_owned());
         }
-        let wrong = columns()
-            .find(|column| column.dimension.is_some() != (column.kind == ColumnKind::Float));
-        wrong.map(|column| {
-            format!(
-                "column `{}`: numbers have a dimension, everything else has none",
-                column.name
-            )
-        })
+        let wrong = columns().find(|column| column.dimension.is_some() != (column.kind == ColumnKind::Float));
+        wrong.map(|column| format!("column `{}`: numbers have a dimension, everything else has none", column.name))
     }
 }
 
 impl Layout {
     /// How many lines a row goes over (K-52).
     pub fn lines_per_row(&self) -> usize {
-        1 + self
-            .columns
-            .len()
-            .saturating_sub(self.first_line)
-            .div_ceil(self.following)
+        1 + self.columns.len().saturating_sub(self.first_line).div_ceil(self.following)
     }
 }
 
@@ -248,16 +210,9 @@ mod tests {
     /// how many items stand on each line of a row.
     fn check(keyword: &str, dependencies: usize, expected: usize) {
         let grammar = Grammar::builtin();
-        let definition = grammar
-            .keyword(grammar.id_of(keyword).unwrap())
-            .definition()
-            .unwrap();
+        let definition = grammar.keyword(grammar.id_of(keyword).unwrap()).definition().unwrap();
         let layout = definition.layout(|_| false, dependencies).unwrap();
-        assert_eq!(
-            layout.lines_per_row(),
-            expected,
-            "{keyword}, DEPENDENCIES={dependencies}"
-        );
+        assert_eq!(layout.lines_per_row(), expected, "{keyword}, DEPENDENCIES={dependencies}");
         assert_eq!(layout.columns.len(), layout.defaults.len());
     }
 
@@ -275,44 +230,24 @@ mod tests {
     #[test]
     fn pressure_replaces_clearance() {
         let grammar = Grammar::builtin();
-        let definition = |name: &str| {
-            grammar
-                .keyword(grammar.id_of(name).unwrap())
-                .definition()
-                .unwrap()
-        };
+        let definition = |name: &str| grammar.keyword(grammar.id_of(name).unwrap()).definition().unwrap();
         let electrical = definition("GAP ELECTRICAL CONDUCTANCE");
+        assert_eq!(electrical.layout(|_| false, 1).unwrap().columns, ["conductance", "clearance", "temp", "fv1"]);
         assert_eq!(
-            electrical.layout(|_| false, 1).unwrap().columns,
-            ["conductance", "clearance", "temp", "fv1"]
-        );
-        assert_eq!(
-            electrical
-                .layout(|name| name == "PRESSURE", 0)
-                .unwrap()
-                .columns,
+            electrical.layout(|name| name == "PRESSURE", 0).unwrap().columns,
             ["conductance", "pressure", "temp"]
         );
         assert_eq!(electrical.layout(|name| name == "USER", 0), None);
         let thermal = definition("GAP CONDUCTANCE").layout(|_| false, 1).unwrap();
-        assert_eq!(
-            thermal.columns,
-            ["conductance", "clearance", "temp", "mass_flow", "fv1"]
-        );
+        assert_eq!(thermal.columns, ["conductance", "clearance", "temp", "mass_flow", "fv1"]);
     }
 
     #[test]
     fn k_02_properties_stand_on_lines_of_their_own() {
         let grammar = Grammar::builtin();
-        let definition = grammar
-            .keyword(grammar.id_of("SURFACE INTERACTION").unwrap())
-            .definition()
-            .unwrap();
+        let definition = grammar.keyword(grammar.id_of("SURFACE INTERACTION").unwrap()).definition().unwrap();
         let layout = definition.layout(|name| name == "USER", 9).unwrap();
-        assert_eq!(
-            (layout.first_line, layout.following, layout.lines_per_row()),
-            (1, 8, 3)
-        );
+        assert_eq!((layout.first_line, layout.following, layout.lines_per_row()), (1, 8, 3));
         assert_eq!(layout.defaults[..2], [1.0, 0.0]);
     }
 }

@@ -178,9 +178,7 @@ impl Definition {
 
     /// The parameter of that full name.
     pub fn parameter(&self, name: &str) -> Option<&ParameterDefinition> {
-        self.parameters
-            .iter()
-            .find(|parameter| parameter.name == name)
+        self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
     /// The parameter that is written so, in the newest release, as its place in the list (S-13, S-16).
@@ -191,23 +189,13 @@ impl Definition {
     /// The parameter that is written so in a deck for `release`.
     pub fn parameter_named_in(&self, written: &[u8], release: Release) -> Lookup<usize> {
         let parameters = self.parameters.iter().enumerate();
-        let there =
-            parameters.filter(|(_, parameter)| release.is_within(parameter.since, parameter.until));
-        lookup_among(
-            written,
-            there.map(|(index, parameter)| (index, parameter.name.as_str())),
-        )
+        let there = parameters.filter(|(_, parameter)| release.is_within(parameter.since, parameter.until));
+        lookup_among(written, there.map(|(index, parameter)| (index, parameter.name.as_str())))
     }
 
     /// Names of parameters that somebody who wrote this may have meant, the nearest first.
     pub fn nearest_parameters(&self, written: &str, at_most: usize) -> Vec<&str> {
-        nearest::nearest(
-            written.as_bytes(),
-            self.parameters
-                .iter()
-                .map(|parameter| parameter.name.as_str()),
-            at_most,
-        )
+        nearest::nearest(written.as_bytes(), self.parameters.iter().map(|parameter| parameter.name.as_str()), at_most)
     }
 
     /// How the rows are laid out when these parameters are given and so many columns are counted; see [`Data::layout`].
@@ -216,20 +204,15 @@ impl Definition {
     }
 
     fn contradiction(&self) -> Option<String> {
-        if !is_description(&self.summary)
-            || self.source.is_empty()
-            || self.example.trim().is_empty()
-        {
-            return Some("summary, source and example must say something, and a summary ends without a full stop".to_owned());
+        if !is_description(&self.summary) || self.source.is_empty() || self.example.trim().is_empty() {
+            return Some(
+                "summary, source and example must say something, and a summary ends without a full stop".to_owned(),
+            );
         }
         if self.levels.is_empty() {
             return Some("it may stand nowhere".to_owned());
         }
-        if let Some(name) = first_repeated(
-            self.parameters
-                .iter()
-                .map(|parameter| parameter.name.as_str()),
-        ) {
+        if let Some(name) = first_repeated(self.parameters.iter().map(|parameter| parameter.name.as_str())) {
             return Some(format!("parameter `{name}` stands twice"));
         }
         let has_parameter = |name: &str| self.parameter(name).is_some();
@@ -258,36 +241,17 @@ impl ParameterDefinition {
     }
 
     fn contradiction(&self, has_parameter: impl Fn(&str) -> bool) -> Option<String> {
-        let mut related = self
-            .needs
-            .iter()
-            .chain(&self.excludes)
-            .chain(&self.ignored_with);
+        let mut related = self.needs.iter().chain(&self.excludes).chain(&self.ignored_with);
         if let Some(unknown) = related.find(|name| !has_parameter(name) || **name == self.name) {
             return Some(format!("`{unknown}` is no other parameter of the keyword"));
         }
         let is_number = matches!(self.kind, ParameterKind::Float | ParameterKind::Integer);
         let wrong = [
-            (
-                !is_description(&self.description) || self.source.is_empty(),
-                "no description or no source",
-            ),
-            (
-                (self.kind == ParameterKind::Choice) == self.choices.is_empty(),
-                "choices belong to the kind `choice`",
-            ),
-            (
-                self.kind == ParameterKind::Flag && self.value_optional,
-                "a flag has no value",
-            ),
-            (
-                self.required && self.default.is_some(),
-                "what is required has no default",
-            ),
-            (
-                !is_number && (self.minimum.is_some() || self.maximum.is_some()),
-                "only numbers have bounds",
-            ),
+            (!is_description(&self.description) || self.source.is_empty(), "no description or no source"),
+            ((self.kind == ParameterKind::Choice) == self.choices.is_empty(), "choices belong to the kind `choice`"),
+            (self.kind == ParameterKind::Flag && self.value_optional, "a flag has no value"),
+            (self.required && self.default.is_some(), "what is required has no default"),
+            (!is_number && (self.minimum.is_some() || self.maximum.is_some()), "only numbers have bounds"),
             (
                 self.dimension.is_some() != (self.kind == ParameterKind::Float),
                 "a float has a dimension, nothing else has",
@@ -308,9 +272,7 @@ pub(super) fn is_description(text: &str) -> bool {
 }
 
 /// The first name that stands a second time.
-pub(super) fn first_repeated<'name>(
-    mut names: impl Iterator<Item = &'name str>,
-) -> Option<&'name str> {
+pub(super) fn first_repeated<'name>(mut names: impl Iterator<Item = &'name str>) -> Option<&'name str> {
     let mut seen = HashSet::new();
     names.find(|name| !seen.insert(*name))
 }

@@ -41,14 +41,7 @@ pub struct DimensionError {
 
 impl Base {
     /// Every base quantity, in the order in which a dimension is written.
-    pub const ALL: [Self; 6] = [
-        Self::Mass,
-        Self::Length,
-        Self::Time,
-        Self::Temperature,
-        Self::Potential,
-        Self::Charge,
-    ];
+    pub const ALL: [Self; 6] = [Self::Mass, Self::Length, Self::Time, Self::Temperature, Self::Potential, Self::Charge];
 
     /// The manual's letter for it.
     pub fn symbol(self) -> &'static str {
@@ -78,25 +71,15 @@ impl Dimension {
 /// Positive powers first: `C L^-2 T^-1 φ^-1`; `1` for a plain number.
 impl fmt::Display for Dimension {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let powers = Base::ALL
-            .into_iter()
-            .map(|base| (base, self.exponent(base)));
-        let (positive, negative): (Vec<_>, Vec<_>) = powers
-            .filter(|(_, power)| *power != 0)
-            .partition(|(_, power)| *power > 0);
-        let written = positive
-            .into_iter()
-            .chain(negative)
-            .map(|(base, power)| match power {
-                1 => base.symbol().to_owned(),
-                _ => format!("{}^{power}", base.symbol()),
-            });
+        let powers = Base::ALL.into_iter().map(|base| (base, self.exponent(base)));
+        let (positive, negative): (Vec<_>, Vec<_>) =
+            powers.filter(|(_, power)| *power != 0).partition(|(_, power)| *power > 0);
+        let written = positive.into_iter().chain(negative).map(|(base, power)| match power {
+            1 => base.symbol().to_owned(),
+            _ => format!("{}^{power}", base.symbol()),
+        });
         let written: Vec<String> = written.collect();
-        formatter.pad(&if written.is_empty() {
-            "1".to_owned()
-        } else {
-            written.join(" ")
-        })
+        formatter.pad(&if written.is_empty() { "1".to_owned() } else { written.join(" ") })
     }
 }
 
@@ -104,10 +87,7 @@ impl FromStr for Dimension {
     type Err = DimensionError;
 
     fn from_str(written: &str) -> Result<Self, DimensionError> {
-        let error = |reason| DimensionError {
-            written: written.to_owned(),
-            reason,
-        };
+        let error = |reason| DimensionError { written: written.to_owned(), reason };
         let mut dimension = Self::default();
         if written == "1" {
             return Ok(dimension);
@@ -116,13 +96,9 @@ impl FromStr for Dimension {
             let (symbol, power) = factor.split_once('^').unwrap_or((factor, "1"));
             let base = Base::ALL.into_iter().find(|base| base.symbol() == symbol);
             let base = base.ok_or_else(|| {
-                error(
-                    "its factors are powers of M, L, T, θ, φ and C with single blanks between them",
-                )
+                error("its factors are powers of M, L, T, θ, φ and C with single blanks between them")
             })?;
-            let power: i8 = power
-                .parse()
-                .map_err(|_| error("an exponent is a small integer"))?;
+            let power: i8 = power.parse().map_err(|_| error("an exponent is a small integer"))?;
             if power == 0 {
                 return Err(error("a factor with exponent 0 is left out"));
             }
@@ -166,19 +142,14 @@ mod tests {
     #[test]
     fn tells_exponents() {
         let conductance: Dimension = "C T^-1 L^-2 φ^-1".parse().unwrap();
-        assert_eq!(
-            Base::ALL.map(|base| conductance.exponent(base)),
-            [0, -2, -1, 0, -1, 1]
-        );
+        assert_eq!(Base::ALL.map(|base| conductance.exponent(base)), [0, -2, -1, 0, -1, 1]);
         assert!(!conductance.is_one());
         assert!("1".parse::<Dimension>().unwrap().is_one());
     }
 
     #[test]
     fn refuses_what_is_no_dimension() {
-        for written in [
-            "", "J", "L L", "L^0", "L^x", "L  T", "L^", " L", "l", "L^300", "1 L",
-        ] {
+        for written in ["", "J", "L L", "L^0", "L^x", "L  T", "L^", " L", "l", "L^300", "1 L"] {
             assert!(written.parse::<Dimension>().is_err(), "{written:?}");
         }
     }

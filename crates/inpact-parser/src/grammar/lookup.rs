@@ -28,19 +28,13 @@ impl<T> Lookup<T> {
 /// Which of `names` is meant by what is written, as its place in the list (S-13).
 ///
 /// Right for parameters and enumerated values; never for numbers and file names, which are not abbreviated.
-pub fn lookup_name<'name>(
-    written: &[u8],
-    names: impl IntoIterator<Item = &'name str>,
-) -> Lookup<usize> {
+pub fn lookup_name<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str>) -> Lookup<usize> {
     let indexed = names.into_iter().enumerate();
     lookup_among(written, indexed)
 }
 
 /// Which of the named things is meant by what is written.
-pub(super) fn lookup_among<'name, T>(
-    written: &[u8],
-    named: impl IntoIterator<Item = (T, &'name str)>,
-) -> Lookup<T> {
+pub(super) fn lookup_among<'name, T>(written: &[u8], named: impl IntoIterator<Item = (T, &'name str)>) -> Lookup<T> {
     match Folded::new(written) {
         Some(folded) => decide(folded.as_bytes(), named),
         None => Lookup::Unknown,
@@ -48,10 +42,7 @@ pub(super) fn lookup_among<'name, T>(
 }
 
 /// Decides between names: the exact one, else the only one that begins so.
-pub(super) fn decide<'name, T>(
-    folded: &[u8],
-    named: impl IntoIterator<Item = (T, &'name str)>,
-) -> Lookup<T> {
+pub(super) fn decide<'name, T>(folded: &[u8], named: impl IntoIterator<Item = (T, &'name str)>) -> Lookup<T> {
     let mut only = None;
     let mut others = Vec::new();
     for (thing, name) in named {
@@ -84,11 +75,7 @@ fn begins_with(name: &str, folded: &[u8]) -> Match {
     if !folded.iter().all(|byte| letters.next() == Some(*byte)) {
         return Match::No;
     }
-    if letters.next().is_none() {
-        Match::Exact
-    } else {
-        Match::Prefix
-    }
+    if letters.next().is_none() { Match::Exact } else { Match::Prefix }
 }
 
 /// A written word without blanks and tabs, in upper case (S-07, S-11, S-12).
@@ -104,10 +91,7 @@ impl Folded {
 
     /// `None` when nothing is left, or more than any name has: such a word means nothing.
     pub(super) fn new(written: &[u8]) -> Option<Self> {
-        let mut folded = Self {
-            bytes: [0; Self::LONGEST],
-            length: 0,
-        };
+        let mut folded = Self { bytes: [0; Self::LONGEST], length: 0 };
         for byte in fold(written) {
             *folded.bytes.get_mut(folded.length)? = byte;
             folded.length += 1;
@@ -122,8 +106,5 @@ impl Folded {
 
 /// The bytes that count, in upper case. Line ends are none of them: a keyword line may go on behind one (S-19).
 pub(super) fn fold(written: &[u8]) -> impl Iterator<Item = u8> {
-    written
-        .iter()
-        .filter(|byte| !byte.is_ascii_whitespace())
-        .map(u8::to_ascii_uppercase)
+    written.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase)
 }

@@ -25,10 +25,7 @@ pub(super) fn nearest<'name>(
     });
     let mut near: Vec<(usize, &str)> = near.collect();
     near.sort_unstable();
-    near.into_iter()
-        .take(at_most)
-        .map(|(_, name)| name)
-        .collect()
+    near.into_iter().take(at_most).map(|(_, name)| name).collect()
 }
 
 /// How far a name is from a word; `None` when too far to be meant.
@@ -77,10 +74,7 @@ mod tests {
         assert_eq!(edit_distance(b"SOILS", b"SOILS", 2), Some(0));
         assert_eq!(edit_distance(b"SOLIS", b"SOILS", 2), Some(1));
         assert_eq!(edit_distance(b"BEHAVIOUR", b"BEHAVIOR", 2), Some(1));
-        assert_eq!(
-            edit_distance(b"GAPCONDUCTANS", b"GAPCONDUCTANCE", 3),
-            Some(2)
-        );
+        assert_eq!(edit_distance(b"GAPCONDUCTANS", b"GAPCONDUCTANCE", 3), Some(2));
         assert_eq!(edit_distance(b"STEP", b"FIELD", 2), None);
     }
 }

@@ -35,14 +35,7 @@ impl Release {
     pub const NEWEST: Self = Self::R2024;
 
     /// Every release, oldest first.
-    pub const ALL: [Self; 6] = [
-        Self::R6_11,
-        Self::R6_14,
-        Self::R2016,
-        Self::R2017,
-        Self::R2022,
-        Self::R2024,
-    ];
+    pub const ALL: [Self; 6] = [Self::R6_11, Self::R6_14, Self::R2016, Self::R2017, Self::R2022, Self::R2024];
 
     /// Whether something that came with `since` and was last seen in `until` is there; a bound that is not known holds none back.
     pub fn is_within(self, since: Option<Self>, until: Option<Self>) -> bool {
@@ -71,12 +64,8 @@ impl FromStr for Release {
     type Err = ReleaseError;
 
     fn from_str(written: &str) -> Result<Self, ReleaseError> {
-        let found = Self::ALL
-            .into_iter()
-            .find(|release| release.name() == written.trim());
-        found.ok_or_else(|| ReleaseError {
-            written: written.to_owned(),
-        })
+        let found = Self::ALL.into_iter().find(|release| release.name() == written.trim());
+        found.ok_or_else(|| ReleaseError { written: written.to_owned() })
     }
 }
 
