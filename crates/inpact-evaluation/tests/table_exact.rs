@@ -54,7 +54,7 @@ fn add_groups(random: &mut Random, axis: usize, range: Range, abscissae: &mut Ve
         return;
     }
     let mut x = range.first(random);
-    for _ in 0..1 + random.below(if axis > 2 { 3 } else { 4 }) {
+    for _ in 0..=random.below(if axis > 2 { 3 } else { 4 }) {
         abscissae[axis - 1] = x;
         add_groups(random, axis - 1, range, abscissae, rows);
         let next = range.next(random, x);
