@@ -5,12 +5,14 @@
 //! Rows are a range of bytes until somebody reads them, so a mesh costs no number parsing (S-03 to S-37).
 
 mod data_line;
+mod include;
 mod keyword_line;
 pub mod lines;
 mod scan;
 mod text;
 
 pub use data_line::items;
+pub use include::{FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, MOST_LEVELS};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::Source;
 
@@ -24,17 +26,22 @@ pub struct Deck {
     sources: Vec<Source>,
     blocks: Vec<Block>,
     notes: Vec<LineNote>,
+    includes: Vec<Include>,
 }
 
 /// A keyword line and everything up to the next one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// The keyword line; `None` for what stands before the first keyword of a file.
+    /// The keyword line; `None` for what stands before the first keyword of a file, and for rows behind an *INCLUDE.
     pub keyword: Option<KeywordLine>,
     /// The lines behind the keyword line: data, comments, blank lines.
     pub rows: Span,
     /// Whether the deck holds the text of `rows`; mesh rows are not kept when a deck is only checked.
     pub rows_kept: bool,
+    /// Rows of this block that stand elsewhere: in a file that begins with rows, or behind the *INCLUDE of one (S-51).
+    ///
+    /// They are blocks without a keyword as well.
+    pub continued_in: Vec<Span>,
 }
 
 /// `*KEYWORD, PARAMETER=VALUE, …`, with the lines that continue it.
@@ -126,6 +133,17 @@ impl Deck {
         &self.blocks
     }
 
+    /// The *INCLUDE options and what became of them, innermost first; empty until [`Deck::with_includes`] has read them.
+    pub fn includes(&self) -> &[Include] {
+        &self.includes
+    }
+
+    /// The *INCLUDE lines that led to a source file, the nearest first; none for the deck itself.
+    pub fn include_chain(&self, source: SourceId) -> Vec<Span> {
+        std::iter::successors(self.source(source).included_by(), |span| self.source(span.source).included_by())
+            .collect()
+    }
+
     /// What was seen while lines were cut, in reading order.
     pub fn notes(&self) -> &[LineNote] {
         &self.notes
@@ -149,8 +167,9 @@ impl Deck {
     }
 
     /// The data and blank lines of a block, comments passed over; nothing when its rows were not kept.
-    pub fn data_lines(&self, block: &Block) -> impl Iterator<Item = DataLine<'_>> {
-        self.data_lines_in(block.rows)
+    pub fn data_lines<'a>(&'a self, block: &'a Block) -> impl Iterator<Item = DataLine<'a>> {
+        let rows = std::iter::once(block.rows).chain(block.continued_in.iter().copied());
+        rows.flat_map(|rows| self.data_lines_in(rows))
     }
 
     /// The data and blank lines of a span of rows.

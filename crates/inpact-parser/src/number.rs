@@ -28,26 +28,23 @@ pub const INTEGER_DIGITS: usize = 9;
 /// magnitude above the largest f64.
 pub fn read_float(text: &[u8]) -> Result<f64, NumberError> {
     let unsigned = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
-    if !unsigned.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'e' | b'E' | b'd' | b'D' | b'+' | b'-')) {
+    // Keeps out `nan` and `inf`, which the standard library would read.
+    if !matches!(unsigned.first(), Some(b'0'..=b'9' | b'.')) {
         return Err(NumberError::Malformed);
     }
-    match unsigned.first() {
-        Some(b'0'..=b'9' | b'.') => {}
-        _ => return Err(NumberError::Malformed),
-    }
-    let value = match text.iter().position(|byte| matches!(byte, b'd' | b'D')) {
-        None => parse(text),
-        Some(at) => {
-            let mut with_e = text.to_vec();
-            with_e[at] = b'E';
-            parse(&with_e)
-        }
-    };
-    match value {
+    match parse(text).or_else(|| parse_with_d(text)) {
         Some(value) if value.is_finite() => Ok(value),
         Some(_) => Err(NumberError::TooLarge),
         None => Err(exponent_without_letter(text)),
     }
+}
+
+/// A number whose exponent stands behind a D, as Fortran writes it.
+fn parse_with_d(text: &[u8]) -> Option<f64> {
+    let at = text.iter().position(|byte| matches!(byte, b'd' | b'D'))?;
+    let mut with_e = text.to_vec();
+    with_e[at] = b'E';
+    parse(&with_e)
 }
 
 fn parse(text: &[u8]) -> Option<f64> {

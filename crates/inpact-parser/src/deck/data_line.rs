@@ -29,15 +29,15 @@ pub fn items(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
 
 /// Everything up to the next comma outside quotes.
 fn item(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    let (rest, plain) = take_till(|byte| matches!(byte, b',' | b'"')).parse(input)?;
+    // Numbers have no quotes: the common case ends here.
+    if rest.first() == Some(&b'"') { with_quotes(input) } else { Ok((rest, plain)) }
+}
+
+fn with_quotes(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    let plain = take_while1(|byte| !matches!(byte, b',' | b'"'));
+    let quoted = recognize((tag("\""), take_till(|byte| byte == b'"'), opt(tag("\""))));
     recognize(many0_count(alt((plain, quoted)))).parse(input)
-}
-
-fn plain(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    take_while1(|byte| !matches!(byte, b',' | b'"')).parse(input)
-}
-
-fn quoted(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    recognize((tag("\""), take_till(|byte| byte == b'"'), opt(tag("\"")))).parse(input)
 }
 
 #[cfg(test)]

@@ -38,6 +38,17 @@ pub struct ScanOptions<'grammar> {
     pub keep: Keep,
 }
 
+/// How much is kept of the rows before the first keyword of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LeadingRows {
+    /// All of them: they go on with a block whose rows are kept.
+    All,
+    /// As much as it takes to tell a fragment from a file that is no deck.
+    Some,
+    /// None.
+    None,
+}
+
 /// Scans the bytes of one file and keeps all of them.
 pub fn scan(name: &str, bytes: &[u8], grammar: &Grammar) -> Deck {
     let mut scanner = Scanner::new(name, ScanOptions { grammar, keep: Keep::Everything });
@@ -49,6 +60,7 @@ pub fn scan(name: &str, bytes: &[u8], grammar: &Grammar) -> Deck {
 #[derive(Debug)]
 pub struct Scanner<'grammar> {
     options: ScanOptions<'grammar>,
+    id: SourceId,
     source: Source,
     blocks: Vec<Block>,
     notes: Vec<LineNote>,
@@ -91,14 +103,27 @@ enum KeepsRows {
 }
 
 impl<'grammar> Scanner<'grammar> {
-    /// A scanner for the file of that name.
+    /// A scanner for the deck of that name.
     pub fn new(name: &str, options: ScanOptions<'grammar>) -> Self {
-        let keeps_rows = match options.keep {
-            Keep::Everything => KeepsRows::All,
-            Keep::Interpreted => KeepsRows::UpTo(LEADING_ROWS_KEPT),
+        Self::for_source(SourceId::ROOT, name, options, LeadingRows::Some)
+    }
+
+    /// A scanner for one of the files of a deck.
+    pub(super) fn for_source(
+        id: SourceId,
+        name: &str,
+        options: ScanOptions<'grammar>,
+        leading_rows: LeadingRows,
+    ) -> Self {
+        let keeps_rows = match leading_rows {
+            _ if options.keep == Keep::Everything => KeepsRows::All,
+            LeadingRows::All => KeepsRows::All,
+            LeadingRows::Some => KeepsRows::UpTo(LEADING_ROWS_KEPT),
+            LeadingRows::None => KeepsRows::None,
         };
         Self {
             options,
+            id,
             source: Source::new(name),
             blocks: Vec::new(),
             notes: Vec::new(),
@@ -129,13 +154,19 @@ impl<'grammar> Scanner<'grammar> {
     }
 
     /// The end of the file: gives the deck.
-    pub fn finish(mut self) -> Deck {
+    pub fn finish(self) -> Deck {
+        let (source, blocks, notes) = self.finish_parts();
+        Deck { sources: vec![source], blocks, notes, includes: Vec::new() }
+    }
+
+    /// The end of the file: gives what it holds.
+    pub(super) fn finish_parts(mut self) -> (Source, Vec<Block>, Vec<LineNote>) {
         let last_line = std::mem::take(&mut self.pending);
         self.process(&last_line);
         self.close_keyword();
         self.close_block();
         self.source.set_length(self.offset);
-        Deck { sources: vec![self.source], blocks: self.blocks, notes: self.notes }
+        (self.source, self.blocks, self.notes)
     }
 
     /// Processes complete lines.
@@ -191,7 +222,7 @@ impl<'grammar> Scanner<'grammar> {
             }
             let start = self.offset + line.start as u64;
             let content = without_line_end(&bytes[line.clone()]).len() as u64;
-            self.notes.push(LineNote { kind, span: Span::new(SourceId::ROOT, start, start + content), lines: 1 });
+            self.notes.push(LineNote { kind, span: Span::new(self.id, start, start + content), lines: 1 });
             if self.block.keeps_rows == KeepsRows::None {
                 let line_number = self.line + count_line_ends(&bytes[..line.start]);
                 self.source.keep(start, line_number, &bytes[line]);
@@ -239,7 +270,7 @@ impl<'grammar> Scanner<'grammar> {
     fn close_keyword(&mut self) {
         let Some(open) = self.open_keyword.take() else { return };
         let text = &open.text[..open.accepted];
-        let keyword = keyword_line(text, open.start, self.options.grammar);
+        let keyword = keyword_line(text, self.id, open.start, self.options.grammar);
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
         self.block = OpenBlock {
             rows_start: keyword.span.end,
@@ -250,11 +281,11 @@ impl<'grammar> Scanner<'grammar> {
     }
 
     fn close_block(&mut self) {
-        let rows = Span::new(SourceId::ROOT, self.block.rows_start, self.offset);
+        let rows = Span::new(self.id, self.block.rows_start, self.offset);
         let keyword = self.block.keyword.take();
         if keyword.is_some() || !rows.is_empty() {
             let rows_kept = self.block.keeps_rows != KeepsRows::None;
-            self.blocks.push(Block { keyword, rows, rows_kept });
+            self.blocks.push(Block { keyword, rows, rows_kept, continued_in: Vec::new() });
         }
     }
 
@@ -338,9 +369,9 @@ fn id_of(name: &[u8], grammar: &Grammar) -> Option<crate::grammar::KeywordId> {
 }
 
 /// Resolves the pieces of a keyword line that stands at `start` in the file.
-fn keyword_line(text: &[u8], start: u64, grammar: &Grammar) -> KeywordLine {
+fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> KeywordLine {
     let pieces = keyword_line::parse(text);
-    let span = |range: Range<usize>| Span::new(SourceId::ROOT, start + range.start as u64, start + range.end as u64);
+    let span = |range: Range<usize>| Span::new(id, start + range.start as u64, start + range.end as u64);
     let point = |at: usize| span(at..at + 1);
     let resolved = grammar.keyword_named(&text[pieces.name.clone()]);
     let definition = match resolved {

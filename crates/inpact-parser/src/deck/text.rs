@@ -5,13 +5,15 @@
 use std::ops::Range;
 
 use super::lines::count_line_ends;
-use crate::span::Position;
+use crate::span::{Position, Span};
 
 /// One source file: its name, its size, and the stretches of it that were kept.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Source {
     name: String,
     length: u64,
+    /// The *INCLUDE that named it.
+    pub(super) included_by: Option<Span>,
     stretches: Vec<Stretch>,
     /// The kept bytes, stretch behind stretch.
     bytes: Vec<u8>,
@@ -42,6 +44,11 @@ impl Source {
     /// The size of the whole file in bytes.
     pub fn length(&self) -> u64 {
         self.length
+    }
+
+    /// The keyword line of the *INCLUDE that named it; `None` for the deck itself.
+    pub fn included_by(&self) -> Option<Span> {
+        self.included_by
     }
 
     /// Whether every byte of the file was kept.

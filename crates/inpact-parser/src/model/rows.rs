@@ -15,6 +15,7 @@ pub(super) fn read_table(deck: &Deck, block: &Block, layout: Layout, problems: &
     let mut reader =
         RowReader { deck, keyword, layout: &layout, lines: layout.lines_per_row(), problems, table: Table::default() };
     reader.table.keyword = keyword;
+    reader.reserve(deck.text(block.rows));
     let mut line_of_row = 0;
     for line in deck.data_lines(block) {
         if line.is_blank() {
@@ -40,44 +41,47 @@ struct RowReader<'a> {
 }
 
 impl RowReader<'_> {
+    /// Makes room for the rows that `text` may hold, so that a table does not grow step by step.
+    fn reserve(&mut self, text: &[u8]) {
+        let rows = memchr::memchr_iter(b'\n', text).count() / self.lines + 1;
+        // No more than the text could spell out: rows of empty items are made as they come.
+        let most = text.len() / 2;
+        self.table.rows.reserve_exact(rows.min(most));
+        self.table.values.reserve_exact((rows * self.layout.columns.len()).min(most));
+    }
+
     fn report(&mut self, kind: ProblemKind, span: Span) {
         self.problems.push(Problem { kind, span, keyword: self.keyword });
     }
 
     /// Takes line number `line_of_row` of a row; gives the number of the next line, 0 when the row is complete.
     fn take_line(&mut self, line: &DataLine<'_>, line_of_row: usize) -> usize {
-        let content = trimmed(line);
-        let room = items_on(self.layout, line_of_row);
         let width = self.layout.columns.len();
-        let given = count_items(line);
         // K-53: too much for a first line, but exactly a whole row.
-        let whole_row = line_of_row == 0 && self.lines > 1 && given == width;
-        let room = if whole_row { width } else { room };
-        if whole_row {
-            let (first, following) = (self.layout.first_line, self.layout.following);
-            self.report(ProblemKind::RowOnOneLine { lines: self.lines, first, following }, content);
-        } else if given > room {
-            self.report_surplus(line, room, given);
-        }
-        let column = self.table.values.len() % width.max(1);
+        let whole_row = self.lines > 1 && line_of_row == 0 && count_items(line) == width;
+        let room = if whole_row { width } else { items_on(self.layout, line_of_row) };
+        let first_column = self.table.values.len() % width.max(1);
         let mut items = line.items();
-        for column in column..column + room {
+        for column in first_column..first_column + room {
             match items.next() {
                 Some(item) => self.take_item(item, column),
                 None => self.table.values.push(self.layout.defaults[column]),
             }
+        }
+        let content = trimmed(line);
+        if whole_row {
+            let (first, following) = (self.layout.first_line, self.layout.following);
+            self.report(ProblemKind::RowOnOneLine { lines: self.lines, first, following }, content);
+        }
+        if let Some(surplus) = items.filter(|item| !item.is_empty()).reduce(Span::to) {
+            let given = count_items(line);
+            self.report(ProblemKind::TooManyItems { allowed: room, given, lines: self.lines }, surplus);
         }
         match line_of_row {
             0 => self.table.rows.push(content),
             _ => self.extend_last_row(content),
         }
         if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
-    }
-
-    fn report_surplus(&mut self, line: &DataLine<'_>, allowed: usize, given: usize) {
-        let surplus = line.items().skip(allowed).filter(|item| !item.is_empty()).reduce(Span::to);
-        let span = surplus.unwrap_or(line.span);
-        self.report(ProblemKind::TooManyItems { allowed, given, lines: self.lines }, span);
     }
 
     fn take_item(&mut self, item: Span, column: usize) {
@@ -114,7 +118,8 @@ impl RowReader<'_> {
     }
 
     fn extend_last_row(&mut self, line: Span) {
-        if let Some(row) = self.table.rows.last_mut() {
+        // A row that begins in one file and ends in another is found where it begins.
+        if let Some(row) = self.table.rows.last_mut().filter(|row| row.source == line.source) {
             *row = row.to(line);
         }
     }
@@ -141,13 +146,8 @@ fn items_on(layout: &Layout, line: usize) -> usize {
 
 /// The number of items of a line, empty ones at its end not counted (S-33).
 fn count_items(line: &DataLine<'_>) -> usize {
-    let mut count = 0;
-    for (index, item) in line.items().enumerate() {
-        if !item.is_empty() {
-            count = index + 1;
-        }
-    }
-    count
+    let given = line.items().enumerate().filter(|(_, item)| !item.is_empty());
+    given.last().map_or(0, |(index, _)| index + 1)
 }
 
 /// The line without blanks around it.

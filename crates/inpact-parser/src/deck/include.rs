@@ -1,0 +1,200 @@
+//! Puts included files in their places (S-50 to S-54).
+//!
+//! A file is scanned by itself; its blocks then stand behind the *INCLUDE that named it.
+//! Rows before the first keyword of an included file, and rows behind the *INCLUDE itself, go on with the block that is
+//! open there (S-51). What could not be read is said in [`Include::outcome`], and the rest of the deck is read all the same.
+
+use super::scan::LeadingRows;
+use super::{Block, Deck, KeywordLine, ScanOptions, Scanner, Source};
+use crate::span::{SourceId, Span};
+use std::path::PathBuf;
+
+/// The most files below one another, the deck itself not counted (S-52).
+pub const MOST_LEVELS: usize = 5;
+
+/// The most files a deck may include in all: a bound against files that include one another over and over.
+pub const MOST_FILES: usize = 200_000;
+
+/// An *INCLUDE of the deck.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Include {
+    /// Its keyword line.
+    pub keyword: Span,
+    /// The name of the file as it is written; `None` when INPUT is missing.
+    pub name: Option<Span>,
+    /// What became of it.
+    pub outcome: IncludeOutcome,
+}
+
+/// What became of an *INCLUDE.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum IncludeOutcome {
+    /// It was read as this source.
+    Read(SourceId),
+    /// It was not found or could not be read, for this reason.
+    Unreadable(String),
+    /// It lies over five levels deep (S-52), or there are more files than anybody could mean.
+    TooDeep,
+    /// It is being read already: the files include one another.
+    Cycle,
+    /// PASSWORD is given: the file is encrypted (S-53).
+    Encrypted,
+    /// INPUT is missing.
+    Unnamed,
+}
+
+/// Where included files come from; whoever implements it does the input and output.
+pub trait IncludedFiles {
+    /// Finds the file that is written as `name` in the source called `from`.
+    ///
+    /// # Errors
+    /// Says in words why there is none.
+    fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String>;
+
+    /// Pushes the bytes of a file that was found.
+    ///
+    /// # Errors
+    /// Says in words why they cannot be read.
+    fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String>;
+}
+
+/// A file that an *INCLUDE names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FoundFile {
+    /// What diagnostics call it.
+    pub name: String,
+    /// What tells it from every other file.
+    pub path: PathBuf,
+}
+
+impl Deck {
+    /// Reads what the deck includes, and what that includes, and puts it in its place.
+    #[must_use]
+    pub fn with_includes(self, options: ScanOptions<'_>, files: &mut dyn IncludedFiles) -> Self {
+        let has_includes = |block: &Block| is_include(block, options);
+        if !self.blocks.iter().any(has_includes) {
+            return self;
+        }
+        let mut assembly =
+            Assembly { options, files, deck: Self { blocks: Vec::new(), ..self }, open: None, path: Vec::new() };
+        assembly.place(self.blocks);
+        assembly.deck
+    }
+}
+
+fn is_include(block: &Block, options: ScanOptions<'_>) -> bool {
+    block.keyword_id().is_some_and(|id| options.grammar.keyword(id).name == "INCLUDE")
+}
+
+/// A deck in which the included files are being placed.
+struct Assembly<'a> {
+    options: ScanOptions<'a>,
+    files: &'a mut dyn IncludedFiles,
+    deck: Deck,
+    /// The last block that began with a keyword of its own: rows without one belong to it.
+    open: Option<usize>,
+    /// The included files that are being read, outermost first.
+    path: Vec<PathBuf>,
+}
+
+impl Assembly<'_> {
+    fn place(&mut self, blocks: Vec<Block>) {
+        for mut block in blocks {
+            if !is_include(&block, self.options) {
+                self.push(block);
+                continue;
+            }
+            let rows = block.rows;
+            block.rows.end = rows.start;
+            let keyword = block.keyword.clone();
+            // Not `push`: the block that was open before stays open.
+            self.deck.blocks.push(block);
+            if let Some(keyword) = keyword {
+                let include = self.include(&keyword);
+                self.deck.includes.push(include);
+            }
+            if !rows.is_empty() {
+                self.push(Block { keyword: None, rows, rows_kept: true, continued_in: Vec::new() });
+            }
+        }
+    }
+
+    fn push(&mut self, block: Block) {
+        let index = self.deck.blocks.len();
+        match (&block.keyword, self.open) {
+            (Some(_), _) => self.open = Some(index),
+            (None, Some(open)) => self.deck.blocks[open].continued_in.push(block.rows),
+            (None, None) => {}
+        }
+        self.deck.blocks.push(block);
+    }
+
+    fn include(&mut self, keyword: &KeywordLine) -> Include {
+        let name = self.value_of(keyword, "INPUT");
+        let outcome = match name {
+            _ if self.is_given(keyword, "PASSWORD") => IncludeOutcome::Encrypted,
+            None => IncludeOutcome::Unnamed,
+            Some(name) => self.read_file(name, keyword.span),
+        };
+        Include { keyword: keyword.span, name, outcome }
+    }
+
+    fn read_file(&mut self, name: Span, keyword: Span) -> IncludeOutcome {
+        if self.path.len() >= MOST_LEVELS || self.deck.sources.len() > MOST_FILES {
+            return IncludeOutcome::TooDeep;
+        }
+        let written = self.deck.shown(name);
+        // Blanks carry no meaning outside quotes (S-22).
+        let written = match written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
+            Some(quoted) => quoted.to_owned(),
+            None => written.split_ascii_whitespace().collect(),
+        };
+        let found = match self.files.find(&written, self.deck.source(name.source).name()) {
+            Ok(found) => found,
+            Err(reason) => return IncludeOutcome::Unreadable(reason),
+        };
+        if self.path.contains(&found.path) {
+            return IncludeOutcome::Cycle;
+        }
+        let id = SourceId(u32::try_from(self.deck.sources.len()).unwrap_or(u32::MAX));
+        let keeps_leading = match self.open {
+            Some(open) if self.deck.blocks[open].rows_kept => LeadingRows::All,
+            Some(_) => LeadingRows::None,
+            None => LeadingRows::Some,
+        };
+        let mut scanner = Scanner::for_source(id, &found.name, self.options, keeps_leading);
+        if let Err(reason) = self.files.read(&found, &mut scanner) {
+            return IncludeOutcome::Unreadable(reason);
+        }
+        let (mut source, blocks, mut notes) = scanner.finish_parts();
+        source.set_included_by(keyword);
+        self.deck.sources.push(source);
+        self.deck.notes.append(&mut notes);
+        self.path.push(found.path);
+        self.place(blocks);
+        self.path.pop();
+        IncludeOutcome::Read(id)
+    }
+
+    fn value_of(&self, keyword: &KeywordLine, parameter: &str) -> Option<Span> {
+        self.given(keyword, parameter)?.value.filter(|value| !value.is_empty())
+    }
+
+    fn is_given(&self, keyword: &KeywordLine, parameter: &str) -> bool {
+        self.given(keyword, parameter).is_some()
+    }
+
+    fn given<'line>(&self, keyword: &'line KeywordLine, parameter: &str) -> Option<&'line super::Parameter> {
+        let definition = self.options.grammar.keyword(keyword.id()?).definition()?;
+        let is_meant = |given: &&super::Parameter| {
+            given.index().is_some_and(|index| definition.parameters[index].name == parameter)
+        };
+        keyword.parameters.iter().rev().find(is_meant)
+    }
+}
+
+impl Source {
+    pub(super) fn set_included_by(&mut self, keyword: Span) {
+        self.included_by = Some(keyword);
+    }
+}
