@@ -35,7 +35,7 @@ proptest! {
             prop_assert!(ulps_from(product_of_all, &exact) <= (factors.len() as f64).max(0.5));
         } else {
             let log2: f64 = factors.iter().map(|factor| factor.abs().log2()).sum();
-            prop_assert!(log2 >= 1023.999_999);
+            prop_assert!(log2 >= 1_023.999_999);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Tables by the numbered rules: order of rows, ragged groups, constant ends, single rows, the zero tail, published values.
 
 use inpact_evaluation::numbers::product;
-use inpact_evaluation::table::{PiecewiseTable, TableFault, Tail};
+use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableFault, Tail};
 
 fn table(rows: &[&[f64]]) -> PiecewiseTable {
     with_tail(rows, Tail::Constant)
@@ -261,7 +261,7 @@ fn a_thousand_axes() {
         })
         .collect();
     let table = PiecewiseTable::from_rows(&rows.concat(), axes + 1, Tail::Constant).unwrap();
-    assert!(table.axes().iter().all(|axis| axis.matters()));
+    assert!(table.axes().iter().all(AxisSummary::matters));
     for row in &rows {
         assert_eq!(table.value(&row[1..]), row[0]);
     }

@@ -62,7 +62,7 @@ pub fn interpolate(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64), slope: Ke
     let (near, base) = if x - x0 <= x1 - x { (x0, y0) } else { (x1, y1) };
     let (offset, offset_error) = two_difference(x, near);
     let value = offset.mul_add(slope.high, base);
-    value + offset.mul_add(slope.low, offset_error * slope.high)
+    value + (offset * slope.low + offset_error * slope.high)
 }
 
 /// The slope (y1 − y0) / (x1 − x0) of a segment with `x0 < x1`, rounded to f64 (0.5 ulp plus 2⁻⁵⁰); infinite where it exceeds the range of f64.
@@ -78,7 +78,7 @@ fn precise_slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> (f64, f64) {
     let (width, width_error) = two_difference(x1, x0);
     if is_ordinary(rise) && is_ordinary(width) {
         let quotient = rise / width;
-        let remainder = (-quotient).mul_add(width, rise) + (-quotient).mul_add(width_error, rise_error);
+        let remainder = (-quotient).mul_add(width, rise) + (rise_error - quotient * width_error);
         return two_sum(quotient, remainder / width);
     }
     if !(y0.is_finite() && y1.is_finite()) {
@@ -107,10 +107,10 @@ pub fn between(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
         return between_extremes(x, (near, base), (far, other));
     }
     let part = offset / width;
-    let remainder = (-part).mul_add(width, offset) + (-part).mul_add(width_error, offset_error);
+    let remainder = (-part).mul_add(width, offset) + (offset_error - part * width_error);
     let part_error = remainder / width;
     let (step, step_error) = two_product(part, rise);
-    let step_error = step_error + part.mul_add(rise_error, part_error * rise);
+    let step_error = step_error + (part * rise_error + part_error * rise);
     let (value, value_error) = two_sum(base, step);
     clamp_between(value + (value_error + step_error), base, other)
 }

@@ -75,6 +75,24 @@ impl PiecewiseTable {
     /// # Errors
     /// The first row that breaks the order (T-08, T-09: an abscissa that does not rise while all outer ones stand still, or an outer one that falls),
     /// holds a number that is not finite, or is incomplete. Abscissae are compared as numbers (T-10).
+    ///
+    /// # Example
+    /// Conductance against clearance at two temperatures, each with clearances of its own:
+    /// ```
+    /// use inpact_evaluation::table::{PiecewiseTable, Tail};
+    ///
+    /// let rows = [
+    ///     [10.0, 0.0, 300.0],
+    ///     [6.0, 1.0, 300.0],
+    ///     [2.0, 2.0, 300.0],
+    ///     [20.0, 0.0, 400.0],
+    ///     [10.0, 4.0, 400.0],
+    /// ];
+    /// let table = PiecewiseTable::from_rows(rows.as_flattened(), 3, Tail::Zero)?;
+    /// assert_eq!(table.value(&[2.0, 350.0]), 8.5); // halfway between 2 and 15
+    /// assert_eq!(table.value(&[3.0, 350.0]), 6.25); // 0 beyond the clearances at 300
+    /// # Ok::<(), inpact_evaluation::table::TableError>(())
+    /// ```
     pub fn from_rows(cells: &[f64], width: usize, tail: Tail) -> Result<Self, TableError> {
         check_cells(cells, width)?;
         let axis_count = width - 1;
