@@ -11,6 +11,10 @@ use std::path::PathBuf;
 struct Memory(HashMap<&'static str, String>);
 
 impl IncludedFiles for Memory {
+    fn deck(&self) -> Option<PathBuf> {
+        Some(PathBuf::from("deck"))
+    }
+
     fn find(&mut self, name: &str, _from: &str) -> Result<FoundFile, String> {
         let found = self.0.contains_key(name);
         let file = FoundFile { name: name.to_owned(), path: PathBuf::from(name) };
@@ -88,6 +92,8 @@ fn s_54_files_that_include_one_another_end() {
     let deck = read_with(&files, Keep::Interpreted);
     assert_eq!(outcomes(&deck)[0], IncludeOutcome::Cycle);
     assert_eq!(deck.sources().len(), 3);
+    let itself = read_with(&[("deck", "*INCLUDE, INPUT=deck\n")], Keep::Interpreted);
+    assert_eq!(outcomes(&itself), [IncludeOutcome::Cycle]);
 }
 
 #[test]

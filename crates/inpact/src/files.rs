@@ -1,8 +1,7 @@
 //! Decks in, results out: the only place where files are opened.
 
 use crate::failure::Failure;
-use inpact_parser::deck::{Deck, Keep, ScanOptions, Scanner};
-use inpact_parser::grammar::Grammar;
+use inpact_parser::deck::Scanner;
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -13,15 +12,13 @@ const PIECE: usize = 256 * 1024;
 /// The name that stands for standard input and standard output.
 pub(crate) const STANDARD_STREAM: &str = "-";
 
-/// Scans the deck at `path`, or standard input for `-`.
-pub(crate) fn scan(path: &Path, keep: Keep) -> Result<Deck, Failure> {
+/// Pushes a file into a scanner, piece by piece; standard input for `-`.
+pub(crate) fn push_all(path: &Path, scanner: &mut Scanner<'_>) -> Result<(), Failure> {
     let mut input = open(path)?;
-    let grammar = Grammar::builtin();
-    let mut scanner = Scanner::new(&path.display().to_string(), ScanOptions { grammar, keep });
     let mut piece = vec![0; PIECE];
     loop {
         match input.read(&mut piece) {
-            Ok(0) => return Ok(scanner.finish()),
+            Ok(0) => return Ok(()),
             Ok(count) => scanner.push(&piece[..count]),
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(Failure::read(path, error)),

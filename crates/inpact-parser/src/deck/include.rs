@@ -45,6 +45,9 @@ pub enum IncludeOutcome {
 
 /// Where included files come from; whoever implements it does the input and output.
 pub trait IncludedFiles {
+    /// What tells the deck itself from every other file; `None` when it is no file.
+    fn deck(&self) -> Option<PathBuf>;
+
     /// Finds the file that is written as `name` in the source called `from`.
     ///
     /// # Errors
@@ -75,8 +78,9 @@ impl Deck {
         if !self.blocks.iter().any(has_includes) {
             return self;
         }
-        let mut assembly =
-            Assembly { options, files, deck: Self { blocks: Vec::new(), ..self }, open: None, path: Vec::new() };
+        let path = files.deck().into_iter().collect();
+        let deck = Self { blocks: Vec::new(), ..self };
+        let mut assembly = Assembly { options, files, deck, open: None, path, level: 0 };
         assembly.place(self.blocks);
         assembly.deck
     }
@@ -93,8 +97,10 @@ struct Assembly<'a> {
     deck: Deck,
     /// The last block that began with a keyword of its own: rows without one belong to it.
     open: Option<usize>,
-    /// The included files that are being read, outermost first.
+    /// The files that are being read, outermost first.
     path: Vec<PathBuf>,
+    /// How many of them are included.
+    level: usize,
 }
 
 impl Assembly<'_> {
@@ -140,7 +146,7 @@ impl Assembly<'_> {
     }
 
     fn read_file(&mut self, name: Span, keyword: Span) -> IncludeOutcome {
-        if self.path.len() >= MOST_LEVELS || self.deck.sources.len() > MOST_FILES {
+        if self.level >= MOST_LEVELS || self.deck.sources.len() > MOST_FILES {
             return IncludeOutcome::TooDeep;
         }
         let written = self.deck.shown(name);
@@ -171,7 +177,9 @@ impl Assembly<'_> {
         self.deck.sources.push(source);
         self.deck.notes.append(&mut notes);
         self.path.push(found.path);
+        self.level += 1;
         self.place(blocks);
+        self.level -= 1;
         self.path.pop();
         IncludeOutcome::Read(id)
     }

@@ -2,10 +2,10 @@
 
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
+use crate::input::DeckArguments;
 use crate::render::{self, Format};
 use clap::Args;
 use inpact_parser::deck::Keep;
-use inpact_parser::grammar::Grammar;
 use inpact_parser::model;
 use inpact_validation::{Diagnostic, Severity, check};
 use std::io::Write;
@@ -16,6 +16,8 @@ pub(crate) struct CheckArguments {
     /// Decks or fragments; `-` reads standard input.
     #[arg(required = true, value_name = "DECK")]
     decks: Vec<PathBuf>,
+    #[command(flatten)]
+    deck: DeckArguments,
     /// How to print what was found.
     #[arg(long, value_enum, default_value_t = Format::Full)]
     format: Format,
@@ -33,13 +35,13 @@ struct Tally {
 }
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
-    let grammar = Grammar::builtin();
+    let grammar = arguments.deck.grammar();
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
     let style = if arguments.output.is_some() { render::Style::Plain } else { render::Style::of_standard_output() };
     let mut tally = Tally::default();
     let mut unreadable = false;
     for path in &arguments.decks {
-        let deck = match files::scan(path, Keep::Interpreted) {
+        let deck = match arguments.deck.read(path, Keep::Interpreted) {
             Ok(deck) => deck,
             // The other decks are still checked.
             Err(failure) => {

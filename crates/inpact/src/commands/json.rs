@@ -2,9 +2,9 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::input::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
-use inpact_parser::grammar::Grammar;
 use inpact_parser::{json, model};
 use std::path::PathBuf;
 
@@ -13,6 +13,8 @@ pub(crate) struct JsonArguments {
     /// The deck or fragment; `-` reads standard input.
     #[arg(value_name = "DECK")]
     deck: PathBuf,
+    #[command(flatten)]
+    reading: DeckArguments,
     /// What to print: what the deck says, or every line of it.
     #[arg(long, value_enum, default_value_t = View::Model)]
     view: View,
@@ -30,14 +32,14 @@ enum View {
 }
 
 pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
-    let grammar = Grammar::builtin();
+    let grammar = arguments.reading.grammar();
     let text = match arguments.view {
         View::Model => {
-            let deck = files::scan(&arguments.deck, Keep::Interpreted)?;
+            let deck = arguments.reading.read(&arguments.deck, Keep::Interpreted)?;
             let (model, _) = model::read(&deck, grammar);
             json::model::write(&model, &arguments.deck.display().to_string())
         }
-        View::Syntax => json::syntax::write(&files::scan(&arguments.deck, Keep::Everything)?, grammar),
+        View::Syntax => json::syntax::write(&arguments.reading.read(&arguments.deck, Keep::Everything)?, grammar),
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
     Ok(Outcome::Clean)
