@@ -8,19 +8,14 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let grammar = Path::new(&env::var("CARGO_MANIFEST_DIR")?)
-        .join("../../grammar")
-        .canonicalize()?;
+    let grammar = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../../grammar").canonicalize()?;
     let folder = grammar.join("keywords");
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut files = Vec::new();
     for entry in fs::read_dir(&folder)? {
         let path = entry?.path();
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "toml")
-        {
+        if path.extension().is_some_and(|extension| extension == "toml") {
             files.push(path);
         }
     }
@@ -29,16 +24,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for path in &files {
         println!("cargo::rerun-if-changed={}", path.display());
         let name = keyword_name(path).map_err(|reason| format!("{}: {reason}", path.display()))?;
-        let path = path
-            .to_str()
-            .ok_or("the path of the repository is not UTF-8")?;
+        let path = path.to_str().ok_or("the path of the repository is not UTF-8")?;
         writeln!(list, "    ({name:?}, include_str!({path:?})),")?;
     }
     list.push_str("]\n");
-    fs::write(
-        PathBuf::from(env::var("OUT_DIR")?).join("keyword_files.rs"),
-        list,
-    )?;
+    fs::write(PathBuf::from(env::var("OUT_DIR")?).join("keyword_files.rs"), list)?;
     Ok(())
 }
 
@@ -46,15 +36,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn keyword_name(path: &Path) -> Result<String, Box<dyn Error>> {
     let text = fs::read_to_string(path)?;
     let first = text.lines().next().unwrap_or_default();
-    let name = first
-        .strip_prefix("name = \"")
-        .and_then(|rest| rest.strip_suffix('"'));
+    let name = first.strip_prefix("name = \"").and_then(|rest| rest.strip_suffix('"'));
     let name = name.ok_or("the first line must be `name = \"KEYWORD\"`")?;
     let file = format!("{}.toml", name.to_ascii_lowercase().replace(' ', "_"));
-    if path
-        .file_name()
-        .is_some_and(|actual| actual == file.as_str())
-    {
+    if path.file_name().is_some_and(|actual| actual == file.as_str()) {
         Ok(name.to_owned())
     } else {
         Err(format!("the file of `{name}` must be called `{file}`").into())

@@ -18,6 +18,7 @@ pub use lookup::{Lookup, lookup_name};
 pub use release::{Release, ReleaseError};
 
 use lookup::Folded;
+use std::collections::HashMap;
 use std::sync::{LazyLock, OnceLock};
 
 /// The keyword files: the name in full and the text of the TOML.
@@ -34,6 +35,8 @@ const CALCULIX_NAMES: &str = include_str!("../../../grammar/names/calculix.txt")
 pub struct Grammar {
     /// Sorted by folded name, so that all names with one prefix stand together.
     keywords: Vec<Keyword>,
+    /// Where each folded name stands in `keywords`: nearly every keyword line has its name in full.
+    exact: HashMap<Vec<u8>, KeywordId>,
     /// Folded and sorted.
     calculix_names: Vec<&'static str>,
 }
@@ -60,13 +63,17 @@ impl Grammar {
     }
 
     fn from_compiled_files() -> Self {
-        let unlisted = FILES.iter().map(|(name, _)| *name);
-        let mut keywords: Vec<Keyword> = ABAQUS_NAMES.lines().chain(unlisted).map(Keyword::new).collect();
+        let defined = FILES.iter().map(|(name, text)| Keyword::new(name, Some(*text)));
+        let listed = ABAQUS_NAMES.lines().map(|name| Keyword::new(name, None));
+        let mut keywords: Vec<Keyword> = defined.chain(listed).collect();
+        // Of two with one name the first is kept: the sort is stable, and the defined ones come first.
         keywords.sort_by(|a, b| a.folded.cmp(&b.folded));
         keywords.dedup_by(|a, b| a.folded == b.folded);
+        let place = |(index, keyword): (usize, &Keyword)| (keyword.folded.clone().into_bytes(), KeywordId::new(index));
+        let exact = keywords.iter().enumerate().map(place).collect();
         let mut calculix_names: Vec<&str> = CALCULIX_NAMES.lines().collect();
         calculix_names.sort_unstable();
-        Self { keywords, calculix_names }
+        Self { keywords, exact, calculix_names }
     }
 
     /// The keyword that is written so, in the newest release (S-11 to S-13).
@@ -82,6 +89,9 @@ impl Grammar {
         let Some(folded) = Folded::new(written) else {
             return Lookup::Unknown;
         };
+        if let Some(id) = self.exact.get(folded.as_bytes()).copied().filter(|id| self.keyword(*id).is_in(release)) {
+            return Lookup::Exact(id);
+        }
         let from = self.keywords.partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
         let candidates = (from..self.keywords.len())
             .take_while(|index| self.keywords[*index].folded.as_bytes().starts_with(folded.as_bytes()))
@@ -103,8 +113,7 @@ impl Grammar {
     /// The keyword of that full name, in whatever release; no abbreviation.
     pub fn id_of(&self, name: &str) -> Option<KeywordId> {
         let folded = Folded::new(name.as_bytes())?;
-        let found = self.keywords.binary_search_by(|keyword| keyword.folded.as_bytes().cmp(folded.as_bytes()));
-        found.ok().map(KeywordId::new)
+        self.exact.get(folded.as_bytes()).copied()
     }
 
     /// Whether the keyword may be a sub-option of *SURFACE INTERACTION (2.1).
@@ -134,8 +143,7 @@ impl KeywordId {
 }
 
 impl Keyword {
-    fn new(name: &str) -> Self {
-        let source = FILES.iter().find(|(defined, _)| *defined == name).map(|(_, text)| *text);
+    fn new(name: &str, source: Option<&'static str>) -> Self {
         let folded = name.chars().filter(|character| !character.is_ascii_whitespace()).collect();
         Self { name: name.to_owned(), folded, source, definition: OnceLock::new() }
     }
