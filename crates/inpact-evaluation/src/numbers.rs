@@ -3,7 +3,7 @@
 //! Everything here is a function of plain `f64`; tables, laws and files are unknown to it.
 //! Three promises hold for all finite inputs, subnormal numbers and values near the overflow limit included:
 //!
-//! - interpolation between two values of one sign is within 2 ulp of the exact value, exact at both ends and never outside them ([`interpolate`], [`between`]);
+//! - interpolation between two values of one sign is within 1.5 ulp of the exact value, exact at both ends and never outside them ([`interpolate`], [`between`]);
 //! - a product or a dissipation whose exact value is a finite number is one, whatever its intermediate results would do ([`product`]);
 //! - a sum keeps the digits its terms lose against each other ([`CompensatedSum`]).
 //!
