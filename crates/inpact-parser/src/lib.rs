@@ -18,6 +18,8 @@ pub mod problem;
 
 pub mod number;
 
+pub mod expression;
+
 pub mod model;
 
 pub mod json;

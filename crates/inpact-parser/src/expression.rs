@@ -1,0 +1,84 @@
+//! The language of *PARAMETER: definitions that are executed, values that replace `<name>` (S-60 to S-66).
+//!
+//! The data lines of *PARAMETER are a part of Python 2: `name = expression`, with integers that divide as integers.
+//! [`define`] executes the lines of one block; called for every block of the deck in order, it leaves the final values
+//! in [`Parameters`], which [`substitute`] then puts in place of every `<name>`, also of one that stands further up (S-61).
+//!
+//! Knows nothing of keywords, blocks or files, and executes nothing but arithmetic.
+//! Whatever the text is, time and memory follow its length: nesting, the length of texts, the size of integers and the
+//! number of arguments are limited, and what passes a limit is an [`ExpressionProblem`].
+//!
+//! What S-60 leaves open is read as Python 2 reads it: `//` and `%` exist, `**` binds to the right and before a sign on
+//! its left, `pow` is that of the `math` module and gives a real number, `str` gives twelve digits.
+//! `min` and `max` are not listed in S-60 but decks call them.
+
+mod arithmetic;
+mod evaluate;
+mod functions;
+mod lexer;
+mod logical_line;
+mod parameters;
+mod statement;
+mod substitute;
+mod value;
+
+pub use logical_line::StatementLine;
+pub use parameters::{Definition, Parameters};
+pub use statement::define;
+pub use substitute::{Reference, SubstitutionError, references, substitute};
+pub use value::Value;
+
+use crate::span::Span;
+
+/// Why a statement of *PARAMETER cannot be executed (S016); the first reason of each statement.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExpressionProblem {
+    /// The part of the statement that is wrong.
+    pub span: Span,
+    /// What is wrong with it.
+    pub message: String,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+/// The deepest nesting of parentheses, calls, signs and powers.
+pub const MAX_NESTING: usize = 200;
+
+/// The most bytes of a text value: four lines of the greatest length that a deck may have (S-06).
+pub const MAX_TEXT: usize = 1024;
+
+/// The most bytes of all text values of a deck together.
+pub const MAX_TEXT_IN_ALL: usize = 16 << 20;
+
+/// The most arguments of a call; Python 2 has the same limit.
+pub const MAX_ARGUMENTS: usize = 255;
+
+/// What is wrong, before it is known where.
+#[derive(Debug)]
+struct Complaint {
+    message: String,
+    help: Option<String>,
+}
+
+impl Complaint {
+    fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), help: None }
+    }
+
+    fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+/// A piece of source text in backticks, cut when it is long.
+fn quoted(text: &[u8]) -> String {
+    const SHOWN: usize = 40;
+    // A character has at most four bytes, so this is enough for the characters that are shown and one more.
+    let beginning = String::from_utf8_lossy(&text[..text.len().min(4 * (SHOWN + 1))]);
+    let mut shown: String = beginning.chars().take(SHOWN).collect();
+    if shown.len() < text.len() && beginning.chars().nth(SHOWN).is_some() {
+        shown.push('…');
+    }
+    format!("`{shown}`")
+}

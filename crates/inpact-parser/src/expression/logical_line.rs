@@ -1,0 +1,131 @@
+//! Logical lines: physical lines joined where a statement goes on, without their comments.
+
+use super::lexer::{Lexer, Token, is_blank};
+use crate::span::Span;
+use std::borrow::Cow;
+use std::iter::Peekable;
+use std::ops::Range;
+
+/// One line of a *PARAMETER block; the deck's own comment lines (`**`) are passed over before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StatementLine<'deck> {
+    /// Where it stands.
+    pub span: Span,
+    /// Its bytes, without line end.
+    pub text: &'deck [u8],
+}
+
+/// Physical lines that belong together, as one text.
+#[derive(Debug)]
+pub(super) struct LogicalLine<'deck> {
+    pub(super) text: Cow<'deck, [u8]>,
+    /// Where in `text` each physical line begins, and where that line stands in the deck; never empty.
+    pieces: Vec<(usize, Span)>,
+}
+
+/// How a physical line ends.
+enum LineEnd {
+    /// The statement is over, or goes on only because a parenthesis is open.
+    Plain,
+    /// A backslash outside a text.
+    Continued,
+    /// A backslash inside a text, which goes on with the first character of the next line.
+    ContinuedText,
+}
+
+/// What has been opened and not closed so far.
+#[derive(Default)]
+struct Open {
+    quote: Option<u8>,
+    parentheses: usize,
+}
+
+/// Takes the next logical line off `lines`.
+///
+/// It goes on behind a backslash (S-60; blanks behind it do not count, S-06) and, as in Python, while a parenthesis is
+/// open, but then not over a line that is a definition of its own: one parenthesis that is missing must not swallow the block.
+pub(super) fn next_logical_line<'deck>(
+    lines: &mut Peekable<impl Iterator<Item = StatementLine<'deck>>>,
+) -> Option<LogicalLine<'deck>> {
+    let first = lines.next()?;
+    let mut open = Open::default();
+    let (content, mut end) = scan(first.text, &mut open);
+    let mut text = Cow::Borrowed(content);
+    let mut pieces = vec![(0, first.span)];
+    loop {
+        let goes_on = match end {
+            LineEnd::Continued | LineEnd::ContinuedText => true,
+            LineEnd::Plain => {
+                open.parentheses > 0
+                    && open.quote.is_none()
+                    && lines.peek().is_some_and(|line| !begins_definition(line.text))
+            }
+        };
+        if !goes_on {
+            break;
+        }
+        let Some(line) = lines.next() else { break };
+        let joined = text.to_mut();
+        if !matches!(end, LineEnd::ContinuedText) {
+            // No word goes over the end of a line.
+            joined.push(b' ');
+        }
+        pieces.push((joined.len(), line.span));
+        let (content, next_end) = scan(line.text, &mut open);
+        joined.extend_from_slice(content);
+        end = next_end;
+    }
+    Some(LogicalLine { text, pieces })
+}
+
+/// The line without comment and continuation mark, and how it ends.
+fn scan<'deck>(line: &'deck [u8], open: &mut Open) -> (&'deck [u8], LineEnd) {
+    let mut at = 0;
+    while let Some(byte) = line.get(at) {
+        match (open.quote, byte) {
+            (Some(_), b'\\') if at + 1 == line.len() => return (&line[..at], LineEnd::ContinuedText),
+            (Some(_), b'\\') => at += 1,
+            (Some(quote), byte) if *byte == quote => open.quote = None,
+            (None, b'\'' | b'"') => open.quote = Some(*byte),
+            (None, b'#') => return (&line[..at], LineEnd::Plain),
+            (None, b'\\') if line[at + 1..].iter().all(|byte| is_blank(*byte)) => {
+                return (&line[..at], LineEnd::Continued);
+            }
+            (None, b'(') => open.parentheses += 1,
+            (None, b')') => open.parentheses = open.parentheses.saturating_sub(1),
+            _ => {}
+        }
+        at += 1;
+    }
+    (line, LineEnd::Plain)
+}
+
+fn begins_definition(line: &[u8]) -> bool {
+    let mut lexer = Lexer::new(line, 0);
+    lexer.next_token().0 == Token::Name && lexer.next_token().0 == Token::Assign
+}
+
+impl LogicalLine<'_> {
+    /// Where a range of the text stands in the deck; cut at the end of its first line when it goes on in another file.
+    pub(super) fn place(&self, range: &Range<usize>) -> Span {
+        let start = self.offset(range.start);
+        let end = self.offset(range.end);
+        if start.source == end.source && start.start <= end.start {
+            return Span::new(start.source, start.start, end.start);
+        }
+        let (_, line) = self.piece(range.start);
+        Span::new(line.source, start.start, line.end.max(start.start))
+    }
+
+    /// The physical line that holds an offset of the text.
+    fn piece(&self, offset: usize) -> (usize, Span) {
+        let behind = self.pieces.partition_point(|(start, _)| *start <= offset);
+        self.pieces[behind.saturating_sub(1)]
+    }
+
+    fn offset(&self, offset: usize) -> Span {
+        let (start, line) = self.piece(offset);
+        let at = (line.start + (offset - start) as u64).min(line.end);
+        Span::new(line.source, at, at)
+    }
+}

@@ -1,0 +1,74 @@
+//! The parameters of a deck: every definition, and the value that counts in the end.
+
+use super::value::Value;
+use crate::span::Span;
+use std::collections::HashMap;
+
+/// One executed statement `name = expression`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Definition {
+    /// The name; upper and lower case differ (S-60).
+    pub name: String,
+    /// What stands behind the `=`, without comment, continuation lines joined.
+    pub expression: String,
+    /// The statement, from the name to the end of the expression, as far as it lies in one file.
+    pub span: Span,
+    /// What it gave; `None` when the statement has a problem, or uses a parameter whose statement has one.
+    pub value: Option<Value>,
+}
+
+/// All definitions of a deck; the last one of a name counts everywhere (S-61).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Parameters {
+    definitions: Vec<Definition>,
+    last_of_name: HashMap<String, usize>,
+    /// A definition for every name in lower case, to find the one that was meant.
+    of_lower_case: HashMap<String, usize>,
+    /// The bytes of all text values.
+    pub(super) text_bytes: usize,
+}
+
+impl Parameters {
+    /// No parameter.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Every definition, in the order of execution.
+    pub fn definitions(&self) -> &[Definition] {
+        &self.definitions
+    }
+
+    /// The definition of `name` that counts: the last one.
+    pub fn definition(&self, name: &str) -> Option<&Definition> {
+        self.last_of_name.get(name).map(|index| &self.definitions[*index])
+    }
+
+    /// The value of `name`: that of its last definition; `None` also when that one has none.
+    pub fn value(&self, name: &str) -> Option<&Value> {
+        self.definition(name)?.value.as_ref()
+    }
+
+    /// A defined name that differs from `name` in upper and lower case only.
+    pub fn name_in_other_case(&self, name: &str) -> Option<&str> {
+        let index = self.of_lower_case.get(&name.to_ascii_lowercase())?;
+        Some(self.definitions[*index].name.as_str()).filter(|other| *other != name)
+    }
+
+    /// The definitions that count, one a name.
+    pub fn final_definitions(&self) -> impl Iterator<Item = &Definition> {
+        let is_last =
+            |(index, definition): &(usize, &Definition)| self.last_of_name.get(&definition.name) == Some(index);
+        self.definitions.iter().enumerate().filter(is_last).map(|(_, definition)| definition)
+    }
+
+    pub(super) fn push(&mut self, definition: Definition) {
+        if let Some(Value::Text(text)) = &definition.value {
+            self.text_bytes += text.len();
+        }
+        let index = self.definitions.len();
+        self.last_of_name.insert(definition.name.clone(), index);
+        self.of_lower_case.insert(definition.name.to_ascii_lowercase(), index);
+        self.definitions.push(definition);
+    }
+}

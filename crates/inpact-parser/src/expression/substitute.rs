@@ -1,0 +1,83 @@
+//! `<name>` in keyword values and data lines, and what takes its place (S-62).
+
+use super::lexer::{is_blank, is_name, is_name_byte};
+use super::parameters::Parameters;
+use std::borrow::Cow;
+use std::fmt::Write;
+use std::ops::Range;
+
+/// A place where the value of a parameter goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reference<'text> {
+    /// `<name>`, with the brackets.
+    pub range: Range<usize>,
+    /// The name between them.
+    pub name: &'text str,
+}
+
+/// Why a text cannot be substituted.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SubstitutionError {
+    /// No *PARAMETER defines the name (S015).
+    #[error("the parameter `{0}` is not defined")]
+    Undefined(String),
+    /// The name is defined by a statement that has a problem, which is reported there (S016).
+    #[error("the definition of the parameter `{0}` has no value")]
+    WithoutValue(String),
+    /// What comes out would be longer than sixteen times the text and 64 KiB, which only a hostile deck can want.
+    #[error("a line of {0} bytes becomes too long when its parameters are substituted")]
+    TooLong(usize),
+}
+
+/// The references in a text, from left to right: a name between `<` and `>`, with or without blanks around it.
+///
+/// Anything else between these characters is no reference.
+pub fn references(text: &[u8]) -> impl Iterator<Item = Reference<'_>> {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        loop {
+            let open = from + memchr::memchr(b'<', &text[from..])?;
+            let inner = &text[open + 1..];
+            let length = inner.iter().take_while(|byte| is_name_byte(**byte) || is_blank(**byte)).count();
+            from = open + 1 + length;
+            if text.get(from) != Some(&b'>') {
+                continue;
+            }
+            let name = inner[..length].trim_ascii();
+            if let (true, Ok(name)) = (is_name(name), str::from_utf8(name)) {
+                from += 1;
+                return Some(Reference { range: open..from, name });
+            }
+        }
+    })
+}
+
+/// The text with every `<name>` replaced by the value of the parameter; borrowed when it has none.
+///
+/// A value may hold commas, so this comes before the text is cut into items.
+///
+/// # Errors
+/// A reference that has no value, the first one from the left; or a result that grows out of all proportion.
+pub fn substitute<'text>(text: &'text str, parameters: &Parameters) -> Result<Cow<'text, str>, SubstitutionError> {
+    let mut replaced = String::new();
+    let mut copied = 0;
+    for reference in references(text.as_bytes()) {
+        let Some(definition) = parameters.definition(reference.name) else {
+            return Err(SubstitutionError::Undefined(reference.name.to_owned()));
+        };
+        let Some(value) = &definition.value else {
+            return Err(SubstitutionError::WithoutValue(reference.name.to_owned()));
+        };
+        replaced.push_str(&text[copied..reference.range.start]);
+        copied = reference.range.end;
+        write!(replaced, "{value}").expect("writing to a string does not fail");
+        if replaced.len() > 16 * text.len() + (64 << 10) {
+            return Err(SubstitutionError::TooLong(text.len()));
+        }
+    }
+    if copied == 0 {
+        return Ok(Cow::Borrowed(text));
+    }
+    replaced.push_str(&text[copied..]);
+    Ok(Cow::Owned(replaced))
+}
