@@ -1,4 +1,4 @@
-//! Lists the keyword files of `grammar/keywords/` for [`include_str!`], so that a new one needs no line of code.
+//! Lists the keyword files of `grammar/keywords/` and `grammar/calculix/` for [`include_str!`], so that a new one needs no line of code.
 //!
 //! Reads no more of a file than the name in its first line; a test loads the files strictly.
 
@@ -9,11 +9,16 @@ use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let grammar = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../../grammar").canonicalize()?;
-    let folder = grammar.join("keywords");
     println!("cargo::rerun-if-changed=build.rs");
+    list_folder(&grammar.join("keywords"), "keyword_files.rs")?;
+    list_folder(&grammar.join("calculix"), "calculix_files.rs")
+}
+
+/// Writes the names and texts of a folder's keyword files as a list of Rust.
+fn list_folder(folder: &Path, list_file: &str) -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut files = Vec::new();
-    for entry in fs::read_dir(&folder)? {
+    for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.extension().is_some_and(|extension| extension == "toml") {
             files.push(path);
@@ -28,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         writeln!(list, "    ({name:?}, include_str!({path:?})),")?;
     }
     list.push_str("]\n");
-    fs::write(PathBuf::from(env::var("OUT_DIR")?).join("keyword_files.rs"), list)?;
+    fs::write(PathBuf::from(env::var("OUT_DIR")?).join(list_file), list)?;
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The keyword language as data: which keywords there are, what parameters and rows they take, and how names are matched.
 //!
-//! Everything here comes from the files of `grammar/` in the repository: two lists of names, and one TOML a keyword.
+//! Everything here comes from the files of `grammar/` in the repository: two lists of names, one TOML a keyword,
+//! and one for every keyword that means something else in CalculiX.
 //! They are compiled in; a definition is parsed when it is first asked for.
 //! Knows nothing of decks, files or spans: it answers questions about words (S-11 to S-16) and about the layout of rows (K-50 to K-56).
 
@@ -24,15 +25,30 @@ use std::sync::{LazyLock, OnceLock};
 /// The keyword files: the name in full and the text of the TOML.
 const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/keyword_files.rs"));
 
+/// The keyword files that replace one of those for CalculiX.
+const CALCULIX_FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/calculix_files.rs"));
+
 /// Every keyword of Abaqus, one a line.
 const ABAQUS_NAMES: &str = include_str!("../../../grammar/names/abaqus.txt");
 
 /// Every keyword of CalculiX, one a line, without blanks.
 const CALCULIX_NAMES: &str = include_str!("../../../grammar/names/calculix.txt");
 
-/// The keyword language: every keyword by name, and what is known of it.
+/// Whose keyword language it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Dialect {
+    /// Abaqus/Standard and Abaqus/Explicit.
+    #[default]
+    Abaqus,
+    /// CalculiX ccx: fewer keywords, none abbreviated, no continuation of keyword lines, other columns in some tables.
+    Calculix,
+}
+
+/// The keyword language of a dialect and a release: every keyword by name, and what is known of it.
 #[derive(Debug)]
 pub struct Grammar {
+    dialect: Dialect,
+    release: Release,
     /// Sorted by folded name, so that all names with one prefix stand together.
     keywords: Vec<Keyword>,
     /// Where each folded name stands in `keywords`: nearly every keyword line has its name in full.
@@ -52,52 +68,86 @@ pub struct Keyword {
     pub name: String,
     folded: String,
     source: Option<&'static str>,
+    /// Whether the dialect has it; an Abaqus keyword that CalculiX lacks is kept, so that it can be named.
+    is_listed: bool,
+    /// Whether the definition is that of another dialect, whose parameters may differ.
+    is_borrowed: bool,
     definition: OnceLock<Option<Box<Definition>>>,
 }
 
 impl Grammar {
-    /// The language as it is compiled in.
+    /// The language of the newest release of Abaqus.
     pub fn builtin() -> &'static Self {
-        static BUILTIN: LazyLock<Grammar> = LazyLock::new(Grammar::from_compiled_files);
+        static BUILTIN: LazyLock<Grammar> = LazyLock::new(|| Grammar::new(Dialect::Abaqus, Release::NEWEST));
         &BUILTIN
     }
 
-    fn from_compiled_files() -> Self {
-        let defined = FILES.iter().map(|(name, text)| Keyword::new(name, Some(*text)));
-        let listed = ABAQUS_NAMES.lines().map(|name| Keyword::new(name, None));
-        let mut keywords: Vec<Keyword> = defined.chain(listed).collect();
-        // Of two with one name the first is kept: the sort is stable, and the defined ones come first.
-        keywords.sort_by(|a, b| a.folded.cmp(&b.folded));
-        keywords.dedup_by(|a, b| a.folded == b.folded);
-        let place = |(index, keyword): (usize, &Keyword)| (keyword.folded.clone().into_bytes(), KeywordId::new(index));
-        let exact = keywords.iter().enumerate().map(place).collect();
+    /// The language of a dialect; the release counts for Abaqus only.
+    pub fn new(dialect: Dialect, release: Release) -> Self {
         let mut calculix_names: Vec<&str> = CALCULIX_NAMES.lines().collect();
         calculix_names.sort_unstable();
-        Self { keywords, exact, calculix_names }
+        let replaced = if dialect == Dialect::Calculix { CALCULIX_FILES } else { &[] };
+        let defined = replaced.iter().chain(FILES).map(|(name, text)| Keyword::new(name, Some(*text)));
+        let listed = ABAQUS_NAMES.lines().map(|name| Keyword::new(name, None));
+        let further = if dialect == Dialect::Calculix { calculix_names.as_slice() } else { &[] };
+        let further = further.iter().map(|name| Keyword::new(name, None));
+        let mut keywords: Vec<Keyword> = defined.chain(listed).chain(further).collect();
+        // Of two with one name the first is kept: the sort is stable, and those that replace come first.
+        keywords.sort_by(|a, b| a.folded.cmp(&b.folded));
+        keywords.dedup_by(|a, b| a.folded == b.folded);
+        if dialect == Dialect::Calculix {
+            for keyword in &mut keywords {
+                keyword.is_listed = calculix_names.binary_search(&keyword.folded.as_str()).is_ok();
+                keyword.is_borrowed = !replaced.iter().any(|(name, _)| *name == keyword.name);
+            }
+        }
+        let place = |(index, keyword): (usize, &Keyword)| (keyword.folded.clone().into_bytes(), KeywordId::new(index));
+        let exact = keywords.iter().enumerate().map(place).collect();
+        Self { dialect, release, keywords, exact, calculix_names }
     }
 
-    /// The keyword that is written so, in the newest release (S-11 to S-13).
+    /// Whose language it is.
+    pub fn dialect(&self) -> Dialect {
+        self.dialect
+    }
+
+    /// Which release's language it is.
+    pub fn release(&self) -> Release {
+        self.release
+    }
+
+    /// The keyword that is written so (S-11 to S-13).
     ///
-    /// Blanks, tabs and case do not count; an exact name wins; otherwise the text must begin exactly one name.
+    /// Blanks, tabs and case do not count; an exact name wins; otherwise the text must begin exactly one name of the
+    /// release (S-15). CalculiX knows no abbreviations.
     /// A text of blanks only, or one longer than every name (S-14), is unknown.
     pub fn keyword_named(&self, written: &[u8]) -> Lookup<KeywordId> {
-        self.keyword_named_in(written, Release::NEWEST)
-    }
-
-    /// The keyword that is written so in a deck for `release`: names that came later or went before do not count (S-15).
-    pub fn keyword_named_in(&self, written: &[u8], release: Release) -> Lookup<KeywordId> {
         let Some(folded) = Folded::new(written) else {
             return Lookup::Unknown;
         };
-        if let Some(id) = self.exact.get(folded.as_bytes()).copied().filter(|id| self.keyword(*id).is_in(release)) {
+        if let Some(id) = self.exact.get(folded.as_bytes()).copied().filter(|id| self.has(*id)) {
             return Lookup::Exact(id);
+        }
+        if self.dialect == Dialect::Calculix {
+            return Lookup::Unknown;
         }
         let from = self.keywords.partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
         let candidates = (from..self.keywords.len())
             .take_while(|index| self.keywords[*index].folded.as_bytes().starts_with(folded.as_bytes()))
-            .filter(|index| self.keywords[*index].is_in(release));
+            .filter(|index| self.has(KeywordId::new(*index)));
         let candidates = candidates.map(|index| (KeywordId::new(index), &*self.keywords[index].folded));
         lookup::decide(folded.as_bytes(), candidates)
+    }
+
+    /// Whether the dialect and the release have the keyword.
+    pub fn has(&self, id: KeywordId) -> bool {
+        let keyword = self.keyword(id);
+        keyword.is_listed && keyword.is_in(self.release)
+    }
+
+    /// The parameter of a keyword that is written so, as its place in the definition's list (S-13, S-16).
+    pub fn parameter_named(&self, definition: &Definition, written: &[u8]) -> Lookup<usize> {
+        definition.parameter_named_in(written, self.release)
     }
 
     /// The keyword behind an id of this grammar.
@@ -110,7 +160,7 @@ impl Grammar {
         self.keywords.iter().enumerate().map(|(index, keyword)| (KeywordId::new(index), keyword))
     }
 
-    /// The keyword of that full name, in whatever release; no abbreviation.
+    /// The keyword of that full name, in whatever release and dialect; no abbreviation.
     pub fn id_of(&self, name: &str) -> Option<KeywordId> {
         let folded = Folded::new(name.as_bytes())?;
         self.exact.get(folded.as_bytes()).copied()
@@ -145,13 +195,24 @@ impl KeywordId {
 impl Keyword {
     fn new(name: &str, source: Option<&'static str>) -> Self {
         let folded = name.chars().filter(|character| !character.is_ascii_whitespace()).collect();
-        Self { name: name.to_owned(), folded, source, definition: OnceLock::new() }
+        Self {
+            name: name.to_owned(),
+            folded,
+            source,
+            is_listed: true,
+            is_borrowed: false,
+            definition: OnceLock::new(),
+        }
     }
 
     /// What the keyword means; `None` when only its name is known.
     pub fn definition(&self) -> Option<&Definition> {
         // A test loads every definition that is compiled in, so none is lost here.
-        let parse = || Definition::parse(self.source?).ok().map(Box::new);
+        let parse = || {
+            let mut definition = Definition::parse(self.source?).ok()?;
+            definition.parameters_complete &= !self.is_borrowed;
+            Some(Box::new(definition))
+        };
         self.definition.get_or_init(parse).as_deref()
     }
 

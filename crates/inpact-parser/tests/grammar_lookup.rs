@@ -1,12 +1,20 @@
 //! How written words find keywords and parameters: S-11 to S-16 and the test vectors of appendix A.
 
-use inpact_parser::grammar::{Definition, Grammar, Lookup, Release, lookup_name};
+use inpact_parser::grammar::{Definition, Dialect, Grammar, Lookup, Release, lookup_name};
+use std::sync::LazyLock;
+
+/// The languages of all releases, made once.
+fn of_release(release: Release) -> &'static Grammar {
+    static ALL: LazyLock<Vec<Grammar>> =
+        LazyLock::new(|| Release::ALL.map(|release| Grammar::new(Dialect::Abaqus, release)).into());
+    ALL.iter().find(|grammar| grammar.release() == release).expect("every release has one")
+}
 
 /// The full names a keyword may mean in a release; one and `Exact` or `Abbreviated`, several, or none.
 fn keyword(written: &str, release: Release) -> (&'static str, Vec<&'static str>) {
-    let grammar = Grammar::builtin();
+    let grammar = of_release(release);
     let name = |id| grammar.keyword(id).name.as_str();
-    match grammar.keyword_named_in(written.as_bytes(), release) {
+    match grammar.keyword_named(written.as_bytes()) {
         Lookup::Exact(id) => ("exact", vec![name(id)]),
         Lookup::Abbreviated(id) => ("abbreviated", vec![name(id)]),
         Lookup::Ambiguous(ids) => ("ambiguous", ids.into_iter().map(name).collect()),
@@ -268,4 +276,24 @@ fn megabytes_are_answered() {
     assert_eq!(grammar.nearest_keywords(&long, 3)[0], "GAP CONDUCTANCE");
     let blanks = "GAP".to_owned() + &" ".repeat(10_000_000) + "E";
     assert!(matches!(grammar.keyword_named(blanks.as_bytes()), Lookup::Abbreviated(_)));
+}
+
+/// CalculiX has its own list of names, no abbreviations, and other columns in some options.
+#[test]
+fn calculix_has_a_language_of_its_own() {
+    let grammar = Grammar::new(Dialect::Calculix, Release::NEWEST);
+    let definition = |name: &str| {
+        let id = grammar.keyword_named(name.as_bytes()).found().expect("a keyword of CalculiX");
+        grammar.keyword(id).definition().expect("it is defined")
+    };
+    let columns = |name: &str| definition(name).layout(|_| false, 0).expect("rows of numbers").columns;
+    assert_eq!(columns("GAP CONDUCTANCE"), ["conductance", "pressure", "temp"]);
+    assert_eq!(columns("gap heat generation"), ["fraction", "slave_weight", "slip_rate"]);
+    assert!(!definition("SURFACE BEHAVIOR").parameters_complete, "an Abaqus list says nothing about CalculiX");
+    assert!(definition("GAP CONDUCTANCE").parameters_complete);
+    assert_eq!(grammar.keyword_named(b"SURFACE INTERACT"), Lookup::Unknown);
+    assert_eq!(grammar.keyword_named(b"GAP ELECTRICAL CONDUCTANCE"), Lookup::Unknown);
+    assert!(grammar.id_of("GAP ELECTRICAL CONDUCTANCE").is_some());
+    assert!(matches!(grammar.keyword_named(b"NODE"), Lookup::Exact(_)));
+    assert!(matches!(grammar.keyword_named(b"transform f"), Lookup::Exact(_)));
 }

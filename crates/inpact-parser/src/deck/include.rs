@@ -136,7 +136,8 @@ impl Assembly<'_> {
     }
 
     fn include(&mut self, keyword: &KeywordLine) -> Include {
-        let name = self.value_of(keyword, "INPUT");
+        // CalculiX has FILE for INPUT as well.
+        let name = self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE"));
         let outcome = match name {
             _ if self.is_given(keyword, "PASSWORD") => IncludeOutcome::Encrypted,
             None => IncludeOutcome::Unnamed,

@@ -10,7 +10,7 @@ use super::lines::{
 use super::{
     Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line,
 };
-use crate::grammar::{Definition, Grammar, Lookup, ParameterKind, RowShape};
+use crate::grammar::{Definition, Dialect, Grammar, Lookup, ParameterKind, RowShape};
 use crate::span::{SourceId, Span};
 use std::ops::Range;
 
@@ -238,7 +238,8 @@ impl<'grammar> Scanner<'grammar> {
         self.block.rows_start = self.offset;
         self.note(noteworthy_lines(line, self.offset), line);
         self.advance(line);
-        if !keyword_line::ends_in_comma(line) {
+        let may_continue = self.options.grammar.dialect() == Dialect::Abaqus;
+        if !may_continue || !keyword_line::ends_in_comma(line) {
             self.close_keyword();
         }
     }
@@ -345,7 +346,7 @@ fn continues(so_far: &[u8], line: &[u8], grammar: &Grammar) -> bool {
     let definition = id_of(&so_far[pieces.name], grammar).and_then(|id| grammar.keyword(id).definition());
     let is_parameter = |item: &[u8]| {
         let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
-        let known = definition.map_or(Lookup::Unknown, |definition| definition.parameter_named(name));
+        let known = definition.map_or(Lookup::Unknown, |definition| grammar.parameter_named(definition, name));
         let has_value = item.contains(&b'=');
         match (definition, known) {
             (Some(definition), Lookup::Exact(index) | Lookup::Abbreviated(index)) => {
@@ -379,7 +380,7 @@ fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> Key
         Lookup::Ambiguous(_) | Lookup::Unknown => None,
     };
     let parameters = pieces.parameters.into_iter().map(|parameter| Parameter {
-        resolved: definition.map_or(Lookup::Unknown, |known| known.parameter_named(&text[parameter.name.clone()])),
+        resolved: definition.map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()])),
         name: span(parameter.name),
         value: parameter.value.map(span),
     });
