@@ -195,14 +195,7 @@ impl KeywordId {
 impl Keyword {
     fn new(name: &str, source: Option<&'static str>) -> Self {
         let folded = name.chars().filter(|character| !character.is_ascii_whitespace()).collect();
-        Self {
-            name: name.to_owned(),
-            folded,
-            source,
-            is_listed: true,
-            is_borrowed: false,
-            definition: OnceLock::new(),
-        }
+        Self { name: name.to_owned(), folded, source, is_listed: true, is_borrowed: false, definition: OnceLock::new() }
     }
 
     /// What the keyword means; `None` when only its name is known.

@@ -15,12 +15,15 @@ pub use print::{PrintError, print};
 pub use read::{MOST_FIELD_VARIABLES, read};
 pub use table::{CellText, Table};
 
+use crate::expression::Parameters;
 use crate::span::Span;
 use indexmap::IndexMap;
 
 /// The contact interfaces of a deck and what uses them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Model {
+    /// The definitions of *PARAMETER and their values (S-61).
+    pub parameters: Parameters,
     /// The interactions by name, in the order of the deck.
     pub interactions: IndexMap<Name, Interaction>,
     /// The *CONTACT PAIR options (C-02).
@@ -128,7 +131,7 @@ pub struct SubOption {
 pub struct GivenParameter {
     /// Its name: in full and in upper case when the keyword has it, as it is written otherwise.
     pub name: String,
-    /// Its value, without blanks around it.
+    /// Its value as it is written, without blanks around it; a parameter in it, `<name>`, stays a name.
     pub value: Option<String>,
     /// Where it stands.
     pub span: Span,
@@ -329,6 +332,7 @@ impl Model {
         let mut model = self.clone();
         model.set_aside.clear();
         model.surfaces.clear();
+        model.parameters.forget_places();
         model.interactions.values_mut().for_each(Interaction::forget_places);
         for pair in &mut model.contact_pairs {
             pair.span = Span::default();

@@ -67,6 +67,22 @@ pub enum ProblemKind {
         /// The column's name.
         column: String,
     },
+    /// `<name>` where no *PARAMETER defines the name (S-62).
+    UndefinedParameter {
+        /// The name.
+        name: String,
+        /// A name that is defined and differs in upper and lower case only (S-60).
+        similar: Option<String>,
+    },
+    /// A statement of *PARAMETER that cannot be executed (S-60).
+    InvalidExpression {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: Option<String>,
+    },
+    /// *PARAMETER with TABLE: the parameters it gives are not interpreted (S-63).
+    UninterpretedParameters,
     /// A sub-option stands where no block of its parent is open (S-21, K012).
     Misplaced {
         /// The sub-option.

@@ -380,7 +380,8 @@ fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> Key
         Lookup::Ambiguous(_) | Lookup::Unknown => None,
     };
     let parameters = pieces.parameters.into_iter().map(|parameter| Parameter {
-        resolved: definition.map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()])),
+        resolved: definition
+            .map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()])),
         name: span(parameter.name),
         value: parameter.value.map(span),
     });

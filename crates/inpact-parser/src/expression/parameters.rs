@@ -62,6 +62,11 @@ impl Parameters {
         self.definitions.iter().enumerate().filter(is_last).map(|(_, definition)| definition)
     }
 
+    /// Forgets where the definitions stand, so that two decks that define the same compare equal.
+    pub(crate) fn forget_places(&mut self) {
+        self.definitions.iter_mut().for_each(|definition| definition.span = Span::default());
+    }
+
     pub(super) fn push(&mut self, definition: Definition) {
         if let Some(Value::Text(text)) = &definition.value {
             self.text_bytes += text.len();

@@ -4,6 +4,7 @@
 //! Places (`span`) are byte ranges of the deck the JSON was made from; they are optional on the way back.
 
 use super::{JsonError, layout, parse};
+use crate::expression::{self, Parameters, StatementLine, Value, define, references};
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
     HeatGeneration, Interaction, Model, Name, Procedure, PropertyAssignment, Reference, Regime, SubOption, SurfacePair,
@@ -22,10 +23,30 @@ pub const SCHEMA: &str = "inpact/model/1";
 struct Document {
     schema: String,
     source: String,
+    parameters: Vec<ParameterDocument>,
     interactions: IndexMap<String, InteractionDocument>,
     contact_pairs: Vec<ContactPairDocument>,
     property_assignments: Vec<AssignmentDocument>,
     procedures: Vec<ProcedureDocument>,
+}
+
+/// A definition of *PARAMETER.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParameterDocument {
+    name: String,
+    expression: String,
+    /// What the expression gives, for reading only: it follows from the expression. `null` when it gives nothing.
+    #[serde(deserialize_with = "required")]
+    value: Option<ValueDocument>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+enum ValueDocument {
+    Integer(i64),
+    Real(f64),
+    Text(String),
 }
 
 /// `[start, end]` in bytes.
@@ -38,7 +59,7 @@ struct InteractionDocument {
     #[serde(default)]
     span: SpanDocument,
     thickness: f64,
-    parameters: ParameterDocuments,
+    parameters: GivenDocuments,
     properties: Vec<f64>,
     #[serde(deserialize_with = "required")]
     gap_electrical_conductance: Option<ElectricalDocument>,
@@ -50,7 +71,7 @@ struct InteractionDocument {
 }
 
 /// Parameters by name; a flag has the value `null`.
-type ParameterDocuments = IndexMap<String, Option<String>>;
+type GivenDocuments = IndexMap<String, Option<String>>;
 
 /// `{"user": true}` or `{"clearance": TABLE|null, "pressure": TABLE|null}`.
 #[expect(clippy::option_option, reason = "a branch that is not there differs from one that is null")]
@@ -99,7 +120,7 @@ struct HeatDocument {
 #[serde(deny_unknown_fields)]
 struct SubOptionDocument {
     keyword: String,
-    parameters: ParameterDocuments,
+    parameters: GivenDocuments,
     #[serde(deserialize_with = "required")]
     table: Option<TableDocument>,
     rows: Vec<Vec<String>>,
@@ -117,7 +138,7 @@ struct TableDocument {
 struct ContactPairDocument {
     #[serde(deserialize_with = "required")]
     interaction: Option<String>,
-    parameters: ParameterDocuments,
+    parameters: GivenDocuments,
     pairs: Vec<SurfacePairDocument>,
 }
 
@@ -145,7 +166,7 @@ struct AssignmentDocument {
 struct ProcedureDocument {
     step: usize,
     keyword: String,
-    parameters: ParameterDocuments,
+    parameters: GivenDocuments,
     rows: Vec<Vec<String>>,
     /// `steady` or `transient`, for reading only: it follows from keyword and parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -159,19 +180,29 @@ enum RegimeDocument {
     Transient,
 }
 
-/// A number, or the text of a cell that is none.
+/// A number; `{"text": "<name>", "value": 1.5}` for one that is written with parameters (S-62); or the text of a cell
+/// that is no number.
 ///
-/// On the way back only a parameter, `"<name>"`, is taken (S-62): a number that is malformed in the deck is to be mended.
+/// On the way back a text must have a parameter in it: a number that is malformed in the deck is to be mended.
 #[derive(Debug, Clone, PartialEq)]
 enum Cell {
     Number(f64),
+    Symbolic(SymbolicCell),
     Text(String),
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SymbolicCell {
+    text: String,
+    value: f64,
 }
 
 impl Serialize for Cell {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Number(value) => serializer.serialize_f64(*value),
+            Self::Symbolic(cell) => cell.serialize(serializer),
             Self::Text(text) => serializer.serialize_str(text),
         }
     }
@@ -186,7 +217,7 @@ impl<'de> Deserialize<'de> for Cell {
 /// Written out because an untagged enum would say only that nothing matched.
 struct CellVisitor;
 
-impl serde::de::Visitor<'_> for CellVisitor {
+impl<'de> serde::de::Visitor<'de> for CellVisitor {
     type Value = Cell;
 
     fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -206,10 +237,18 @@ impl serde::de::Visitor<'_> for CellVisitor {
     }
 
     fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Cell, E> {
-        if value.starts_with('<') && value.ends_with('>') {
+        if references(value.as_bytes()).next().is_some() {
             return Ok(Cell::Text(value.to_owned()));
         }
         Err(E::invalid_value(serde::de::Unexpected::Str(value), &self))
+    }
+
+    fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Cell, A::Error> {
+        let cell = SymbolicCell::deserialize(serde::de::value::MapAccessDeserializer::new(map))?;
+        if references(cell.text.as_bytes()).next().is_some() {
+            return Ok(Cell::Symbolic(cell));
+        }
+        Err(serde::de::Error::invalid_value(serde::de::Unexpected::Str(&cell.text), &self))
     }
 }
 
@@ -236,6 +275,7 @@ pub fn write(model: &Model, source: &str) -> String {
     let document = Document {
         schema: SCHEMA.to_owned(),
         source: source.to_owned(),
+        parameters: model.parameters.definitions().iter().map(Into::into).collect(),
         interactions: interactions.collect(),
         contact_pairs: model.contact_pairs.iter().map(Into::into).collect(),
         property_assignments: model.property_assignments.iter().map(Into::into).collect(),
@@ -250,7 +290,7 @@ impl From<&Interaction> for InteractionDocument {
             name: interaction.name.written().to_owned(),
             span: [interaction.span.start, interaction.span.end],
             thickness: interaction.thickness,
-            parameters: parameter_documents(&interaction.parameters),
+            parameters: given_documents(&interaction.parameters),
             properties: interaction.properties.clone(),
             gap_electrical_conductance: interaction.gap_electrical_conductance.as_ref().map(Into::into),
             contact_permeability: interaction.contact_permeability.as_ref().map(Into::into),
@@ -262,7 +302,18 @@ impl From<&Interaction> for InteractionDocument {
     }
 }
 
-fn parameter_documents(parameters: &[GivenParameter]) -> ParameterDocuments {
+impl From<&expression::Definition> for ParameterDocument {
+    fn from(definition: &expression::Definition) -> Self {
+        let value = definition.value.as_ref().map(|value| match value {
+            Value::Integer(value) => ValueDocument::Integer(*value),
+            Value::Real(value) => ValueDocument::Real(*value),
+            Value::Text(value) => ValueDocument::Text(value.clone()),
+        });
+        Self { name: definition.name.clone(), expression: definition.expression.clone(), value }
+    }
+}
+
+fn given_documents(parameters: &[GivenParameter]) -> GivenDocuments {
     parameters.iter().map(|parameter| (parameter.name.clone(), parameter.value.clone())).collect()
 }
 
@@ -299,7 +350,7 @@ impl From<&SubOption> for SubOptionDocument {
     fn from(option: &SubOption) -> Self {
         Self {
             keyword: option.keyword.clone(),
-            parameters: parameter_documents(&option.parameters),
+            parameters: given_documents(&option.parameters),
             table: option.table.as_ref().map(Into::into),
             rows: option.rows.clone(),
         }
@@ -311,7 +362,11 @@ impl From<&Table> for TableDocument {
         let mut texts = table.texts.iter().peekable();
         let mut cells = table.values.iter().enumerate().map(|(cell, value)| {
             let text = texts.next_if(|text| text.cell == cell);
-            text.map_or(Cell::Number(*value), |text| Cell::Text(text.text.clone()))
+            match text.map(|text| text.text.clone()) {
+                None => Cell::Number(*value),
+                Some(text) if value.is_nan() => Cell::Text(text),
+                Some(text) => Cell::Symbolic(SymbolicCell { text, value: *value }),
+            }
         });
         let rows = (0..table.row_count()).map(|_| cells.by_ref().take(table.width()).collect());
         Self { columns: table.columns.clone(), rows: rows.collect() }
@@ -326,7 +381,7 @@ impl From<&ContactPair> for ContactPairDocument {
         });
         Self {
             interaction: written(pair.interaction.as_ref()),
-            parameters: parameter_documents(&pair.parameters),
+            parameters: given_documents(&pair.parameters),
             pairs: pairs.collect(),
         }
     }
@@ -347,7 +402,7 @@ impl From<&Procedure> for ProcedureDocument {
         Self {
             step: procedure.step,
             keyword: procedure.option.keyword.clone(),
-            parameters: parameter_documents(&procedure.option.parameters),
+            parameters: given_documents(&procedure.option.parameters),
             rows: procedure.option.rows.clone(),
             regime: procedure.regime().map(|regime| match regime {
                 Regime::SteadyState => RegimeDocument::Steady,
@@ -372,7 +427,7 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
     if document.schema != SCHEMA {
         return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
     }
-    let mut model = Model::default();
+    let mut model = Model { parameters: parameters(&document.parameters)?, ..Model::default() };
     for (key, interaction) in document.interactions {
         let path = format!("interactions.{key}");
         if Name::new(&key) != Name::new(&interaction.name) {
@@ -391,6 +446,26 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
     let procedures = document.procedures.into_iter().enumerate();
     model.procedures = procedures.map(|(index, found)| found.into_model(index)).collect::<Result<_, _>>()?;
     Ok(model)
+}
+
+/// Executes the definitions again; what the JSON says of their values must agree.
+fn parameters(documents: &[ParameterDocument]) -> Result<Parameters, JsonError> {
+    let mut parameters = Parameters::new();
+    for (index, document) in documents.iter().enumerate() {
+        let statement = format!("{} = {}", document.name, document.expression);
+        let line = StatementLine { span: Span::default(), text: statement.as_bytes() };
+        let mut problems = Vec::new();
+        define([line], &mut parameters, &mut problems);
+        let path = format!("parameters[{index}]");
+        if let Some(problem) = problems.first().filter(|_| document.value.is_some()) {
+            return Err(JsonError::new(format!("{path}.expression"), problem.message.clone()));
+        }
+        let again = parameters.definitions().get(index).map(ParameterDocument::from);
+        if again.as_ref().map(|again| &again.value) != Some(&document.value) {
+            return Err(JsonError::new(format!("{path}.value"), "does not follow from the expression"));
+        }
+    }
+    Ok(parameters)
 }
 
 impl InteractionDocument {
@@ -421,7 +496,7 @@ impl InteractionDocument {
     }
 }
 
-fn given_parameters(parameters: ParameterDocuments) -> Vec<GivenParameter> {
+fn given_parameters(parameters: GivenDocuments) -> Vec<GivenParameter> {
     parameters.into_iter().map(|(name, value)| GivenParameter { name, value, span: Span::default() }).collect()
 }
 
@@ -488,6 +563,10 @@ impl TableDocument {
             for cell in row {
                 match cell {
                     Cell::Number(value) => table.values.push(value),
+                    Cell::Symbolic(SymbolicCell { text, value }) => {
+                        table.texts.push(CellText { cell: table.values.len(), text });
+                        table.values.push(value);
+                    }
                     Cell::Text(text) => {
                         table.texts.push(CellText { cell: table.values.len(), text });
                         table.values.push(f64::NAN);

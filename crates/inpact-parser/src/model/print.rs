@@ -7,6 +7,7 @@ use super::{
     Procedure, PropertyAssignment, Reference, SubOption, Table, read,
 };
 use crate::deck::scan;
+use crate::expression;
 use crate::grammar::{Definition, Grammar};
 use crate::number::float_text;
 use std::fmt::Write;
@@ -29,6 +30,7 @@ pub struct PrintError {
 /// know, a row that begins with an asterisk.
 pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
     let mut out = String::new();
+    print_parameters(&mut out, model.parameters.definitions());
     for interaction in model.interactions.values() {
         print_interaction(&mut out, interaction, grammar);
     }
@@ -46,6 +48,9 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
 
 /// What two models differ in, if anything.
 fn difference(model: &Model, again: &Model) -> Option<String> {
+    if !same(&model.parameters, &again.parameters) {
+        return Some("the list of parameters".to_owned());
+    }
     for (name, interaction) in &model.interactions {
         if again.interactions.get(name).is_none_or(|found| !same(found, interaction)) {
             return Some(format!("interaction `{name}`"));
@@ -66,6 +71,15 @@ fn difference(model: &Model, again: &Model) -> Option<String> {
 /// Equality in which a NaN, the value of a cell written as a parameter, equals itself.
 fn same<T: std::fmt::Debug + PartialEq>(a: &T, b: &T) -> bool {
     a == b || format!("{a:?}") == format!("{b:?}")
+}
+
+fn print_parameters(out: &mut String, definitions: &[expression::Definition]) {
+    if !definitions.is_empty() {
+        print_keyword(out, "PARAMETER", []);
+    }
+    for definition in definitions {
+        let _ = writeln!(out, "{} = {}", definition.name, definition.expression);
+    }
 }
 
 fn print_interaction(out: &mut String, interaction: &Interaction, grammar: &Grammar) {

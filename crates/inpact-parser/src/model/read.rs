@@ -3,13 +3,14 @@
 //! Walks the blocks once, in reading order, and knows at each where it is: in a part, in a step, inside which interaction.
 //! Collects problems and never stops at one (T-44).
 
-use super::rows::read_table;
+use super::rows::{read_table, undefined_parameter};
 use super::{
     ConstraintMethod, ContactPair, ContactPermeability, GivenParameter, HeatGeneration, Interaction, Model, Name,
     Procedure, PropertyAssignment, Reference, SetAside, SetAsideItem, SetAsideReason, SubOption, Surface, SurfacePair,
     Table,
 };
 use crate::deck::{Block, Deck, KeywordLine, Parameter};
+use crate::expression::{StatementLine, define, substitute};
 use crate::grammar::{Definition, Grammar, KeywordId, Level, RowShape};
 use crate::number::{read_float, read_integer};
 use crate::problem::{Problem, ProblemKind};
@@ -34,6 +35,10 @@ pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
         steps: 0,
         explicit: false,
     };
+    // All definitions of the deck come first, wherever they stand (S-61).
+    for block in deck.blocks() {
+        reader.define_parameters(block);
+    }
     for block in deck.blocks() {
         reader.read_block(block);
     }
@@ -88,6 +93,7 @@ impl<'a> Reader<'a> {
         // An unknown keyword leaves an interaction open: it is more often a typing error in a sub-option than the end of the block.
         let Some(keyword) = &block.keyword else { return };
         let Some(id) = keyword.id() else { return };
+        self.check_references(keyword);
         let entry = self.grammar.keyword(id);
         let Some(definition) = entry.definition() else {
             return self.leave_interaction(id, keyword);
@@ -116,6 +122,55 @@ impl<'a> Reader<'a> {
             "CONTACT PROPERTY ASSIGNMENT" => self.read_property_assignments(option),
             _ if definition.procedure => self.read_procedure(option),
             _ => {}
+        }
+    }
+
+    // Parameters (S-60 to S-66).
+
+    fn define_parameters(&mut self, block: &Block) {
+        let Some(keyword) = &block.keyword else { return };
+        let Some(id) = keyword.id().filter(|id| self.grammar.keyword(*id).name == "PARAMETER") else { return };
+        let from_table = self.grammar.keyword(id).definition().is_some_and(|definition| {
+            let is_table = |index: usize| definition.parameters[index].name == "TABLE";
+            keyword.parameters.iter().any(|parameter| parameter.index().is_some_and(is_table))
+        });
+        if from_table {
+            let span = keyword.visible_span(self.deck);
+            self.problems.push(Problem { kind: ProblemKind::UninterpretedParameters, span, keyword: keyword.span });
+            return;
+        }
+        let lines = self.deck.data_lines(block).map(|line| StatementLine { span: line.span, text: line.text });
+        let mut invalid = Vec::new();
+        define(lines, &mut self.model.parameters, &mut invalid);
+        self.problems.extend(invalid.into_iter().map(|problem| Problem {
+            kind: ProblemKind::InvalidExpression { message: problem.message, help: problem.help },
+            span: problem.span,
+            keyword: keyword.span,
+        }));
+    }
+
+    /// The text of a keyword value, its parameters replaced by their values (S-62).
+    ///
+    /// A parameter without a value stays a name; [`Reader::check_references`] reports it.
+    fn value_text(&self, value: Span) -> String {
+        let text = self.deck.shown(value);
+        match substitute(&text, &self.model.parameters) {
+            Ok(replaced) => replaced.into_owned(),
+            Err(_) => text,
+        }
+    }
+
+    /// Reports the parameters without a definition in the values of a keyword line.
+    fn check_references(&mut self, keyword: &KeywordLine) {
+        for value in keyword.parameters.iter().filter_map(|parameter| parameter.value) {
+            let text = self.deck.text(value);
+            if !text.contains(&b'<') {
+                continue;
+            }
+            let text = self.deck.shown(value);
+            if let Err(error) = substitute(&text, &self.model.parameters) {
+                self.problems.extend(undefined_parameter(&error, &self.model.parameters, value, keyword.span));
+            }
         }
     }
 
@@ -163,7 +218,8 @@ impl<'a> Reader<'a> {
         self.parent = Some(option.id);
         let mut parameters = self.given_parameters(option);
         // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
-        let name = take(&mut parameters, "NAME").and_then(|parameter| parameter.value).unwrap_or_default();
+        take(&mut parameters, "NAME");
+        let name = self.value_of(option, "NAME").unwrap_or_default();
         let mut interaction = Interaction::new(Name::new(&name), option.keyword.visible_span(self.deck));
         let is_user = parameters.iter().any(|parameter| parameter.name == "USER");
         interaction.parameters = parameters;
@@ -322,13 +378,13 @@ impl<'a> Reader<'a> {
     fn table(&mut self, option: Entry<'_>) -> Option<Table> {
         let dependencies = self.dependencies(option);
         let layout = option.definition.layout(|name| option.is_given(name), dependencies)?;
-        let table = read_table(self.deck, option.block, layout, &mut self.problems);
+        let table = read_table(self.deck, option.block, layout, &self.model.parameters, &mut self.problems);
         (table.row_count() > 0).then_some(table)
     }
 
     fn dependencies(&self, option: Entry<'_>) -> usize {
-        let value = option.parameter("DEPENDENCIES").and_then(|parameter| parameter.value);
-        let number = value.and_then(|value| read_integer(self.deck.text(value)).ok()).unwrap_or(0);
+        let value = self.value_of(option, "DEPENDENCIES");
+        let number = value.and_then(|value| read_integer(value.as_bytes()).ok()).unwrap_or(0);
         usize::try_from(number).unwrap_or(0).min(MOST_FIELD_VARIABLES)
     }
 
@@ -358,11 +414,11 @@ impl<'a> Reader<'a> {
     }
 
     fn value_of(&self, option: Entry<'_>, name: &str) -> Option<String> {
-        Some(self.deck.shown(option.parameter(name)?.value?))
+        Some(self.value_text(option.parameter(name)?.value?))
     }
 
     fn float_of(&self, option: Entry<'_>, name: &str) -> Option<f64> {
-        read_float(self.deck.text(option.parameter(name)?.value?)).ok()
+        read_float(self.value_of(option, name)?.as_bytes()).ok()
     }
 
     fn given_parameters(&self, option: Entry<'_>) -> Vec<GivenParameter> {
@@ -378,7 +434,7 @@ impl<'a> Reader<'a> {
     }
 
     fn reference(&self, span: Span) -> Option<Reference> {
-        (!span.is_empty()).then(|| Reference { name: Name::new(&self.deck.shown(span)), span })
+        (!span.is_empty()).then(|| Reference { name: Name::new(&self.value_text(span)), span })
     }
 
     // What uses the interactions.

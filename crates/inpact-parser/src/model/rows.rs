@@ -4,16 +4,30 @@
 
 use super::table::{CellText, Table};
 use crate::deck::{Block, DataLine, Deck};
+use crate::expression::{Parameters, SubstitutionError, substitute};
 use crate::grammar::Layout;
 use crate::number::{FLOAT_CHARACTERS, read_float};
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
 
 /// Reads the rows of a block.
-pub(super) fn read_table(deck: &Deck, block: &Block, layout: Layout, problems: &mut Vec<Problem>) -> Table {
+pub(super) fn read_table(
+    deck: &Deck,
+    block: &Block,
+    layout: Layout,
+    parameters: &Parameters,
+    problems: &mut Vec<Problem>,
+) -> Table {
     let keyword = block.span_of_keyword();
-    let mut reader =
-        RowReader { deck, keyword, layout: &layout, lines: layout.lines_per_row(), problems, table: Table::default() };
+    let mut reader = RowReader {
+        deck,
+        keyword,
+        layout: &layout,
+        lines: layout.lines_per_row(),
+        parameters,
+        problems,
+        table: Table::default(),
+    };
     reader.table.keyword = keyword;
     reader.reserve(deck.text(block.rows));
     let mut line_of_row = 0;
@@ -36,6 +50,7 @@ struct RowReader<'a> {
     keyword: Span,
     layout: &'a Layout,
     lines: usize,
+    parameters: &'a Parameters,
     problems: &'a mut Vec<Problem>,
     table: Table,
 }
@@ -93,28 +108,42 @@ impl RowReader<'_> {
             self.table.values.push(self.layout.defaults[column]);
             return;
         }
-        if matches!(text, [b'<', .., b'>']) {
-            return self.take_text(item);
+        let is_symbolic = text.contains(&b'<');
+        let value = if is_symbolic { self.symbolic_value(item, column) } else { self.value(text, item, column) };
+        if is_symbolic || value.is_none() {
+            let text = self.deck.shown(item);
+            self.table.texts.push(CellText { cell: self.table.values.len(), text });
         }
-        match read_float(text) {
-            Ok(value) => {
-                if text.len() > FLOAT_CHARACTERS {
-                    self.report(ProblemKind::NumberTooLong { characters: text.len() }, item);
-                }
-                self.table.values.push(value);
-            }
+        self.table.values.push(value.unwrap_or(f64::NAN));
+    }
+
+    /// The number of an item that names parameters (S-62).
+    fn symbolic_value(&mut self, item: Span, column: usize) -> Option<f64> {
+        let text = self.deck.shown(item);
+        match substitute(&text, self.parameters) {
+            Ok(text) => self.value(text.trim().as_bytes(), item, column),
             Err(error) => {
-                let column = self.layout.columns[column].clone();
-                self.report(ProblemKind::MalformedNumber { error, column }, item);
-                self.take_text(item);
+                self.problems.extend(undefined_parameter(&error, self.parameters, item, self.keyword));
+                None
             }
         }
     }
 
-    /// Keeps the text of a cell that is no number.
-    fn take_text(&mut self, item: Span) {
-        self.table.texts.push(CellText { cell: self.table.values.len(), text: self.deck.shown(item) });
-        self.table.values.push(f64::NAN);
+    fn value(&mut self, text: &[u8], item: Span, column: usize) -> Option<f64> {
+        match read_float(text) {
+            Ok(value) => {
+                let written = usize::try_from(item.len()).unwrap_or(usize::MAX);
+                if written > FLOAT_CHARACTERS && written == text.len() {
+                    self.report(ProblemKind::NumberTooLong { characters: written }, item);
+                }
+                Some(value)
+            }
+            Err(error) => {
+                let column = self.layout.columns[column].clone();
+                self.report(ProblemKind::MalformedNumber { error, column }, item);
+                None
+            }
+        }
     }
 
     fn extend_last_row(&mut self, line: Span) {
@@ -135,6 +164,18 @@ impl RowReader<'_> {
         let missing = (width - self.table.values.len() % width) % width;
         self.table.values.extend_from_slice(&self.layout.defaults[width - missing..]);
     }
+}
+
+/// The problem of a reference that cannot be replaced; none for a parameter whose definition is reported already (S016).
+pub(super) fn undefined_parameter(
+    error: &SubstitutionError,
+    parameters: &Parameters,
+    span: Span,
+    keyword: Span,
+) -> Option<Problem> {
+    let SubstitutionError::Undefined(name) = error else { return None };
+    let similar = parameters.name_in_other_case(name).map(str::to_owned);
+    Some(Problem { kind: ProblemKind::UndefinedParameter { name: name.clone(), similar }, span, keyword })
 }
 
 /// How many items belong on line `line` of a row, counted from 0.

@@ -12,18 +12,18 @@ pub struct Table {
     pub columns: Vec<String>,
     /// The cells, row behind row; `columns.len()` a row. Units are those of the columns (see the grammar).
     ///
-    /// A cell that is no number is NaN; see [`Table::texts`].
+    /// A cell that is no number, or a parameter without a value, is NaN; see [`Table::texts`].
     pub values: Vec<f64>,
     /// Where each row stands; shorter than the number of rows when the table was not read from a deck.
     pub rows: Vec<Span>,
-    /// What stands in the cells that are no number: a parameter, `<name>` (S-62), or something malformed (S006).
+    /// What stands in the cells that are not written as a number: a parameter, `<name>` (S-62), or something malformed (S006).
     /// In ascending order of [`CellText::cell`].
     pub texts: Vec<CellText>,
     /// The keyword line the table belongs to.
     pub keyword: Span,
 }
 
-/// The text of a cell that is no number.
+/// The text of a cell that is not written as a number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CellText {
     /// Index into [`Table::values`].
