@@ -26,6 +26,7 @@ pub struct Deck {
     sources: Vec<Source>,
     blocks: Vec<Block>,
     notes: Vec<LineNote>,
+    directives: Vec<Span>,
     includes: Vec<Include>,
 }
 
@@ -131,6 +132,11 @@ impl Deck {
     /// The blocks in reading order.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
+    }
+
+    /// The comments that are meant for inpact: `** inpact: …`.
+    pub fn directives(&self) -> &[Span] {
+        &self.directives
     }
 
     /// The *INCLUDE options and what became of them, innermost first; empty until [`Deck::with_includes`] has read them.

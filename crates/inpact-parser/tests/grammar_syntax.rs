@@ -5,6 +5,7 @@ use inpact_parser::deck::{Deck, items, scan};
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::read;
 use inpact_parser::number::{read_float, read_integer};
+use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::SourceId;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -108,7 +109,9 @@ fn is_symbol(example: &[u8]) -> bool {
     let text = [b"*SURFACE INTERACTION, NAME=A\n*CONTACT PERMEABILITY\n", example, b", 0.\n"].concat();
     let (model, problems) = read(&deck(&text), Grammar::builtin());
     let table = model.interactions[0].contact_permeability.as_ref().unwrap().table.as_ref().unwrap();
-    problems.is_empty() && table.row(0)[0].is_nan()
+    // Nothing defines the parameter here: that is the one thing wrong with it.
+    let is_undefined = matches!(&problems[..], [Problem { kind: ProblemKind::UndefinedParameter { .. }, .. }]);
+    is_undefined && table.row(0)[0].is_nan()
 }
 
 /// Whether the parser reads the example as that production.

@@ -173,13 +173,14 @@ impl Assembly<'_> {
         if let Err(reason) = self.files.read(&found, &mut scanner) {
             return IncludeOutcome::Unreadable(reason);
         }
-        let (mut source, blocks, mut notes) = scanner.finish_parts();
-        source.set_included_by(keyword);
-        self.deck.sources.push(source);
-        self.deck.notes.append(&mut notes);
+        let mut included = scanner.finish();
+        included.sources.iter_mut().for_each(|source| source.set_included_by(keyword));
+        self.deck.sources.append(&mut included.sources);
+        self.deck.notes.append(&mut included.notes);
+        self.deck.directives.append(&mut included.directives);
         self.path.push(found.path);
         self.level += 1;
-        self.place(blocks);
+        self.place(included.blocks);
         self.level -= 1;
         self.path.pop();
         IncludeOutcome::Read(id)

@@ -82,8 +82,8 @@ fn lone_carriage_returns(bytes: &[u8]) -> usize {
 /// Where the next line of kind [`LineKind::Keyword`] begins at or behind `from`, which must be the start of a line.
 ///
 /// Looks at asterisks only, so that megabytes of mesh rows cost one `memchr`.
-/// The comments it passes that stand behind blanks (S-04) are handed to `indented_comment`, as the start of their line.
-pub fn find_keyword_line(bytes: &[u8], from: usize, mut indented_comment: impl FnMut(usize)) -> Option<usize> {
+/// The comments it passes are handed to `comment`, as the start of their line and the place of their first asterisk.
+pub fn find_keyword_line(bytes: &[u8], from: usize, mut comment: impl FnMut(usize, usize)) -> Option<usize> {
     let mut at = from;
     while let Some(found) = memchr(b'*', &bytes[at..]) {
         let star = at + found;
@@ -92,9 +92,7 @@ pub fn find_keyword_line(bytes: &[u8], from: usize, mut indented_comment: impl F
                 return Some(start);
             }
             // A comment: nothing in the rest of its line matters.
-            if start < star {
-                indented_comment(start);
-            }
+            comment(start, star);
             at = next_line(bytes, star);
         } else {
             at = star + 1;
@@ -158,10 +156,10 @@ mod tests {
     #[test]
     fn keyword_lines_are_found_behind_rows_and_comments() {
         let bytes = b"1, 2*3\n** *NODE\n  ** x\n\t *STEP\n";
-        assert_eq!(find_keyword_line(bytes, 0, |_| {}), Some(23));
-        assert_eq!(find_keyword_line(b"1,2\n3,4\n", 0, |_| {}), None);
-        assert_eq!(find_keyword_line(b"*A\n", 0, |_| {}), Some(0));
-        assert_eq!(find_keyword_line(b"1\r*A\r", 0, |_| {}), Some(2));
+        assert_eq!(find_keyword_line(bytes, 0, |_, _| {}), Some(23));
+        assert_eq!(find_keyword_line(b"1,2\n3,4\n", 0, |_, _| {}), None);
+        assert_eq!(find_keyword_line(b"*A\n", 0, |_, _| {}), Some(0));
+        assert_eq!(find_keyword_line(b"1\r*A\r", 0, |_, _| {}), Some(2));
     }
 
     #[test]

@@ -64,6 +64,7 @@ pub struct Scanner<'grammar> {
     source: Source,
     blocks: Vec<Block>,
     notes: Vec<LineNote>,
+    directives: Vec<Span>,
     /// Bytes behind the last complete line that was processed.
     pending: Vec<u8>,
     /// Offset and line number of the next byte to be processed.
@@ -82,6 +83,14 @@ struct OpenKeyword {
     text: Vec<u8>,
     /// How much of `text` belongs to the keyword line for sure: comments at its end do not.
     accepted: usize,
+}
+
+/// Why a line is taken down while it goes by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mark {
+    Note(LineNoteKind),
+    /// A comment that is meant for inpact.
+    Directive,
 }
 
 /// The block whose rows are being read.
@@ -127,6 +136,7 @@ impl<'grammar> Scanner<'grammar> {
             source: Source::new(name),
             blocks: Vec::new(),
             notes: Vec::new(),
+            directives: Vec::new(),
             pending: Vec::new(),
             offset: 0,
             line: 1,
@@ -154,19 +164,19 @@ impl<'grammar> Scanner<'grammar> {
     }
 
     /// The end of the file: gives the deck.
-    pub fn finish(self) -> Deck {
-        let (source, blocks, notes) = self.finish_parts();
-        Deck { sources: vec![source], blocks, notes, includes: Vec::new() }
-    }
-
-    /// The end of the file: gives what it holds.
-    pub(super) fn finish_parts(mut self) -> (Source, Vec<Block>, Vec<LineNote>) {
+    pub fn finish(mut self) -> Deck {
         let last_line = std::mem::take(&mut self.pending);
         self.process(&last_line);
         self.close_keyword();
         self.close_block();
         self.source.set_length(self.offset);
-        (self.source, self.blocks, self.notes)
+        Deck {
+            sources: vec![self.source],
+            blocks: self.blocks,
+            notes: self.notes,
+            directives: self.directives,
+            includes: Vec::new(),
+        }
     }
 
     /// Processes complete lines.
@@ -181,26 +191,30 @@ impl<'grammar> Scanner<'grammar> {
                 at = self.continue_keyword(bytes, at);
                 continue;
             }
-            let mut indented = Vec::new();
-            let keyword = find_keyword_line(bytes, at, |start| indented.push(start - at));
-            self.rows(&bytes[at..keyword.unwrap_or(bytes.len())], &indented);
+            let mut marked = Vec::new();
+            let keyword = find_keyword_line(bytes, at, |start, star| {
+                if start < star {
+                    marked.push((start - at, Mark::Note(LineNoteKind::IndentedComment)));
+                }
+                if is_directive(&bytes[star..]) {
+                    marked.push((start - at, Mark::Directive));
+                }
+            });
+            self.rows(&bytes[at..keyword.unwrap_or(bytes.len())], &marked);
             let Some(keyword) = keyword else { return };
             at = next_line(bytes, keyword);
             self.open_keyword(&bytes[keyword..at]);
         }
     }
 
-    /// Takes rows and comments of the open block; `indented` are the starts of the comments that stand behind blanks.
-    fn rows(&mut self, bytes: &[u8], indented: &[usize]) {
+    /// Takes rows and comments of the open block; `marked` are the starts of comments that somebody asks for.
+    fn rows(&mut self, bytes: &[u8], marked: &[(usize, Mark)]) {
         if bytes.is_empty() {
             return;
         }
-        if !self.block.free_text {
-            let mut noted = noteworthy_lines(bytes, self.offset);
-            noted
-                .extend(indented.iter().map(|start| (*start..next_line(bytes, *start), LineNoteKind::IndentedComment)));
-            self.note(noted, bytes);
-        }
+        let mut lines = if self.block.free_text { Vec::new() } else { noteworthy_lines(bytes, self.offset) };
+        lines.extend(marked.iter().map(|(start, mark)| (*start..next_line(bytes, *start), *mark)));
+        self.mark(lines, bytes);
         match self.block.keeps_rows {
             KeepsRows::All => self.source.keep(self.offset, self.line, bytes),
             KeepsRows::UpTo(limit) if self.offset < limit => self.source.keep(self.offset, self.line, bytes),
@@ -210,24 +224,37 @@ impl<'grammar> Scanner<'grammar> {
         self.advance(bytes);
     }
 
-    /// Notes lines of `bytes`, which begin at the current offset; a second line of a kind in one block is only counted.
-    fn note(&mut self, mut lines: Vec<(Range<usize>, LineNoteKind)>, bytes: &[u8]) {
+    /// Takes down lines of `bytes`, which begin at the current offset.
+    fn mark(&mut self, mut lines: Vec<(Range<usize>, Mark)>, bytes: &[u8]) {
         lines.sort_by_key(|(line, _)| line.start);
-        let block_start = self.block.keyword.as_ref().map_or(self.block.rows_start, |keyword| keyword.span.start);
-        for (line, kind) in lines {
-            let of_this_block = |note: &&mut LineNote| note.span.start >= block_start;
-            if let Some(note) = self.notes.iter_mut().rev().take_while(of_this_block).find(|note| note.kind == kind) {
-                note.lines += 1;
-                continue;
-            }
+        for (line, mark) in lines {
             let start = self.offset + line.start as u64;
             let content = without_line_end(&bytes[line.clone()]).len() as u64;
-            self.notes.push(LineNote { kind, span: Span::new(self.id, start, start + content), lines: 1 });
-            if self.block.keeps_rows == KeepsRows::None {
+            let span = Span::new(self.id, start, start + content);
+            let is_first = match mark {
+                Mark::Note(kind) => self.note(kind, span),
+                Mark::Directive => {
+                    self.directives.push(span);
+                    true
+                }
+            };
+            if is_first && self.block.keeps_rows == KeepsRows::None {
                 let line_number = self.line + count_line_ends(&bytes[..line.start]);
                 self.source.keep(start, line_number, &bytes[line]);
             }
         }
+    }
+
+    /// Notes a line; a second one of a kind in one block is only counted. Gives whether it is the first.
+    fn note(&mut self, kind: LineNoteKind, span: Span) -> bool {
+        let block_start = self.block.keyword.as_ref().map_or(self.block.rows_start, |keyword| keyword.span.start);
+        let of_this_block = |note: &&mut LineNote| note.span.start >= block_start;
+        if let Some(note) = self.notes.iter_mut().rev().take_while(of_this_block).find(|note| note.kind == kind) {
+            note.lines += 1;
+            return false;
+        }
+        self.notes.push(LineNote { kind, span, lines: 1 });
+        true
     }
 
     fn open_keyword(&mut self, line: &[u8]) {
@@ -236,7 +263,7 @@ impl<'grammar> Scanner<'grammar> {
         self.source.keep(self.offset, self.line, line);
         self.block.keeps_rows = KeepsRows::All;
         self.block.rows_start = self.offset;
-        self.note(noteworthy_lines(line, self.offset), line);
+        self.mark(noteworthy_lines(line, self.offset), line);
         self.advance(line);
         let may_continue = self.options.grammar.dialect() == Dialect::Abaqus;
         if !may_continue || !keyword_line::ends_in_comma(line) {
@@ -258,7 +285,7 @@ impl<'grammar> Scanner<'grammar> {
         self.source.keep(self.offset, self.line, line);
         if !is_comment {
             open.accepted = open.text.len();
-            self.note(noteworthy_lines(line, self.offset), line);
+            self.mark(noteworthy_lines(line, self.offset), line);
         }
         self.advance(line);
         if !is_comment && !keyword_line::ends_in_comma(line) {
@@ -297,14 +324,14 @@ impl<'grammar> Scanner<'grammar> {
 }
 
 /// The lines that are too long or not ASCII (S-01, S-06); comments may be both. `offset` is where `bytes` stand in the file.
-fn noteworthy_lines(bytes: &[u8], offset: u64) -> Vec<(Range<usize>, LineNoteKind)> {
+fn noteworthy_lines(bytes: &[u8], offset: u64) -> Vec<(Range<usize>, Mark)> {
     let mut found = Vec::new();
     let is_row = |line: &Range<usize>| matches!(line_kind(&bytes[line.clone()]), LineKind::Data | LineKind::Keyword);
     let mut from = 0;
     while let Some(long) = find_long_line(bytes, from, LINE_CHARACTERS) {
         from = long.end;
         if is_row(&long) && bytes[long.clone()].trim_ascii_end().len() > LINE_CHARACTERS {
-            found.push((long, LineNoteKind::TooLong));
+            found.push((long, Mark::Note(LineNoteKind::TooLong)));
         }
     }
     if bytes.is_ascii() {
@@ -314,10 +341,15 @@ fn noteworthy_lines(bytes: &[u8], offset: u64) -> Vec<(Range<usize>, LineNoteKin
     for line in lines(&bytes[skipped..]) {
         let line = line.start + skipped..line.end + skipped;
         if is_row(&line) && !is_ascii_outside_quotes(&bytes[line.clone()]) {
-            found.push((line, LineNoteKind::NonAscii));
+            found.push((line, Mark::Note(LineNoteKind::NonAscii)));
         }
     }
     found
+}
+
+/// Whether a comment is meant for inpact: `** inpact: …`.
+fn is_directive(comment: &[u8]) -> bool {
+    comment.strip_prefix(b"**").is_some_and(|text| text.trim_ascii_start().starts_with(b"inpact:"))
 }
 
 /// Where in `bytes` the line ends that `pending` begins, if it does.
