@@ -172,7 +172,8 @@ fn the_parser_reads_the_examples() {
 /// Every production has examples, but for those that name single bytes.
 #[test]
 fn every_production_has_examples() {
-    let terminals = ["text", "character", "word character", "value character", "blank", "sign", "digit", "LF", "CR"];
+    let terminals =
+        ["text", "character", "word character", "value character", "blank", "sign", "letter", "digit", "LF", "CR"];
     for (production, examples) in productions() {
         assert_eq!(examples.accepted.is_empty(), terminals.contains(&production), "{production}");
     }
