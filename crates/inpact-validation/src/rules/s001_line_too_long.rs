@@ -2,21 +2,24 @@
 
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::LineNoteKind;
+use inpact_parser::span::Span;
 
 declare_rule! {
     /// A keyword line or data line has more than 256 characters.
     ///
-    /// Trailing blanks of a data line do not count, and comments may be as long as they like.
+    /// Trailing blanks do not count, and comments may be as long as they like.
+    /// One finding stands for all long lines of a block.
     ///
     /// ## Why
     /// Abaqus reads 256 characters of a line; what it does with the rest is not documented.
     /// inpact reads the whole line, so a solver and inpact may see different decks.
     ///
     /// ## What to do
-    /// End a keyword line in a comma and go on in the next line; write each row of a table on lines of its own.
+    /// End a keyword line in a comma and go on in the next line.
+    /// Write a data line over as many lines as the option prescribes.
     ///
     /// ```inp,expect
-    /// *SURFACE INTERACTION, NAME=A, PAD THICKNESS=000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000.1
+    /// *SURFACE INTERACTION, NAME=A, PAD THICKNESS=                                                                                                                                                                                                                      0.1
     /// ```
     ///
     /// ```inp
@@ -27,11 +30,25 @@ declare_rule! {
     "S001", "line-too-long", Warning, fix: None, source: "S-06"
 }
 
+/// The most characters of a keyword or data line.
+const LIMIT: usize = 256;
+
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for note in context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::TooLong) {
-        let length = note.span.len();
-        let found = report.at(note.span, format!("line of {length} characters: Abaqus reads 256"));
-        found.label("this line").help("split it: a keyword line may go on behind a comma at its end");
+        let line = context.deck.text(note.span).trim_ascii_end();
+        // A character of several bytes is not cut in two.
+        let first_beyond =
+            (0..=LIMIT.min(line.len())).rev().find(|at| line.get(*at).is_none_or(|byte| byte & 0xC0 != 0x80));
+        let beyond = note.span.start + first_beyond.unwrap_or(LIMIT) as u64;
+        let span = Span::new(note.span.source, beyond, note.span.start + line.len() as u64);
+        let is_keyword_line = line.trim_ascii_start().starts_with(b"*");
+        let found = report.at(span, format!("line of {} characters: Abaqus reads {LIMIT}", line.len()));
+        found.label(format!("beyond character {LIMIT}"));
+        found.help(if is_keyword_line {
+            "end the line in a comma and go on in the next one"
+        } else {
+            "write it over several lines, as the option prescribes"
+        });
         if note.lines > 1 {
             found.note(format!("{} lines of this block are too long; this is the first", note.lines));
         }

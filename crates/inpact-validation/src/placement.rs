@@ -1,0 +1,56 @@
+//! Keywords that stand at a wrong place, run by run: a sub-option goes where the keyword before it goes.
+//!
+//! Shared by the rules on places (K012, K013), so that a block at a wrong place gives one finding and not one a keyword.
+
+use crate::rule::Context;
+use inpact_parser::deck::KeywordLine;
+use inpact_parser::problem::{Problem, ProblemKind};
+use inpact_parser::span::Span;
+use std::collections::HashMap;
+
+/// A keyword at a wrong place, and the sub-options behind it that are there because of it.
+#[derive(Debug)]
+pub(crate) struct Run<'a> {
+    /// The first of them.
+    pub(crate) first: &'a Problem,
+    /// How many sub-options at a wrong place follow it.
+    pub(crate) further: usize,
+    /// The last keyword line above that is no sub-option.
+    pub(crate) above: Option<&'a KeywordLine>,
+}
+
+/// The runs of the problems that are meant, in reading order.
+pub(crate) fn runs<'a>(context: &Context<'a>, is_meant: impl Fn(&ProblemKind) -> bool) -> Vec<Run<'a>> {
+    let meant = context.problems.iter().filter(|problem| is_meant(&problem.kind));
+    let problems: HashMap<Span, &Problem> = meant.map(|problem| (problem.keyword, problem)).collect();
+    let mut runs: Vec<Run<'a>> = Vec::new();
+    if problems.is_empty() {
+        return runs;
+    }
+    // Whether a sub-option would belong to the last run.
+    let mut is_open = false;
+    let mut above = None;
+    for keyword in context.keyword_lines() {
+        let name = keyword.id().map(|id| context.grammar.keyword(id).name.as_str());
+        let is_sub_option = keyword.id().is_some_and(|id| context.grammar.is_interaction_option(id));
+        let stays_open = is_sub_option || matches!(name, None | Some("INCLUDE" | "PARAMETER"));
+        match (problems.get(&keyword.span), runs.last_mut()) {
+            (Some(_), Some(run)) if is_open && is_sub_option => run.further += 1,
+            (Some(first), _) => {
+                runs.push(Run { first, further: 0, above });
+                is_open = is_sub_option || name == Some("SURFACE INTERACTION");
+            }
+            (None, _) => is_open &= stays_open,
+        }
+        if !is_sub_option {
+            above = Some(keyword);
+        }
+    }
+    runs
+}
+
+/// A keyword line without its line end: what a label underlines.
+pub(crate) fn visible(context: &Context<'_>, line: Span) -> Span {
+    let length = context.deck.text(line).trim_ascii_end().len() as u64;
+    Span::new(line.source, line.start, line.start + length)
+}

@@ -1,0 +1,121 @@
+//! K001: keyword lines whose words mean no keyword.
+
+use crate::diagnostic::Severity;
+use crate::rule::{Context, Report, declare_rule};
+use crate::words::did_you_mean;
+use inpact_parser::deck::KeywordLine;
+use inpact_parser::grammar::{Dialect, Grammar, Lookup};
+
+declare_rule! {
+    /// The words behind an asterisk are no keyword of Abaqus, nor the beginning of one.
+    ///
+    /// Case and blanks do not count.
+    ///
+    /// ## Why
+    /// Abaqus refuses a keyword it does not know.
+    /// inpact keeps the line and its rows, and reads nothing from them.
+    ///
+    /// ## What to do
+    /// Correct the spelling; put a comma between the keyword and its parameters.
+    /// A comment begins with two asterisks.
+    /// In a deck for CalculiX an unknown keyword is a warning, because CalculiX passes over it.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRIC CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 3.E7, 1.E7
+    /// ```
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *5e8 is too much
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=A
+    /// ** 5e8 is too much
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// ```
+    "K001", "unknown-keyword", Error, fix: None, source: "S-13, S-15"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let dialect = context.grammar.dialect();
+    for keyword in context.keyword_lines().filter(|keyword| keyword.resolved == Lookup::Unknown) {
+        let name = context.shown(keyword.name);
+        let found = if name.is_empty() {
+            let found = report.at(keyword.visible_span(context.deck), "an asterisk without a keyword");
+            found.label("nothing stands behind it").help(COMMENT)
+        } else {
+            let stranger = stranger(context, keyword);
+            // A suggestion costs a comparison with every name, and a finding that is only counted shows none.
+            let help = match &stranger {
+                Some(stranger) => stranger.help.to_owned(),
+                None if report.is_full() => String::new(),
+                None => help(context, keyword, &name),
+            };
+            let what = stranger.map_or_else(|| "no keyword".to_owned(), |stranger| stranger.what);
+            report.at(keyword.name, format!("`*{name}` is {what}")).label("unknown keyword").help(help)
+        };
+        if dialect == Dialect::Calculix {
+            found.severity(Severity::Warning);
+        }
+    }
+}
+
+/// What to do about a line that has one asterisk by mistake.
+const COMMENT: &str = "if it is a comment, begin it with two asterisks: `**`";
+
+/// A keyword of another dialect or release.
+struct Stranger {
+    what: String,
+    help: &'static str,
+}
+
+fn stranger(context: &Context<'_>, keyword: &KeywordLine) -> Option<Stranger> {
+    let grammar = context.grammar;
+    let written = context.deck.text(keyword.name);
+    let of_abaqus = grammar.id_of(&context.deck.shown(keyword.name));
+    match (grammar.dialect(), of_abaqus) {
+        (Dialect::Abaqus, Some(_)) => Some(Stranger {
+            what: format!("no keyword of release {}", grammar.release()),
+            help: "leave it out of a deck for this release",
+        }),
+        (Dialect::Abaqus, None) if grammar.is_calculix_keyword(written) => Some(Stranger {
+            what: "a keyword of CalculiX that Abaqus does not have".to_owned(),
+            help: "leave it out of a deck for Abaqus",
+        }),
+        (Dialect::Calculix, Some(_)) => Some(Stranger {
+            what: "a keyword of Abaqus that CalculiX does not have".to_owned(),
+            help: "leave it out of a deck for CalculiX",
+        }),
+        _ => None,
+    }
+}
+
+fn help(context: &Context<'_>, keyword: &KeywordLine, name: &str) -> String {
+    let grammar = context.grammar;
+    if !name.starts_with(|first: char| first.is_ascii_alphabetic()) {
+        return COMMENT.to_owned();
+    }
+    if let Some((known, rest)) = split_behind_keyword(grammar, name) {
+        return format!("put a comma behind the keyword: `*{known}, {rest}`");
+    }
+    let near = grammar.nearest_keywords(&context.deck.shown(keyword.name), 8);
+    let there = near.into_iter().filter(|name| grammar.id_of(name).is_some_and(|id| grammar.has(id)));
+    let there: Vec<String> = there.take(3).map(|name| format!("*{name}")).collect();
+    did_you_mean(there.iter().map(String::as_str)).unwrap_or_else(|| format!("check the spelling; {COMMENT}"))
+}
+
+/// Cuts `STEP NLGEOM=YES` behind the words that are a keyword in full, where parameters seem to follow.
+fn split_behind_keyword<'name>(grammar: &Grammar, name: &'name str) -> Option<(&'name str, &'name str)> {
+    let parameters = name.find('=')?;
+    let blanks = name[..parameters].match_indices(' ').map(|(at, _)| at);
+    let mut cuts = blanks.map(|at| (name[..at].trim_end(), name[at..].trim_start())).collect::<Vec<_>>();
+    cuts.reverse();
+    cuts.into_iter().find(|(words, _)| matches!(grammar.keyword_named(words.as_bytes()), Lookup::Exact(_)))
+}

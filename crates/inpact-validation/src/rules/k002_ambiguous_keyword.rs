@@ -1,0 +1,48 @@
+//! K002: abbreviated keywords that may mean several.
+
+use crate::rule::{Context, Report, declare_rule};
+use crate::words::alternatives;
+use inpact_parser::grammar::Lookup;
+use inpact_parser::number::read_float;
+
+declare_rule! {
+    /// The words behind an asterisk are the beginning of several keywords.
+    ///
+    /// ## Why
+    /// A keyword may be cut short as long as what is left begins no other keyword.
+    /// Which one is meant cannot be told here, so the line and its rows are kept and not read.
+    ///
+    /// ## What to do
+    /// Write the keyword in full.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *CONTACT P
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=A
+    /// *CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=0.1, CUTOFF GAP FILL=0.2
+    /// ```
+    "K002", "ambiguous-keyword", Error, fix: None, source: "S-13"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for keyword in context.keyword_lines() {
+        let Lookup::Ambiguous(candidates) = &keyword.resolved else { continue };
+        let name = context.shown(keyword.name);
+        let full: Vec<String> = candidates.iter().map(|id| format!("*{}", context.grammar.keyword(*id).name)).collect();
+        let names = alternatives(full.iter().map(String::as_str));
+        let count = candidates.len();
+        // `*load,1,1000`: a row that was put aside with one asterisk.
+        let first = keyword.parameters.first().map(|parameter| context.deck.text(parameter.name));
+        let is_row = first.is_some_and(|text| read_float(text).is_ok());
+        let found = report.at(keyword.name, format!("`*{name}` may mean {count} keywords"));
+        found.label("the beginning of several");
+        found.help(if is_row {
+            "if it is a comment, begin it with two asterisks: `**`".to_owned()
+        } else {
+            format!("write out which is meant: {names}")
+        });
+    }
+}

@@ -1,0 +1,86 @@
+//! K004: parameters that a keyword does not have.
+
+use super::s005_unterminated_quote::open_quote;
+use crate::diagnostic::{Edit, FixSafety};
+use crate::parameter::given_as;
+use crate::rule::{Context, DefinedBlock, Report, declare_rule};
+use crate::words::{alternatives, did_you_mean};
+use inpact_parser::deck::Parameter;
+use inpact_parser::grammar::{Lookup, ValueUse};
+
+declare_rule! {
+    /// A keyword line gives a parameter that the keyword does not have.
+    ///
+    /// Only keywords whose parameters inpact knows completely are looked at.
+    ///
+    /// ## Why
+    /// Abaqus refuses a parameter that the keyword does not have.
+    /// inpact leaves it out, so the rows may be read in another way than they are meant.
+    ///
+    /// ## What to do
+    /// Correct the spelling.
+    /// Where one name is near, a fix puts it in.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESURE
+    /// 1.E6, 0.
+    /// 1.E6, 1.
+    /// 0., 2.
+    /// ```
+    ///
+    /// ```inp,fixed
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 1.E6, 1.
+    /// 0., 2.
+    /// ```
+    "K004", "unknown-parameter", Error, fix: ChangesMeaning, source: "S-23"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for block in context.defined_blocks().filter(|block| block.definition.parameters_complete) {
+        for parameter in &block.keyword.parameters {
+            let is_cut = open_quote(context.deck.text(parameter.span())).is_some();
+            if parameter.resolved == Lookup::Unknown && !is_cut {
+                say(context, report, block, parameter);
+            }
+        }
+    }
+}
+
+fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, parameter: &Parameter) {
+    let keyword = block.name;
+    if parameter.name.is_empty() {
+        let value = context.shown(parameter.value.unwrap_or(parameter.name));
+        report
+            .at(parameter.span(), format!("the value `{value}` of `*{keyword}` belongs to no parameter"))
+            .label("a name is missing before `=`")
+            .help("write the name of the parameter before `=`");
+        return;
+    }
+    let written = context.shown(parameter.name);
+    let near = block.definition.nearest_parameters(&context.deck.shown(parameter.name), 3);
+    let names = block.definition.parameters.iter().map(|known| known.name.as_str());
+    let help = did_you_mean(near.iter().copied()).unwrap_or_else(|| match alternatives(names) {
+        names if names.is_empty() => "it has no parameters: take it away".to_owned(),
+        names => format!("the keyword has {names}"),
+    });
+    let found = report.at(parameter.name, format!("`*{keyword}` has no parameter `{written}`"));
+    found.label("unknown parameter").help(help);
+    if let Some(meant) = only_candidate(block, parameter, &near) {
+        found.fix(FixSafety::ChangesMeaning, format!("write `{meant}`"), vec![Edit::new(parameter.name, meant)]);
+    }
+}
+
+/// The one name that is near, when it is not given already and wants a value just as this one has it.
+fn only_candidate<'a>(block: DefinedBlock<'_>, parameter: &Parameter, near: &[&'a str]) -> Option<&'a str> {
+    let [meant] = near else { return None };
+    let fits = match block.definition.parameter(meant)?.value_use() {
+        ValueUse::Never => parameter.value.is_none(),
+        ValueUse::Always => parameter.value.is_some(),
+        ValueUse::Optional => true,
+    };
+    (fits && given_as(block, meant).is_none()).then_some(meant)
+}

@@ -1,0 +1,45 @@
+//! K009: parameters that stand twice on one line.
+
+use crate::parameter::given;
+use crate::rule::{Context, Report, declare_rule};
+
+declare_rule! {
+    /// A keyword line gives one parameter twice.
+    ///
+    /// Abbreviations count: `DEP=1, DEPENDENCIES=2` is the same parameter twice.
+    ///
+    /// ## Why
+    /// Abaqus uses one of the two and ignores the other; the manual does not say which.
+    /// inpact uses the last.
+    ///
+    /// ## What to do
+    /// Take one of them away.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A, NAME=B
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=A
+    /// ```
+    "K009", "duplicate-parameter", Error, fix: None, source: "S-18, Q-7"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for block in context.defined_blocks().filter(|block| block.keyword.parameters.len() > 1) {
+        // Where a parameter stood last, by its place in the definition.
+        let mut earlier = vec![None; block.definition.parameters.len()];
+        for given in given(block) {
+            let Some(index) = given.parameter.index() else { continue };
+            let name = &given.definition.name;
+            if let Some(first) = earlier[index].replace(given.parameter.span()) {
+                report
+                    .at(given.parameter.span(), format!("`{name}` of `*{}` is given twice", block.name))
+                    .label("this one is used here")
+                    .also(first, "given before")
+                    .note("Abaqus ignores one of the two, and the manual does not say which")
+                    .help("take one of them away");
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! K012: sub-options outside the block they belong to.
+
+use crate::placement::{runs, visible};
+use crate::rule::{Context, Report, declare_rule};
+use crate::words::alternatives;
+use inpact_parser::deck::KeywordLine;
+use inpact_parser::grammar::Lookup;
+use inpact_parser::problem::ProblemKind;
+
+declare_rule! {
+    /// A sub-option stands where no *SURFACE INTERACTION is open.
+    ///
+    /// The block of a *SURFACE INTERACTION ends at the first keyword that is none of its sub-options.
+    ///
+    /// ## Why
+    /// A sub-option belongs to the contact property whose block it stands in.
+    /// Outside of one it belongs to none; Abaqus refuses it.
+    ///
+    /// ## What to do
+    /// Move it, with its rows, behind the *SURFACE INTERACTION that it belongs to.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// 1.,
+    /// *HEADING
+    /// The block of A ends here
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 3.E7, 1.E7
+    /// ```
+    ///
+    /// ```inp
+    /// *HEADING
+    /// The block of A comes behind
+    /// *SURFACE INTERACTION, NAME=A
+    /// 1.,
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 3.E7, 1.E7
+    /// ```
+    "K012", "misplaced-keyword", Error, fix: None, source: "S-21"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for run in runs(context, |kind| matches!(kind, ProblemKind::Misplaced { .. })) {
+        let ProblemKind::Misplaced { keyword, closed_by } = run.first.kind else { continue };
+        // The line that should open the block has its own finding.
+        if run.above.is_some_and(|above| may_be_interaction(context, above)) {
+            continue;
+        }
+        let entry = context.grammar.keyword(keyword);
+        let name = &entry.name;
+        let message = match run.further {
+            0 => format!("`*{name}` stands outside a `*SURFACE INTERACTION`"),
+            1 => format!("`*{name}` and the sub-option behind it stand outside a `*SURFACE INTERACTION`"),
+            more => format!("`*{name}` and {more} sub-options behind it stand outside a `*SURFACE INTERACTION`"),
+        };
+        let found = report.at(run.first.span, message);
+        found.help("move it behind the `*SURFACE INTERACTION` that it belongs to");
+        match closed_by {
+            None => found.label("no `*SURFACE INTERACTION` stands above"),
+            Some(span) => {
+                found.label("belongs to no contact property");
+                found.also(visible(context, span), "the last `*SURFACE INTERACTION` ends here")
+            }
+        };
+        let parents = entry.definition().map(|definition| &definition.parents[..]).unwrap_or_default();
+        let parents: Vec<String> = parents.iter().map(|parent| format!("*{parent}")).collect();
+        found.note(format!("it is a sub-option of {}", alternatives(parents.iter().map(String::as_str))));
+    }
+}
+
+/// Whether an unreadable keyword line is likely meant to be a *SURFACE INTERACTION.
+fn may_be_interaction(context: &Context<'_>, keyword: &KeywordLine) -> bool {
+    let is_interaction = |name: &str| name == "SURFACE INTERACTION";
+    match &keyword.resolved {
+        Lookup::Exact(_) | Lookup::Abbreviated(_) => false,
+        Lookup::Ambiguous(candidates) => candidates.iter().any(|id| is_interaction(&context.grammar.keyword(*id).name)),
+        Lookup::Unknown => {
+            let near = context.grammar.nearest_keywords(&context.deck.shown(keyword.name), 3);
+            near.into_iter().any(is_interaction)
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! K016: parameters that must not stand beside one another.
+
+use crate::parameter::given;
+use crate::rule::{Context, Report, declare_rule};
+
+declare_rule! {
+    /// Two parameters of a keyword line exclude each other.
+    ///
+    /// ## Why
+    /// Each asks for something else, as ROUGH (no slip at all) and SLIP TOLERANCE (a little) do; Abaqus refuses the line.
+    ///
+    /// ## What to do
+    /// Take one of the two away.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *FRICTION, ROUGH, SLIP TOLERANCE=0.005
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=A
+    /// *FRICTION, ROUGH
+    /// ```
+    "K016", "conflicting-parameters", Error, fix: None, source: "K-05, S-17"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for block in context.defined_blocks().filter(|block| block.keyword.parameters.len() > 1) {
+        // Each finding is about a parameter and one that stands before it, so that a pair is found once.
+        for (place, later) in given(block).enumerate() {
+            let mut before = given(block).take(place);
+            let excluded = before.find(|earlier| {
+                later.definition.excludes.contains(&earlier.definition.name)
+                    || earlier.definition.excludes.contains(&later.definition.name)
+            });
+            let Some(earlier) = excluded else { continue };
+            let (name, other) = (&later.definition.name, &earlier.definition.name);
+            report
+                .at(later.parameter.span(), format!("`{name}` and `{other}` of `*{}` exclude each other", block.name))
+                .label(format!("must not stand beside `{other}`"))
+                .also(earlier.parameter.span(), format!("`{other}` stands here"))
+                .note(format!("`{name}`: {}", later.definition.description))
+                .help("take one of them away");
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! K017: parameters that need another beside them.
+
+use crate::parameter::{all_given, may_be_given};
+use crate::rule::{Context, Report, declare_rule};
+
+declare_rule! {
+    /// A parameter stands without another that it needs.
+    ///
+    /// DEPVAR, PROPERTIES and UNSYMM of *SURFACE INTERACTION, for three, say something about a user subroutine: they need USER.
+    ///
+    /// ## Why
+    /// The parameter alone means nothing; Abaqus may refuse the line.
+    ///
+    /// ## What to do
+    /// Add the other parameter, or take this one away.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A, UNSYMM
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=A, USER, UNSYMM
+    /// ```
+    "K017", "missing-companion", Error, fix: None, source: "2.1"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for given in all_given(context) {
+        let needed = given.definition.needs.iter().find(|needed| !may_be_given(context, given.block, needed));
+        let Some(needed) = needed else { continue };
+        let (name, keyword) = (&given.definition.name, given.block.name);
+        report
+            .at(given.parameter.span(), format!("`{name}` of `*{keyword}` needs `{needed}` beside it"))
+            .label(format!("`{needed}` is missing"))
+            .note(format!("`{name}`: {}", given.definition.description))
+            .help(format!("add `{needed}`, or take `{name}` away"));
+    }
+}

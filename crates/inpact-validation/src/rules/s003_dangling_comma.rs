@@ -1,0 +1,65 @@
+//! S003: commas at the end of keyword lines that nothing continues.
+
+use crate::diagnostic::{Edit, FixSafety};
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::grammar::Dialect;
+use inpact_parser::span::Span;
+
+declare_rule! {
+    /// A keyword line ends in a comma, and the next line does not read as its continuation.
+    ///
+    /// A continuation has `=` in it, or its words are parameters of the keyword.
+    ///
+    /// ## Why
+    /// A comma at the end of a keyword line says that the next line goes on with its parameters.
+    /// Abaqus may take a row of data for parameters; inpact reads the row as data.
+    ///
+    /// ## What to do
+    /// Take the comma away.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE,
+    /// 1.E6, 0.
+    /// 3.E7, 1.E7
+    /// ```
+    ///
+    /// ```inp,fixed
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 3.E7, 1.E7
+    /// ```
+    ///
+    /// A comma that the next line answers is fine:
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=A
+    /// *CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=0.1,
+    ///  CUTOFF GAP FILL=0.2
+    /// ```
+    "S003", "dangling-comma", Warning, fix: Safe, source: "S-19"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for keyword in context.keyword_lines() {
+        let Some(comma) = keyword.dangling_comma else { continue };
+        // Of several commas all must go: each would dangle in turn.
+        let before = context.deck.text(Span::new(comma.source, keyword.span.start, comma.start));
+        let word_end = before.iter().rposition(|byte| !matches!(byte, b',' | b' ' | b'\t')).map_or(0, |last| last + 1);
+        let first = before[word_end..].iter().position(|byte| *byte == b',').map_or(before.len(), |at| word_end + at);
+        let commas = Span::new(comma.source, keyword.span.start + first as u64, comma.end);
+        let name = context.shown(keyword.name);
+        report
+            .at(comma, format!("the keyword line of `*{name}` ends in a comma, and nothing continues it"))
+            .label("this comma")
+            .note(match context.grammar.dialect() {
+                Dialect::Abaqus => {
+                    "Abaqus may take the next line for parameters; inpact reads it as what it looks like"
+                }
+                Dialect::Calculix => "CalculiX does not continue keyword lines",
+            })
+            .help("take the comma away")
+            .fix(FixSafety::Safe, "take the comma away", vec![Edit::delete(commas)]);
+    }
+}

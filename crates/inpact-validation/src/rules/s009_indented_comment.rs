@@ -1,0 +1,86 @@
+//! S009: comments that stand behind blanks.
+
+use crate::diagnostic::{Edit, FixSafety};
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::lines::{LineKind, line_kind, lines};
+use inpact_parser::deck::{Block, LineNote, LineNoteKind};
+use inpact_parser::span::Span;
+
+declare_rule! {
+    /// A comment stands behind blanks: its `**` is not in the first two columns.
+    ///
+    /// One finding stands for all such comments of a block.
+    ///
+    /// ## Why
+    /// By the manual a comment has its asterisks in columns 1 and 2.
+    /// Behind blanks the first asterisk begins a keyword line, and Abaqus may refuse it as an unknown keyword.
+    /// inpact takes it for the comment that it is meant to be.
+    ///
+    /// ## What to do
+    /// Take the blanks away.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    ///    ** the pressure reaches 10 MPa
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    ///  ** measured twice
+    /// 3.E7, 1.E7
+    ///  ** and not beyond
+    /// ```
+    ///
+    /// ```inp,fixed
+    /// *SURFACE INTERACTION, NAME=A
+    /// ** the pressure reaches 10 MPa
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// ** measured twice
+    /// 3.E7, 1.E7
+    /// ** and not beyond
+    /// ```
+    "S009", "indented-comment", Warning, fix: Safe, source: "S-04"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let notes = || context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::IndentedComment);
+    if notes().next().is_none() {
+        return;
+    }
+    let mut blocks: Vec<&Block> = context.deck.blocks().iter().filter(|block| !block.rows.is_empty()).collect();
+    blocks.sort_by_key(|block| block.rows);
+    for note in notes() {
+        let later = blocks
+            .partition_point(|block| (block.rows.source, block.rows.start) <= (note.span.source, note.span.start));
+        let block = later.checked_sub(1).map(|last| blocks[last]).filter(|block| block.rows.contains(note.span));
+        let blanks = indentation(context.deck.text(note.span));
+        let start = note.span.start + blanks as u64;
+        let found = report.at(Span::new(note.span.source, start, note.span.end), "comment behind blanks");
+        found.label("begins in the first column only").help("take the blanks before `**` away").fix(
+            FixSafety::Safe,
+            "take the blanks away",
+            edits(context, note, block),
+        );
+        match note.lines {
+            1 => found
+                .note("by the manual this is a keyword line, which Abaqus may refuse; it is read as a comment here"),
+            lines => found.note(format!("{lines} comments of this block stand behind blanks; this is the first")),
+        };
+    }
+}
+
+fn indentation(line: &[u8]) -> usize {
+    line.len() - line.trim_ascii_start().len()
+}
+
+/// Takes the blanks away before every such comment of the block, or before the first where the rows are not kept.
+fn edits(context: &Context<'_>, note: &LineNote, block: Option<&Block>) -> Vec<Edit> {
+    let (source, first) = (note.span.source, note.span.start);
+    let end = block.filter(|block| block.rows_kept).map_or(note.span.end, |block| block.rows.end);
+    let text = context.deck.text(Span::new(source, first, end));
+    let comments = lines(text).filter(|line| line_kind(&text[line.clone()]) == LineKind::IndentedComment);
+    let blanks = comments.map(|line| {
+        let start = first + line.start as u64;
+        Span::new(source, start, start + indentation(&text[line]) as u64)
+    });
+    blanks.map(Edit::delete).collect()
+}

@@ -1,0 +1,50 @@
+//! S010: empty lines among the rows of a table.
+
+use crate::diagnostic::{Edit, FixSafety};
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::lines::next_line;
+use inpact_parser::problem::ProblemKind;
+use inpact_parser::span::Span;
+
+declare_rule! {
+    /// An empty line stands among the rows of a table, or behind the last of them.
+    ///
+    /// ## Why
+    /// An empty line is no comment.
+    /// The manual does not say what it means in a table: a program may skip it, or read a row of zeros.
+    /// inpact skips it.
+    ///
+    /// ## What to do
+    /// Take the line away, or turn it into a comment with `**`.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    ///
+    /// 3.E7, 1.E7
+    /// ```
+    ///
+    /// ```inp,fixed
+    /// *SURFACE INTERACTION, NAME=A
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 3.E7, 1.E7
+    /// ```
+    "S010", "blank-row", Warning, fix: Safe, source: "S-08, Q-19"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for problem in context.problems.iter().filter(|problem| problem.kind == ProblemKind::BlankRow) {
+        let line = problem.span;
+        // The line end stands behind the span of the line; the longest is CR LF.
+        let behind = context.deck.text(Span::new(line.source, line.end, line.end + 2));
+        let whole = Span::new(line.source, line.start, line.end + next_line(behind, 0) as u64);
+        report
+            .at(line, "empty line among the rows of a table")
+            .label("skipped")
+            .note("an empty line is no comment, and a program may read it as a row of zeros")
+            .help("take the line away")
+            .fix(FixSafety::Safe, "take the empty line away", vec![Edit::delete(whole)]);
+    }
+}
