@@ -1,25 +1,61 @@
 //! Runs the rules and puts their findings in order.
 
 use crate::diagnostic::Diagnostic;
-use crate::rule::{Context, Report};
-use crate::rules::RULES;
+use crate::directives::{self, Directive};
+use crate::rule::{Context, Report, Rule};
+use crate::rules::{RULES, s018_ignore_without_effect};
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::Model;
 use inpact_parser::problem::Problem;
+use std::time::{Duration, Instant};
 
 /// Checks a deck and its model by every rule; findings come in the order of the deck.
 pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
     let context = Context { deck, grammar, model, problems, tables: model.tables() };
     let mut diagnostics = Vec::new();
     for rule in RULES {
-        let mut report = Report { rule, diagnostics: &mut diagnostics, reported: 0, overflow: None };
+        let mut report = Report::new(rule, &mut diagnostics);
         (rule.check)(&context, &mut report);
         report.finish();
     }
+    silence(deck, &mut diagnostics);
     diagnostics.sort_by_key(|found| (found.primary.span.source, found.primary.span.start, found.severity, found.code));
     locate(deck, &mut diagnostics);
     diagnostics
+}
+
+/// Runs every rule by itself and gives how long each took.
+pub fn time_rules(
+    deck: &Deck,
+    grammar: &Grammar,
+    model: &Model,
+    problems: &[Problem],
+) -> Vec<(&'static str, Duration)> {
+    let context = Context { deck, grammar, model, problems, tables: model.tables() };
+    let time = |rule: &&'static Rule| {
+        let start = Instant::now();
+        let mut diagnostics = Vec::new();
+        (rule.check)(&context, &mut Report::new(rule, &mut diagnostics));
+        (rule.code, start.elapsed())
+    };
+    RULES.iter().map(time).collect()
+}
+
+/// Leaves out what comments in the deck silence, and reports comments that silence nothing.
+fn silence(deck: &Deck, diagnostics: &mut Vec<Diagnostic>) {
+    let mut directives = directives::read(deck);
+    if directives.is_empty() {
+        return;
+    }
+    let silences = |directive: &mut Directive, found: &Diagnostic| match directive {
+        Directive::Ignore(ignore) => ignore.silences(found),
+        Directive::Unknown(_) => false,
+    };
+    diagnostics.retain(|found| !directives.iter_mut().any(|directive| silences(directive, found)));
+    let mut report = Report::new(&s018_ignore_without_effect::RULE, diagnostics);
+    s018_ignore_without_effect::report(&directives, &mut report);
+    report.finish();
 }
 
 /// Finds line and column of every label, in one sweep over the deck.

@@ -12,6 +12,14 @@ pub mod rules;
 
 mod checking;
 
-pub use checking::check;
+mod parameter;
+
+mod placement;
+
+mod words;
+
+mod directives;
+
+pub use checking::{check, time_rules};
 pub use diagnostic::{Diagnostic, Edit, Fix, FixSafety, Label, Severity};
 pub use rule::{Context, Report, Rule};

@@ -133,26 +133,33 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Shortens what would not fit into a message.
+/// Shortens what would not fit into a message; a line end becomes a blank, any other control character a `?`.
 fn shorten(text: &str) -> String {
     const MOST: usize = 80;
-    if text.chars().count() <= MOST {
-        return text.to_owned();
-    }
-    text.chars().take(MOST).chain("…".chars()).collect()
+    let printable = |character: char| match character {
+        '\t' | '\n' | '\r' => ' ',
+        control if control.is_control() => '?',
+        other => other,
+    };
+    let rest = text.chars().nth(MOST).map(|_| '…');
+    text.chars().take(MOST).map(printable).chain(rest).collect()
 }
 
 /// Takes the findings of one rule.
 #[derive(Debug)]
 pub struct Report<'a> {
-    pub(crate) rule: &'static Rule,
-    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
-    pub(crate) reported: usize,
+    rule: &'static Rule,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    reported: usize,
     /// Takes what goes beyond [`MOST_OF_ONE_RULE`].
-    pub(crate) overflow: Option<Box<Diagnostic>>,
+    overflow: Option<Box<Diagnostic>>,
 }
 
-impl Report<'_> {
+impl<'a> Report<'a> {
+    pub(crate) fn new(rule: &'static Rule, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
+        Self { rule, diagnostics, reported: 0, overflow: None }
+    }
+
     /// Reports a finding at `span`; what comes back takes labels, help and fix.
     pub fn at(&mut self, span: Span, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = Diagnostic {
@@ -173,6 +180,11 @@ impl Report<'_> {
         self.diagnostics.push(diagnostic);
         let last = self.diagnostics.len() - 1;
         &mut self.diagnostics[last]
+    }
+
+    /// Whether further findings are only counted: nobody sees a suggestion that is dear to find.
+    pub(crate) fn is_full(&self) -> bool {
+        self.reported >= MOST_OF_ONE_RULE
     }
 
     /// Says on the last finding shown how many were not.

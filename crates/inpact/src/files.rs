@@ -46,6 +46,13 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// Reads all bytes of a file.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    open(path)?.read_to_end(&mut bytes).map_err(|error| Failure::read(path, error))?;
+    Ok(bytes)
+}
+
 /// Writes a result to `target`, or to standard output when there is none or it is `-`.
 pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let mut output = ResultFile::create(target)?;

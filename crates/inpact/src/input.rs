@@ -1,55 +1,44 @@
-//! Reading a deck with everything it includes: the options that say how, and the files themselves.
+//! Reading a deck with everything it includes.
 
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
-use clap::{Args, ValueEnum};
+use crate::settings::{RelativeTo, Settings};
 use inpact_parser::deck::{Deck, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner};
-use inpact_parser::grammar::Grammar;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// How a deck is read; the same for every command that reads one.
-#[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "How the deck is read")]
-pub(crate) struct DeckArguments {
-    /// Look for included files here as well; may be given several times.
-    #[arg(long, value_name = "FOLDER")]
-    include_dir: Vec<PathBuf>,
-    /// What the names of included files are relative to.
-    #[arg(long, value_enum, default_value_t = RelativeTo::Deck)]
-    relative_to: RelativeTo,
+/// Files whose bytes are taken from memory instead of the disk, by the name they are read under.
+pub(crate) type Overlay = BTreeMap<PathBuf, Vec<u8>>;
+
+/// Reads the deck at `path`, or standard input for `-`, and what it includes.
+pub(crate) fn read_deck(path: &Path, keep: Keep, settings: &Settings) -> Result<Deck, Failure> {
+    read_deck_over(path, keep, settings, &Overlay::new())
 }
 
-/// What the names of included files are relative to (S-54).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum RelativeTo {
-    /// The folder of the deck, as for Abaqus.
-    Deck,
-    /// The folder of the file that includes them.
-    IncludingFile,
+/// Reads the deck at `path` and what it includes, with other bytes in the place of some files.
+pub(crate) fn read_deck_over(path: &Path, keep: Keep, settings: &Settings, overlay: &Overlay) -> Result<Deck, Failure> {
+    let options = ScanOptions { grammar: settings.grammar, keep };
+    let mut scanner = Scanner::new(&path.display().to_string(), options);
+    push(path, overlay, &mut scanner)?;
+    let is_file = path.as_os_str() != STANDARD_STREAM;
+    let mut included = FilesOnDisk { deck: is_file.then_some(path), settings, overlay };
+    Ok(scanner.finish().with_includes(options, &mut included))
 }
 
-impl DeckArguments {
-    /// The keyword language the deck is read in.
-    pub(crate) fn grammar(&self) -> &'static Grammar {
-        Grammar::builtin()
+fn push(path: &Path, overlay: &Overlay, scanner: &mut Scanner<'_>) -> Result<(), Failure> {
+    match overlay.get(path) {
+        Some(bytes) => scanner.push(bytes),
+        None => files::push_all(path, scanner)?,
     }
-
-    /// Reads the deck at `path`, or standard input for `-`, and what it includes.
-    pub(crate) fn read(&self, path: &Path, keep: Keep) -> Result<Deck, Failure> {
-        let options = ScanOptions { grammar: self.grammar(), keep };
-        let mut scanner = Scanner::new(&path.display().to_string(), options);
-        files::push_all(path, &mut scanner)?;
-        let is_file = path.as_os_str() != STANDARD_STREAM;
-        let mut included = FilesOnDisk { deck: is_file.then_some(path), arguments: self };
-        Ok(scanner.finish().with_includes(options, &mut included))
-    }
+    Ok(())
 }
 
 /// The files that a deck on disk includes.
 struct FilesOnDisk<'a> {
     /// `None` for standard input.
     deck: Option<&'a Path>,
-    arguments: &'a DeckArguments,
+    settings: &'a Settings,
+    overlay: &'a Overlay,
 }
 
 impl IncludedFiles for FilesOnDisk<'_> {
@@ -59,11 +48,11 @@ impl IncludedFiles for FilesOnDisk<'_> {
 
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String> {
         let beside_includer = folder_of(Path::new(from));
-        let first = match self.arguments.relative_to {
+        let first = match self.settings.relative_to {
             RelativeTo::Deck => self.deck.map_or(Path::new(""), folder_of),
             RelativeTo::IncludingFile => beside_includer,
         };
-        let folders = std::iter::once(first).chain(self.arguments.include_dir.iter().map(PathBuf::as_path));
+        let folders = std::iter::once(first).chain(self.settings.include_dirs.iter().map(PathBuf::as_path));
         for folder in folders.clone() {
             let path = folder.join(name);
             if path.is_file() {
@@ -79,7 +68,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
     }
 
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String> {
-        files::push_all(&file.path, scanner).map_err(|failure| failure.to_string())
+        push(Path::new(&file.name), self.overlay, scanner).map_err(|failure| failure.to_string())
     }
 }
 

@@ -5,10 +5,14 @@
 //! A closed pipe (`inpact check … | head`) ends quietly with 0.
 
 mod commands;
+mod difference;
 mod failure;
 mod files;
+mod fixing;
 mod input;
+mod progress;
 mod render;
+mod settings;
 
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;

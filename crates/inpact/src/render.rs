@@ -3,7 +3,9 @@
 mod concise;
 mod excerpt;
 mod full;
+mod github;
 mod json;
+mod sarif;
 
 use anstream::ColorChoice;
 use clap::ValueEnum;
@@ -19,6 +21,10 @@ pub(crate) enum Format {
     Concise,
     /// A JSON object a line.
     Json,
+    /// SARIF 2.1.0, for code scanning.
+    Sarif,
+    /// Workflow commands of GitHub Actions.
+    Github,
 }
 
 /// How the full format looks.
@@ -40,12 +46,39 @@ impl Style {
     }
 }
 
-/// The findings of one deck as text.
+/// The findings of one deck as text; [`document`] makes a whole of the texts of several.
 pub(crate) fn diagnostics(diagnostics: &[Diagnostic], deck: &Deck, format: Format, style: Style) -> String {
     let write = match format {
         Format::Full => return diagnostics.iter().map(|found| full::write(found, deck, style)).collect(),
+        Format::Sarif => return sarif::results(diagnostics, deck),
         Format::Concise => concise::write,
         Format::Json => json::write,
+        Format::Github => github::write,
     };
     diagnostics.iter().map(|found| write(found, deck)).collect()
+}
+
+/// What stands before, between and behind the texts of the decks.
+pub(crate) fn document(format: Format) -> Document {
+    match format {
+        Format::Sarif => sarif::document(),
+        _ => Document::default(),
+    }
+}
+
+/// The frame of an output format.
+#[derive(Debug, Default)]
+pub(crate) struct Document {
+    pub(crate) head: String,
+    /// Between the texts of two decks that are not empty.
+    pub(crate) separator: &'static str,
+    pub(crate) tail: String,
+}
+
+/// Where a finding was included from, the nearest first: ` (included at deck.inp:3)`; nothing for the deck itself.
+fn include_chain(found: &Diagnostic, deck: &Deck) -> Vec<String> {
+    let chain = deck.include_chain(found.primary.span.source);
+    let places = deck.positions(&chain);
+    let shown = chain.iter().zip(places);
+    shown.map(|(span, place)| format!("{}:{}", deck.source(span.source).name(), place.line)).collect()
 }

@@ -2,7 +2,8 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
-use crate::input::DeckArguments;
+use crate::input;
+use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
 use inpact_parser::{json, model};
@@ -32,14 +33,15 @@ enum View {
 }
 
 pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
-    let grammar = arguments.reading.grammar();
+    let settings = arguments.reading.settings(&arguments.deck)?;
+    let grammar = settings.grammar;
     let text = match arguments.view {
         View::Model => {
-            let deck = arguments.reading.read(&arguments.deck, Keep::Interpreted)?;
+            let deck = input::read_deck(&arguments.deck, Keep::Interpreted, &settings)?;
             let (model, _) = model::read(&deck, grammar);
             json::model::write(&model, &arguments.deck.display().to_string())
         }
-        View::Syntax => json::syntax::write(&arguments.reading.read(&arguments.deck, Keep::Everything)?, grammar),
+        View::Syntax => json::syntax::write(&input::read_deck(&arguments.deck, Keep::Everything, &settings)?, grammar),
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
     Ok(Outcome::Clean)

@@ -1,7 +1,7 @@
 //! The full format: an excerpt of the deck with labels, the reason and the cure, drawn by miette.
 
-use super::Style;
 use super::excerpt::Excerpt;
+use super::{Style, include_chain};
 use inpact_parser::deck::Deck;
 use inpact_validation::{Diagnostic, Label, Severity};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
@@ -68,7 +68,9 @@ impl miette::Diagnostic for Rendered<'_> {
             format!("see {file}:{}:{}: {}", label.position.line, label.position.column, label.text)
         });
         let note = self.found.note.iter().map(|note| format!("note: {note}"));
-        let parts: Vec<String> = self.found.help.iter().cloned().chain(note).chain(elsewhere).collect();
+        let included = include_chain(self.found, self.deck).into_iter().map(|place| format!("included at {place}"));
+        let help = self.found.help.iter().cloned();
+        let parts: Vec<String> = help.chain(note).chain(elsewhere).chain(included).collect();
         if parts.is_empty() { None } else { Some(Box::new(parts.join("\n"))) }
     }
 

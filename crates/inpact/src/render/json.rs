@@ -1,5 +1,6 @@
 //! A JSON object a line, for other programs.
 
+use super::include_chain;
 use inpact_parser::deck::Deck;
 use inpact_validation::Diagnostic;
 use serde::Serialize;
@@ -15,6 +16,9 @@ struct Record<'a> {
     span: [u64; 2],
     message: &'a str,
     help: Option<&'a str>,
+    /// Only for findings in included files.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    included_at: Vec<String>,
 }
 
 pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
@@ -29,6 +33,7 @@ pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
         span: [primary.span.start, primary.span.end],
         message: &found.message,
         help: found.help.as_deref(),
+        included_at: include_chain(found, deck),
     };
     // A record of strings and numbers has no reason to fail.
     serde_json::to_string(&record).unwrap_or_default() + "\n"

@@ -1,0 +1,45 @@
+//! A progress bar for long inputs, when somebody is looking at standard error.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// Less than this is done before anybody wonders.
+const LONG: u64 = 200_000_000;
+
+/// The progress over some files, by their sizes.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    bar: Option<ProgressBar>,
+}
+
+impl Progress {
+    /// A bar over the files, if they are long and standard error is a terminal.
+    pub(crate) fn over(files: &[PathBuf], is_quiet: bool) -> Self {
+        let total: u64 = files.iter().map(|path| size(path)).sum();
+        if is_quiet || total < LONG || !std::io::stderr().is_terminal() {
+            return Self { bar: None };
+        }
+        let style = ProgressStyle::with_template("{bar:40} {bytes}/{total_bytes}, {eta} left");
+        let bar = ProgressBar::new(total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self { bar: Some(bar) }
+    }
+
+    /// One of the files is done.
+    pub(crate) fn advance(&self, file: &Path) {
+        if let Some(bar) = &self.bar {
+            bar.inc(size(file));
+        }
+    }
+
+    /// All are done: the bar goes away.
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn size(path: &Path) -> u64 {
+    std::fs::metadata(path).map_or(0, |metadata| metadata.len())
+}

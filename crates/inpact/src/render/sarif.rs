@@ -1,0 +1,123 @@
+//! SARIF 2.1.0: findings for code scanning, with fingerprints that outlive a change of line numbers.
+
+use super::{Document, include_chain};
+use inpact_parser::deck::Deck;
+use inpact_validation::rules::RULES;
+use inpact_validation::{Diagnostic, Severity};
+use serde_json::{Value, json};
+
+/// The name of the fingerprint; its number rises when the way to compute it changes.
+const FINGERPRINT: &str = "inpact/v1";
+
+/// The frame around the results.
+pub(super) fn document() -> Document {
+    let rules: Vec<Value> = RULES
+        .iter()
+        .map(|rule| {
+            json!({
+                "id": rule.code,
+                "name": rule.name,
+                "shortDescription": {"text": first_line(rule.documentation)},
+                "fullDescription": {"text": rule.documentation.trim()},
+                "help": {"text": rule.documentation.trim(), "markdown": rule.documentation.trim()},
+                "defaultConfiguration": {"level": level(rule.severity)},
+            })
+        })
+        .collect();
+    let driver = json!({
+        "name": "inpact",
+        "version": env!("CARGO_PKG_VERSION"),
+        "informationUri": env!("CARGO_PKG_REPOSITORY"),
+        "rules": rules,
+    });
+    Document {
+        head: format!(
+            "{{\"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\", \"version\": \"2.1.0\", \"runs\": [{{\n\
+             \"tool\": {{\"driver\": {driver}}},\n\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n"
+        ),
+        separator: ",\n",
+        tail: "\n]}]}\n".to_owned(),
+    }
+}
+
+fn first_line(documentation: &str) -> &str {
+    documentation.trim().lines().next().unwrap_or_default()
+}
+
+fn level(severity: Severity) -> &'static str {
+    severity.word()
+}
+
+/// The results of a deck, separated by commas.
+pub(super) fn results(diagnostics: &[Diagnostic], deck: &Deck) -> String {
+    let mut occurrences = std::collections::HashMap::new();
+    let results = diagnostics.iter().map(|found| {
+        let mut print = fingerprint(found, deck);
+        // The second of two findings that look alike is told apart by being the second.
+        let count = occurrences.entry(print).or_insert(0_u64);
+        *count += 1;
+        print = hash(print, &count.to_le_bytes());
+        result(found, deck, print).to_string()
+    });
+    results.collect::<Vec<_>>().join(",\n")
+}
+
+fn result(found: &Diagnostic, deck: &Deck, fingerprint: u64) -> Value {
+    let related: Vec<Value> = found
+        .secondary
+        .iter()
+        .map(|label| {
+            let mut location = location(label, deck);
+            location["message"] = json!({"text": label.text});
+            location
+        })
+        .collect();
+    let parts = [Some(&found.message), found.note.as_ref(), found.help.as_ref()];
+    let chain = include_chain(found, deck).into_iter().map(|place| format!("included at {place}"));
+    let text: Vec<String> = parts.into_iter().flatten().cloned().chain(chain).collect();
+    json!({
+        "ruleId": found.code,
+        "ruleIndex": RULES.iter().position(|rule| rule.code == found.code),
+        "level": level(found.severity),
+        "message": {"text": text.join("\n")},
+        "locations": [location(&found.primary, deck)],
+        "relatedLocations": related,
+        "partialFingerprints": {FINGERPRINT: format!("{fingerprint:016x}")},
+    })
+}
+
+fn location(label: &inpact_validation::Label, deck: &Deck) -> Value {
+    let name = deck.source(label.span.source).name();
+    json!({
+        "physicalLocation": {
+            "artifactLocation": {"uri": uri(name)},
+            "region": {
+                "startLine": label.position.line,
+                "startColumn": label.position.column,
+                "byteOffset": label.span.start,
+                "byteLength": label.span.len(),
+            },
+        },
+    })
+}
+
+/// A path as a relative reference: what a URI cannot hold is percent-encoded.
+fn uri(path: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/+@=".contains(&byte);
+    let encode = |byte: u8| if is_plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    path.bytes().map(encode).collect()
+}
+
+/// What tells a finding from others without its line number: rule, file, and what stands at the place.
+fn fingerprint(found: &Diagnostic, deck: &Deck) -> u64 {
+    let file = deck.source(found.primary.span.source).name();
+    let parts = [found.code.as_bytes(), file.as_bytes(), found.message.as_bytes(), deck.text(found.primary.span)];
+    parts.iter().fold(FNV_OFFSET, |state, part| hash(hash(state, part), &[0xFF]))
+}
+
+const FNV_OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
+
+/// FNV-1a: the same on every machine and in every release, which the hash of the standard library is not.
+fn hash(state: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(state, |state, byte| (state ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01B3))
+}
