@@ -1,5 +1,7 @@
 //! The commands, one file each: its arguments, and the way from them to a result.
 
 pub(crate) mod check;
+pub(crate) mod explain;
 pub(crate) mod inp;
 pub(crate) mod json;
+pub(crate) mod shell;

@@ -10,11 +10,12 @@ mod failure;
 mod files;
 mod fixing;
 mod input;
+mod page;
 mod progress;
 mod render;
 mod settings;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -34,6 +35,12 @@ enum Command {
     Json(commands::json::JsonArguments),
     /// Write a deck from JSON, either view.
     Inp(commands::inp::InpArguments),
+    /// Explain a rule or a keyword.
+    Explain(commands::explain::ExplainArguments),
+    /// Print the completions of a shell.
+    Completions(commands::shell::CompletionsArguments),
+    /// Print the manual page.
+    Man,
 }
 
 /// Runs the program with these arguments, the name of the program first.
@@ -46,6 +53,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Json(arguments) => commands::json::run(&arguments),
         Command::Inp(arguments) => commands::inp::run(&arguments),
+        Command::Explain(arguments) => commands::explain::run(&arguments),
+        Command::Completions(arguments) => commands::shell::completions(&arguments, Arguments::command()),
+        Command::Man => commands::shell::manual(&Arguments::command()),
     };
     failure::exit_code(result)
 }

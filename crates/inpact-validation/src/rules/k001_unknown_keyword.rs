@@ -1,5 +1,6 @@
 //! K001: keyword lines whose words mean no keyword.
 
+use super::k015_not_in_release::keyword_of_other_release;
 use crate::diagnostic::Severity;
 use crate::rule::{Context, Report, declare_rule};
 use crate::words::did_you_mean;
@@ -46,6 +47,9 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let dialect = context.grammar.dialect();
     for keyword in context.keyword_lines().filter(|keyword| keyword.resolved == Lookup::Unknown) {
+        if keyword_of_other_release(context, keyword).is_some() {
+            continue;
+        }
         let name = context.shown(keyword.name);
         let found = if name.is_empty() {
             let found = report.at(keyword.visible_span(context.deck), "an asterisk without a keyword");
@@ -70,7 +74,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 /// What to do about a line that has one asterisk by mistake.
 const COMMENT: &str = "if it is a comment, begin it with two asterisks: `**`";
 
-/// A keyword of another dialect or release.
+/// A keyword of another dialect.
 struct Stranger {
     what: String,
     help: &'static str,
@@ -81,10 +85,6 @@ fn stranger(context: &Context<'_>, keyword: &KeywordLine) -> Option<Stranger> {
     let written = context.deck.text(keyword.name);
     let of_abaqus = grammar.id_of(&context.deck.shown(keyword.name));
     match (grammar.dialect(), of_abaqus) {
-        (Dialect::Abaqus, Some(_)) => Some(Stranger {
-            what: format!("no keyword of release {}", grammar.release()),
-            help: "leave it out of a deck for this release",
-        }),
         (Dialect::Abaqus, None) if grammar.is_calculix_keyword(written) => Some(Stranger {
             what: "a keyword of CalculiX that Abaqus does not have".to_owned(),
             help: "leave it out of a deck for Abaqus",

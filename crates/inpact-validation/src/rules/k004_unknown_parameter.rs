@@ -1,5 +1,6 @@
 //! K004: parameters that a keyword does not have.
 
+use super::k015_not_in_release::parameter_of_other_release;
 use super::s005_unterminated_quote::open_quote;
 use crate::diagnostic::{Edit, FixSafety};
 use crate::parameter::given_as;
@@ -43,7 +44,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks().filter(|block| block.definition.parameters_complete) {
         for parameter in &block.keyword.parameters {
             let is_cut = open_quote(context.deck.text(parameter.span())).is_some();
-            if parameter.resolved == Lookup::Unknown && !is_cut {
+            let is_of_other_release = parameter_of_other_release(context, block, parameter).is_some();
+            if parameter.resolved == Lookup::Unknown && !is_cut && !is_of_other_release {
                 say(context, report, block, parameter);
             }
         }

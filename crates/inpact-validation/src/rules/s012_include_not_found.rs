@@ -1,0 +1,40 @@
+//! S012: included files that cannot be read.
+
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::IncludeOutcome;
+
+declare_rule! {
+    /// An *INCLUDE names a file that is not there or cannot be read, or names none.
+    ///
+    /// The rest of the deck is read all the same.
+    ///
+    /// ## Why
+    /// Abaqus stops at a file that it cannot read.
+    /// What the file holds is missing here too: a reference to it may be reported as undefined.
+    ///
+    /// ## What to do
+    /// Correct the name: it is relative to the folder of the deck, not to that of the including file.
+    /// `--include-dir` names further folders, `--relative-to including-file` changes what names are relative to.
+    ///
+    /// ```inp,expect
+    /// *INCLUDE, INPUT=no-such-file.inp
+    /// ```
+    ///
+    /// ```inp
+    /// *INCLUDE, INPUT=present.inp
+    /// ```
+    "S012", "include-not-found", Error, fix: None, source: "S-50, S-54"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for include in context.deck.includes() {
+        // A file without a name is a missing parameter (K006).
+        let (IncludeOutcome::Unreadable(reason), Some(name)) = (&include.outcome, include.name) else { continue };
+        let shown = context.shown(name);
+        report
+            .at(name, format!("`{shown}` cannot be included: {reason}"))
+            .label("not read")
+            .note("the rest of the deck is checked without it")
+            .help("correct the name, or say where the file is with `--include-dir`");
+    }
+}

@@ -1,0 +1,41 @@
+//! S013: files that include one another, or lie too deep.
+
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::{IncludeOutcome, MOST_LEVELS};
+
+declare_rule! {
+    /// Files include one another without end, or lie more than five levels below the deck.
+    ///
+    /// ## Why
+    /// Abaqus reads five levels of files below one another and no more.
+    ///
+    /// ## What to do
+    /// Let a file be included by the deck rather than by another included file.
+    ///
+    /// ```inp,expect
+    /// *INCLUDE, INPUT=itself.inp
+    /// ```
+    ///
+    /// ```inp
+    /// *INCLUDE, INPUT=present.inp
+    /// ```
+    "S013", "include-too-deep", Error, fix: None, source: "S-52, S-54"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for include in context.deck.includes() {
+        let span = include.name.unwrap_or(include.keyword);
+        let shown = context.shown(span);
+        match include.outcome {
+            IncludeOutcome::Cycle => report
+                .at(span, format!("`{shown}` includes itself, directly or through others"))
+                .label("being read already")
+                .help("take this *INCLUDE out"),
+            IncludeOutcome::TooDeep => report
+                .at(span, format!("`{shown}` lies more than {MOST_LEVELS} levels below the deck"))
+                .label("not read")
+                .help("include it from the deck itself"),
+            _ => continue,
+        };
+    }
+}

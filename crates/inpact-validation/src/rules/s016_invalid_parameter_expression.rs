@@ -1,0 +1,42 @@
+//! S016: statements of *PARAMETER that cannot be executed.
+
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::problem::ProblemKind;
+
+declare_rule! {
+    /// A row of *PARAMETER is no statement that can be executed.
+    ///
+    /// Rows of *PARAMETER are `name = expression`, as Python reads them: `**` is a power, `#` begins a comment, and an integer divided by an integer is an integer.
+    ///
+    /// ## Why
+    /// Abaqus stops at a statement that Python cannot execute.
+    ///
+    /// ## What to do
+    /// Correct the statement; a name must be defined above the statement that uses it.
+    ///
+    /// ```inp,expect
+    /// *PARAMETER
+    /// area = width*height
+    /// height = 2.5
+    /// ```
+    ///
+    /// ```inp
+    /// *PARAMETER
+    /// width = 4
+    /// height = 2.5   # in metres
+    /// area = width*height
+    /// ```
+    "S016", "invalid-parameter-expression", Error, fix: None, source: "S-60, S-61"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for problem in context.problems {
+        let ProblemKind::InvalidExpression { message, help } = &problem.kind else { continue };
+        let found = report.at(problem.span, message.clone());
+        found.label("not executed");
+        match help {
+            Some(help) => found.help(help.clone()),
+            None => found.help("write `name = expression`, with + - * / ** and the functions of *PARAMETER"),
+        };
+    }
+}

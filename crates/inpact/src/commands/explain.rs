@@ -1,0 +1,92 @@
+//! `inpact explain`: the page of a rule or of a keyword.
+
+use crate::failure::{Failure, Outcome};
+use crate::files;
+use crate::page;
+use clap::{Args, ValueEnum};
+use inpact_parser::grammar::Grammar;
+use inpact_validation::rules::RULES;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct ExplainArguments {
+    /// The code or name of a rule, or a keyword: T001, not-ascending, "GAP ELECTRICAL CONDUCTANCE".
+    #[arg(required_unless_present = "all", num_args = 1.., value_name = "WHAT")]
+    what: Vec<String>,
+    /// Every page: all rules, then all keywords.
+    #[arg(long, conflicts_with = "what")]
+    all: bool,
+    /// How to print it.
+    #[arg(long, value_enum, default_value_t = PageFormat::Text)]
+    format: PageFormat,
+    /// Where to write, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PageFormat {
+    /// For a terminal.
+    Text,
+    /// For a documentation site.
+    Markdown,
+}
+
+pub(crate) fn run(arguments: &ExplainArguments) -> Result<Outcome, Failure> {
+    let markdown = if arguments.all { all_pages() } else { page_of(&arguments.what.join(" "))? };
+    let text = match arguments.format {
+        PageFormat::Markdown => markdown,
+        PageFormat::Text => plain(&markdown),
+    };
+    files::write_result(arguments.output.as_deref(), text.as_bytes())?;
+    Ok(Outcome::Clean)
+}
+
+fn all_pages() -> String {
+    let grammar = Grammar::builtin();
+    let rules = RULES.iter().map(|rule| page::of_rule(rule));
+    let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
+    rules.chain(keywords).collect::<Vec<_>>().join("\n")
+}
+
+fn page_of(what: &str) -> Result<String, Failure> {
+    let is_meant = |code: &str, name: &str| code.eq_ignore_ascii_case(what) || name.eq_ignore_ascii_case(what);
+    if let Some(rule) = RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
+        return Ok(page::of_rule(rule));
+    }
+    let grammar = Grammar::builtin();
+    let words = what.trim_start_matches('*');
+    let keyword = grammar.keyword_named(words.as_bytes()).found().map(|id| grammar.keyword(id));
+    match keyword.map(|keyword| (keyword, keyword.definition())) {
+        Some((_, Some(definition))) => Ok(page::of_keyword(definition)),
+        Some((keyword, None)) => {
+            let message =
+                format!("*{} is a keyword of Abaqus, but inpact knows no more of it than its name", keyword.name);
+            Err(Failure::Usage(message))
+        }
+        None => {
+            let near = grammar.nearest_keywords(words, 3);
+            let near = if near.is_empty() { String::new() } else { format!("; did you mean *{}?", near.join(", *")) };
+            Err(Failure::Usage(format!("there is no rule and no keyword `{what}`{near}")))
+        }
+    }
+}
+
+/// The page without the marks of Markdown that only a browser needs.
+fn plain(markdown: &str) -> String {
+    let mut text = String::new();
+    let mut is_code = false;
+    for line in markdown.lines() {
+        if line.starts_with("```") {
+            is_code = !is_code;
+            continue;
+        }
+        match line {
+            _ if is_code => text += &format!("    {line}"),
+            _ if line.starts_with("|---") => continue,
+            _ => text += line.trim_start_matches('#').trim_start_matches(' '),
+        }
+        text.push('\n');
+    }
+    text
+}
