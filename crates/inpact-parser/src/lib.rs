@@ -22,4 +22,6 @@ pub mod expression;
 
 pub mod model;
 
+pub mod format;
+
 pub mod json;

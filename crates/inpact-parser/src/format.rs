@@ -1,0 +1,91 @@
+//! One style for the blocks of contact interfaces; every other byte of a deck stays as it is.
+//!
+//! [`format()`] goes from a [`Deck`] to the bytes of one of its files, and knows nothing of files or of the model.
+//! What it touches:
+//!
+//! | blocks | keyword line | rows |
+//! |---|---|---|
+//! | *SURFACE INTERACTION and its sub-options, where they stand in its block or stray (2.1) | yes | those the grammar describes |
+//! | *CONTACT PAIR (C-02), *CONTACT PROPERTY ASSIGNMENT (C-05) | yes | yes |
+//! | any other, sub-options of another keyword such as *MATERIAL or *CHANGE FRICTION among them | no | no |
+//!
+//! The style: keyword and parameters in full, in upper case, with single blanks; `, ` between items; the items of a
+//! table below one another, numbers by their decimal points.
+//! Line breaks, line ends, comments, blank lines, the spelling of every number and of every value stay.
+//! A line in which something is malformed stays as it is, and so does whatever would grow beyond 256 characters (S-06).
+//! The model before and after is the same, and formatting what is formatted changes nothing.
+
+mod columns;
+mod keyword_line;
+mod rows;
+
+use crate::deck::{Block, Deck};
+use crate::grammar::{Definition, Grammar, KeywordId};
+use crate::span::SourceId;
+
+/// The most characters of a keyword or data line (S-06).
+const LINE_CHARACTERS: usize = 256;
+
+/// The blocks that are formatted besides *SURFACE INTERACTION and its sub-options.
+const USES_OF_INTERACTIONS: [&str; 2] = ["CONTACT PAIR", "CONTACT PROPERTY ASSIGNMENT"];
+
+/// The bytes of a source file of the deck in the one style.
+///
+/// The deck must have been scanned with [`Keep::Everything`](crate::deck::Keep::Everything), in the language of
+/// `grammar`; rows that were not kept would be missing.
+pub fn format(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<u8> {
+    let mut place = Place { grammar, in_interaction: false, parent: None };
+    let mut formatted = Vec::new();
+    for block in deck.blocks() {
+        // Blocks of other files count too: they may open or close the interaction.
+        let definition = place.enter(block);
+        if block.rows.source != source {
+            continue;
+        }
+        let text = |span| deck.text(span);
+        let Some(keyword) = &block.keyword else {
+            formatted.extend_from_slice(text(block.rows));
+            continue;
+        };
+        let line = definition.and_then(|definition| keyword_line::format(deck, keyword, definition, grammar.dialect()));
+        formatted.extend_from_slice(line.as_deref().unwrap_or(text(keyword.span)));
+        let rows = definition.and_then(|definition| rows::format(deck, block, definition));
+        formatted.extend_from_slice(rows.as_deref().unwrap_or(text(block.rows)));
+    }
+    formatted
+}
+
+/// Where in a deck one is, as far as it decides which blocks are formatted.
+struct Place<'a> {
+    grammar: &'a Grammar,
+    /// Whether a *SURFACE INTERACTION is open.
+    in_interaction: bool,
+    /// The last keyword that is no sub-option of an interaction.
+    parent: Option<KeywordId>,
+}
+
+impl<'a> Place<'a> {
+    /// Goes on to a block; gives its definition when the block is one that is formatted.
+    fn enter(&mut self, block: &Block) -> Option<&'a Definition> {
+        let id = block.keyword_id()?;
+        let keyword = self.grammar.keyword(id);
+        if self.grammar.is_interaction_option(id) {
+            return keyword.definition().filter(|definition| self.in_interaction || self.is_stray(definition));
+        }
+        match keyword.name.as_str() {
+            // Legal inside every block (S-51, S-66).
+            "INCLUDE" | "PARAMETER" => return None,
+            name => self.in_interaction = name == "SURFACE INTERACTION",
+        }
+        self.parent = Some(id);
+        let is_formatted = self.in_interaction || USES_OF_INTERACTIONS.contains(&keyword.name.as_str());
+        keyword.definition().filter(|_| is_formatted)
+    }
+
+    /// Whether a sub-option outside of an interaction belongs to nothing else either.
+    fn is_stray(&self, definition: &Definition) -> bool {
+        let has_other_parent =
+            self.parent.is_some_and(|parent| definition.has_parent(&self.grammar.keyword(parent).name));
+        !has_other_parent && !definition.has_parent("MATERIAL")
+    }
+}

@@ -1,0 +1,128 @@
+//! One keyword line in the one style: names in full and in upper case, `, ` between the parameters (S-10 to S-19).
+//!
+//! The pieces between the commas are replaced and so is what stands between them; a value is never changed.
+
+use super::LINE_CHARACTERS;
+use crate::deck::lines::{LineKind, line_kind, lines, without_line_end};
+use crate::deck::{Deck, KeywordLine, Parameter};
+use crate::grammar::{Definition, Dialect, Lookup};
+use crate::span::Span;
+
+/// What stands before the parameters on a line that continues another.
+const CONTINUATION_INDENT: &[u8] = b"    ";
+
+/// The keyword line with its line ends; `None` when it is to stay as it is.
+///
+/// That is so for a line with an open quote, an empty parameter, a piece that goes over a line end, and for one that
+/// would grow too long.
+pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition, dialect: Dialect) -> Option<Vec<u8>> {
+    if keyword.unterminated_quote.is_some() {
+        return None;
+    }
+    let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start, formatted: b"*".to_vec() };
+    let name = line.piece(keyword.name)?;
+    line.formatted.extend_from_slice(definition.name.as_bytes());
+    let mut behind = line.end_of(keyword.name, name);
+    for parameter in &keyword.parameters {
+        let piece = line.piece(parameter.span())?;
+        line.take_comma(line.at(behind, parameter.name.start))?;
+        match known_name(parameter, definition, dialect) {
+            None => line.formatted.extend_from_slice(piece),
+            Some(known) => {
+                line.formatted.extend_from_slice(known.as_bytes());
+                if let Some(value) = parameter.value {
+                    line.formatted.push(b'=');
+                    line.formatted.extend_from_slice(line.piece(value)?);
+                }
+            }
+        }
+        behind = line.end_of(parameter.span(), piece);
+    }
+    line.take_end(line.at(behind, keyword.span.end))?;
+    let formatted = line.formatted;
+    let fits = lines(&formatted).all(|range| {
+        let physical = &formatted[range];
+        is_comment(physical) || without_line_end(physical).len() <= LINE_CHARACTERS
+    });
+    fits.then_some(formatted)
+}
+
+/// The name of a parameter in full.
+///
+/// CalculiX knows no abbreviations: what is one for Abaqus is another parameter there, or none.
+fn known_name<'a>(parameter: &Parameter, definition: &'a Definition, dialect: Dialect) -> Option<&'a str> {
+    let index = match (&parameter.resolved, dialect) {
+        (Lookup::Exact(index), _) | (Lookup::Abbreviated(index), Dialect::Abaqus) => *index,
+        _ => return None,
+    };
+    Some(&definition.parameters[index].name)
+}
+
+/// A keyword line in the making.
+struct Line<'deck> {
+    /// The line as it stands.
+    written: &'deck [u8],
+    /// Where it stands in its file.
+    offset: u64,
+    formatted: Vec<u8>,
+}
+
+impl<'deck> Line<'deck> {
+    /// The bytes between two offsets of the file.
+    fn at(&self, start: u64, end: u64) -> &'deck [u8] {
+        let index = |offset: u64| usize::try_from(offset.saturating_sub(self.offset)).unwrap_or(usize::MAX);
+        self.written.get(index(start)..index(end)).unwrap_or(&[])
+    }
+
+    /// A piece without the blanks at its end, which an empty value leaves; `None` for one that goes over a line end.
+    fn piece(&self, span: Span) -> Option<&'deck [u8]> {
+        let piece = self.at(span.start, span.end).trim_ascii_end();
+        (!piece.iter().any(|byte| matches!(byte, b'\n' | b'\r'))).then_some(piece)
+    }
+
+    fn end_of(&self, span: Span, piece: &[u8]) -> u64 {
+        span.start + piece.len() as u64
+    }
+
+    /// Takes what stands between two pieces: one comma, and behind it perhaps a line end and comments (S-19, Q-35).
+    fn take_comma(&mut self, between: &[u8]) -> Option<()> {
+        let mut physical = lines(between).map(|range| &between[range]);
+        let first = physical.next()?;
+        let content = without_line_end(first);
+        if content.trim_ascii() != b"," {
+            return None;
+        }
+        self.formatted.push(b',');
+        if content.len() == first.len() {
+            self.formatted.push(b' ');
+            return Some(());
+        }
+        self.formatted.extend_from_slice(&first[content.len()..]);
+        for line in physical {
+            let is_indent = line.trim_ascii().is_empty() && without_line_end(line).len() == line.len();
+            match () {
+                () if is_comment(line) => self.formatted.extend_from_slice(line),
+                () if is_indent => {}
+                () => return None,
+            }
+        }
+        self.formatted.extend_from_slice(CONTINUATION_INDENT);
+        Some(())
+    }
+
+    /// Takes what stands behind the last piece: a comma at most, which stays, since Abaqus looks for a continuation behind it.
+    fn take_end(&mut self, rest: &[u8]) -> Option<()> {
+        let content = without_line_end(rest);
+        match content.trim_ascii() {
+            b"" => {}
+            b"," => self.formatted.push(b','),
+            _ => return None,
+        }
+        self.formatted.extend_from_slice(&rest[content.len()..]);
+        Some(())
+    }
+}
+
+fn is_comment(line: &[u8]) -> bool {
+    matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment)
+}
