@@ -13,7 +13,7 @@ pub(crate) fn of_rule(rule: &Rule) -> String {
         FixKind::ChangesMeaning => " `--fix-also` with its code mends it, which changes what the deck means.",
     };
     let mut page = format!("# {} {}\n\n", rule.code, rule.name);
-    let _ = writeln!(page, "Severity: {}. Source: semantics {}.{fix}\n", rule.severity, rule.source);
+    let _ = writeln!(page, "Severity: {}. Source: {}.{fix}\n", rule.severity, rule.source);
     for line in rule.documentation.lines() {
         page += line.strip_prefix(' ').unwrap_or(line).trim_end();
         page.push('\n');
@@ -75,13 +75,12 @@ fn product_name(product: Product) -> &'static str {
 
 fn parameter_item(parameter: &ParameterDefinition) -> String {
     let kind = match parameter.kind {
-        ParameterKind::Flag => "",
+        ParameterKind::Flag | ParameterKind::Choice => "",
         ParameterKind::Integer => "=integer",
         ParameterKind::Float => "=number",
         ParameterKind::Label => "=name",
         ParameterKind::Text => "=text",
         ParameterKind::File => "=file",
-        ParameterKind::Choice => "",
     };
     let choices =
         if parameter.choices.is_empty() { String::new() } else { format!("={}", parameter.choices.join("|")) };
