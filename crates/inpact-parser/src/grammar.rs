@@ -129,7 +129,7 @@ impl Grammar {
             return Lookup::Exact(id);
         }
         if self.dialect == Dialect::Calculix {
-            return Lookup::Unknown;
+            return self.plural_of(folded.as_bytes());
         }
         let from = self.keywords.partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
         let candidates = (from..self.keywords.len())
@@ -137,6 +137,12 @@ impl Grammar {
             .filter(|index| self.has(KeywordId::new(*index)));
         let candidates = candidates.map(|index| (KeywordId::new(index), &*self.keywords[index].folded));
         lookup::decide(folded.as_bytes(), candidates)
+    }
+
+    /// CalculiX compares as many letters as its own name has, so its decks have `*FLUID SECTIONS` for *FLUID SECTION.
+    fn plural_of(&self, folded: &[u8]) -> Lookup<KeywordId> {
+        let singular = folded.strip_suffix(b"S").and_then(|singular| self.exact.get(singular)).copied();
+        singular.filter(|id| self.has(*id)).map_or(Lookup::Unknown, Lookup::Exact)
     }
 
     /// Whether the dialect and the release have the keyword.
@@ -203,7 +209,9 @@ impl Keyword {
         // A test loads every definition that is compiled in, so none is lost here.
         let parse = || {
             let mut definition = Definition::parse(self.source?).ok()?;
-            definition.parameters_complete &= !self.is_borrowed;
+            if self.is_borrowed {
+                definition.loosen();
+            }
             Some(Box::new(definition))
         };
         self.definition.get_or_init(parse).as_deref()

@@ -16,7 +16,7 @@ pub struct Definition {
     pub name: String,
     /// What it is for, in one line.
     pub summary: String,
-    /// Where it may stand; at a level that is not listed it is misplaced (S-73).
+    /// Where it may stand; at a level that is not listed it is misplaced (S-73). An empty list says nothing.
     pub levels: Vec<Level>,
     /// The keywords whose block it must stand in; none when it stands alone (S-21).
     pub parents: Vec<String>,
@@ -201,6 +201,28 @@ impl Definition {
     /// How the rows are laid out when these parameters are given and so many columns are counted; see [`Data::layout`].
     pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
         self.data.layout(given, count)
+    }
+
+    /// Takes out everything that forbids or demands something: what is left tells names and columns.
+    ///
+    /// For a definition of Abaqus that stands in for one of CalculiX, where no list says what differs.
+    pub(super) fn loosen(&mut self) {
+        self.parameters_complete = false;
+        self.levels.clear();
+        self.data.required = false;
+        self.data.minimum_rows = 0;
+        for parameter in &mut self.parameters {
+            if parameter.kind == ParameterKind::Choice {
+                parameter.kind = ParameterKind::Text;
+            }
+            parameter.required = false;
+            parameter.value_optional = parameter.kind != ParameterKind::Flag;
+            (parameter.minimum, parameter.maximum) = (None, None);
+            parameter.choices.clear();
+            parameter.needs.clear();
+            parameter.excludes.clear();
+            parameter.ignored_with.clear();
+        }
     }
 
     fn contradiction(&self) -> Option<String> {
