@@ -297,3 +297,22 @@ fn calculix_has_a_language_of_its_own() {
     assert!(matches!(grammar.keyword_named(b"NODE"), Lookup::Exact(_)));
     assert!(matches!(grammar.keyword_named(b"transform f"), Lookup::Exact(_)));
 }
+
+/// Every file of `grammar/calculix/` is read as strictly as those of Abaqus, and its example is right.
+#[test]
+fn the_files_for_calculix_load() {
+    let grammar = Grammar::new(Dialect::Calculix, Release::NEWEST);
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../grammar/calculix");
+    let mut read = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let definition = Definition::parse(&std::fs::read_to_string(&path).unwrap())
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert!(grammar.has(grammar.id_of(&definition.name).unwrap()), "{}", definition.name);
+        let deck = inpact_parser::deck::scan("example.inp", definition.example.as_bytes(), &grammar);
+        let (_, problems) = inpact_parser::model::read(&deck, &grammar);
+        assert_eq!(problems, [], "{}", definition.name);
+        read += 1;
+    }
+    assert!(read >= 5, "{read} files");
+}
