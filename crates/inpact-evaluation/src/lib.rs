@@ -3,6 +3,10 @@
 //! From the inside out: [`numbers`] are floating-point building blocks, [`table`] the nested piecewise-linear functions of the manual's tables,
 //! [`law`] the interface laws as functions of plain inputs, [`history`] their integrals over time.
 //! None of these knows a file or the parser's model.
+//!
+//! Around them: [`nodes`] reads node tables, [`plan`] puts a deck's model and a node table together, [`compile`] turns a plan into laws,
+//! [`evaluate`] runs them over batches of rows, [`results`] writes what comes out.
+//! No file is opened here: streams in, streams out.
 
 pub mod numbers;
 
@@ -11,3 +15,13 @@ pub mod table;
 pub mod law;
 
 pub mod history;
+
+pub mod nodes;
+
+pub mod results;
+
+pub mod plan;
+
+pub mod compile;
+
+pub mod evaluate;

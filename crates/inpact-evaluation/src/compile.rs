@@ -1,0 +1,283 @@
+//! From a plan to laws that can be evaluated: tables compiled, columns turned into places of a batch.
+
+use crate::law::conductance::ConductanceTables;
+use crate::law::contact::ContactState;
+use crate::law::electrical::ElectricalLaw;
+use crate::law::heat::HeatGeneration;
+use crate::law::pore::{Permeability, PoreLaw};
+use crate::nodes::{Column, Part};
+use crate::plan::{
+    Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
+    Plan, PorePlan, Rate, Source,
+};
+use crate::results::{Along, Output};
+use crate::table::PiecewiseTable;
+use inpact_parser::model::{Model, Regime};
+
+/// The laws of a plan.
+#[derive(Debug, Clone)]
+pub struct Laws {
+    /// The laws of each interaction of the model; `None` for those that govern no row.
+    pub(crate) interactions: Vec<Option<InteractionLaws>>,
+    /// How many columns of numbers the results have.
+    pub(crate) result_columns: usize,
+    /// Where a batch has the texts of column `node`.
+    pub(crate) node: Option<usize>,
+    /// Where a batch has the texts of column `interaction`.
+    pub(crate) interaction: Option<usize>,
+    /// Where a batch has the numbers of column `time`.
+    pub(crate) time: Option<usize>,
+}
+
+/// The laws of one interaction, and where its rows have what they need.
+#[derive(Debug, Clone)]
+pub(crate) struct InteractionLaws {
+    pub(crate) contact: ContactPlaces,
+    pub(crate) electrical: Option<CompiledElectrical>,
+    pub(crate) pore: Option<CompiledPore>,
+}
+
+/// The electrical law with its places.
+#[derive(Debug, Clone)]
+pub(crate) struct CompiledElectrical {
+    pub(crate) law: ElectricalLaw,
+    pub(crate) regime: Regime,
+    /// What the table against clearance needs.
+    pub(crate) clearance: Needs,
+    /// What the table against contact pressure needs.
+    pub(crate) pressure: Needs,
+    pub(crate) variables: Vec<Option<Source<usize>>>,
+    pub(crate) jump: Option<Source<usize>>,
+    pub(crate) area: Option<usize>,
+    pub(crate) history: History,
+    pub(crate) slots: ElectricalSlots,
+    pub(crate) slopes: Vec<(usize, Along)>,
+}
+
+/// The pore fluid law with its places.
+#[derive(Debug, Clone)]
+pub(crate) struct CompiledPore {
+    pub(crate) law: PoreLaw,
+    pub(crate) regime: Regime,
+    /// What the permeability needs; variable 0 is the mean pore pressure, which is always there.
+    pub(crate) needs: Needs,
+    /// The mean temperature, then the field variables.
+    pub(crate) variables: Vec<Option<Source<usize>>>,
+    pub(crate) slave: usize,
+    pub(crate) master: usize,
+    pub(crate) bulk: Option<(usize, usize)>,
+    pub(crate) rate: Option<usize>,
+    pub(crate) characteristic_length: Length,
+    pub(crate) area: Option<usize>,
+    pub(crate) history: History,
+    pub(crate) slots: PoreSlots,
+    pub(crate) slopes: Vec<(usize, Along)>,
+}
+
+/// Where the characteristic element length comes from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Length {
+    Place(usize),
+    Given(f64),
+    Unknown,
+}
+
+/// What a table needs of a row.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Needs {
+    /// Its first variable, clearance or contact pressure.
+    pub(crate) abscissa: bool,
+    /// Others, by their place among the variables.
+    pub(crate) variables: Vec<usize>,
+}
+
+/// Declares a set of places in the results, one for each output that has a number there.
+macro_rules! slots {
+    ($(#[doc = $line:literal])+ $name:ident { $($field:ident: $output:ident),+ $(,)? }) => {
+        $(#[doc = $line])+
+        #[derive(Debug, Clone, Copy, Default)]
+        pub(crate) struct $name {
+            $(pub(crate) $field: Option<usize>,)+
+        }
+
+        impl $name {
+            fn new(place: impl Fn(Output) -> Option<usize>) -> Self {
+                Self { $($field: place(Output::$output),)+ }
+            }
+        }
+    };
+}
+
+slots! {
+    /// Where the results of the electrical law go.
+    ElectricalSlots {
+        ecd: Ecd, ecda: Ecda, ecdt: Ecdt, ecdta: Ecdta, sjd: Sjd, sjda: Sjda, sjdt: Sjdt, sjdta: Sjdta,
+        weight: Weight, conductance: Conductance, heat_slave: HeatSlave, heat_master: HeatMaster,
+    }
+}
+
+slots! {
+    /// Where the results of the pore fluid law go.
+    PoreSlots {
+        pfl: Pfl, pfla: Pfla, ptl: Ptl, ptla: Ptla, permeability: Permeability, q_across: QAcross,
+        q_gap_slave: QGapSlave, q_gap_master: QGapMaster, q_slave: QSlave, q_master: QMaster,
+    }
+}
+
+/// Compiles the laws of a plan that was made from this model and these choices.
+pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
+    let mut interactions: Vec<Option<InteractionLaws>> = Vec::new();
+    interactions.resize_with(model.interactions.len(), || None);
+    for planned in &plan.interactions {
+        let Some(interaction) = model.interactions.get_index(planned.index).map(|(_, interaction)| interaction) else {
+            continue;
+        };
+        let tables = InteractionTables::of(interaction, choices.clearance_tail);
+        let compiler = Compiler { plan, of: planned };
+        interactions[planned.index] = Some(InteractionLaws {
+            contact: compiler.contact(),
+            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables)),
+            pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
+        });
+    }
+    Laws {
+        interactions,
+        result_columns: numbers(plan).count(),
+        node: plan.selection.label(Column::Node),
+        interaction: plan.selection.label(Column::Interaction),
+        time: plan.selection.number(Column::Time),
+    }
+}
+
+/// The outputs that are numbers.
+fn numbers(plan: &Plan) -> impl Iterator<Item = Output> {
+    plan.outputs.iter().copied().filter(|output| *output != Output::Status)
+}
+
+/// Compiles the laws of one interaction.
+#[derive(Clone, Copy)]
+struct Compiler<'a> {
+    plan: &'a Plan,
+    of: &'a InteractionPlan,
+}
+
+impl Compiler<'_> {
+    fn contact(self) -> ContactPlaces {
+        let place = |column: Option<Column>| self.plan.selection.number(column?);
+        let columns = self.of.contact;
+        ContactPlaces {
+            clearance: place(columns.clearance),
+            pressure: place(columns.pressure),
+            closed: place(columns.closed),
+        }
+    }
+
+    fn place(self, column: Column) -> Option<usize> {
+        self.plan.selection.number(column)
+    }
+
+    /// Where an output goes, if this interaction gives it.
+    fn slot(self, output: Output) -> Option<usize> {
+        let is_given = self.of.outputs.contains(&output);
+        numbers(self.plan).position(|planned| planned == output).filter(|_| is_given)
+    }
+
+    fn source(self, source: Option<Source<Column>>) -> Option<Source<usize>> {
+        // The plan reads every column it names.
+        source.map(|source| source.map(|column| self.place(column).unwrap_or_default()))
+    }
+
+    fn sources(self, sources: &[Option<Source<Column>>]) -> Vec<Option<Source<usize>>> {
+        sources.iter().map(|source| self.source(*source)).collect()
+    }
+
+    fn electrical(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledElectrical> {
+        let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table);
+        let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
+        let conductance = match (clearance, pressure) {
+            (Some(clearance), None) => ConductanceTables::Clearance(clearance.clone()),
+            (None, Some(pressure)) => ConductanceTables::Pressure(pressure.clone()),
+            (Some(clearance), Some(pressure)) => {
+                ConductanceTables::Both { clearance: clearance.clone(), pressure: pressure.clone() }
+            }
+            (None, None) => return None,
+        };
+        let slopes = self.of.outputs.iter().filter_map(|output| match output {
+            Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
+            _ => None,
+        });
+        Some(CompiledElectrical {
+            law: ElectricalLaw {
+                conductance,
+                heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
+            },
+            regime: plan.regime.regime,
+            clearance: clearance.map(Needs::of).unwrap_or_default(),
+            pressure: pressure.map(Needs::of).unwrap_or_default(),
+            variables: self.sources(&plan.variables),
+            jump: self.source(plan.jump),
+            area: plan.area.and_then(|column| self.place(column)),
+            history: plan.history,
+            slots: ElectricalSlots::new(|output| self.slot(output)),
+            slopes: slopes.collect(),
+        })
+    }
+
+    fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> Option<CompiledPore> {
+        let table = tables.permeability();
+        let permeability = table.map_or(Permeability::Infinite, |table| Permeability::Finite(table.clone()));
+        let slopes = self.of.outputs.iter().filter_map(|output| match output {
+            Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),
+            _ => None,
+        });
+        let sides = |of: fn(Part) -> Column| Some((self.place(of(Part::Slave))?, self.place(of(Part::Master))?));
+        let (slave, master) = sides(Column::PorePressure)?;
+        let length = self.place(Column::CharacteristicLength);
+        Some(CompiledPore {
+            law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
+            regime: plan.regime.regime,
+            needs: table.map(Needs::of).unwrap_or_default(),
+            variables: self.sources(&plan.variables),
+            slave,
+            master,
+            bulk: sides(Column::BulkPermeability).filter(|_| plan.bulk == Bulk::Columns),
+            rate: self.place(Column::ClearanceRate).filter(|_| plan.rate == Rate::Column),
+            characteristic_length: match (plan.characteristic_length, length) {
+                (CharacteristicLength::Given(length), _) => Length::Given(length),
+                (CharacteristicLength::Column, Some(place)) => Length::Place(place),
+                _ => Length::Unknown,
+            },
+            area: plan.area.and_then(|column| self.place(column)),
+            history: plan.history,
+            slots: PoreSlots::new(|output| self.slot(output)),
+            slopes: slopes.collect(),
+        })
+    }
+}
+
+impl Needs {
+    fn of(table: &PiecewiseTable) -> Self {
+        let axes = table.axes();
+        let matters = |axis: usize| axes[axis].matters();
+        Self {
+            abscissa: !axes.is_empty() && matters(0),
+            variables: (1..axes.len()).filter(|axis| matters(*axis)).map(|axis| axis - 1).collect(),
+        }
+    }
+}
+
+impl CompiledElectrical {
+    /// What a row in this state needs; `None` where no table is in force.
+    #[inline]
+    pub(crate) fn needs(&self, state: ContactState) -> Option<(Along, &Needs)> {
+        match (&self.law.conductance, state) {
+            (ConductanceTables::Clearance(_), _) | (ConductanceTables::Both { .. }, ContactState::Open) => {
+                Some((Along::Clearance, &self.clearance))
+            }
+            (ConductanceTables::Pressure(_) | ConductanceTables::Both { .. }, ContactState::Closed) => {
+                Some((Along::Pressure, &self.pressure))
+            }
+            _ => None,
+        }
+    }
+}

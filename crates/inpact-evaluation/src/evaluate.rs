@@ -1,0 +1,178 @@
+//! Evaluates the laws of a plan, row by row, in batches.
+//!
+//! Rows of one node under one interaction are increments of its history, in the order they come in; a node's first row starts it (C-25):
+//! its time integrals are 0, the jump of potential at its start is its own, the rate of its clearance is 0 unless given.
+//! Results depend on the rows alone and not on how they are cut into batches.
+//!
+//! A row that lacks a number which a law needs has no results of that law and is no increment of its history;
+//! the next increment then begins at the last row that had them all.
+//! Opens no file: batches in, batches out.
+
+mod electrical;
+mod pore;
+mod tally;
+
+pub use tally::{AxisTally, InteractionTally, Tally};
+
+use crate::compile::Laws;
+use crate::history::{ElectricalHistory, PoreHistory};
+use crate::law::contact::ContactState;
+use crate::nodes::{Batch, NodeIndex};
+use crate::plan::{History, Plan, RowInteractions, Source};
+use crate::results::{ResultBatch, Status};
+use inpact_parser::model::Model;
+
+/// An evaluation under way: the laws, the histories of the nodes so far, and a count of what happened.
+#[derive(Debug)]
+pub struct Evaluation<'a> {
+    laws: &'a Laws,
+    interactions: RowInteractions<'a>,
+    nodes: NodeIndex,
+    histories: Vec<NodeHistory>,
+    tally: Tally,
+    /// Temperatures and field variables of a row.
+    variables: Vec<f64>,
+    /// Slopes along them.
+    slopes: Vec<f64>,
+}
+
+/// What a node's rows so far add up to.
+#[derive(Debug, Clone, Default)]
+struct NodeHistory {
+    electrical: ElectricalHistory,
+    pore: PoreHistory,
+}
+
+/// A row of a batch, with what both laws need of it.
+#[derive(Clone, Copy)]
+struct Row<'a> {
+    batch: &'a Batch,
+    index: usize,
+    state: ContactState,
+    clearance: Option<f64>,
+    pressure: Option<f64>,
+    /// The time, where the row is part of a history.
+    time: Option<f64>,
+}
+
+/// What came of a law in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// The row lacks a number that the law needs.
+    Incomplete,
+    /// It was evaluated, and this is the row's status as far as it goes.
+    Evaluated(Option<Status>),
+}
+
+impl<'a> Evaluation<'a> {
+    /// Begins an evaluation of `laws`, compiled from this model and plan.
+    pub fn new(model: &'a Model, plan: &Plan, laws: &'a Laws) -> Self {
+        Self {
+            laws,
+            interactions: RowInteractions::new(model, plan.governed_by, laws.interaction),
+            nodes: NodeIndex::default(),
+            histories: Vec::new(),
+            tally: Tally::new(plan, model.interactions.len()),
+            variables: Vec::new(),
+            slopes: Vec::new(),
+        }
+    }
+
+    /// Evaluates the rows of a batch, which go on where the batch before ended.
+    pub fn evaluate(&mut self, batch: &Batch, results: &mut ResultBatch) {
+        results.reset(batch.rows, self.laws.result_columns);
+        for row in 0..batch.rows {
+            self.evaluate_row(batch, row, results);
+        }
+        self.tally.rows += batch.rows as u64;
+    }
+
+    /// What was counted.
+    pub fn finish(self) -> Tally {
+        self.tally
+    }
+
+    fn evaluate_row(&mut self, batch: &Batch, index: usize, results: &mut ResultBatch) {
+        let Some(interaction) = self.interactions.of_row(batch, index) else { return };
+        let Some(laws) = &self.laws.interactions[interaction] else { return };
+        let tally = &mut self.tally.interactions[interaction];
+        tally.rows += 1;
+        let state = laws.contact.state(batch, index);
+        tally.closed += u64::from(state == Some(ContactState::Closed));
+        tally.open += u64::from(state == Some(ContactState::Open));
+        let Some(state) = state else {
+            tally.incomplete += 1;
+            return;
+        };
+        let number = |place: Option<usize>| batch.numbers[place?].get(index);
+        let row = Row {
+            batch,
+            index,
+            state,
+            clearance: number(laws.contact.clearance),
+            pressure: number(laws.contact.pressure),
+            time: number(self.laws.time),
+        };
+        let keeps_history = laws.electrical.as_ref().is_some_and(|law| law.history == History::ByTime)
+            || laws.pore.as_ref().is_some_and(|law| law.history == History::ByTime);
+        let mut history = match self.laws.node.filter(|_| keeps_history && row.time.is_some()) {
+            Some(node) => {
+                let number = self.nodes.number(interaction, batch.labels[node].get(index));
+                if number == self.histories.len() {
+                    self.histories.push(NodeHistory::default());
+                }
+                Some(&mut self.histories[number])
+            }
+            None => None,
+        };
+        let scratch = (&mut self.variables, &mut self.slopes);
+        let mut outcomes = [None; 2];
+        if let Some(law) = &laws.electrical {
+            let history = history.as_mut().map(|history| &mut history.electrical);
+            outcomes[0] = Some(electrical::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+        }
+        if let Some(law) = &laws.pore {
+            let history = history.as_mut().map(|history| &mut history.pore);
+            outcomes[1] = Some(pore::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+        }
+        let status = outcomes.into_iter().flatten().filter_map(Outcome::status).max();
+        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
+        tally.count_status(status);
+        results.status[index] = status;
+    }
+}
+
+impl Outcome {
+    fn status(self) -> Option<Status> {
+        match self {
+            Self::Incomplete => None,
+            Self::Evaluated(status) => status,
+        }
+    }
+}
+
+impl Row<'_> {
+    fn number(&self, place: usize) -> Option<f64> {
+        self.batch.numbers[place].get(self.index)
+    }
+
+    /// The number of a source; `combine` makes one of slave and master.
+    #[inline]
+    fn fetch(&self, source: &Source<usize>, combine: impl Fn(f64, f64) -> f64) -> Option<f64> {
+        let sides = |slave, master| Some(combine(self.number(slave)?, self.number(master)?));
+        match *source {
+            Source::Cell(cell) => self.number(cell),
+            Source::Sides(slave, master) => sides(slave, master),
+            Source::CellOrSides(cell, slave, master) => self.number(cell).or_else(|| sides(slave, master)),
+        }
+    }
+}
+
+/// The status of a row as far as contact goes; `None` where it cannot be told.
+fn contact_status(state: ContactState) -> Option<Status> {
+    match state {
+        ContactState::Closed => Some(Status::Closed),
+        ContactState::Open => Some(Status::Open),
+        ContactState::Undetermined => None,
+    }
+}

@@ -1,0 +1,132 @@
+//! The electrical law in one row.
+
+use super::{InteractionTally, Outcome, Row, contact_status};
+use crate::compile::CompiledElectrical;
+use crate::history::{ElectricalHistory, ElectricalIncrement};
+use crate::law::conductance::{Branch, Conductance, ContactPoint};
+use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
+use crate::law::electrical::Dissipation;
+use crate::numbers::mean;
+use crate::plan::Source;
+use crate::results::{Along, ResultBatch, Status};
+use inpact_parser::model::Regime;
+
+/// Below this share of the potentials their difference has lost its digits.
+const LOST_DIGITS: f64 = 1e-8;
+
+/// Evaluates the law; gives its status.
+pub(super) fn evaluate(
+    law: &CompiledElectrical,
+    row: Row<'_>,
+    history: Option<&mut ElectricalHistory>,
+    (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
+    results: &mut ResultBatch,
+    tally: &mut InteractionTally,
+) -> Outcome {
+    let needs = law.needs(row.state);
+    if let Some((against, needs)) = needs {
+        let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
+        if needs.abscissa && abscissa.is_none() {
+            return Outcome::Incomplete;
+        }
+    }
+    variables.clear();
+    for (index, source) in law.variables.iter().enumerate() {
+        let value = source.as_ref().and_then(|source| row.fetch(source, mean));
+        if value.is_none() && needs.is_some_and(|(_, needs)| needs.variables.contains(&index)) {
+            return Outcome::Incomplete;
+        }
+        variables.push(value.unwrap_or(f64::NAN));
+    }
+    let point = ContactPoint {
+        clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
+        pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
+        state: row.state,
+        variables,
+    };
+    let conductance = law.law.conductance.conductance(&point);
+    results.set(law.slots.conductance, row.index, Some(conductance.value));
+    results.set(law.slots.weight, row.index, Some(law.law.heat_generation.slave_weight));
+    if !law.slopes.is_empty() {
+        slopes.clear();
+        slopes.resize(variables.len(), 0.0);
+        let point = ContactPoint { variables, ..point };
+        let along_contact = law.law.conductance.slopes(&point, slopes);
+        for (slot, along) in &law.slopes {
+            let slope = match along {
+                Along::Clearance => Some(along_contact.clearance),
+                Along::Pressure => Some(along_contact.pressure),
+                Along::Temperature => slopes.first().copied(),
+                Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
+                Along::PorePressure => None,
+            };
+            results.set(Some(*slot), row.index, slope);
+        }
+    }
+    evaluate_flow(law, row, conductance, history, results, tally);
+    Outcome::Evaluated(status(&conductance, row, tally))
+}
+
+/// Current and heat, where the row has a jump of potential.
+fn evaluate_flow(
+    law: &CompiledElectrical,
+    row: Row<'_>,
+    conductance: Conductance,
+    history: Option<&mut ElectricalHistory>,
+    results: &mut ResultBatch,
+    tally: &mut InteractionTally,
+) {
+    let Some(source) = &law.jump else { return };
+    let Some(jump) = row.fetch(source, |slave, master| PotentialJump::between(slave, master).0) else {
+        tally.incomplete_flows += 1;
+        return;
+    };
+    tally.lost_digits += u64::from(has_lost_digits(source, row, jump));
+    let jump = PotentialJump(jump);
+    let area = law.area.and_then(|place| row.number(place));
+    let mut history = history.zip(row.time);
+    let increment: Option<ElectricalIncrement> = history.as_mut().map(|(history, time)| history.begin(*time, jump));
+    let dissipation = match law.regime {
+        Regime::SteadyState => Dissipation::Steady,
+        Regime::Transient => Dissipation::Transient {
+            jump_at_start: increment.as_ref().map_or(jump, |increment| increment.jump_at_start),
+        },
+    };
+    let flow = law.law.flow(conductance.value, jump, dissipation);
+    let slots = &law.slots;
+    let mut set = |slot, value| results.set(slot, row.index, value);
+    // No current is 0, not −0.
+    let current_density = flow.current_density + 0.0;
+    set(slots.ecd, Some(current_density));
+    set(slots.ecda, area.map(|area| current_density * area));
+    set(slots.sjd, Some(flow.heat.total));
+    set(slots.sjda, area.map(|area| flow.heat.total * area));
+    set(slots.heat_slave, Some(flow.heat.slave));
+    set(slots.heat_master, Some(flow.heat.master));
+    if let (Some((history, _)), Some(increment)) = (history, increment) {
+        history.finish(&increment, &flow, area);
+        set(slots.ecdt, Some(history.current()));
+        set(slots.ecdta, history.current_of_area());
+        set(slots.sjdt, Some(history.heat()));
+        set(slots.sjdta, history.heat_of_area());
+    }
+}
+
+/// Whether the jump is the difference of potentials so much larger that few of its digits are left.
+fn has_lost_digits(source: &Source<usize>, row: Row<'_>, jump: f64) -> bool {
+    let (slave, master) = match *source {
+        Source::Sides(slave, master) => (slave, master),
+        Source::CellOrSides(cell, slave, master) if row.number(cell).is_none() => (slave, master),
+        _ => return false,
+    };
+    let magnitude = |place| row.number(place).map_or(0.0, f64::abs);
+    jump.abs() < LOST_DIGITS * magnitude(slave).max(magnitude(master))
+}
+
+fn status(conductance: &Conductance, row: Row<'_>, tally: &mut InteractionTally) -> Option<Status> {
+    if !conductance.sides.is_within() {
+        tally.count_sides(usize::from(conductance.branch == Branch::Pressure), conductance.sides);
+        return Some(Status::BeyondTable);
+    }
+    contact_status(row.state)
+}

@@ -1,0 +1,179 @@
+//! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
+
+use crate::nodes::{BEYOND_TABLE, Findings, Place};
+use crate::plan::{InteractionPlan, Plan, TablePlan};
+use crate::results::{Along, Status, push_number};
+use crate::table::{Sides, Tail};
+use inpact_parser::model::Name;
+use inpact_validation::Severity;
+
+/// The place of the permeability table among the tables of an interaction; 0 is conductance against clearance, 1 against pressure.
+pub(super) const PERMEABILITY: usize = 2;
+
+/// Counts over all rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tally {
+    /// How many rows came in.
+    pub rows: u64,
+    /// The counts of each interaction of the model, in its order.
+    pub interactions: Vec<InteractionTally>,
+}
+
+/// Counts over the rows of one interaction.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InteractionTally {
+    /// How many rows it governs.
+    pub rows: u64,
+    /// How many are closed.
+    pub closed: u64,
+    /// How many are open.
+    pub open: u64,
+    /// How many have status `beyond_table`.
+    pub beyond_table: u64,
+    /// How many have status `cutoff`.
+    pub cutoff: u64,
+    /// How many have status `constrained`.
+    pub constrained: u64,
+    /// How many lack a number that a law needs.
+    pub incomplete: u64,
+    /// How many have a conductance, but no jump of potential.
+    pub incomplete_flows: u64,
+    /// How many lack the characteristic element length where it decides.
+    pub needs_length: u64,
+    /// How many have a jump of potential below 1e-8 of the potentials it is the difference of.
+    pub lost_digits: u64,
+    /// For each table the rows outside its range along each axis: conductance against clearance, against pressure, permeability.
+    pub axes: [Vec<AxisTally>; 3],
+}
+
+/// Rows outside a table along one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AxisTally {
+    /// Below its first abscissa.
+    pub below: u64,
+    /// Above its last abscissa.
+    pub above: u64,
+}
+
+impl Tally {
+    pub(super) fn new(plan: &Plan, interactions: usize) -> Self {
+        let mut tally = Self { rows: 0, interactions: vec![InteractionTally::default(); interactions] };
+        for interaction in &plan.interactions {
+            for (table, planned) in tables(interaction) {
+                tally.interactions[interaction.index].axes[table] = vec![AxisTally::default(); planned.axes.len()];
+            }
+        }
+        tally
+    }
+
+    /// The sum of one count over all interactions.
+    pub fn total(&self, count: impl Fn(&InteractionTally) -> u64) -> u64 {
+        self.interactions.iter().map(count).sum()
+    }
+
+    /// The counts of all interactions together; those of single axes belong to one table and are left out.
+    pub fn whole(&self) -> InteractionTally {
+        InteractionTally {
+            rows: self.total(|of| of.rows),
+            closed: self.total(|of| of.closed),
+            open: self.total(|of| of.open),
+            beyond_table: self.total(|of| of.beyond_table),
+            cutoff: self.total(|of| of.cutoff),
+            constrained: self.total(|of| of.constrained),
+            incomplete: self.total(|of| of.incomplete),
+            incomplete_flows: self.total(|of| of.incomplete_flows),
+            needs_length: self.total(|of| of.needs_length),
+            lost_digits: self.total(|of| of.lost_digits),
+            axes: Default::default(),
+        }
+    }
+
+    /// Reports rows beyond the tables, axis by axis (D007); beyond the last clearance of an electrical table it is a warning.
+    pub fn report(&self, plan: &Plan, findings: &mut Findings) {
+        for interaction in &plan.interactions {
+            for (table, planned) in tables(interaction) {
+                let counts = &self.interactions[interaction.index].axes[table];
+                let what = if table == PERMEABILITY { "permeability" } else { "conductance" };
+                for (axis, count) in planned.axes.iter().zip(counts) {
+                    let ends = [(count.below, axis.least, "below"), (count.above, axis.greatest, "above")];
+                    for (rows, end, side) in ends.into_iter().filter(|(rows, ..)| *rows > 0) {
+                        let Beyond { severity, help } = beyond(planned, table, axis.along, side);
+                        let words = Words { name: &interaction.name, what, against: planned.against };
+                        let message = words.message(axis.along, rows, side, end);
+                        let place = Place { row: None, line: None, column: Some(axis.along.to_string()) };
+                        findings.report_as(severity, &BEYOND_TABLE, place, message, help);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How grave it is that rows lie beyond a table, and what to say of it.
+struct Beyond {
+    severity: Severity,
+    help: &'static str,
+}
+
+fn beyond(planned: &TablePlan, table: usize, along: Along, side: &str) -> Beyond {
+    if table != PERMEABILITY && along == Along::Clearance && side == "above" {
+        if planned.ends_in_zero {
+            return Beyond { severity: Severity::Note, help: "the conductance is zero there" };
+        }
+        let help = match planned.tail {
+            Tail::Constant => {
+                "the last value is kept, as the words of the manual have it; its figure has zero: `--clearance-tail zero`"
+            }
+            Tail::Zero => "the conductance is zero there, as chosen",
+        };
+        return Beyond { severity: Severity::Warning, help };
+    }
+    Beyond { severity: Severity::Note, help: "the value at the end of the table is kept" }
+}
+
+/// The table that a message is about.
+struct Words<'a> {
+    name: &'a Name,
+    what: &'a str,
+    against: Along,
+}
+
+impl Words<'_> {
+    fn message(&self, along: Along, rows: u64, side: &str, end: f64) -> String {
+        let Self { name, what, against } = self;
+        let mut number = Vec::new();
+        push_number(&mut number, end);
+        let number = String::from_utf8_lossy(&number).into_owned();
+        let lie = if rows == 1 { "1 row lies".to_owned() } else { format!("{rows} rows lie") };
+        let end = if side == "below" { "first" } else { "last" };
+        format!("{lie} {side} the {end} `{along}` of the table of {what} against {against} of `{name}`, {number}")
+    }
+}
+
+/// The tables of an interaction that are in use, with their places.
+fn tables(interaction: &InteractionPlan) -> impl Iterator<Item = (usize, &TablePlan)> {
+    let electrical = interaction.electrical.iter().flat_map(|law| &law.tables);
+    let electrical = electrical.map(|table| (usize::from(table.against == Along::Pressure), table));
+    let pore = interaction.pore.iter().filter_map(|law| law.table.as_ref());
+    electrical.chain(pore.map(|table| (PERMEABILITY, table)))
+}
+
+impl InteractionTally {
+    #[inline]
+    pub(super) fn count_status(&mut self, status: Option<Status>) {
+        match status {
+            Some(Status::BeyondTable) => self.beyond_table += 1,
+            Some(Status::Cutoff) => self.cutoff += 1,
+            Some(Status::Constrained) => self.constrained += 1,
+            Some(Status::Open | Status::Closed) | None => {}
+        }
+    }
+
+    #[cold]
+    pub(super) fn count_sides(&mut self, table: usize, sides: Sides) {
+        for (axis, count) in self.axes[table].iter_mut().enumerate() {
+            count.below += u64::from(sides.is_below(axis));
+            count.above += u64::from(sides.is_above(axis));
+        }
+    }
+}

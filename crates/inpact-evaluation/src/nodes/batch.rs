@@ -1,0 +1,119 @@
+//! Some rows of a node table as columns.
+
+use super::diagnostic::Place;
+
+/// Some consecutive rows of a node table: the columns that were asked for, in the order they were asked for.
+#[derive(Debug, Clone, Default)]
+pub struct Batch {
+    /// How many rows there are.
+    pub rows: usize,
+    /// The number of the first row, counted from 0.
+    pub first_row: u64,
+    /// For each row the line of the file on which it ends, from 1.
+    pub lines: Vec<u64>,
+    /// The columns of texts.
+    pub labels: Vec<LabelColumn>,
+    /// The columns of numbers.
+    pub numbers: Vec<NumberColumn>,
+}
+
+/// A column of texts, unchanged.
+#[derive(Debug, Clone, Default)]
+pub struct LabelColumn {
+    bytes: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+/// A column of numbers, some of which may be missing.
+#[derive(Debug, Clone, Default)]
+pub struct NumberColumn {
+    /// NaN where the number is missing.
+    values: Vec<f64>,
+    present: Vec<bool>,
+}
+
+impl LabelColumn {
+    /// The text in row `row` of the batch.
+    #[inline]
+    pub fn get(&self, row: usize) -> &[u8] {
+        let start = if row == 0 { 0 } else { self.ends[row - 1] };
+        &self.bytes[start..self.ends[row]]
+    }
+
+    /// Adds a row.
+    #[inline]
+    pub fn push(&mut self, text: &[u8]) {
+        self.bytes.extend_from_slice(text);
+        self.ends.push(self.bytes.len());
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.bytes.clear();
+        self.ends.clear();
+    }
+}
+
+impl NumberColumn {
+    /// The number in row `row` of the batch; `None` where it is missing.
+    #[inline]
+    pub fn get(&self, row: usize) -> Option<f64> {
+        self.present[row].then_some(self.values[row])
+    }
+
+    /// The numbers, NaN where one is missing.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Adds a row.
+    #[inline]
+    pub fn push(&mut self, value: Option<f64>) {
+        self.values.push(value.unwrap_or(f64::NAN));
+        self.present.push(value.is_some());
+    }
+
+    /// Sets the number of a row that is there.
+    #[inline]
+    pub fn set(&mut self, row: usize, value: f64) {
+        self.values[row] = value;
+        self.present[row] = true;
+    }
+
+    /// Makes it a column of so many missing numbers.
+    pub fn reset(&mut self, rows: usize) {
+        self.values.clear();
+        self.values.resize(rows, f64::NAN);
+        self.present.clear();
+        self.present.resize(rows, false);
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.values.clear();
+        self.present.clear();
+    }
+}
+
+impl Batch {
+    /// An empty batch with so many columns of each kind.
+    pub fn with_columns(labels: usize, numbers: usize) -> Self {
+        Self {
+            rows: 0,
+            first_row: 0,
+            lines: Vec::new(),
+            labels: vec![LabelColumn::default(); labels],
+            numbers: vec![NumberColumn::default(); numbers],
+        }
+    }
+
+    /// Where row `row` of the batch stands in the file.
+    pub fn place(&self, row: usize, column: Option<String>) -> Place {
+        Place { row: Some(self.first_row + row as u64 + 1), line: self.lines.get(row).copied(), column }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.rows = 0;
+        self.lines.clear();
+        self.labels.iter_mut().for_each(LabelColumn::clear);
+        self.numbers.iter_mut().for_each(NumberColumn::clear);
+    }
+}

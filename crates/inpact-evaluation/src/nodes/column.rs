@@ -1,0 +1,139 @@
+//! The columns of a node table and the names they go by.
+
+use std::fmt;
+
+/// What a column of a node table holds.
+///
+/// Its [`Display`](fmt::Display) form is its canonical name; [`Column::named`] knows the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Column {
+    /// `node`: a label, passed through; with `time` it groups a history.
+    Node,
+    /// `interaction`: the *SURFACE INTERACTION that governs the row.
+    Interaction,
+    /// `time`: total time, T.
+    Time,
+    /// `clearance`, `copen`: clearance d, open > 0, L.
+    Clearance,
+    /// `pressure`, `cpress`: contact pressure p, F L⁻².
+    Pressure,
+    /// `closed`, `cstatus`: 1 in contact, 0 apart.
+    Closed,
+    /// `temp_s`, `nt11_s`; `temp_m`, `nt11_m`; `temp`: temperature, θ.
+    Temperature(Part),
+    /// `epot_s`; `epot_m`; `epot_jump`, φ_s − φ_m: electric potential, φ.
+    Potential(Part),
+    /// `por_s`; `por_m`: pore pressure, F L⁻².
+    PorePressure(Part),
+    /// `fvN_s`; `fvN_m`; `fvN`: field variable N, from 1.
+    FieldVariable(u32, Part),
+    /// `area`, `cnarea`: area of the slave node, L².
+    Area,
+    /// `clearance_rate`: ḋ, L T⁻¹.
+    ClearanceRate,
+    /// `char_length`: characteristic element length, the default of both cutoffs of pore fluid flow, L.
+    CharacteristicLength,
+    /// `perm_s`; `perm_m`: bulk permeability, for the shares of gap filling.
+    BulkPermeability(Part),
+}
+
+/// Of which side of the interface a quantity is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Part {
+    /// Slave (secondary) side, `_s`.
+    Slave,
+    /// Master (main) side, `_m`.
+    Master,
+    /// Both sides together: their average, or for potentials the jump from master to slave.
+    Both,
+}
+
+/// The columns without a number, each by its canonical name first.
+const NAMES: &[(Column, &[&str])] = &[
+    (Column::Node, &["node"]),
+    (Column::Interaction, &["interaction"]),
+    (Column::Time, &["time"]),
+    (Column::Clearance, &["clearance", "copen"]),
+    (Column::Pressure, &["pressure", "cpress"]),
+    (Column::Closed, &["closed", "cstatus"]),
+    (Column::Temperature(Part::Slave), &["temp_s", "nt11_s"]),
+    (Column::Temperature(Part::Master), &["temp_m", "nt11_m"]),
+    (Column::Temperature(Part::Both), &["temp"]),
+    (Column::Potential(Part::Slave), &["epot_s"]),
+    (Column::Potential(Part::Master), &["epot_m"]),
+    (Column::Potential(Part::Both), &["epot_jump"]),
+    (Column::PorePressure(Part::Slave), &["por_s"]),
+    (Column::PorePressure(Part::Master), &["por_m"]),
+    (Column::Area, &["area", "cnarea"]),
+    (Column::ClearanceRate, &["clearance_rate"]),
+    (Column::CharacteristicLength, &["char_length"]),
+    (Column::BulkPermeability(Part::Slave), &["perm_s"]),
+    (Column::BulkPermeability(Part::Master), &["perm_m"]),
+];
+
+impl Column {
+    /// The column that a header names, blanks around it and case aside; `None` for a name the contract does not have.
+    pub fn named(header: &str) -> Option<Self> {
+        let name = header.trim().to_ascii_lowercase();
+        let listed = NAMES.iter().find(|(_, names)| names.contains(&name.as_str()));
+        listed.map(|(column, _)| *column).or_else(|| field_variable(&name))
+    }
+
+    /// Whether its cells are texts that are passed through as they stand.
+    pub fn is_key(self) -> bool {
+        matches!(self, Self::Node | Self::Interaction | Self::Time)
+    }
+}
+
+/// `fv1`, `fv1_s`, `fv1_m`, …; numbers are written without leading zeros, so that a column has one name.
+fn field_variable(name: &str) -> Option<Column> {
+    let rest = name.strip_prefix("fv")?;
+    let (digits, part) = match (rest.strip_suffix("_s"), rest.strip_suffix("_m")) {
+        (Some(digits), _) => (digits, Part::Slave),
+        (_, Some(digits)) => (digits, Part::Master),
+        _ => (rest, Part::Both),
+    };
+    let is_number = digits.bytes().all(|digit| digit.is_ascii_digit()) && !digits.starts_with('0');
+    Some(Column::FieldVariable(digits.parse().ok().filter(|_| is_number)?, part))
+}
+
+impl fmt::Display for Column {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Self::FieldVariable(number, part) = self {
+            let suffix = match part {
+                Part::Slave => "_s",
+                Part::Master => "_m",
+                Part::Both => "",
+            };
+            return write!(formatter, "fv{number}{suffix}");
+        }
+        let listed = NAMES.iter().find(|(column, _)| column == self);
+        formatter.write_str(listed.map_or("por", |(_, names)| names[0]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_aliases_are_found_in_any_case() {
+        let found = |name| Column::named(name).map(|column| column.to_string());
+        assert_eq!(found(" COPEN ").as_deref(), Some("clearance"));
+        assert_eq!(found("CPress").as_deref(), Some("pressure"));
+        assert_eq!(found("NT11_M").as_deref(), Some("temp_m"));
+        assert_eq!(found("CNAREA").as_deref(), Some("area"));
+        assert_eq!(found("Fv12_S").as_deref(), Some("fv12_s"));
+        for unknown in ["fv", "fv0", "fv01", "fv1_x", "fv+1", "fv-1", "fv1_s_m", "por", "nt11", ""] {
+            assert_eq!(found(unknown), None, "{unknown}");
+        }
+    }
+
+    #[test]
+    fn every_column_is_found_by_each_of_its_names() {
+        for (column, names) in NAMES {
+            assert_eq!(column.to_string(), names[0]);
+            assert!(names.iter().all(|name| Column::named(name) == Some(*column)));
+        }
+    }
+}

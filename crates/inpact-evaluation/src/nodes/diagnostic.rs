@@ -1,0 +1,136 @@
+//! What is wrong with a node table: rules D001 to D009 and their findings.
+//!
+//! A finding has a row and a column where a finding of the deck has a span. Knows no colours and no terminals; the command line renders it.
+
+use inpact_validation::Severity;
+
+/// The most findings of one rule in one table; more are counted, not kept.
+const MOST_OF_ONE_RULE: usize = 20;
+
+/// A rule about node tables: its code and name are fixed.
+#[derive(Debug, PartialEq, Eq)]
+pub struct DataRule {
+    /// The code, such as `D002`.
+    pub code: &'static str,
+    /// The name, such as `malformed-cell`.
+    pub name: &'static str,
+    /// How grave a finding is unless it says otherwise.
+    pub severity: Severity,
+    /// What it is about, in one sentence.
+    pub summary: &'static str,
+}
+
+/// Declares the rules and the list of them.
+macro_rules! data_rules {
+    ($($identifier:ident = $code:literal $name:literal $severity:ident $summary:literal;)+) => {
+        $(pub(crate) static $identifier: DataRule =
+            DataRule { code: $code, name: $name, severity: Severity::$severity, summary: $summary };)+
+
+        /// The rules about node tables, in the order of their codes.
+        pub static DATA_RULES: &[&DataRule] = &[$(&$identifier),+];
+    };
+}
+
+data_rules! {
+    MISSING_COLUMN = "D001" "missing-column" Error "a column that an output needs is not there";
+    MALFORMED_CELL = "D002" "malformed-cell" Error "a cell is no number, or a row has too few or too many cells";
+    NON_FINITE = "D003" "non-finite" Warning "a cell is NaN or infinite, and so may be the results of its row";
+    UNKNOWN_INTERACTION = "D004" "unknown-interaction" Error "the deck does not define the interaction";
+    DUPLICATE_COLUMN = "D005" "duplicate-column" Error "two headers mean the same column";
+    TIME_NOT_ASCENDING = "D006" "time-not-ascending" Error "time does not rise from one row of a node to its next";
+    BEYOND_TABLE = "D007" "beyond-table" Note "rows lie outside the range of a table";
+    NEGATIVE_AREA = "D008" "negative-area" Error "an area is below zero";
+    NEGATIVE_PROPERTY = "D009" "negative-property" Error "a characteristic length or a bulk permeability is below zero";
+}
+
+/// One finding in a node table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DataDiagnostic {
+    /// The stable code, such as `D002`.
+    pub code: &'static str,
+    /// The stable name, such as `malformed-cell`.
+    pub name: &'static str,
+    /// How grave it is.
+    pub severity: Severity,
+    /// What is wrong, with the values in it; names in backticks, no full stop.
+    pub message: String,
+    /// What to do.
+    pub help: Option<String>,
+    /// The name of the table, as it was asked for.
+    pub file: String,
+    /// Where in it.
+    pub place: Place,
+}
+
+/// A place in a node table; what does not apply is `None`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The row, counted from 1 below the header.
+    pub row: Option<u64>,
+    /// The line of the file, from 1.
+    pub line: Option<u64>,
+    /// What the header calls the column.
+    pub column: Option<String>,
+}
+
+/// Collects the findings of one table: the first of each rule, and how many there are.
+#[derive(Debug)]
+pub struct Findings {
+    file: String,
+    kept: Vec<DataDiagnostic>,
+    reported: [usize; DATA_RULES.len()],
+}
+
+impl Findings {
+    /// No findings yet, of the table of that name.
+    pub fn new(file: &str) -> Self {
+        Self { file: file.to_owned(), kept: Vec::new(), reported: [0; DATA_RULES.len()] }
+    }
+
+    /// Reports a finding; an empty `help` is none.
+    pub fn report(&mut self, rule: &DataRule, place: Place, message: impl Into<String>, help: impl Into<String>) {
+        self.report_as(rule.severity, rule, place, message, help);
+    }
+
+    /// Reports a finding that is graver or less grave than its rule says.
+    pub fn report_as(
+        &mut self,
+        severity: Severity,
+        rule: &DataRule,
+        place: Place,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let count = self.count_mut(rule);
+        *count += 1;
+        if *count > MOST_OF_ONE_RULE {
+            return;
+        }
+        let help = Some(help.into()).filter(|help| !help.is_empty());
+        let (code, name) = (rule.code, rule.name);
+        let file = self.file.clone();
+        self.kept.push(DataDiagnostic { code, name, severity, message: message.into(), help, file, place });
+    }
+
+    /// Whether one of them is an error.
+    pub fn has_errors(&self) -> bool {
+        self.kept.iter().any(|found| found.severity == Severity::Error)
+    }
+
+    /// The findings in the order they were reported; the last of a rule says how many of it were left out.
+    pub fn into_list(mut self) -> Vec<DataDiagnostic> {
+        for (rule, count) in DATA_RULES.iter().zip(self.reported) {
+            let Some(hidden) = count.checked_sub(MOST_OF_ONE_RULE).filter(|hidden| *hidden > 0) else { continue };
+            if let Some(last) = self.kept.iter_mut().rfind(|found| found.code == rule.code) {
+                let more = format!("{hidden} more findings of this rule in this table are not shown");
+                last.help = Some(last.help.take().map_or_else(|| more.clone(), |help| format!("{help}; {more}")));
+            }
+        }
+        self.kept
+    }
+
+    fn count_mut(&mut self, rule: &DataRule) -> &mut usize {
+        let index = DATA_RULES.iter().position(|known| known.code == rule.code);
+        &mut self.reported[index.expect("every rule is in the list, which declares them")]
+    }
+}

@@ -1,0 +1,265 @@
+//! The plan of an evaluation: which laws, tables, columns and outputs a deck and a node table need, and what is left out and why.
+//!
+//! A [`Survey`] reads the node table once: which columns have numbers in the rows of which interaction, and between which bounds.
+//! [`make`] puts deck and survey together. A [`Plan`] is a plain value that can be printed; [`compile`](crate::compile) turns it into laws.
+//!
+//! Decisions (section 9.2, C-24, P-01, P-03, U-3, Q-1 to Q-6 of the semantics):
+//!
+//! - steady state or transient by the last procedure of the deck that solves the law's field, steady state where there is none, and as [`Choices::regime`] says above all;
+//! - an interaction has the electrical law when it has *GAP ELECTRICAL CONDUCTANCE, whatever the procedures;
+//! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
+//! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
+
+mod choices;
+mod columns;
+mod concern;
+mod electrical;
+mod governing;
+mod make;
+mod pore;
+mod print;
+mod reason;
+mod regime;
+mod source;
+mod survey;
+mod tables;
+mod wanted;
+
+pub use choices::{Choices, Derivatives};
+pub use concern::concerning;
+pub use governing::{GovernedBy, RowInteractions};
+pub use make::make;
+pub use reason::{LeftOut, Missing, Reason};
+pub use regime::{RegimeInForce, RegimeReason};
+pub use source::{Presence, Source};
+pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
+
+pub(crate) use survey::ContactPlaces;
+pub(crate) use tables::InteractionTables;
+
+use crate::law::heat::HeatGeneration;
+use crate::law::pore::Cutoffs;
+use crate::nodes::{Column, Findings, MISSING_COLUMN, Place, Selection};
+use crate::results::{Along, Output};
+use crate::table::Tail;
+use inpact_parser::model::Name;
+
+/// What an evaluation does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// How many rows the node table has.
+    pub rows: u64,
+    /// What says which interaction governs a row.
+    pub governed_by: GovernedBy,
+    /// The interactions that govern rows, in the order of the deck.
+    pub interactions: Vec<InteractionPlan>,
+    /// The interactions of the deck that govern none.
+    pub unused: Vec<Name>,
+    /// What becomes of each column of the node table, in the order of its header.
+    pub columns: Vec<ColumnPlan>,
+    /// The columns an evaluation reads.
+    pub selection: Selection,
+    /// The columns of the result besides the key columns, in their order.
+    pub outputs: Vec<Output>,
+}
+
+/// What is evaluated in the rows of one interaction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InteractionPlan {
+    /// Its name.
+    pub name: Name,
+    /// Its place in the model.
+    pub index: usize,
+    /// How many rows it governs.
+    pub rows: u64,
+    /// How many of them are closed.
+    pub closed: u64,
+    /// How many of them are open.
+    pub open: u64,
+    /// How many nodes it has, where they have histories.
+    pub histories: Option<u64>,
+    /// The columns that say what is closed.
+    pub contact: ContactColumns,
+    /// The electrical law.
+    pub electrical: Option<ElectricalPlan>,
+    /// The pore fluid law.
+    pub pore: Option<PorePlan>,
+    /// What comes out, in the order of the result's columns.
+    pub outputs: Vec<Output>,
+    /// What does not, and why.
+    pub left_out: Vec<LeftOut>,
+    /// What else there is to know.
+    pub notes: Vec<String>,
+}
+
+/// The columns that tell clearance, contact pressure and contact, those that have numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ContactColumns {
+    /// `clearance`.
+    pub clearance: Option<Column>,
+    /// `pressure`.
+    pub pressure: Option<Column>,
+    /// `closed`.
+    pub closed: Option<Column>,
+}
+
+/// What the electrical law of an interaction works with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElectricalPlan {
+    /// Steady state or transient, and why.
+    pub regime: RegimeInForce,
+    /// The tables that rows reach.
+    pub tables: Vec<TablePlan>,
+    /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
+    pub heat: Option<HeatGeneration>,
+    /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.
+    pub variables: Vec<Option<Source<Column>>>,
+    /// Where the jump of potential comes from.
+    pub jump: Option<Source<Column>>,
+    /// `area`, where the results need it and it has numbers.
+    pub area: Option<Column>,
+    /// Whether the rows of a node are a history.
+    pub history: History,
+}
+
+/// What the pore fluid law of an interaction works with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PorePlan {
+    /// Steady state or transient, and why.
+    pub regime: RegimeInForce,
+    /// The table of permeabilities; `None` for an infinite permeability.
+    pub table: Option<TablePlan>,
+    /// The cutoffs of the deck.
+    pub cutoffs: Cutoffs,
+    /// Where average temperature and field variables come from, in the order of the table's columns; `None` where it does not depend on one.
+    pub variables: Vec<Option<Source<Column>>>,
+    /// Where the characteristic element length comes from.
+    pub characteristic_length: CharacteristicLength,
+    /// Where the rate of the clearance comes from.
+    pub rate: Rate,
+    /// Whether `perm_s` and `perm_m` share the fluid of the gap between the sides.
+    pub bulk: Bulk,
+    /// `area`, where the results need it and it has numbers.
+    pub area: Option<Column>,
+    /// Whether the rows of a node are a history.
+    pub history: History,
+}
+
+/// Whether the rows of a node are increments of a history.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum History {
+    /// They are: `node` and `time` are there.
+    ByTime,
+    /// Every row stands for itself.
+    None,
+}
+
+/// Where the characteristic element length comes from (P-20, Q-5).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CharacteristicLength {
+    /// The deck gives both cutoffs, or nothing asks for it.
+    NotNeeded,
+    /// `char_length`.
+    Column,
+    /// One number for all rows.
+    Given(f64),
+    /// Nowhere: rows that are open have no result that it decides.
+    Unknown,
+}
+
+/// Where the rate of the clearance comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rate {
+    /// Steady state: the gap does not change (P-13).
+    NotNeeded,
+    /// `clearance_rate`, and the history where a cell is empty.
+    Column,
+    /// The node's history alone.
+    History,
+    /// Nowhere: the gap is taken as unchanging.
+    Unknown,
+}
+
+/// Whether bulk permeabilities share the fluid of the gap between the sides (P-42).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bulk {
+    /// They do, where a row has both.
+    Columns,
+    /// Either side takes half.
+    Halves,
+}
+
+/// A table in use.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TablePlan {
+    /// The first of its variables.
+    pub against: Along,
+    /// How many rows it has.
+    pub rows: usize,
+    /// What follows its last row.
+    pub tail: Tail,
+    /// Whether the last value of every group is zero, so that no choice of tail makes a difference.
+    pub ends_in_zero: bool,
+    /// Its variables.
+    pub axes: Vec<AxisPlan>,
+}
+
+/// A variable of a table in use.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisPlan {
+    /// Which one it is.
+    pub along: Along,
+    /// Its smallest abscissa.
+    pub least: f64,
+    /// Its largest abscissa.
+    pub greatest: f64,
+    /// How many different abscissae there are.
+    pub points: usize,
+    /// Whether the table's value depends on it; otherwise nothing of the node table is read for it.
+    pub matters: bool,
+}
+
+/// What becomes of a column of the node table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnPlan {
+    /// What the header calls it.
+    pub header: String,
+    /// What it means; `None` for a name the contract does not have.
+    pub column: Option<Column>,
+    /// What becomes of it.
+    pub role: ColumnRole,
+    /// The smallest and the largest number in it, where it was read and has finite ones.
+    pub range: Option<(f64, f64)>,
+}
+
+/// What becomes of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ColumnRole {
+    /// Its texts are those of the result.
+    Key,
+    /// The same, and its numbers or names are used as well.
+    KeyAndRead,
+    /// Its numbers are used.
+    Read,
+    /// It is passed over.
+    NotRead(Reason),
+}
+
+impl Plan {
+    /// The key columns of the result: those the node table has, in the order of the contract.
+    pub fn keys(&self) -> &[Column] {
+        &self.selection.labels
+    }
+
+    /// Reports each column that something is left out for (D001): for a plan that leaves nothing to evaluate.
+    pub fn report_missing(&self, findings: &mut Findings) {
+        for interaction in &self.interactions {
+            for LeftOut { what, reason } in &interaction.left_out {
+                let Reason::Missing(missing) = reason else { continue };
+                let message = format!("{missing}, which the {what} of `{}` needs", interaction.name);
+                let place = Place { column: missing.columns.first().map(ToString::to_string), ..Place::default() };
+                findings.report(&MISSING_COLUMN, place, message, "");
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
+
+use crate::law::pore::CutoffBoundary;
+use crate::table::Tail;
+use inpact_parser::model::{Name, Regime};
+
+/// The choices of an evaluation; the default is what deck and semantics say.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Choices {
+    /// The interaction that governs every row, instead of the one that column `interaction` names.
+    pub interaction: Option<Name>,
+    /// Steady state or transient, instead of what the deck's procedures say.
+    pub regime: Option<Regime>,
+    /// What follows the last point of a table of electrical conductance against clearance.
+    pub clearance_tail: Tail,
+    /// The characteristic element length of all rows, L (P-20, Q-5).
+    pub characteristic_length: Option<f64>,
+    /// Whether pore fluid flows at the very cutoff.
+    pub cutoff_boundary: CutoffBoundary,
+    /// Whether slopes come out as well.
+    pub derivatives: Derivatives,
+}
+
+/// Whether the slopes of conductance and permeability come out (semantics 4.4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Derivatives {
+    /// No.
+    #[default]
+    LeftOut,
+    /// Along every variable the tables depend on.
+    Given,
+}

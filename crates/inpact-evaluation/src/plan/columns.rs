@@ -1,0 +1,125 @@
+//! What becomes of each column of the node table.
+
+use super::choices::Choices;
+use super::reason::Reason;
+use super::survey::Survey;
+use super::{Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source};
+use crate::nodes::{Column, Part, Selection};
+use inpact_parser::model::Regime;
+
+impl InteractionPlan {
+    /// The columns whose numbers its rows need.
+    pub(super) fn columns_read(&self) -> Vec<Column> {
+        let mut columns = Vec::new();
+        if self.electrical.is_none() && self.pore.is_none() {
+            return columns;
+        }
+        let contact = self.contact;
+        columns.extend([contact.clearance, contact.pressure, contact.closed].into_iter().flatten());
+        let mut take = |sources: &[Option<Source<Column>>]| {
+            columns.extend(sources.iter().flatten().flat_map(Source::cells));
+        };
+        let mut is_history = false;
+        let mut area = None;
+        if let Some(law) = &self.electrical {
+            take(&law.variables);
+            take(&[law.jump]);
+            is_history |= law.history == History::ByTime;
+            area = area.or(law.area);
+        }
+        if let Some(law) = &self.pore {
+            take(&law.variables);
+            columns.extend([Part::Slave, Part::Master].map(Column::PorePressure));
+            if law.bulk == Bulk::Columns {
+                columns.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
+            }
+            if law.rate == Rate::Column {
+                columns.push(Column::ClearanceRate);
+            }
+            if law.characteristic_length == CharacteristicLength::Column {
+                columns.push(Column::CharacteristicLength);
+            }
+            is_history |= law.history == History::ByTime;
+            area = area.or(law.area);
+        }
+        columns.extend(area);
+        columns.extend(is_history.then_some(Column::Time));
+        columns
+    }
+}
+
+/// What becomes of each column, in the order of the header.
+pub(super) fn column_plans(
+    survey: &Survey,
+    choices: &Choices,
+    selection: &Selection,
+    interactions: &[InteractionPlan],
+) -> Vec<ColumnPlan> {
+    let plans = survey.header.cells.iter().map(|cell| ColumnPlan {
+        header: cell.text.clone(),
+        column: cell.column,
+        role: cell.column.map_or(ColumnRole::NotRead(Reason::UnknownColumn), |column| {
+            role(column, survey, choices, selection, interactions)
+        }),
+        range: cell.column.and_then(|column| survey.range(column)),
+    });
+    plans.collect()
+}
+
+fn role(
+    column: Column,
+    survey: &Survey,
+    choices: &Choices,
+    selection: &Selection,
+    interactions: &[InteractionPlan],
+) -> ColumnRole {
+    let has_history = interactions.iter().any(|plan| plan.histories.is_some());
+    let is_read = match column {
+        Column::Interaction => survey.governed_by == GovernedBy::Column,
+        Column::Node => has_history,
+        _ => selection.number(column).is_some(),
+    };
+    match (column.is_key(), is_read) {
+        (true, true) => ColumnRole::KeyAndRead,
+        (true, false) => ColumnRole::Key,
+        (false, true) => ColumnRole::Read,
+        (false, false) => ColumnRole::NotRead(why_not_read(column, survey, choices, interactions)),
+    }
+}
+
+fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions: &[InteractionPlan]) -> Reason {
+    let is_empty = survey.columns.contains(&column) && survey.range(column).is_none();
+    let electrical = interactions.iter().any(|plan| plan.electrical.is_some());
+    let pore = || interactions.iter().filter_map(|plan| plan.pore.as_ref());
+    match column {
+        Column::CharacteristicLength if choices.characteristic_length.is_some() => Reason::Option("--char-length"),
+        _ if is_empty && survey.rows > 0 => Reason::Empty,
+        Column::Temperature(Part::Slave | Part::Master)
+            if is_read_whole(Column::Temperature(Part::Both), interactions) =>
+        {
+            Reason::GivenBy(Column::Temperature(Part::Both))
+        }
+        Column::FieldVariable(number, Part::Slave | Part::Master)
+            if is_read_whole(Column::FieldVariable(number, Part::Both), interactions) =>
+        {
+            Reason::GivenBy(Column::FieldVariable(number, Part::Both))
+        }
+        Column::Potential(Part::Slave | Part::Master) if is_read_whole(Column::Potential(Part::Both), interactions) => {
+            Reason::GivenBy(Column::Potential(Part::Both))
+        }
+        Column::Temperature(_) | Column::FieldVariable(..) if electrical || pore().next().is_some() => {
+            Reason::NoTableDepends
+        }
+        Column::ClearanceRate | Column::BulkPermeability(_)
+            if pore().next().is_some() && pore().all(|law| law.regime.regime == Regime::SteadyState) =>
+        {
+            Reason::SteadyState
+        }
+        _ => Reason::NotNeeded,
+    }
+}
+
+/// Whether the column that stands for both sides is read.
+fn is_read_whole(column: Column, interactions: &[InteractionPlan]) -> bool {
+    interactions.iter().any(|plan| plan.columns_read().contains(&column))
+}

@@ -1,0 +1,193 @@
+//! The plan of the electrical law of one interaction.
+
+use super::make::{LeftOuts, Planner};
+use super::reason::{Missing, Reason};
+use super::regime::regime;
+use super::source::{Source, whole_or_sides};
+use super::tables::{InteractionTables, electrical_axis, matters};
+use super::wanted::columns_of;
+use super::{AxisPlan, Derivatives, ElectricalPlan, History, TablePlan};
+use crate::law::heat::HeatGeneration;
+use crate::nodes::{Column, Part};
+use crate::results::{Along, Output};
+use crate::table::PiecewiseTable;
+use inpact_parser::model::{ElectricalConductance, Procedure};
+use std::collections::BTreeSet;
+
+const KEYWORD: &str = "GAP ELECTRICAL CONDUCTANCE";
+
+/// Plans the electrical law; `None` after saying why there is none.
+pub(super) fn plan_electrical(
+    planner: Planner<'_>,
+    tables: &InteractionTables,
+    outputs: &mut BTreeSet<Output>,
+    left_out: &mut LeftOuts,
+) -> Option<ElectricalPlan> {
+    const LAW: &str = "electrical law";
+    let Some(option) = &planner.interaction.gap_electrical_conductance else {
+        let potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential);
+        if potentials.into_iter().any(|column| planner.survey.header.has(column)) {
+            left_out.push(LAW, Reason::NoKeyword(KEYWORD));
+        }
+        return None;
+    };
+    if option.user.is_some() {
+        left_out.push(LAW, Reason::NeedsUserSubroutine("GAPELECTR"));
+        return None;
+    }
+    if let Some(error) = tables.electrical_error() {
+        left_out.push(LAW, Reason::BrokenTable(error));
+        return None;
+    }
+    let all: Vec<(Along, &PiecewiseTable)> = tables.electrical().collect();
+    if all.is_empty() {
+        left_out.push(LAW, Reason::NoRows(KEYWORD));
+        return None;
+    }
+    let mut used = Vec::new();
+    for (against, table) in &all {
+        // The clearance table holds for closed rows too when it is the only one (section 4.2).
+        let unreached = match against {
+            Along::Pressure if planner.never(planner.of.closed) => Some(Reason::NoRowClosed),
+            Along::Clearance if all.len() == 2 && planner.never(planner.of.open) => Some(Reason::NoRowOpen),
+            _ => None,
+        };
+        match unreached {
+            Some(reason) => left_out.push(format!("table against {against}"), reason),
+            None => used.push((*against, *table)),
+        }
+    }
+    let variables = match sources(planner, &used) {
+        Ok(variables) => variables,
+        Err(missing) => {
+            left_out.push(LAW, Reason::Missing(missing));
+            return None;
+        }
+    };
+    let heat = heat(planner, left_out);
+    let mut plan = ElectricalPlan {
+        regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
+        tables: used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect(),
+        heat,
+        variables,
+        jump: None,
+        area: None,
+        history: History::None,
+    };
+    outputs.insert(Output::Conductance);
+    if planner.choices.derivatives == Derivatives::Given {
+        let along = plan.tables.iter().flat_map(|table| &table.axes).filter(|axis| axis.matters);
+        outputs.extend(along.map(|axis| Output::ConductanceSlope(axis.along)));
+    }
+    plan_flows(planner, &mut plan, outputs, left_out);
+    Some(plan)
+}
+
+/// Where the variables of the tables in use come from, or what is missing.
+fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Vec<Option<Source<Column>>>, Missing> {
+    let presence = |column| planner.presence(column);
+    let contact = planner.contact();
+    if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
+        return Err(super::source::cell(Column::Clearance, presence).expect_err("it has no numbers"));
+    }
+    for (against, table) in used {
+        let column = if *against == Along::Clearance { Column::Clearance } else { Column::Pressure };
+        if matters(table, 0) {
+            super::source::cell(column, presence)?;
+        }
+    }
+    let count = used.iter().map(|(_, table)| table.axis_count()).max().unwrap_or(1);
+    let sources = (1..count).map(|axis| {
+        let is_needed = used.iter().any(|(_, table)| matters(table, axis));
+        let columns = columns_of(electrical_axis(Along::Clearance, axis)).filter(|_| is_needed);
+        columns.map(|columns| whole_or_sides(columns, presence)).transpose()
+    });
+    sources.collect()
+}
+
+/// What becomes of the heat; `None` where it is switched off (K-05).
+fn heat(planner: Planner<'_>, left_out: &mut LeftOuts) -> Option<HeatGeneration> {
+    if planner.interaction.has_parameter("USER") {
+        left_out.push("heat generation", Reason::HeatSwitchedOff);
+        return None;
+    }
+    let given = planner.interaction.gap_heat_generation;
+    Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
+        fraction: given.fraction,
+        slave_weight: given.slave_weight,
+    }))
+}
+
+/// Plans current and heat, their integrals and their products with the area.
+fn plan_flows(
+    planner: Planner<'_>,
+    plan: &mut ElectricalPlan,
+    outputs: &mut BTreeSet<Output>,
+    left_out: &mut LeftOuts,
+) {
+    use Output::{Ecd, Ecda, Ecdt, Ecdta, HeatMaster, HeatSlave, Sjd, Sjda, Sjdt, Sjdta, Weight};
+    let heat = plan.heat.is_some();
+    let wanted = |of: &[Output]| -> Vec<Output> {
+        of.iter().copied().filter(|output| heat || matches!(output, Ecd | Ecda | Ecdt | Ecdta)).collect()
+    };
+    outputs.extend(wanted(&[Weight]));
+    let potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential);
+    match whole_or_sides(potentials, |column| planner.presence(column)) {
+        Ok(source) => plan.jump = Some(source),
+        Err(missing) => {
+            let all = [Ecd, Ecda, Ecdt, Ecdta, Sjd, Sjda, Sjdt, Sjdta, HeatSlave, HeatMaster];
+            left_out.push_outputs(&wanted(&all), Reason::Missing(missing));
+            return;
+        }
+    }
+    outputs.extend(wanted(&[Ecd, Sjd, HeatSlave, HeatMaster]));
+    let area = planner.area();
+    match &area {
+        Ok(column) => {
+            plan.area = Some(*column);
+            outputs.extend(wanted(&[Ecda, Sjda]));
+        }
+        Err(missing) => {
+            left_out.push_outputs(&wanted(&[Ecda, Ecdta, Sjda, Sjdta]), Reason::Missing(missing.clone()));
+        }
+    }
+    match planner.history() {
+        Ok(()) => {
+            plan.history = History::ByTime;
+            outputs.extend(wanted(&[Ecdt, Sjdt]));
+            if area.is_ok() {
+                outputs.extend(wanted(&[Ecdta, Sjdta]));
+            }
+        }
+        Err(missing) => {
+            let without_area = [Ecdt, Sjdt];
+            let with_area = [Ecdt, Ecdta, Sjdt, Sjdta];
+            let lost: &[Output] = if area.is_ok() { &with_area } else { &without_area };
+            left_out.push_outputs(&wanted(lost), Reason::Missing(missing));
+        }
+    }
+}
+
+fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: &PiecewiseTable) -> TablePlan {
+    let rows = if against == Along::Clearance { &option.clearance } else { &option.pressure };
+    let ends_in_zero = rows.as_ref().is_some_and(|rows| rows.groups().all(|group| rows.row(group.end - 1)[0] == 0.0));
+    TablePlan { ends_in_zero, ..table_plan(table, |axis| electrical_axis(against, axis)) }
+}
+
+/// A table as the plan shows it.
+pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along) -> TablePlan {
+    let axes = table.axes().iter().enumerate().map(|(axis, summary)| AxisPlan {
+        along: along(axis),
+        least: summary.least,
+        greatest: summary.greatest,
+        points: summary.distinct_count,
+        matters: summary.matters(),
+    });
+    TablePlan {
+        against: along(0),
+        rows: table.row_count(),
+        tail: table.tail(),
+        ends_in_zero: false,
+        axes: axes.collect(),
+    }
+}

@@ -1,0 +1,115 @@
+//! Which interaction governs a row.
+
+use crate::nodes::{Batch, Column, Findings, Header, MISSING_COLUMN, Place, UNKNOWN_INTERACTION};
+use inpact_parser::model::{Model, Name};
+use std::collections::HashMap;
+
+/// What says which interaction governs a row; numbers are places in the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GovernedBy {
+    /// The user: one interaction for all rows.
+    Chosen(usize),
+    /// The deck, which has one only.
+    TheOnlyOne(usize),
+    /// Column `interaction`.
+    Column,
+}
+
+impl GovernedBy {
+    /// Decides by the user's choice, the header and the deck; `None` after reporting that none of them does (D001, D004).
+    pub(super) fn decide(
+        model: &Model,
+        header: &Header,
+        chosen: Option<&Name>,
+        findings: &mut Findings,
+    ) -> Option<Self> {
+        if let Some(name) = chosen {
+            let found = model.interactions.get_index_of(name);
+            if found.is_none() {
+                let message = format!("the deck does not define the chosen interaction `{name}`");
+                findings.report(&UNKNOWN_INTERACTION, Place::default(), message, names_help(model));
+            }
+            return found.map(Self::Chosen);
+        }
+        if header.has(Column::Interaction) {
+            return Some(Self::Column);
+        }
+        if model.interactions.len() > 1 {
+            let count = model.interactions.len();
+            let message = format!("column `interaction` is missing, and the deck has {count} interactions");
+            let help = format!("add the column or choose an interaction for all rows; {}", names_help(model));
+            findings.report(&MISSING_COLUMN, Place::default(), message, help);
+            return None;
+        }
+        (!model.interactions.is_empty()).then_some(Self::TheOnlyOne(0))
+    }
+}
+
+/// Finds the interaction of each row.
+#[derive(Debug)]
+pub struct RowInteractions<'a> {
+    model: &'a Model,
+    governed_by: GovernedBy,
+    /// The place of column `interaction` among the labels.
+    label: Option<usize>,
+    /// The spellings met so far; a table has few, however many rows.
+    known: HashMap<Box<[u8]>, usize>,
+    last: Option<(Vec<u8>, usize)>,
+}
+
+impl<'a> RowInteractions<'a> {
+    /// Interactions of `model` for batches whose column number `label` of labels is `interaction`.
+    pub fn new(model: &'a Model, governed_by: GovernedBy, label: Option<usize>) -> Self {
+        Self { model, governed_by, label, known: HashMap::new(), last: None }
+    }
+
+    /// The place in the model of the interaction that governs a row; `None` where the row names none the deck has.
+    #[inline]
+    pub fn of_row(&mut self, batch: &Batch, row: usize) -> Option<usize> {
+        let label = match self.governed_by {
+            GovernedBy::Chosen(index) | GovernedBy::TheOnlyOne(index) => return Some(index),
+            GovernedBy::Column => batch.labels[self.label?].get(row),
+        };
+        match &self.last {
+            Some((text, index)) if text == label => Some(*index),
+            _ => self.look_up(label),
+        }
+    }
+
+    /// What a row has in column `interaction`; empty where there is none.
+    pub(super) fn label_of<'b>(&self, batch: &'b Batch, row: usize) -> &'b [u8] {
+        self.label.map_or(&[], |label| batch.labels[label].get(row))
+    }
+
+    fn look_up(&mut self, label: &[u8]) -> Option<usize> {
+        let known = self.known.get(label).copied();
+        let index = known.or_else(|| self.index_of_new(label))?;
+        if known.is_none() {
+            self.known.insert(label.into(), index);
+        }
+        self.last = Some((label.to_vec(), index));
+        Some(index)
+    }
+
+    fn index_of_new(&self, label: &[u8]) -> Option<usize> {
+        let is_blank = label.trim_ascii().is_empty();
+        if is_blank {
+            // Nothing to choose between.
+            return (self.model.interactions.len() == 1).then_some(0);
+        }
+        self.model.interactions.get_index_of(&Name::new(std::str::from_utf8(label).ok()?))
+    }
+}
+
+/// The names that could be meant.
+pub(super) fn names_help(model: &Model) -> String {
+    const MOST: usize = 8;
+    let mut names: Vec<String> = model.interactions.keys().take(MOST).map(|name| format!("`{name}`")).collect();
+    if model.interactions.len() > MOST {
+        names.push("…".to_owned());
+    }
+    match names.len() {
+        0 => "it has no *SURFACE INTERACTION".to_owned(),
+        _ => format!("its interactions are {}", names.join(", ")),
+    }
+}

@@ -1,0 +1,171 @@
+//! From a deck's model, a survey of a node table and the user's choices to the plan.
+
+use super::choices::Choices;
+use super::columns::column_plans;
+use super::electrical::plan_electrical;
+use super::governing::GovernedBy;
+use super::pore::plan_pore;
+use super::reason::{LeftOut, Missing, Reason};
+use super::source::{Presence, cell};
+use super::survey::{InteractionSurvey, Survey};
+use super::tables::InteractionTables;
+use super::{ContactColumns, History, InteractionPlan, Plan};
+use crate::nodes::{Column, Selection};
+use crate::results::Output;
+use inpact_parser::model::{Interaction, Model};
+use std::collections::BTreeSet;
+
+/// Decides what an evaluation does.
+pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
+    let mut interactions = Vec::new();
+    let mut unused = Vec::new();
+    for (index, interaction) in model.interactions.values().enumerate() {
+        let of = &survey.interactions[index];
+        // Of a table without rows nothing can be told but its columns.
+        let is_candidate = match survey.governed_by {
+            GovernedBy::Chosen(chosen) | GovernedBy::TheOnlyOne(chosen) => chosen == index,
+            GovernedBy::Column => survey.rows == 0,
+        };
+        if of.rows > 0 || is_candidate {
+            interactions.push(Planner { model, interaction, index, of, survey, choices }.plan());
+        } else {
+            unused.push(interaction.name.clone());
+        }
+    }
+    let outputs: BTreeSet<Output> = interactions.iter().flat_map(|plan| plan.outputs.iter().copied()).collect();
+    let selection = selection(survey, &interactions);
+    Plan {
+        rows: survey.rows,
+        governed_by: survey.governed_by,
+        columns: column_plans(survey, choices, &selection, &interactions),
+        interactions,
+        unused,
+        selection,
+        outputs: outputs.into_iter().collect(),
+    }
+}
+
+/// What the plan of one interaction is made from.
+#[derive(Clone, Copy)]
+pub(super) struct Planner<'a> {
+    pub(super) model: &'a Model,
+    pub(super) interaction: &'a Interaction,
+    pub(super) index: usize,
+    pub(super) of: &'a InteractionSurvey,
+    pub(super) survey: &'a Survey,
+    pub(super) choices: &'a Choices,
+}
+
+/// What is left out, by reason, while a law is planned.
+#[derive(Debug, Default)]
+pub(super) struct LeftOuts(pub(super) Vec<LeftOut>);
+
+impl LeftOuts {
+    /// Leaves something out that has words of its own.
+    pub(super) fn push(&mut self, what: impl Into<String>, reason: Reason) {
+        self.0.push(LeftOut { what: what.into(), reason });
+    }
+
+    /// Leaves outputs out; those left out for one reason stand together.
+    pub(super) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
+        let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
+        self.push(names.join(", "), reason);
+    }
+}
+
+impl Planner<'_> {
+    fn plan(self) -> InteractionPlan {
+        let tables = InteractionTables::of(self.interaction, self.choices.clearance_tail);
+        let mut left_out = LeftOuts::default();
+        let mut notes = Vec::new();
+        let mut outputs = BTreeSet::new();
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
+        if !outputs.is_empty() {
+            outputs.insert(Output::Status);
+        }
+        for option in &self.interaction.other {
+            if matches!(
+                option.keyword.as_str(),
+                "GAP CONDUCTANCE" | "GAP RADIATION" | "GAP DIFFUSIVITY" | "GAP CONVECTION"
+            ) {
+                let what = format!("*{}", option.keyword);
+                if !left_out.0.iter().any(|left_out| left_out.what == what) {
+                    left_out.push(what, Reason::NotEvaluated);
+                }
+            }
+        }
+        let untold = self.of.rows - self.of.closed - self.of.open;
+        if untold > 0 && (electrical.is_some() || pore.is_some()) {
+            let rows = if untold == 1 { "1 row".to_owned() } else { format!("{untold} rows") };
+            notes.push(format!(
+                "{rows} from which contact cannot be told: `closed` empty, and `clearance` too or one of them NaN"
+            ));
+        }
+        let uses_history = |history: Option<History>| history == Some(History::ByTime);
+        let has_history = uses_history(electrical.as_ref().map(|law| law.history))
+            || uses_history(pore.as_ref().map(|law| law.history));
+        InteractionPlan {
+            name: self.interaction.name.clone(),
+            index: self.index,
+            rows: self.of.rows,
+            closed: self.of.closed,
+            open: self.of.open,
+            histories: self.of.histories.filter(|_| has_history),
+            contact: self.contact(),
+            electrical,
+            pore,
+            outputs: outputs.into_iter().collect(),
+            left_out: left_out.0,
+            notes,
+        }
+    }
+
+    pub(super) fn presence(self, column: Column) -> Presence {
+        self.survey.presence(self.index, column)
+    }
+
+    /// The columns that tell contact, as far as they have numbers.
+    pub(super) fn contact(self) -> ContactColumns {
+        let found = |column| Some(column).filter(|column| self.presence(*column).has_numbers());
+        ContactColumns {
+            clearance: found(Column::Clearance),
+            pressure: found(Column::Pressure),
+            closed: found(Column::Closed),
+        }
+    }
+
+    /// `area`.
+    pub(super) fn area(self) -> Result<Column, Missing> {
+        cell(Column::Area, |column| self.presence(column))
+    }
+
+    /// Whether the rows of a node are a history: `node` and `time` are there.
+    pub(super) fn history(self) -> Result<(), Missing> {
+        let header = &self.survey.header;
+        let columns: Vec<Column> =
+            [Column::Node, Column::Time].into_iter().filter(|column| !header.has(*column)).collect();
+        if !columns.is_empty() {
+            return Err(Missing::absent(columns));
+        }
+        cell(Column::Time, |column| self.presence(column)).map(drop)
+    }
+
+    /// Whether no row is closed, or none open; unknown for a table without rows.
+    pub(super) fn never(self, count: u64) -> bool {
+        self.survey.rows > 0 && count == 0 && self.of.closed + self.of.open == self.of.rows
+    }
+}
+
+/// The columns an evaluation reads: the texts of the result's key columns, the numbers that some law needs.
+fn selection(survey: &Survey, interactions: &[InteractionPlan]) -> Selection {
+    let keys = [Column::Node, Column::Interaction, Column::Time];
+    let mut wanted: BTreeSet<Column> = BTreeSet::new();
+    for plan in interactions {
+        wanted.extend(plan.columns_read());
+    }
+    Selection {
+        labels: keys.into_iter().filter(|column| survey.header.has(*column)).collect(),
+        numbers: survey.columns.iter().copied().filter(|column| wanted.contains(column)).collect(),
+    }
+}

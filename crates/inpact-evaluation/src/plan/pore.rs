@@ -1,0 +1,182 @@
+//! The plan of the pore fluid law of one interaction.
+
+use super::electrical::table_plan;
+use super::make::{LeftOuts, Planner};
+use super::reason::{Missing, Reason};
+use super::regime::regime;
+use super::source::{Source, cell, whole_or_sides};
+use super::tables::{InteractionTables, matters, pore_axis};
+use super::wanted::columns_of;
+use super::{Bulk, CharacteristicLength, Derivatives, History, PorePlan, Rate};
+use crate::law::pore::Cutoffs;
+use crate::nodes::{Column, Part};
+use crate::results::Output;
+use crate::table::PiecewiseTable;
+use inpact_parser::model::{Procedure, Regime};
+use std::collections::BTreeSet;
+
+/// Plans the pore fluid law; `None` after saying why there is none.
+pub(super) fn plan_pore(
+    planner: Planner<'_>,
+    tables: &InteractionTables,
+    outputs: &mut BTreeSet<Output>,
+    left_out: &mut LeftOuts,
+    notes: &mut Vec<String>,
+) -> Option<PorePlan> {
+    const LAW: &str = "pore fluid law";
+    let option = planner.interaction.contact_permeability.as_ref();
+    let sides = [Part::Slave, Part::Master].map(Column::PorePressure);
+    if option.is_none() && !planner.model.procedures.iter().any(Procedure::solves_pore_pressure) {
+        if sides.into_iter().any(|column| planner.survey.header.has(column)) {
+            left_out.push(LAW, Reason::NoPoreAnalysis);
+        }
+        return None;
+    }
+    let lacking: Vec<Column> = sides.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
+    match lacking[..] {
+        [] => {}
+        [missing] => {
+            left_out.push(LAW, Reason::OneSided { missing });
+            return None;
+        }
+        _ => {
+            let is_there = lacking.iter().all(|column| planner.survey.header.has(*column));
+            let missing = if is_there { Missing::empty(lacking) } else { Missing::absent(lacking) };
+            left_out.push(LAW, Reason::Missing(missing));
+            return None;
+        }
+    }
+    if let Some(error) = tables.permeability_error() {
+        left_out.push(LAW, Reason::BrokenTable(error));
+        return None;
+    }
+    let table = tables.permeability();
+    let variables = match sources(planner, table) {
+        Ok(variables) => variables,
+        Err(missing) => {
+            left_out.push(LAW, Reason::Missing(missing));
+            return None;
+        }
+    };
+    let cutoffs = option.map_or_else(Cutoffs::default, |option| Cutoffs {
+        flow_across: option.cutoff_flow_across,
+        gap_fill: option.cutoff_gap_fill,
+    });
+    let regime = regime(planner.model, planner.choices.regime, Procedure::solves_pore_pressure);
+    let history = planner.history();
+    let has_history = history.is_ok();
+    let is_transient = regime.regime == Regime::Transient;
+    let mut plan = PorePlan {
+        table: table.map(|table| table_plan(table, pore_axis)),
+        cutoffs,
+        variables,
+        characteristic_length: characteristic_length(planner, cutoffs, is_transient),
+        rate: if is_transient { rate(planner, has_history) } else { Rate::NotNeeded },
+        bulk: bulk(planner, table.is_some() && is_transient),
+        area: None,
+        history: if has_history { History::ByTime } else { History::None },
+        regime,
+    };
+    plan_flows(planner, &mut plan, history.err(), outputs, left_out);
+    add_notes(planner, &plan, notes);
+    Some(plan)
+}
+
+/// Where the variables of the table come from, or what is missing.
+fn sources(planner: Planner<'_>, table: Option<&PiecewiseTable>) -> Result<Vec<Option<Source<Column>>>, Missing> {
+    let presence = |column| planner.presence(column);
+    cell(Column::Clearance, presence)?;
+    let Some(table) = table else { return Ok(Vec::new()) };
+    if matters(table, 0) {
+        cell(Column::Pressure, presence)?;
+    }
+    let sources = (2..table.axis_count()).map(|axis| {
+        let columns = columns_of(pore_axis(axis)).filter(|_| matters(table, axis));
+        columns.map(|columns| whole_or_sides(columns, presence)).transpose()
+    });
+    sources.collect()
+}
+
+fn characteristic_length(planner: Planner<'_>, cutoffs: Cutoffs, is_transient: bool) -> CharacteristicLength {
+    let is_needed = cutoffs.flow_across.is_none() || (cutoffs.gap_fill.is_none() && is_transient);
+    match planner.choices.characteristic_length {
+        _ if !is_needed => CharacteristicLength::NotNeeded,
+        Some(length) => CharacteristicLength::Given(length),
+        None if planner.presence(Column::CharacteristicLength).has_numbers() => CharacteristicLength::Column,
+        None => CharacteristicLength::Unknown,
+    }
+}
+
+fn rate(planner: Planner<'_>, has_history: bool) -> Rate {
+    if planner.presence(Column::ClearanceRate).has_numbers() {
+        Rate::Column
+    } else if has_history {
+        Rate::History
+    } else {
+        Rate::Unknown
+    }
+}
+
+fn bulk(planner: Planner<'_>, is_of_use: bool) -> Bulk {
+    let mut sides = [Part::Slave, Part::Master].map(Column::BulkPermeability).into_iter();
+    if is_of_use && sides.all(|side| planner.presence(side).has_numbers()) { Bulk::Columns } else { Bulk::Halves }
+}
+
+/// Plans the flows, their integrals and their products with the area.
+fn plan_flows(
+    planner: Planner<'_>,
+    plan: &mut PorePlan,
+    no_history: Option<Missing>,
+    outputs: &mut BTreeSet<Output>,
+    left_out: &mut LeftOuts,
+) {
+    use Output::{Permeability, Pfl, Pfla, Ptl, Ptla, QAcross, QGapMaster, QGapSlave, QMaster, QSlave};
+    outputs.extend([Pfl, QAcross, QGapSlave, QGapMaster, QSlave, QMaster]);
+    match &plan.table {
+        Some(table) => {
+            outputs.insert(Permeability);
+            if planner.choices.derivatives == Derivatives::Given {
+                let along = table.axes.iter().filter(|axis| axis.matters);
+                outputs.extend(along.map(|axis| Output::PermeabilitySlope(axis.along)));
+            }
+        }
+        None => left_out.push_outputs(&[Permeability], Reason::InfinitePermeability),
+    }
+    let area = planner.area();
+    match &area {
+        Ok(column) => {
+            plan.area = Some(*column);
+            outputs.insert(Pfla);
+        }
+        Err(missing) => left_out.push_outputs(&[Pfla, Ptla], Reason::Missing(missing.clone())),
+    }
+    match no_history {
+        None => {
+            outputs.insert(Ptl);
+            if area.is_ok() {
+                outputs.insert(Ptla);
+            }
+        }
+        Some(missing) => {
+            let lost: &[Output] = if area.is_ok() { &[Ptl, Ptla] } else { &[Ptl] };
+            left_out.push_outputs(lost, Reason::Missing(missing));
+        }
+    }
+}
+
+fn add_notes(planner: Planner<'_>, plan: &PorePlan, notes: &mut Vec<String>) {
+    if plan.characteristic_length == CharacteristicLength::Unknown && planner.of.above_zero > 0 {
+        let rows = planner.of.above_zero;
+        let rows = if rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
+        notes.push(format!(
+            "{rows} with a clearance above zero may lack results: a cutoff is left to the characteristic element \
+             length; give `char_length` or `--char-length`"
+        ));
+    }
+    if plan.rate == Rate::Unknown {
+        notes.push(
+            "the gap is taken as unchanging: there is no `clearance_rate`, and without `node` and `time` no history"
+                .to_owned(),
+        );
+    }
+}

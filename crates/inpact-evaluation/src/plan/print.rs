@@ -1,0 +1,154 @@
+//! The plan as text for a person.
+
+use super::{
+    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan,
+    PorePlan, Rate, TablePlan,
+};
+use crate::results::push_number;
+use crate::table::Tail;
+use std::fmt::{self, Formatter};
+
+impl fmt::Display for Plan {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let governed_by = match self.governed_by {
+            GovernedBy::Chosen(_) => "the interaction chosen governs every row",
+            GovernedBy::TheOnlyOne(_) => "the only interaction of the deck governs every row",
+            GovernedBy::Column => "column `interaction` says which interaction governs a row",
+        };
+        writeln!(formatter, "{}; {governed_by}", count(self.rows, "row"))?;
+        for interaction in &self.interactions {
+            writeln!(formatter)?;
+            write_interaction(interaction, formatter)?;
+        }
+        if !self.unused.is_empty() {
+            let names: Vec<&str> = self.unused.iter().map(inpact_parser::model::Name::written).collect();
+            writeln!(formatter, "\nnot used, no row names them: {}", names.join(", "))?;
+        }
+        writeln!(formatter, "\ncolumns of the node table")?;
+        let width = self.columns.iter().map(|column| column.header.chars().count()).max().unwrap_or(0);
+        for column in &self.columns {
+            write_column(column, width, formatter)?;
+        }
+        let keys = self.keys().iter().map(ToString::to_string);
+        let outputs: Vec<String> = keys.chain(self.outputs.iter().map(ToString::to_string)).collect();
+        writeln!(formatter, "\ncolumns of the result\n  {}", outputs.join(" "))
+    }
+}
+
+fn write_interaction(plan: &InteractionPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    write!(formatter, "{}: {}, {} closed, {} open", plan.name, count(plan.rows, "row"), plan.closed, plan.open)?;
+    if let Some(histories) = plan.histories {
+        write!(formatter, "; {} with a history", count(histories, "node"))?;
+    }
+    writeln!(formatter)?;
+    if let Some(law) = &plan.electrical {
+        write_electrical(law, formatter)?;
+    }
+    if let Some(law) = &plan.pore {
+        write_pore(law, formatter)?;
+    }
+    if !plan.outputs.is_empty() {
+        let outputs: Vec<String> = plan.outputs.iter().map(ToString::to_string).collect();
+        writeln!(formatter, "  gives {}", outputs.join(" "))?;
+    }
+    for left_out in &plan.left_out {
+        writeln!(formatter, "  without {}: {}", left_out.what, left_out.reason)?;
+    }
+    for note in &plan.notes {
+        writeln!(formatter, "  note: {note}")?;
+    }
+    Ok(())
+}
+
+fn write_electrical(law: &ElectricalPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(formatter, "  electrical law, {}", law.regime)?;
+    for table in &law.tables {
+        write_table("conductance", table, formatter)?;
+    }
+    if let Some(heat) = law.heat {
+        let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
+        writeln!(formatter, "    heat: fraction {fraction}, slave weight {weight}")?;
+    }
+    Ok(())
+}
+
+fn write_pore(law: &PorePlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(formatter, "  pore fluid law, {}", law.regime)?;
+    match &law.table {
+        Some(table) => write_table("permeability", table, formatter)?,
+        None => writeln!(formatter, "    infinite permeability: equal pore pressures within the cutoff")?,
+    }
+    let length = match law.characteristic_length {
+        CharacteristicLength::Given(length) => number(length),
+        CharacteristicLength::Column => "`char_length`".to_owned(),
+        CharacteristicLength::Unknown => "the characteristic element length, which is not known".to_owned(),
+        CharacteristicLength::NotNeeded => "the characteristic element length, which is not needed".to_owned(),
+    };
+    let cutoff = |cutoff: Option<f64>| cutoff.map_or_else(|| length.clone(), number);
+    writeln!(formatter, "    cutoff of flow across: {}", cutoff(law.cutoffs.flow_across))?;
+    if law.rate == Rate::NotNeeded {
+        return writeln!(formatter, "    no gap filling in steady state");
+    }
+    writeln!(formatter, "    cutoff of gap filling: {}", cutoff(law.cutoffs.gap_fill))?;
+    let rate = match law.rate {
+        Rate::Column => "`clearance_rate`",
+        Rate::History => "each node's history",
+        Rate::Unknown | Rate::NotNeeded => "nothing: taken as zero",
+    };
+    let shares = match law.bulk {
+        Bulk::Columns => "shared as `perm_s` to `perm_m`",
+        Bulk::Halves => "half to either side",
+    };
+    writeln!(formatter, "    gap filling: rate of the clearance from {rate}; {shares}")
+}
+
+fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    let tail = match table.tail {
+        Tail::Constant => "",
+        Tail::Zero => ", zero beyond the last",
+    };
+    writeln!(formatter, "    {what} against {}: {}{tail}", table.against, count(table.rows as u64, "row"))?;
+    for axis in &table.axes {
+        let AxisPlan { along, least, greatest, points, matters } = *axis;
+        let along = along.to_string();
+        let range = if least == greatest {
+            format!("{} alone", number(least))
+        } else {
+            format!("{} to {}, {points} values", number(least), number(greatest))
+        };
+        let unused = if matters { "" } else { ": left out, each group has one value" };
+        writeln!(formatter, "      {along:<10} {range}{unused}")?;
+    }
+    Ok(())
+}
+
+fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>) -> fmt::Result {
+    let header = &column.header;
+    let alias = match &column.column {
+        Some(meaning) if !meaning.to_string().eq_ignore_ascii_case(header) => format!(" as `{meaning}`"),
+        _ => String::new(),
+    };
+    let range = match column.range {
+        Some((least, greatest)) if least == greatest => format!(", {} throughout", number(least)),
+        Some((least, greatest)) => format!(", {} to {}", number(least), number(greatest)),
+        None => String::new(),
+    };
+    match &column.role {
+        ColumnRole::Key => writeln!(formatter, "  {header:<width$}  passed through{alias}"),
+        ColumnRole::KeyAndRead => writeln!(formatter, "  {header:<width$}  passed through and read{alias}{range}"),
+        ColumnRole::Read => writeln!(formatter, "  {header:<width$}  read{alias}{range}"),
+        ColumnRole::NotRead(reason) => writeln!(formatter, "  {header:<width$}  left out{alias}: {reason}"),
+    }
+}
+
+/// `1 row`, `2 rows`.
+fn count(number: u64, word: &str) -> String {
+    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
+}
+
+/// A number in its shortest form.
+fn number(value: f64) -> String {
+    let mut text = Vec::new();
+    push_number(&mut text, value);
+    String::from_utf8_lossy(&text).into_owned()
+}

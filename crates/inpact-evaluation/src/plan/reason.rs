@@ -1,0 +1,142 @@
+//! Why something is left out of an evaluation.
+
+use crate::nodes::Column;
+use crate::table::TableError;
+use std::fmt;
+
+/// Something an evaluation leaves out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeftOut {
+    /// What, in words: a law, a table, outputs.
+    pub what: String,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// Why something is left out.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reason {
+    /// Columns of the node table are missing or empty.
+    Missing(Missing),
+    /// The law is that of a user subroutine (U-3).
+    NeedsUserSubroutine(&'static str),
+    /// The deck has no such keyword in the interaction.
+    NoKeyword(&'static str),
+    /// The keyword has no rows (K-11).
+    NoRows(&'static str),
+    /// The rows of a table do not form one.
+    BrokenTable(TableError),
+    /// Pore pressure on one side only: the interface is impermeable (P-01).
+    OneSided {
+        /// The side that has none.
+        missing: Column,
+    },
+    /// No *CONTACT PERMEABILITY, and no procedure of the deck solves pore pressure (P-03).
+    NoPoreAnalysis,
+    /// No row is closed.
+    NoRowClosed,
+    /// No row is open.
+    NoRowOpen,
+    /// An infinite permeability is no number (P-30).
+    InfinitePermeability,
+    /// USER of *SURFACE INTERACTION switches heat generation off (K-05).
+    HeatSwitchedOff,
+    /// The program has no such law.
+    NotEvaluated,
+    /// The contract has no column of that name.
+    UnknownColumn,
+    /// An option of the command line has the say.
+    Option(&'static str),
+    /// A column of both sides together has the number in every row.
+    GivenBy(Column),
+    /// No table in use depends on it: every table has one value of it.
+    NoTableDepends,
+    /// Nothing that is evaluated needs it.
+    NotNeeded,
+    /// Steady state has no use for it (C-24).
+    SteadyState,
+    /// It has no number in any row that could use it.
+    Empty,
+}
+
+/// Columns of the node table that have no numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Missing {
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// A column that would do instead of all of them.
+    pub or: Option<Column>,
+    /// Whether they are there, but empty in the rows of the interaction.
+    pub how: Lack,
+}
+
+/// In what way a column has no numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lack {
+    /// It is not there.
+    Absent,
+    /// It is empty in all rows of the interaction.
+    Empty,
+}
+
+impl Missing {
+    pub(super) fn absent(columns: Vec<Column>) -> Self {
+        Self { columns, or: None, how: Lack::Absent }
+    }
+
+    pub(super) fn empty(columns: Vec<Column>) -> Self {
+        Self { columns, or: None, how: Lack::Empty }
+    }
+
+    pub(super) fn or(self, column: Column) -> Self {
+        Self { or: Some(column), ..self }
+    }
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let columns: Vec<String> = self.columns.iter().map(|column| format!("`{column}`")).collect();
+        let are = if columns.len() == 1 { "is" } else { "are" };
+        write!(formatter, "{}", columns.join(" and "))?;
+        if let Some(or) = self.or {
+            write!(formatter, " (or `{or}`)")?;
+        }
+        match self.how {
+            Lack::Absent => write!(formatter, " {are} missing"),
+            Lack::Empty => write!(formatter, " {are} empty in all its rows"),
+        }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing(missing) => missing.fmt(formatter),
+            Self::NeedsUserSubroutine(name) => write!(formatter, "needs user subroutine {name}"),
+            Self::NoKeyword(keyword) => write!(formatter, "the interaction has no *{keyword}"),
+            Self::NoRows(keyword) => write!(formatter, "*{keyword} has no rows"),
+            Self::BrokenTable(error) => write!(formatter, "its rows form no table: {error}"),
+            Self::OneSided { missing } => {
+                write!(
+                    formatter,
+                    "`{missing}` is missing: pore pressure on one side only, the interface is impermeable"
+                )
+            }
+            Self::NoPoreAnalysis => formatter.write_str(
+                "the interaction has no *CONTACT PERMEABILITY, and no procedure of the deck solves pore pressure",
+            ),
+            Self::NoRowClosed => formatter.write_str("no row is closed"),
+            Self::NoRowOpen => formatter.write_str("no row is open"),
+            Self::InfinitePermeability => formatter.write_str("the permeability is infinite, which is no number"),
+            Self::HeatSwitchedOff => formatter.write_str("USER of *SURFACE INTERACTION switches heat generation off"),
+            Self::NotEvaluated => formatter.write_str("no law of this program"),
+            Self::UnknownColumn => formatter.write_str("a node table has no column of that name"),
+            Self::Option(option) => write!(formatter, "`{option}` has the say"),
+            Self::GivenBy(column) => write!(formatter, "`{column}` is given in every row"),
+            Self::NoTableDepends => formatter.write_str("no table in use depends on it"),
+            Self::NotNeeded => formatter.write_str("nothing that is evaluated needs it"),
+            Self::SteadyState => formatter.write_str("steady state does not need it"),
+            Self::Empty => formatter.write_str("it has no number in the rows that could use it"),
+        }
+    }
+}

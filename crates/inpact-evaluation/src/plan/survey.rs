@@ -1,0 +1,322 @@
+//! The first reading of a node table: what its columns hold in the rows of each interaction, and whether it can be evaluated at all.
+//!
+//! Everything that is wrong with cells is found here (D002 to D006, D008, D009), so that an evaluation begins only when it can end.
+//! Memory: bounds of each column for each interaction, and the last time of each node where there are histories.
+
+use super::choices::Choices;
+use super::governing::{GovernedBy, RowInteractions, names_help};
+use super::source::Presence;
+use super::wanted::wanted_columns;
+use crate::law::contact::{Clearance, ContactPressure, ContactState};
+use crate::nodes::{
+    Batch, Column, Findings, Header, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, NodeIndex,
+    NodeReader, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
+};
+use inpact_parser::model::Model;
+use std::io;
+
+/// What a first reading of a node table found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Survey {
+    /// Its header.
+    pub header: Header,
+    /// How many rows it has.
+    pub rows: u64,
+    /// What says which interaction governs a row.
+    pub governed_by: GovernedBy,
+    /// The columns of numbers that were read: all that some law of the deck could use.
+    pub columns: Vec<Column>,
+    /// What the rows of each interaction hold, in the order of the model.
+    pub interactions: Vec<InteractionSurvey>,
+}
+
+/// What the rows of one interaction hold.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InteractionSurvey {
+    /// How many rows it governs.
+    pub rows: u64,
+    /// How many of them are closed.
+    pub closed: u64,
+    /// How many of them are open; where it cannot be told they are neither.
+    pub open: u64,
+    /// How many of them have a clearance above zero.
+    pub above_zero: u64,
+    /// How many nodes it has, where `node` and `time` are there.
+    pub histories: Option<u64>,
+    /// What each of [`Survey::columns`] holds.
+    pub columns: Vec<ColumnSurvey>,
+}
+
+/// What a column of numbers holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnSurvey {
+    /// How many cells have a number.
+    pub present: u64,
+    /// How many of these are NaN or infinite.
+    pub non_finite: u64,
+    /// The smallest of the finite ones; infinity where there is none.
+    pub least: f64,
+    /// The largest of the finite ones; minus infinity where there is none.
+    pub greatest: f64,
+}
+
+impl Default for ColumnSurvey {
+    fn default() -> Self {
+        Self { present: 0, non_finite: 0, least: f64::INFINITY, greatest: f64::NEG_INFINITY }
+    }
+}
+
+impl Survey {
+    /// How far a column has numbers in the rows of interaction number `interaction`.
+    ///
+    /// A table without rows has numbers in every column of its header.
+    pub fn presence(&self, interaction: usize, column: Column) -> Presence {
+        let Some(place) = self.columns.iter().position(|read| *read == column) else { return Presence::Absent };
+        let of = &self.interactions[interaction];
+        match of.columns[place].present {
+            _ if self.rows == 0 => Presence::Full,
+            0 => Presence::Empty,
+            present if present == of.rows => Presence::Full,
+            _ => Presence::Partial,
+        }
+    }
+
+    /// The smallest and the largest finite number of a column over all rows.
+    pub fn range(&self, column: Column) -> Option<(f64, f64)> {
+        let place = self.columns.iter().position(|read| *read == column)?;
+        let columns = self.interactions.iter().map(|of| of.columns[place]);
+        let whole = columns.fold(ColumnSurvey::default(), |whole, of| ColumnSurvey {
+            least: whole.least.min(of.least),
+            greatest: whole.greatest.max(of.greatest),
+            ..whole
+        });
+        (whole.least <= whole.greatest).then_some((whole.least, whole.greatest))
+    }
+}
+
+/// Reads a node table to its end and says what it holds; `None` when nothing says which interaction governs a row.
+///
+/// # Errors
+/// Those of reading the table.
+pub fn survey(
+    mut reader: NodeReader<'_>,
+    model: &Model,
+    choices: &Choices,
+    findings: &mut Findings,
+) -> io::Result<Option<Survey>> {
+    let header = reader.header().clone();
+    let governed_by = GovernedBy::decide(model, &header, choices.interaction.as_ref(), findings);
+    let Some(governed_by) = governed_by else { return Ok(None) };
+    let columns = wanted_columns(model, governed_by, choices, &header);
+    let histories = header.has(Column::Node) && columns.contains(&Column::Time);
+    let selection = Selection { labels: label_columns(governed_by, histories), numbers: columns.clone() };
+    reader.select(&selection);
+    let empty = InteractionSurvey { columns: vec![ColumnSurvey::default(); columns.len()], ..Default::default() };
+    let survey = Survey { header, rows: 0, governed_by, columns, interactions: vec![empty; model.interactions.len()] };
+    let mut surveyor = Surveyor::new(survey, &selection, model, histories);
+    let mut batch = Batch::default();
+    while reader.read_batch(&mut batch, findings)? {
+        surveyor.take(&batch, findings);
+    }
+    Ok(Some(surveyor.finish(findings)))
+}
+
+/// The labels that a first reading needs.
+fn label_columns(governed_by: GovernedBy, histories: bool) -> Vec<Column> {
+    let node = histories.then_some(Column::Node);
+    let interaction = (governed_by == GovernedBy::Column).then_some(Column::Interaction);
+    node.into_iter().chain(interaction).collect()
+}
+
+/// A survey in the making.
+struct Surveyor<'a> {
+    survey: Survey,
+    model: &'a Model,
+    rows: RowInteractions<'a>,
+    contact: ContactPlaces,
+    area: Option<usize>,
+    /// Lengths and permeabilities that may not be negative.
+    properties: Vec<(usize, Column)>,
+    time: Option<usize>,
+    node: Option<usize>,
+    nodes: NodeIndex,
+    last_times: Vec<f64>,
+    first_non_finite: Vec<Option<Place>>,
+}
+
+/// Where a batch has the columns that tell contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ContactPlaces {
+    /// `clearance`.
+    pub(crate) clearance: Option<usize>,
+    /// `pressure`.
+    pub(crate) pressure: Option<usize>,
+    /// `closed`.
+    pub(crate) closed: Option<usize>,
+}
+
+impl ContactPlaces {
+    /// The state of a row: as `closed` says, otherwise closed when d <= 0 or p ≠ 0 (T-22); a missing pressure counts as none.
+    ///
+    /// `None` where the row has not enough to tell.
+    #[inline]
+    pub(crate) fn state(&self, batch: &Batch, row: usize) -> Option<ContactState> {
+        let number = |place: Option<usize>| batch.numbers[place?].get(row);
+        if let Some(closed) = number(self.closed) {
+            return Some(if closed == 0.0 { ContactState::Open } else { ContactState::Closed });
+        }
+        let pressure = number(self.pressure);
+        match (number(self.clearance), pressure) {
+            (Some(clearance), _) => {
+                let pressure = ContactPressure(pressure.unwrap_or(0.0));
+                Some(ContactState::from_clearance_and_pressure(Clearance(clearance), pressure))
+            }
+            (None, Some(pressure)) if pressure.is_nan() => Some(ContactState::Undetermined),
+            (None, Some(pressure)) if pressure != 0.0 => Some(ContactState::Closed),
+            (None, _) => None,
+        }
+    }
+}
+
+impl<'a> Surveyor<'a> {
+    fn new(survey: Survey, selection: &Selection, model: &'a Model, histories: bool) -> Self {
+        let properties = [
+            Column::CharacteristicLength,
+            Column::BulkPermeability(Part::Slave),
+            Column::BulkPermeability(Part::Master),
+        ];
+        let properties = properties.into_iter().filter_map(|column| Some((selection.number(column)?, column)));
+        Self {
+            contact: ContactPlaces {
+                clearance: selection.number(Column::Clearance),
+                pressure: selection.number(Column::Pressure),
+                closed: selection.number(Column::Closed),
+            },
+            area: selection.number(Column::Area),
+            properties: properties.collect(),
+            time: selection.number(Column::Time).filter(|_| histories),
+            node: selection.label(Column::Node),
+            rows: RowInteractions::new(model, survey.governed_by, selection.label(Column::Interaction)),
+            nodes: NodeIndex::default(),
+            last_times: Vec::new(),
+            first_non_finite: vec![None; survey.columns.len()],
+            model,
+            survey,
+        }
+    }
+
+    fn take(&mut self, batch: &Batch, findings: &mut Findings) {
+        for row in 0..batch.rows {
+            self.survey.rows += 1;
+            self.check_cells(batch, row, findings);
+            let Some(interaction) = self.rows.of_row(batch, row) else {
+                self.report_unknown_interaction(batch, row, findings);
+                continue;
+            };
+            let state = self.contact.state(batch, row);
+            let of = &mut self.survey.interactions[interaction];
+            of.rows += 1;
+            of.closed += u64::from(state == Some(ContactState::Closed));
+            of.open += u64::from(state == Some(ContactState::Open));
+            let clearance = self.contact.clearance.and_then(|place| batch.numbers[place].get(row));
+            of.above_zero += u64::from(clearance.is_some_and(|clearance| clearance > 0.0));
+            for (place, (column, of)) in batch.numbers.iter().zip(&mut of.columns).enumerate() {
+                let Some(value) = column.get(row) else { continue };
+                of.present += 1;
+                if value.is_finite() {
+                    of.least = of.least.min(value);
+                    of.greatest = of.greatest.max(value);
+                } else {
+                    of.non_finite += 1;
+                    let header = &self.survey.header;
+                    let column = self.survey.columns[place];
+                    self.first_non_finite[place].get_or_insert_with(|| batch.place(row, Some(header.name_of(column))));
+                }
+            }
+            self.check_time(interaction, batch, row, findings);
+        }
+    }
+
+    /// What a cell may not hold although it is a number.
+    fn check_cells(&self, batch: &Batch, row: usize, findings: &mut Findings) {
+        let name = |column| self.survey.header.name_of(column);
+        let number = batch.first_row + row as u64 + 1;
+        if let Some(closed) = self.contact.closed.and_then(|place| batch.numbers[place].get(row))
+            && closed != 0.0
+            && closed != 1.0
+        {
+            let name = name(Column::Closed);
+            let message = format!("`{name}` of row {number} is {closed:?}, which is neither 0 nor 1");
+            findings.report(&MALFORMED_CELL, batch.place(row, Some(name)), message, "write 1 for closed, 0 for open");
+        }
+        let area = self.area.and_then(|place| batch.numbers[place].get(row));
+        if let Some(area) = area.filter(|area| *area < 0.0) {
+            let name = name(Column::Area);
+            let message = format!("`{name}` of row {number} is {area:?}, below zero");
+            let help = "give the area of the slave node, or leave the cell empty";
+            findings.report(&NEGATIVE_AREA, batch.place(row, Some(name)), message, help);
+        }
+        for (place, column) in &self.properties {
+            let Some(value) = batch.numbers[*place].get(row).filter(|value| *value < 0.0) else { continue };
+            let name = name(*column);
+            let message = format!("`{name}` of row {number} is {value:?}, below zero");
+            let help = "give a number of zero or above, or leave the cell empty";
+            findings.report(&NEGATIVE_PROPERTY, batch.place(row, Some(name)), message, help);
+        }
+    }
+
+    /// The times of a node must rise from row to row (D006).
+    fn check_time(&mut self, interaction: usize, batch: &Batch, row: usize, findings: &mut Findings) {
+        let (Some(node), Some(time)) = (self.node, self.time) else { return };
+        let Some(time) = batch.numbers[time].get(row) else { return };
+        let label = batch.labels[node].get(row);
+        let number = self.nodes.number(interaction, label);
+        let Some(last) = self.last_times.get_mut(number) else {
+            self.last_times.push(time);
+            return;
+        };
+        let before = std::mem::replace(last, time);
+        if time > before {
+            return;
+        }
+        let label = String::from_utf8_lossy(label.trim_ascii()).into_owned();
+        let message = format!(
+            "`time` of node `{label}` is {time:?} in row {} and {before:?} in the row before it",
+            batch.first_row + row as u64 + 1
+        );
+        let help = "sort the rows by time, give nodes of different parts different labels, and leave out the \
+                    first frame of a step, which repeats the last of the step before";
+        let place = batch.place(row, Some(self.survey.header.name_of(Column::Time)));
+        findings.report(&TIME_NOT_ASCENDING, place, message, help);
+    }
+
+    fn report_unknown_interaction(&self, batch: &Batch, row: usize, findings: &mut Findings) {
+        let number = batch.first_row + row as u64 + 1;
+        let label = self.survey.header.name_of(Column::Interaction);
+        let text = String::from_utf8_lossy(self.rows.label_of(batch, row));
+        let message = if text.trim().is_empty() {
+            format!("`{label}` of row {number} is empty")
+        } else {
+            format!("`{label}` of row {number} is `{}`, which the deck does not define", text.trim())
+        };
+        findings.report(&UNKNOWN_INTERACTION, batch.place(row, Some(label)), message, names_help(self.model));
+    }
+
+    fn finish(mut self, findings: &mut Findings) -> Survey {
+        if self.time.is_some() {
+            for (index, of) in self.survey.interactions.iter_mut().enumerate() {
+                of.histories = Some(self.nodes.count_of(index) as u64);
+            }
+        }
+        for (place, first) in self.first_non_finite.into_iter().enumerate() {
+            let Some(first) = first else { continue };
+            let count: u64 = self.survey.interactions.iter().map(|of| of.columns[place].non_finite).sum();
+            let name = first.column.clone().unwrap_or_default();
+            let rows = if count == 1 { "row" } else { "rows" };
+            let message = format!("`{name}` is NaN or infinite in {count} {rows}");
+            let help = "results of these rows are NaN or the limit; leave a cell empty where there is no number";
+            findings.report(&NON_FINITE, first, message, help);
+        }
+        self.survey
+    }
+}

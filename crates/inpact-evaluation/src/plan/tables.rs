@@ -1,0 +1,81 @@
+//! The tables of an interaction, compiled so that it is known which variables their values depend on.
+
+use crate::results::Along;
+use crate::table::{PiecewiseTable, TableError, Tail};
+use inpact_parser::model::{Interaction, Table};
+
+/// The tables of one interaction; an error where the rows form none.
+#[derive(Debug, Default)]
+pub(crate) struct InteractionTables {
+    /// Electrical conductance against clearance.
+    pub(crate) clearance: Option<Result<PiecewiseTable, TableError>>,
+    /// Electrical conductance against contact pressure.
+    pub(crate) pressure: Option<Result<PiecewiseTable, TableError>>,
+    /// Permeability.
+    pub(crate) permeability: Option<Result<PiecewiseTable, TableError>>,
+}
+
+impl InteractionTables {
+    /// Compiles the tables of an interaction; `tail` is that of the table against clearance.
+    pub(crate) fn of(interaction: &Interaction, tail: Tail) -> Self {
+        let build = |table: &Table, tail| PiecewiseTable::from_rows(&table.values, table.width(), tail);
+        let electrical = interaction.gap_electrical_conductance.as_ref();
+        let electrical = electrical.filter(|option| option.user.is_none());
+        let permeability = interaction.contact_permeability.as_ref().and_then(|option| option.table.as_ref());
+        Self {
+            clearance: electrical.and_then(|option| option.clearance.as_ref()).map(|table| build(table, tail)),
+            pressure: electrical.and_then(|option| option.pressure.as_ref()).map(|table| build(table, Tail::Constant)),
+            permeability: permeability.map(|table| build(table, Tail::Constant)),
+        }
+    }
+
+    /// The electrical tables that can be evaluated, with the first of their variables.
+    pub(crate) fn electrical(&self) -> impl Iterator<Item = (Along, &PiecewiseTable)> {
+        let tables = [(Along::Clearance, &self.clearance), (Along::Pressure, &self.pressure)];
+        tables.into_iter().filter_map(|(against, table)| Some((against, table.as_ref()?.as_ref().ok()?)))
+    }
+
+    /// What is wrong with an electrical table.
+    pub(crate) fn electrical_error(&self) -> Option<TableError> {
+        [&self.clearance, &self.pressure].into_iter().flatten().find_map(|table| table.as_ref().err().copied())
+    }
+
+    /// What is wrong with the permeability table.
+    pub(crate) fn permeability_error(&self) -> Option<TableError> {
+        self.permeability.as_ref()?.as_ref().err().copied()
+    }
+
+    /// The permeability table, when it can be evaluated.
+    pub(crate) fn permeability(&self) -> Option<&PiecewiseTable> {
+        self.permeability.as_ref()?.as_ref().ok()
+    }
+}
+
+/// Which variable axis `axis` of a conductance table is (T-03).
+pub(super) fn electrical_axis(against: Along, axis: usize) -> Along {
+    match axis {
+        0 => against,
+        1 => Along::Temperature,
+        _ => field_variable(axis - 2),
+    }
+}
+
+/// Which variable axis `axis` of a permeability table is (T-03).
+pub(super) fn pore_axis(axis: usize) -> Along {
+    match axis {
+        0 => Along::Pressure,
+        1 => Along::PorePressure,
+        2 => Along::Temperature,
+        _ => field_variable(axis - 3),
+    }
+}
+
+fn field_variable(index: usize) -> Along {
+    // A deck has at most a thousand (`MOST_FIELD_VARIABLES`).
+    Along::FieldVariable(u32::try_from(index + 1).unwrap_or(u32::MAX))
+}
+
+/// Whether a table's value depends on axis `axis`.
+pub(super) fn matters(table: &PiecewiseTable, axis: usize) -> bool {
+    table.axes().get(axis).is_some_and(crate::table::AxisSummary::matters)
+}

@@ -1,0 +1,91 @@
+//! The columns of a node table that some law of a deck could use, before its rows are known.
+
+use super::choices::Choices;
+use super::governing::GovernedBy;
+use super::regime::regime;
+use super::tables::{InteractionTables, electrical_axis, matters, pore_axis};
+use crate::nodes::{Column, Header, Part};
+use crate::results::Along;
+use crate::table::PiecewiseTable;
+use inpact_parser::model::{Interaction, Model, Procedure, Regime};
+use std::collections::BTreeSet;
+
+/// The columns of numbers, in the order of the header.
+pub(super) fn wanted_columns(
+    model: &Model,
+    governed_by: GovernedBy,
+    choices: &Choices,
+    header: &Header,
+) -> Vec<Column> {
+    let candidates = match governed_by {
+        GovernedBy::Chosen(index) | GovernedBy::TheOnlyOne(index) => index..index + 1,
+        GovernedBy::Column => 0..model.interactions.len(),
+    };
+    let mut wanted = BTreeSet::new();
+    for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
+        let tables = InteractionTables::of(interaction, choices.clearance_tail);
+        want_electrical(&tables, &mut wanted);
+        want_pore(model, interaction, &tables, choices, &mut wanted);
+    }
+    let mut columns: Vec<Column> = Vec::new();
+    for column in header.cells.iter().filter_map(|cell| cell.column) {
+        if wanted.contains(&column) && !columns.contains(&column) {
+            columns.push(column);
+        }
+    }
+    columns
+}
+
+/// What every law could use.
+const OF_ANY_LAW: [Column; 5] = [Column::Clearance, Column::Pressure, Column::Closed, Column::Area, Column::Time];
+
+fn want_electrical(tables: &InteractionTables, wanted: &mut BTreeSet<Column>) {
+    for (against, table) in tables.electrical() {
+        wanted.extend(OF_ANY_LAW);
+        wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
+        want_variables(table, |axis| electrical_axis(against, axis), wanted);
+    }
+}
+
+fn want_pore(
+    model: &Model,
+    interaction: &Interaction,
+    tables: &InteractionTables,
+    choices: &Choices,
+    wanted: &mut BTreeSet<Column>,
+) {
+    let option = interaction.contact_permeability.as_ref();
+    if option.is_none() && !model.procedures.iter().any(Procedure::solves_pore_pressure) {
+        return;
+    }
+    wanted.extend(OF_ANY_LAW);
+    wanted.extend([Part::Slave, Part::Master].map(Column::PorePressure));
+    if let Some(table) = tables.permeability() {
+        want_variables(table, pore_axis, wanted);
+    }
+    let cutoffs = option.map(|option| (option.cutoff_flow_across, option.cutoff_gap_fill));
+    if !matches!(cutoffs, Some((Some(_), Some(_)))) && choices.characteristic_length.is_none() {
+        wanted.insert(Column::CharacteristicLength);
+    }
+    if regime(model, choices.regime, Procedure::solves_pore_pressure).regime == Regime::Transient {
+        wanted.insert(Column::ClearanceRate);
+        wanted.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
+    }
+}
+
+/// The columns of temperatures and field variables that a table's value depends on.
+fn want_variables(table: &PiecewiseTable, along: impl Fn(usize) -> Along, wanted: &mut BTreeSet<Column>) {
+    for axis in (0..table.axis_count()).filter(|axis| matters(table, *axis)) {
+        wanted.extend(columns_of(along(axis)).into_iter().flatten());
+    }
+}
+
+/// The columns that a temperature or a field variable may come from: both sides together, slave, master.
+pub(super) fn columns_of(along: Along) -> Option<[Column; 3]> {
+    let parts = [Part::Both, Part::Slave, Part::Master];
+    match along {
+        Along::Temperature => Some(parts.map(Column::Temperature)),
+        Along::FieldVariable(number) => Some(parts.map(|part| Column::FieldVariable(number, part))),
+        Along::Clearance | Along::Pressure | Along::PorePressure => None,
+    }
+}

@@ -1,0 +1,12 @@
+//! Result tables: what comes out for each row of a node table, as columns in the order of the contract.
+//!
+//! [`Output`] is the list of columns, [`ResultBatch`] holds some rows of them, [`ResultWriter`] writes them as comma-separated values.
+//! Knows no law: numbers in, text out.
+
+mod batch;
+mod output;
+mod writer;
+
+pub use batch::{ResultBatch, Status};
+pub use output::{Along, Output};
+pub use writer::{ResultWriter, push_number};
