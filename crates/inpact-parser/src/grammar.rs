@@ -16,6 +16,7 @@ pub use data::{Column, ColumnKind, Counted, Data, Layout, RowShape};
 pub use definition::{Definition, DefinitionError, Level, ParameterDefinition, ParameterKind, Product, ValueUse};
 pub use dimension::{Base, Dimension, DimensionError};
 pub use lookup::{Lookup, lookup_name};
+pub use nearest::nearest as nearest_names;
 pub use release::{Release, ReleaseError};
 
 use lookup::Folded;

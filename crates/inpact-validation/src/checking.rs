@@ -4,6 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::directives::{self, Directive};
 use crate::rule::{Context, Report, Rule};
 use crate::rules::{RULES, s018_ignore_without_effect};
+use crate::tables::{all_tables, radiation_tables};
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::Model;
@@ -12,7 +13,8 @@ use std::time::{Duration, Instant};
 
 /// Checks a deck and its model by every rule; findings come in the order of the deck.
 pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
-    let context = Context { deck, grammar, model, problems, tables: model.tables() };
+    let radiation = radiation_tables(deck, grammar, model);
+    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation) };
     let mut diagnostics = Vec::new();
     for rule in RULES {
         let mut report = Report::new(rule, &mut diagnostics);
@@ -32,7 +34,8 @@ pub fn time_rules(
     model: &Model,
     problems: &[Problem],
 ) -> Vec<(&'static str, Duration)> {
-    let context = Context { deck, grammar, model, problems, tables: model.tables() };
+    let radiation = radiation_tables(deck, grammar, model);
+    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation) };
     let time = |rule: &&'static Rule| {
         let start = Instant::now();
         let mut diagnostics = Vec::new();

@@ -12,9 +12,21 @@ pub mod rules;
 
 mod checking;
 
+mod heat;
+
 mod parameter;
 
 mod placement;
+
+mod problems;
+
+mod quantity;
+
+mod references;
+
+mod tables;
+
+mod trend;
 
 mod words;
 

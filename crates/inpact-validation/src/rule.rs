@@ -1,7 +1,9 @@
 //! What a rule is, what it sees, and how it reports.
 
 use crate::diagnostic::{Diagnostic, Label, Severity};
-use inpact_parser::deck::{Block, Deck, KeywordLine};
+use crate::tables::trimmed;
+use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
+use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Grammar};
 use inpact_parser::model::{Model, TableOf};
 use inpact_parser::problem::Problem;
@@ -68,7 +70,7 @@ pub struct Context<'a> {
     pub model: &'a Model,
     /// What the reader met.
     pub problems: &'a [Problem],
-    /// Every table of the model, those that govern nothing too.
+    /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
     pub tables: Vec<TableOf<'a>>,
 }
 
@@ -106,30 +108,53 @@ impl<'a> Context<'a> {
         shorten(&self.deck.shown(span))
     }
 
+    /// The text of a value or an item with every `<parameter>` in it replaced (S-62); one without a value stays as it is.
+    pub fn value(&self, span: Span) -> String {
+        let text = self.deck.shown(span);
+        match substitute(&text, &self.model.parameters) {
+            Ok(replaced) => replaced.trim().to_owned(),
+            Err(_) => text,
+        }
+    }
+
     /// The span of cell `column` of row `row` of a table, found again in the deck's text; the row's span when it is not there.
     pub fn cell(&self, of: &TableOf<'_>, row: usize, column: usize) -> Span {
         let row_span = of.table.row_span(row);
-        let items = self.deck.data_lines_in(row_span).flat_map(|line| {
-            // A trailing comma on a line that the row goes on behind gives no item.
-            line.items().collect::<Vec<_>>()
-        });
-        let mut items: Vec<Span> = items.collect();
-        if items.len() > of.table.width() {
-            items = self.items_of_a_row_over_lines(row_span);
-        }
-        items.get(column).copied().unwrap_or(row_span)
+        let mut lines = self.deck.data_lines_in(row_span).filter(|line| !line.is_blank());
+        let (first_line, following) = self.items_on_lines(of);
+        let (Some(first), second) = (lines.next(), lines.next()) else { return row_span };
+        let found = match (column.checked_sub(first_line), second) {
+            // A row that stands on one line although it should go over several (K-53) has all its items there.
+            (None, _) | (_, None) => first.items().nth(column),
+            (Some(behind), Some(second)) => {
+                let mut further = std::iter::once(second).chain(lines);
+                further.nth(behind / following).and_then(|line| line.items().nth(behind % following))
+            }
+        };
+        found.unwrap_or(row_span)
     }
 
-    /// The items of a row over several lines, empty ones at the end of a line left out.
-    fn items_of_a_row_over_lines(&self, row: Span) -> Vec<Span> {
-        let lines = self.deck.data_lines_in(row).map(|line| {
-            let mut items: Vec<Span> = line.items().collect();
-            while items.last().is_some_and(|item| item.is_empty()) {
-                items.pop();
-            }
-            items
-        });
-        lines.flatten().collect()
+    /// How many items of a row stand on its first line and on every further one (K-52).
+    fn items_on_lines(&self, of: &TableOf<'_>) -> (usize, usize) {
+        let width = of.table.width();
+        let definition = self.grammar.id_of(of.keyword).and_then(|id| self.grammar.keyword(id).definition());
+        let counted = definition.and_then(|definition| definition.data.counted.as_ref());
+        counted.map_or((width, width), |counted| {
+            let lead = width - of.table.dependencies().min(width);
+            (lead + counted.first_line, counted.following)
+        })
+    }
+
+    /// Whether the deck includes files that were not read: what it does not define may be defined in one of them.
+    pub fn has_unread_files(&self) -> bool {
+        let included = self.defined_blocks().filter(|block| block.name == "INCLUDE").count();
+        let read = self.deck.includes().iter().filter(|include| matches!(include.outcome, IncludeOutcome::Read(_)));
+        included > read.count()
+    }
+
+    /// The span without blanks and line ends around it: what a label underlines.
+    pub fn trimmed(&self, span: Span) -> Span {
+        trimmed(self.deck, span)
     }
 }
 

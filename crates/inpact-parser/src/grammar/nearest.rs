@@ -8,7 +8,7 @@ use super::lookup::{Folded, fold};
 const TELLING: usize = 4;
 
 /// The names near to what is written, the nearest first.
-pub(super) fn nearest<'name>(
+pub fn nearest<'name>(
     written: &[u8],
     names: impl IntoIterator<Item = &'name str>,
     at_most: usize,

@@ -21,7 +21,9 @@ declare_rule! {
     ///
     /// ```inp
     /// *SURFACE INTERACTION, NAME=A
-    /// *GAP CONDUCTANCE, USER
+    /// *GAP CONDUCTANCE, PRESSURE
+    /// 500., 0.
+    /// 5000., 1.E7
     /// ```
     "K011", "ignored-parameter", Warning, fix: None, source: "K-12"
 }

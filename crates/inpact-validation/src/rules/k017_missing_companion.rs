@@ -19,7 +19,7 @@ declare_rule! {
     /// ```
     ///
     /// ```inp
-    /// *SURFACE INTERACTION, NAME=A, USER, UNSYMM
+    /// *SURFACE INTERACTION, NAME=A
     /// ```
     "K017", "missing-companion", Error, fix: None, source: "2.1"
 }

@@ -1,0 +1,56 @@
+//! What the reader met, block by block: a fault that all rows of a block share is one finding.
+
+use crate::rule::{Context, DefinedBlock};
+use crate::tables::columns_are_unclear;
+use inpact_parser::problem::{Problem, ProblemKind};
+use inpact_parser::span::Span;
+use std::collections::HashMap;
+
+/// The first problem of a kind in a block.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FirstOfBlock<'a> {
+    /// The problem.
+    pub(crate) problem: &'a Problem,
+    /// Its place in the list of problems.
+    pub(crate) index: usize,
+    /// How many more of the kind the block has.
+    pub(crate) more: usize,
+    /// The block, when the grammar defines its keyword.
+    pub(crate) block: Option<DefinedBlock<'a>>,
+}
+
+/// The blocks with problems of a kind: the first problem of each, and how many there are.
+///
+/// The reader lists the problems block by block.
+pub(crate) fn first_of_each_block<'a>(
+    context: &Context<'a>,
+    is_meant: impl Fn(&ProblemKind) -> bool,
+) -> Vec<FirstOfBlock<'a>> {
+    let mut found: Vec<FirstOfBlock<'a>> = Vec::new();
+    for (index, problem) in context.problems.iter().enumerate().filter(|(_, problem)| is_meant(&problem.kind)) {
+        match found.last_mut() {
+            Some(last) if last.problem.keyword == problem.keyword => last.more += 1,
+            _ => found.push(FirstOfBlock { problem, index, more: 0, block: None }),
+        }
+    }
+    if !found.is_empty() {
+        let blocks = blocks_by_keyword(context);
+        for first in &mut found {
+            first.block = blocks.get(&first.problem.keyword).copied();
+        }
+    }
+    found
+}
+
+/// Those whose keyword line leaves no doubt about the columns: where it does, the line has a finding of its own.
+pub(crate) fn of_clear_columns<'a>(
+    context: &'a Context<'_>,
+    found: Vec<FirstOfBlock<'a>>,
+) -> impl Iterator<Item = FirstOfBlock<'a>> {
+    found.into_iter().filter(|first| first.block.is_none_or(|block| !columns_are_unclear(context, block)))
+}
+
+/// The defined blocks by their keyword lines.
+pub(crate) fn blocks_by_keyword<'a>(context: &Context<'a>) -> HashMap<Span, DefinedBlock<'a>> {
+    context.defined_blocks().map(|block| (block.keyword.span, block)).collect()
+}

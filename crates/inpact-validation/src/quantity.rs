@@ -1,0 +1,85 @@
+//! How messages write the numbers and columns of tables.
+
+use inpact_parser::model::{Table, TableKind};
+use std::borrow::Cow;
+
+/// A number for a message: the shortest digits that read back, with an exponent where they would be mostly zeros.
+pub(crate) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 || (1e-4..1e6).contains(&magnitude) { value.to_string() } else { format!("{value:e}") }
+}
+
+/// What a column of a table is called in a sentence.
+pub(crate) fn column_words(column: &str) -> Cow<'_, str> {
+    match column {
+        "temp" => "temperature".into(),
+        "pressure" => "contact pressure".into(),
+        "pore_pressure" => "pore pressure".into(),
+        "mass_flow" => "mass flow rate".into(),
+        "view_factor" => "view factor".into(),
+        _ => match column.strip_prefix("fv") {
+            Some(index) => format!("field variable {index}").into(),
+            None => column.into(),
+        },
+    }
+}
+
+/// Which group of the table a row belongs to, as the end of a sentence: ` at temperature 300, field variable 1 = 2`.
+///
+/// Outer variables that are 0 are left out: mostly nothing stands in their columns.
+pub(crate) fn group_words(table: &Table, row: &[f64]) -> String {
+    let outer = table.columns.iter().zip(row).skip(2).filter(|(_, value)| **value != 0.0);
+    let words: Vec<String> = outer
+        .map(|(column, value)| {
+            let equals = if column.starts_with("fv") { " =" } else { "" };
+            format!("{}{equals} {}", column_words(column), number(*value))
+        })
+        .collect();
+    if words.is_empty() { String::new() } else { format!(" at {}", words.join(", ")) }
+}
+
+/// What the dependent value of a table is called.
+pub(crate) fn value_words(kind: TableKind) -> &'static str {
+    match kind {
+        TableKind::ElectricalClearance | TableKind::ElectricalPressure => "electrical conductance",
+        TableKind::ThermalClearance | TableKind::ThermalPressure => "thermal conductance",
+        TableKind::Permeability => "permeability",
+        TableKind::Other => "value",
+    }
+}
+
+/// `1 row`, `2 rows`.
+pub(crate) fn count(number: usize, singular: &str) -> String {
+    if number == 1 { format!("1 {singular}") } else { format!("{number} {singular}s") }
+}
+
+/// Says that more of the same follows: `; 3 more rows of this table fall`; nothing for 0.
+pub(crate) fn and_more(number: usize, singular: &str, plural: &str) -> String {
+    match number {
+        0 => String::new(),
+        1 => format!("; 1 more {singular}"),
+        _ => format!("; {number} more {plural}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let cases =
+            [(0.0, "0"), (0.05, "0.05"), (-3500.25, "-3500.25"), (2e7, "2e7"), (1e-5, "1e-5"), (1e300, "1e300")];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn groups_are_named_by_what_is_not_zero() {
+        let columns = ["conductance", "clearance", "temp", "fv1", "fv2"].map(str::to_owned).to_vec();
+        let table = Table { columns, ..Table::default() };
+        assert_eq!(group_words(&table, &[1.0, 0.0, 300.0, 0.0, 2.0]), " at temperature 300, field variable 2 = 2");
+        assert_eq!(group_words(&table, &[1.0, 0.5, 0.0, 0.0, 0.0]), "");
+    }
+}

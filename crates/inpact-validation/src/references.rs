@@ -1,0 +1,195 @@
+//! Which interactions and surfaces a deck defines, and where it names them, for the rules on references.
+
+use crate::parameter::given_as;
+use crate::rule::Context;
+use crate::words::did_you_mean;
+use inpact_parser::deck::KeywordLine;
+use inpact_parser::grammar::nearest_names;
+use inpact_parser::model::{Name, Reference};
+use inpact_parser::span::Span;
+use std::collections::HashMap;
+
+/// The most names of a deck among which one is looked for that may be meant.
+const MOST_COMPARED: usize = 10_000;
+
+/// The most findings of a rule that come with a suggestion: finding one is a comparison with every name.
+const MOST_SUGGESTIONS: usize = 20;
+
+/// What a deck defines under names of one kind.
+#[derive(Debug, Default)]
+pub(crate) struct Definitions {
+    by_name: HashMap<Name, Span>,
+    /// Quoted and unquoted names without case and blanks: what differs by quotes only stands under one key (S-41).
+    by_folded: HashMap<String, (Name, Span)>,
+    /// Some of the names, among which one is looked for that may be meant.
+    compared: Vec<String>,
+}
+
+/// What a name refers to.
+#[derive(Debug)]
+pub(crate) enum Found<'a> {
+    /// Something that is defined.
+    Defined,
+    /// Something whose name is quoted where it is defined and not where it is used, or the other way round.
+    QuotedOtherwise(&'a Name, Span),
+    /// Nothing.
+    Missing,
+}
+
+impl Definitions {
+    /// The interactions of the deck.
+    pub(crate) fn interactions(context: &Context<'_>) -> Self {
+        let mut definitions = Self::default();
+        for interaction in context.model.all_interactions() {
+            definitions.add(interaction.name.clone(), interaction.span);
+        }
+        definitions.add_possible(context);
+        definitions
+    }
+
+    /// The surfaces of the deck, those of older keywords (*SURFACE DEFINITION, *RIGID SURFACE, *CONTACT NODE SET) too.
+    pub(crate) fn surfaces(context: &Context<'_>) -> Self {
+        let mut definitions = Self::default();
+        for surface in &context.model.surfaces {
+            definitions.add(surface.name.name.clone(), surface.name.span);
+        }
+        for keyword in context.keyword_lines() {
+            let Some(id) = keyword.id() else { continue };
+            let name = &context.grammar.keyword(id).name;
+            if (name.contains("SURFACE") && name != "SURFACE INTERACTION") || name == "CONTACT NODE SET" {
+                definitions.add_name_of(context, keyword);
+            }
+        }
+        definitions.add_possible(context);
+        definitions
+    }
+
+    fn add(&mut self, name: Name, span: Span) {
+        self.by_folded.entry(folded(&name)).or_insert_with(|| (name.clone(), span));
+        if self.compared.len() < MOST_COMPARED {
+            self.compared.push(name.written().to_owned());
+        }
+        self.by_name.entry(name).or_insert(span);
+    }
+
+    /// What a misspelt keyword defines may be what is meant: the keyword has a finding of its own.
+    fn add_possible(&mut self, context: &Context<'_>) {
+        for keyword in context.keyword_lines().filter(|keyword| keyword.id().is_none()) {
+            self.add_name_of(context, keyword);
+        }
+    }
+
+    fn add_name_of(&mut self, context: &Context<'_>, keyword: &KeywordLine) {
+        for parameter in &keyword.parameters {
+            let is_name = context.deck.text(parameter.name).eq_ignore_ascii_case(b"NAME");
+            if let Some(value) = parameter.value.filter(|_| is_name) {
+                self.add(Name::new(&context.value(value)), value);
+            }
+        }
+    }
+
+    /// Whether something is defined under that name.
+    pub(crate) fn has(&self, name: &Name) -> bool {
+        self.by_name.contains_key(name)
+    }
+
+    /// What a name refers to.
+    pub(crate) fn find(&self, name: &Name) -> Found<'_> {
+        if self.by_name.contains_key(name) {
+            return Found::Defined;
+        }
+        match self.by_folded.get(&folded(name)) {
+            Some((defined, span)) if defined.differs_by_quotes_only(name) => Found::QuotedOtherwise(defined, *span),
+            _ => Found::Missing,
+        }
+    }
+}
+
+/// Asks whether a name that is spelt nearly alike is meant, for the first findings of a rule.
+pub(crate) fn suggestion(definitions: &Definitions, name: &Name, finding: usize) -> Option<String> {
+    if finding >= MOST_SUGGESTIONS {
+        return None;
+    }
+    let mut names = nearest_names(name.canonical().as_bytes(), definitions.compared.iter().map(String::as_str), 3);
+    names.dedup();
+    did_you_mean(names)
+}
+
+/// The name in upper case without blanks and quotes.
+fn folded(name: &Name) -> String {
+    let kept = name.canonical().chars().filter(|character| !character.is_ascii_whitespace());
+    kept.map(|character| character.to_ascii_uppercase()).collect()
+}
+
+/// A place where a name is used.
+#[derive(Debug, Clone)]
+pub(crate) struct Use {
+    /// The name.
+    pub(crate) name: Name,
+    /// Where it stands.
+    pub(crate) span: Span,
+    /// The keyword it stands under.
+    pub(crate) keyword: &'static str,
+}
+
+impl Use {
+    fn of(reference: &Reference, keyword: &'static str) -> Self {
+        Self { name: reference.name.clone(), span: reference.span, keyword }
+    }
+
+    /// Whether the name is a `<parameter>` (S-62), so that it is not known here what it names.
+    pub(crate) fn is_parameter(&self) -> bool {
+        self.name.written().contains('<')
+    }
+}
+
+/// Where *CONTACT PAIR, *CONTACT PROPERTY ASSIGNMENT and *CHANGE FRICTION name interactions.
+pub(crate) fn uses_of_interactions(context: &Context<'_>) -> Vec<Use> {
+    let pairs = context.model.contact_pairs.iter().filter_map(|pair| pair.interaction.as_ref());
+    let pairs = pairs.map(|reference| Use::of(reference, "CONTACT PAIR"));
+    let assignments = context.model.property_assignments.iter().filter_map(|line| line.interaction.as_ref());
+    let assignments = assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT"));
+    let changes = context.defined_blocks().filter(|block| block.name == "CHANGE FRICTION").filter_map(|block| {
+        let span = given_as(block, "INTERACTION")?.value()?;
+        Some(Use { name: Name::new(&context.value(span)), span, keyword: "CHANGE FRICTION" })
+    });
+    pairs.chain(assignments).chain(changes).collect()
+}
+
+/// Where *CONTACT PAIR and *CONTACT PROPERTY ASSIGNMENT name surfaces.
+pub(crate) fn uses_of_surfaces(context: &Context<'_>) -> Vec<Use> {
+    let pairs = context.model.contact_pairs.iter().flat_map(|pair| &pair.pairs);
+    let pairs = pairs.flat_map(|pair| [Some(&pair.slave), pair.master.as_ref()]).flatten();
+    let pairs = pairs.map(|reference| Use::of(reference, "CONTACT PAIR"));
+    let assignments = context.model.property_assignments.iter();
+    let assignments = assignments.flat_map(|line| [line.first.as_ref(), line.second.as_ref()]).flatten();
+    pairs.chain(assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT"))).collect()
+}
+
+/// The last part of a dotted name, the name inside its part or instance (S-44); `None` when there is one part only.
+pub(crate) fn last_component(name: &Name) -> Option<Name> {
+    let mut quoted = false;
+    let mut last_dot = None;
+    for (at, character) in name.written().char_indices() {
+        match character {
+            '"' => quoted = !quoted,
+            '.' if !quoted => last_dot = Some(at),
+            _ => {}
+        }
+    }
+    last_dot.map(|at| Name::new(&name.written()[at + 1..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dotted_names_end_in_the_name_inside_the_instance() {
+        let last = |text: &str| last_component(&Name::new(text)).map(|name| name.to_string());
+        assert_eq!(last("Assembly-1.Instance-1.Surf-1").as_deref(), Some("Surf-1"));
+        assert_eq!(last("Hinge.\"Set 1.2\"").as_deref(), Some("\"Set 1.2\""));
+        assert_eq!(last("\"a.b\""), None);
+        assert_eq!(last("Surf-1"), None);
+    }
+}

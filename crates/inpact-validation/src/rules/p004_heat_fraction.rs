@@ -1,0 +1,64 @@
+//! P004: fractions of dissipated energy below 0 or above 1.
+
+use crate::diagnostic::Severity;
+use crate::heat::{all, item};
+use crate::quantity::number;
+use crate::rule::{Context, Report, declare_rule};
+
+declare_rule! {
+    /// The first item of *GAP HEAT GENERATION is below 0, an error, or above 1, a note.
+    ///
+    /// It is the fraction of the dissipated energy that becomes heat.
+    ///
+    /// ## Why
+    /// A negative fraction would cool the interface by friction.
+    /// A fraction above 1 is legal: it may hold the factor between the units of energy and of heat.
+    ///
+    /// ## What to do
+    /// Correct a negative value; check that a value above 1 is a factor between units.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// *FRICTION
+    /// 0.3,
+    /// *GAP HEAT GENERATION
+    /// -0.9, 0.5
+    /// ```
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// *FRICTION
+    /// 0.3,
+    /// *GAP HEAT GENERATION
+    /// 9.8, 0.5
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// *FRICTION
+    /// 0.3,
+    /// *GAP HEAT GENERATION
+    /// 0.9, 0.5
+    /// ```
+    "P004", "heat-fraction", Error, fix: None, source: "K-35, Q-13"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for heat in all(context.model) {
+        let fraction = heat.fraction;
+        if fraction < 0.0 {
+            report
+                .at(item(context, heat, 0), format!("heat fraction {} is negative", number(fraction)))
+                .label("the fraction of the dissipated energy that becomes heat")
+                .note("a negative fraction would cool the interface by what it dissipates")
+                .help("give a value from 0 to 1");
+        } else if fraction > 1.0 {
+            report
+                .at(item(context, heat, 0), format!("heat fraction {} is above 1", number(fraction)))
+                .severity(Severity::Note)
+                .label("the fraction of the dissipated energy that becomes heat")
+                .note("a value above 1 makes sense only as a factor between the units of energy and of heat")
+                .help("check the units, or give a value from 0 to 1");
+        }
+    }
+}

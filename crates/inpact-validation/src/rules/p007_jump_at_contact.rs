@@ -1,0 +1,135 @@
+//! P007: clearance and pressure tables that are far apart at the moment of contact.
+
+use crate::quantity::{group_words, number, value_words};
+use crate::rule::{Context, Report, declare_rule};
+use crate::tables::{Arranged, sound_tables, step};
+use inpact_parser::model::{Interaction, TableKind, TableOf};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+declare_rule! {
+    /// The table against clearance and the one against contact pressure differ by more than a factor of ten where they meet.
+    ///
+    /// They meet at the moment of contact: at clearance zero and pressure zero.
+    ///
+    /// ## Why
+    /// A jump there is legal: once the surfaces touch, the pressure table holds (Analysis User's Guide 37.3.1).
+    /// But a large one makes a solver converge badly, since every node that opens or closes changes the law by it, and it may come from units that differ between the two tables.
+    ///
+    /// ## What to do
+    /// Nothing, if the jump is meant.
+    /// Otherwise give both tables the same value at zero.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE
+    /// 20., 0.
+    /// 0.,  0.1
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 5000., 0.
+    /// 6500., 100.
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE
+    /// 20., 0.
+    /// 0.,  0.1
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 50., 0.
+    /// 65., 100.
+    /// ```
+    "P007", "jump-at-contact", Note, fix: None, source: "4.2, T-21"
+}
+
+/// How far apart the two values may be.
+const FACTOR: f64 = 10.0;
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let tables: Vec<&TableOf<'_>> = sound_tables(context).filter(|of| of.interaction.is_some()).collect();
+    for of_interaction in tables.chunk_by(|a, b| is_same(a.interaction, b.interaction)) {
+        let of_kind = |kind: TableKind| of_interaction.iter().rfind(|of| of.kind == kind);
+        let branches = [
+            (TableKind::ElectricalClearance, TableKind::ElectricalPressure),
+            (TableKind::ThermalClearance, TableKind::ThermalPressure),
+        ];
+        for (clearance, pressure) in branches {
+            if let (Some(clearance), Some(pressure)) = (of_kind(clearance), of_kind(pressure)) {
+                check_branches(context, report, clearance, pressure);
+            }
+        }
+    }
+}
+
+fn is_same(a: Option<&Interaction>, b: Option<&Interaction>) -> bool {
+    a.zip(b).is_some_and(|(a, b)| std::ptr::eq(a, b))
+}
+
+/// Reports the first group in which the branches are far apart.
+fn check_branches(context: &Context<'_>, report: &mut Report<'_>, clearance: &TableOf<'_>, pressure: &TableOf<'_>) {
+    let branches = (Arranged::in_order(clearance.table), Arranged::in_order(pressure.table));
+    let (Some(open), Some(closed)) = branches else { return };
+    let jump = groups_in_both(&open, &closed).find_map(|(open_places, closed_places)| {
+        let at_zero = open.row(open_places.start);
+        let (place, on_closing) = value_at_zero_pressure(&closed, closed_places)?;
+        let (lower, higher) = (at_zero[0].min(on_closing), at_zero[0].max(on_closing));
+        let is_jump = at_zero[1] == 0.0 && lower >= 0.0 && higher > FACTOR * lower;
+        is_jump.then_some((open_places.start, at_zero[0], place, on_closing))
+    });
+    let Some((open_place, before, closed_place, after)) = jump else { return };
+    let name = value_words(clearance.kind);
+    let group = group_words(clearance.table, open.row(open_place));
+    let message = format!("{name} jumps from {} to {} at contact{group}", number(before), number(after));
+    report
+        .at(context.cell(pressure, closed.index(closed_place), 0), message)
+        .label("at contact pressure 0")
+        .also(context.cell(clearance, open.index(open_place), 0), "at clearance 0")
+        .note("the jump is legal; one of more than a factor of ten may come from units, and converges badly")
+        .help("give both tables the same value at 0 if no jump is meant");
+}
+
+/// The groups of both tables that belong together: those with the same outer variables.
+fn groups_in_both<'a>(
+    open: &'a Arranged<'_>,
+    closed: &'a Arranged<'_>,
+) -> impl Iterator<Item = (Range<usize>, Range<usize>)> + 'a {
+    let mut open_groups = open.complete_groups().peekable();
+    let mut closed_groups = closed.complete_groups().peekable();
+    let comparable = open.has_outer_columns_of(closed);
+    std::iter::from_fn(move || {
+        loop {
+            let (a, b) = (open_groups.peek()?.clone(), closed_groups.peek()?.clone());
+            let ordering = if comparable {
+                step(&closed.row(b.start)[1..], &open.row(a.start)[1..]).0
+            } else {
+                // One of the laws depends on more than the other: only two plain tables can be told to meet.
+                Ordering::Equal
+            };
+            match ordering {
+                Ordering::Less => drop(open_groups.next()),
+                Ordering::Greater => drop(closed_groups.next()),
+                Ordering::Equal => {
+                    let pair = (open_groups.next()?, closed_groups.next()?);
+                    let is_only = open_groups.peek().is_none() && closed_groups.peek().is_none();
+                    return (comparable || is_only).then_some(pair);
+                }
+            }
+        }
+    })
+}
+
+/// The value on closing: at zero pressure, or that of the highest pressure where all are negative, and the place of its row.
+///
+/// `None` where the table starts above zero (T005).
+fn value_at_zero_pressure(closed: &Arranged<'_>, places: Range<usize>) -> Option<(usize, f64)> {
+    let Some(behind) = places.clone().find(|place| closed.row(*place)[1] >= 0.0) else {
+        return Some((places.end - 1, closed.row(places.end - 1)[0]));
+    };
+    let after = closed.row(behind);
+    if after[1] == 0.0 {
+        return Some((behind, after[0]));
+    }
+    let before = closed.row(places.contains(&behind.checked_sub(1)?).then(|| behind - 1)?);
+    let share = -before[1] / (after[1] - before[1]);
+    Some((behind, before[0] + share * (after[0] - before[0])))
+}

@@ -1,0 +1,65 @@
+//! P008: clearance tables that do not end at zero.
+
+use crate::quantity::{and_more, group_words, number};
+use crate::rule::{Context, Report, declare_rule};
+use crate::tables::{Arranged, is_written, sound_tables, starts_as_it_must};
+use inpact_parser::model::TableKind;
+use std::ops::Range;
+
+declare_rule! {
+    /// The last value of a *GAP ELECTRICAL CONDUCTANCE table against clearance is not zero.
+    ///
+    /// ## Why
+    /// The manual disagrees with itself on what holds beyond the last clearance.
+    /// The text of 37.3.1 says that the conductance stays constant; its figure, and Abaqus/CAE, let it drop to zero.
+    /// inpact follows the text unless told otherwise (`--clearance-tail zero`).
+    /// *GAP CONDUCTANCE always drops to zero there.
+    ///
+    /// ## What to do
+    /// Add a last row with conductance 0 at the clearance beyond which nothing is conducted: then both readings agree.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE
+    /// 20., 0.
+    /// 10., 0.1
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE
+    /// 20., 0.
+    /// 10., 0.1
+    /// 0.,  0.11
+    /// ```
+    "P008", "clearance-tail", Note, fix: None, source: "Q-1"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    // What one row means beyond its clearance is what T008 asks.
+    let of_kind = |kind| kind == TableKind::ElectricalClearance;
+    for of in sound_tables(context).filter(|of| of_kind(of.kind) && of.table.row_count() > 1) {
+        let Some(arranged) = Arranged::in_order(of.table) else { continue };
+        // A table with a wrong start (T004), or one that only rises (P005), is more likely one against pressure.
+        let is_meant = |places: &Range<usize>| starts_as_it_must(of, arranged.row(places.start)[1]);
+        let only_rises = |places: &Range<usize>| {
+            places.len() > 1 && places.clone().skip(1).all(|place| arranged.row(place)[0] > arranged.row(place - 1)[0])
+        };
+        let tails = arranged.complete_groups().filter(|places| is_meant(places) && !only_rises(places));
+        let mut tails = tails.map(|places| places.end - 1).filter(|place| arranged.row(*place)[0] > 0.0);
+        let Some(place) = tails.next() else { continue };
+        let row = arranged.row(place);
+        if !is_written(context, of, arranged.index(place), 0) {
+            continue;
+        }
+        let group = group_words(of.table, row);
+        let message =
+            format!("conductance is {} at the last clearance {}{group}, not 0", number(row[0]), number(row[1]));
+        let more = and_more(tails.count(), "group does not end at 0", "groups do not end at 0");
+        report
+            .at(context.cell(of, arranged.index(place), 0), message)
+            .label("constant or 0 beyond this clearance?")
+            .note(format!("beyond the last clearance the manual's text says constant, its figure says 0{more}"))
+            .help("add a last row with conductance 0");
+    }
+}

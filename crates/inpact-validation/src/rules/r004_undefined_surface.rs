@@ -1,0 +1,82 @@
+//! R004: surfaces that are named and not defined.
+
+use super::r001_undefined_interaction::missing;
+use crate::quantity::and_more;
+use crate::references::{Definitions, last_component, suggestion, uses_of_surfaces};
+use crate::rule::{Context, Report, declare_rule};
+
+declare_rule! {
+    /// A contact pair or a property assignment names a surface that the deck does not define.
+    ///
+    /// Reported only in decks that define surfaces or a mesh, and that are complete: without files that could not be read, imported parts or a restart.
+    /// Of a dotted name such as `Plate-1.Top` only the last part is looked for, since it may be defined inside the part.
+    ///
+    /// ## Why
+    /// Abaqus stops: it does not know what is in contact.
+    ///
+    /// ## What to do
+    /// Correct the name, or define the surface by *SURFACE.
+    ///
+    /// ```inp,expect
+    /// *SURFACE, NAME=BAR-1
+    /// BAR-ELEMENTS, S1
+    /// *SURFACE, NAME=BAR-2
+    /// LUG-ELEMENTS, S2
+    /// *SURFACE INTERACTION, NAME=BUSBAR
+    /// 1.,
+    /// *CONTACT PAIR, INTERACTION=BUSBAR
+    /// BAR-1, BAR-3
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE, NAME=BAR-1
+    /// BAR-ELEMENTS, S1
+    /// *SURFACE, NAME=BAR-2
+    /// LUG-ELEMENTS, S2
+    /// *SURFACE INTERACTION, NAME=BUSBAR
+    /// 1.,
+    /// *CONTACT PAIR, INTERACTION=BUSBAR
+    /// Bar-1, Lug-1.Bar-2
+    /// ```
+    "R004", "undefined-surface", Error, fix: None, source: "C-01, C-02, S-44"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let mut uses = uses_of_surfaces(context);
+    if uses.is_empty() || context.has_unread_files() || !says_what_its_surfaces_are(context) {
+        return;
+    }
+    let definitions = Definitions::surfaces(context);
+    let is_in_instance = |name: &_| last_component(name).is_some_and(|last| definitions.has(&last));
+    uses.retain(|used| !is_in_instance(&used.name));
+    for (index, (first, more)) in missing(&uses, &definitions).into_iter().enumerate() {
+        let found = report.at(first.span, format!("surface `{}` is not defined", first.name));
+        let more = and_more(more, "place names it", "places name it");
+        found.label(format!("named by `*{}`", first.keyword));
+        found.note(format!("a contact surface must be defined by `*SURFACE`{more}"));
+        let define = || format!("define it: `*SURFACE, NAME={}`", first.name);
+        found.help(suggestion(&definitions, &first.name, index).unwrap_or_else(define));
+    }
+}
+
+/// Whether the deck has surfaces or a mesh, and all of what it has.
+fn says_what_its_surfaces_are(context: &Context<'_>) -> bool {
+    let mut surfaces = 0;
+    let mut has_mesh = false;
+    for keyword in context.keyword_lines() {
+        let Some(id) = keyword.id() else { continue };
+        let is_given = |name: &[u8]| {
+            keyword.parameters.iter().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(name))
+        };
+        match context.grammar.keyword(id).name.as_str() {
+            "NODE" | "ELEMENT" => has_mesh = true,
+            "SURFACE" => surfaces += 1,
+            "IMPORT" => return false,
+            "INSTANCE" if is_given(b"LIBRARY") || is_given(b"INSTANCE") => return false,
+            "RESTART" if is_given(b"READ") => return false,
+            _ => {}
+        }
+    }
+    // A *SURFACE without a name (K006) may be the one that is meant.
+    (surfaces > 0 || has_mesh) && surfaces == context.model.surfaces.len()
+}

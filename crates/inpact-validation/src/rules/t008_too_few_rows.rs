@@ -1,0 +1,65 @@
+//! T008: tables with fewer rows than their option needs.
+
+use crate::diagnostic::Severity;
+use crate::quantity::column_words;
+use crate::rule::{Context, Report, declare_rule};
+use crate::tables::sound_tables;
+use inpact_parser::model::TableKind;
+
+declare_rule! {
+    /// A table has one row where its option needs two.
+    ///
+    /// An error for *GAP CONDUCTANCE and for the view factors of *GAP RADIATION.
+    /// A warning for *GAP ELECTRICAL CONDUCTANCE against clearance.
+    /// One row is fine for *GAP ELECTRICAL CONDUCTANCE, PRESSURE and for *CONTACT PERMEABILITY: it is a constant.
+    ///
+    /// ## Why
+    /// The keyword page of *GAP CONDUCTANCE asks for at least two rows, and Abaqus/CAE asks for two in every table against clearance.
+    /// From one row nobody can tell where the conductance ends.
+    ///
+    /// ## What to do
+    /// Add the clearance or the pressure up to which the value holds.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP CONDUCTANCE, PRESSURE
+    /// 500., 0.
+    /// ```
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE
+    /// 20., 0.
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP CONDUCTANCE, PRESSURE
+    /// 500., 0.
+    /// 500., 1.E8
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6,
+    /// ```
+    "T008", "too-few-rows", Error, fix: None, source: "Q-10, K-10, K-30, T-27"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for of in sound_tables(context).filter(|of| of.table.row_count() == 1) {
+        let id = context.grammar.id_of(of.keyword);
+        let definition = id.and_then(|id| context.grammar.keyword(id).definition());
+        let severity = match definition {
+            Some(definition) if definition.data.minimum_rows > 1 => Severity::Error,
+            _ if of.kind == TableKind::ElectricalClearance => Severity::Warning,
+            _ => continue,
+        };
+        let axis = column_words(&of.table.columns[1]);
+        let found = report.at(of.table.row_span(0), format!("`*{}` has one row against {axis}", of.keyword));
+        found.severity(severity).label("the only row").also(context.trimmed(of.table.keyword), "the option");
+        if severity == Severity::Error {
+            found.note("the option needs at least two rows");
+        } else {
+            found.note("Abaqus/CAE asks for two rows; the manual leaves open what one row means beyond its clearance");
+        }
+        found.help(format!("add a row with the {axis} up to which the value holds"));
+    }
+}

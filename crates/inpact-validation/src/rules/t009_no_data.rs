@@ -1,0 +1,84 @@
+//! T009: options that need rows and have none.
+
+use crate::diagnostic::Severity;
+use crate::parameter::given_as;
+use crate::rule::{Context, DefinedBlock, Report, declare_rule};
+use crate::tables::columns_are_unclear;
+
+declare_rule! {
+    /// An option that needs rows has none.
+    ///
+    /// An error where the option means nothing without rows.
+    /// A warning for *GAP HEAT GENERATION, which then means its defaults: all the energy becomes heat, half of it on each side.
+    ///
+    /// ## Why
+    /// A conductance without values is no law.
+    /// Only *CONTACT PERMEABILITY may stand without rows: the pore pressures of both sides are then equal.
+    ///
+    /// ## What to do
+    /// Give the rows, or `USER` where a user subroutine gives the law.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// ** to be measured
+    /// ```
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// *FRICTION
+    /// 0.3,
+    /// *GAP HEAT GENERATION
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// *CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=0.01, CUTOFF GAP FILL=0.01
+    /// ```
+    "T009", "no-data", Error, fix: None, source: "K-11, K-36, Q-15"
+}
+
+/// The option whose row has a default for every item.
+const HEAT_GENERATION: &str = "GAP HEAT GENERATION";
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let mut blocks = context.defined_blocks().peekable();
+    while let Some(block) = blocks.next() {
+        // Rows may stand in a file that is included here (S-51).
+        let goes_on = blocks.peek().is_some_and(|next| next.name == "INCLUDE" && context.has_unread_files());
+        if !goes_on && needs_rows(context, block) && !has_rows(context, block) {
+            say(context, report, block);
+        }
+    }
+}
+
+fn needs_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
+    let data = &block.definition.data;
+    let is_given = |name: &String| given_as(block, name).is_some();
+    // Only options of numbers: what other options need is no question of tables.
+    ((data.required && data.shape.is_numbers()) || block.name == HEAT_GENERATION)
+        && !data.ignored_with.iter().any(is_given)
+        && !columns_are_unclear(context, block)
+}
+
+fn has_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
+    let mut kept = context.deck.data_lines(block.block);
+    !block.block.rows_kept || kept.any(|line| !line.is_blank())
+}
+
+fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>) {
+    let found = report.at(context.trimmed(block.keyword.span), format!("`*{}` has no rows", block.name));
+    found.label("rows should follow");
+    if block.name == HEAT_GENERATION && !block.definition.data.required {
+        found.severity(Severity::Warning);
+        found.note("without a row all the energy becomes heat, half of it on each side");
+        found.help("write `1., 0.5` if that is meant");
+    } else if block.definition.parameter("USER").is_some() {
+        found.note("without values there is no law");
+        found.help("give the rows, or `USER` if a user subroutine gives the law");
+    } else {
+        found.note("without values there is no law").help("give the rows");
+    }
+}

@@ -1,0 +1,84 @@
+//! T010: the same kind of law twice in one interaction.
+
+use crate::rule::{Context, Report, declare_rule};
+use crate::tables::RADIATION;
+use inpact_parser::model::{Interaction, SetAsideItem, SetAsideReason, TableKind};
+use inpact_parser::span::Span;
+
+declare_rule! {
+    /// An interaction has the same option twice, for the same kind of table.
+    ///
+    /// A table against clearance and one with `PRESSURE` are two kinds: together they are how a law is given for open and closed gaps.
+    ///
+    /// ## Why
+    /// Both cannot govern, and no manual says which one Abaqus takes.
+    /// inpact evaluates the last one.
+    ///
+    /// ## What to do
+    /// Take one of them out.
+    /// If the tables are for different temperatures, put their rows into one table.
+    /// If one of them is against contact pressure, it lacks `PRESSURE`.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 2.E6, 0.
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP ELECTRICAL CONDUCTANCE
+    /// 1.E6, 0.
+    /// 0.,   1.E-5
+    /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
+    /// 1.E6, 0.
+    /// 2.E6, 1.E6
+    /// ```
+    "T010", "duplicate-table", Error, fix: None, source: "Q-9, K-07"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for aside in &context.model.set_aside {
+        let SetAsideReason::ReplacedBy(later) = aside.reason else { continue };
+        let (keyword, earlier) = match &aside.item {
+            SetAsideItem::Table(table) => ("GAP ELECTRICAL CONDUCTANCE", table.keyword),
+            SetAsideItem::ContactPermeability(option) => ("CONTACT PERMEABILITY", option.span),
+            SetAsideItem::HeatGeneration(option) => ("GAP HEAT GENERATION", option.span),
+            SetAsideItem::SubOption(_) | SetAsideItem::Interaction(_) => continue,
+        };
+        say(context, report, keyword, later, earlier);
+    }
+    for interaction in context.model.all_interactions() {
+        check_others(context, report, interaction);
+    }
+}
+
+/// The options that the model keeps in one list.
+fn check_others(context: &Context<'_>, report: &mut Report<'_>, interaction: &Interaction) {
+    let mut seen: Vec<(&str, TableKind, Span)> = Vec::new();
+    for option in &interaction.other {
+        let kind = match &option.table {
+            Some(table) => TableKind::of(&option.keyword, table),
+            None if option.keyword == RADIATION => TableKind::Other,
+            None => continue,
+        };
+        match seen.iter_mut().find(|(keyword, of_kind, _)| *keyword == option.keyword && *of_kind == kind) {
+            Some((_, _, earlier)) => {
+                say(context, report, &option.keyword, option.span, *earlier);
+                *earlier = option.span;
+            }
+            None => seen.push((&option.keyword, kind, option.span)),
+        }
+    }
+}
+
+fn say(context: &Context<'_>, report: &mut Report<'_>, keyword: &str, later: Span, earlier: Span) {
+    report
+        .at(later, format!("`*{keyword}` stands twice in one interaction, for the same kind of table"))
+        .label("the second one")
+        .also(context.trimmed(earlier), "the first one")
+        .note("both cannot govern; inpact evaluates the last")
+        .help("take one of them out, or put their rows into one table");
+}

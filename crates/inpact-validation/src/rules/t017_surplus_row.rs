@@ -1,0 +1,54 @@
+//! T017: rows behind the only one that an option has.
+
+use crate::problems::first_of_each_block;
+use crate::quantity::and_more;
+use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::problem::ProblemKind;
+
+declare_rule! {
+    /// A row stands behind the first, in an option that has only one.
+    ///
+    /// *GAP HEAT GENERATION has one row; so has *SURFACE INTERACTION without `USER`.
+    ///
+    /// ## Why
+    /// Abaqus does not read the row, or refuses the deck.
+    /// inpact reads the first row only.
+    ///
+    /// ## What to do
+    /// Take the row out, or put the keyword in front of it that it belongs to.
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// 1.,
+    /// *FRICTION
+    /// 0.3,
+    /// *GAP HEAT GENERATION
+    /// 1., 0.5
+    /// 0.9, 0.3
+    /// ```
+    ///
+    /// ```inp
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// 1.,
+    /// *FRICTION
+    /// 0.3,
+    /// *GAP HEAT GENERATION
+    /// 1., 0.5
+    /// ```
+    "T017", "surplus-row", Warning, fix: None, source: "S-38, K-01"
+}
+
+fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let is_meant =
+        |kind: &ProblemKind| matches!(kind, ProblemKind::SurplusRow | ProblemKind::TooManyItems { allowed: 0, .. });
+    for first in first_of_each_block(context, is_meant) {
+        let name = first.block.map_or("the option", |block| block.name);
+        let more = and_more(first.more, "row is too much", "rows are too much");
+        report
+            .at(context.trimmed(first.problem.span), format!("second row in `*{name}`, which has only one"))
+            .label("not read")
+            .also(context.trimmed(first.problem.keyword), "the option")
+            .note(format!("inpact reads the first row only{more}"))
+            .help("take the row out, or put its keyword in front of it");
+    }
+}
