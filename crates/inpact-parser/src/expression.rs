@@ -16,6 +16,7 @@ mod arithmetic;
 mod evaluate;
 mod functions;
 mod lexer;
+mod literal;
 mod logical_line;
 mod parameters;
 mod statement;
@@ -39,6 +40,9 @@ pub struct ExpressionProblem {
     pub message: String,
     /// What to do.
     pub help: Option<String>,
+    /// The name that is used without a definition above, when that is what is wrong: it may be defined further down, or
+    /// in a file that could not be read.
+    pub undefined: Option<String>,
 }
 
 /// The deepest nesting of parentheses, calls, signs and powers.
@@ -58,11 +62,12 @@ pub const MAX_ARGUMENTS: usize = 255;
 struct Complaint {
     message: String,
     help: Option<String>,
+    undefined: Option<String>,
 }
 
 impl Complaint {
     fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), help: None }
+        Self { message: message.into(), help: None, undefined: None }
     }
 
     fn help(mut self, help: impl Into<String>) -> Self {

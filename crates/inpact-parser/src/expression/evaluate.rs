@@ -1,11 +1,14 @@
-//! Computes an expression while it is read: recursive descent over Python's grammar, no tree in between.
+//! Computes an expression while it is read: operands wait on a stack of their own until their operator is due.
+//!
+//! No recursion, so that no text, however deep it nests, can use up the stack of the program.
 
-use super::arithmetic::{Operator, binary, integer_too_large, negate, real_too_large, text, text_too_long, unsigned};
+use super::arithmetic::{Operator, binary, negate, unsigned};
 use super::functions::{Function, function, names};
 use super::lexer::{Lexer, Token};
+use super::literal::{integer_literal, malformed_number, real_literal, text_literal};
 use super::parameters::Parameters;
 use super::value::Value;
-use super::{Complaint, MAX_NESTING, MAX_TEXT, quoted};
+use super::{Complaint, MAX_NESTING, quoted};
 use std::ops::Range;
 
 /// Words that Python keeps for itself; none of them can be the name of a parameter.
@@ -29,7 +32,46 @@ pub(super) enum Stop {
 }
 
 /// A value and the part of the text that gave it.
-type Computed = Result<(Value, Range<usize>), Stop>;
+struct Operand {
+    value: Value,
+    range: Range<usize>,
+}
+
+/// What waits for an operand on its right.
+enum Pending {
+    /// `+` or `-` in front, and where it stands.
+    Sign(Operator, usize),
+    /// An operator with its left operand.
+    Binary(Operand, Operator),
+    /// `(`
+    Parenthesis(Range<usize>),
+    /// A function with the arguments it has so far, where its name begins, and its `(`.
+    Call { function: &'static Function, arguments: Vec<Value>, start: usize, open: Range<usize> },
+}
+
+impl Pending {
+    /// How tightly it binds: an operator on the right takes the operand away if it binds tighter.
+    fn binding(&self) -> u8 {
+        match self {
+            Self::Parenthesis(_) | Self::Call { .. } => 0,
+            Self::Binary(_, operator) => binding(*operator),
+            Self::Sign(..) => 3,
+        }
+    }
+
+    /// Whether it is one more level of nesting; sums and products stand side by side.
+    fn nests(&self) -> bool {
+        !matches!(self, Self::Binary(_, operator) if *operator != Operator::Power)
+    }
+}
+
+fn binding(operator: Operator) -> u8 {
+    match operator {
+        Operator::Add | Operator::Subtract => 1,
+        Operator::Multiply | Operator::Divide | Operator::FloorDivide | Operator::Remainder => 2,
+        Operator::Power => 4,
+    }
+}
 
 /// Reads the tokens of a logical line one at a time.
 pub(super) struct Evaluator<'a> {
@@ -41,6 +83,7 @@ pub(super) struct Evaluator<'a> {
     pub(super) range: Range<usize>,
     /// Where the token before it ends.
     pub(super) end_of_last: usize,
+    pending: Vec<Pending>,
     depth: usize,
 }
 
@@ -59,7 +102,7 @@ impl<'a> Evaluator<'a> {
     pub(super) fn new(text: &'a [u8], from: usize, parameters: &'a Parameters) -> Self {
         let mut lexer = Lexer::new(text, from);
         let (token, range) = lexer.next_token();
-        Self { text, lexer, parameters, token, range, end_of_last: from, depth: 0 }
+        Self { text, lexer, parameters, token, range, end_of_last: from, pending: Vec::new(), depth: 0 }
     }
 
     /// Goes on to the next token and gives the range of the one passed.
@@ -70,234 +113,194 @@ impl<'a> Evaluator<'a> {
         std::mem::replace(&mut self.range, range)
     }
 
-    /// An expression: terms added and subtracted.
-    pub(super) fn expression(&mut self) -> Computed {
-        let operators = |operator| matches!(operator, Operator::Add | Operator::Subtract);
-        self.chain(operators, Self::term)
-    }
-
-    fn term(&mut self) -> Computed {
-        use Operator::{Divide, FloorDivide, Multiply, Remainder};
-        let operators = |operator| matches!(operator, Multiply | Divide | FloorDivide | Remainder);
-        self.chain(operators, Self::factor)
-    }
-
-    /// Operands joined from left to right.
-    fn chain(&mut self, accepts: fn(Operator) -> bool, operand: fn(&mut Self) -> Computed) -> Computed {
-        let (mut value, mut range) = operand(self)?;
-        while let Token::Operator(operator) = self.token
-            && accepts(operator)
-        {
-            self.advance();
-            let (right, right_range) = operand(self)?;
-            range.end = right_range.end;
-            value = binary(value, operator, &right).or_else(|complaint| stop(range.clone(), complaint))?;
-        }
-        Ok((value, range))
-    }
-
-    /// A power with any number of signs in front. Every nesting passes through here.
-    fn factor(&mut self) -> Computed {
-        if self.depth == MAX_NESTING {
-            return stop(
-                self.range.clone(),
-                Complaint::new(format!("the expression is nested more than {MAX_NESTING} deep"))
-                    .help("compute parts of it in parameters of their own"),
-            );
-        }
-        self.depth += 1;
-        let computed = match self.token {
-            Token::Operator(sign @ (Operator::Add | Operator::Subtract)) => self.signed(sign),
-            _ => self.power(),
-        };
-        self.depth -= 1;
-        computed
-    }
-
-    fn signed(&mut self, sign: Operator) -> Computed {
-        let sign_range = self.advance();
-        let (value, range) = self.factor()?;
-        let range = sign_range.start..range.end;
-        let value = if sign == Operator::Subtract { negate(&value) } else { unsigned(value) };
-        value.map(|value| (value, range.clone())).or_else(|complaint| stop(range, complaint))
-    }
-
-    /// `atom ** factor`: binds to the right, and a sign may stand behind the `**`.
-    fn power(&mut self) -> Computed {
-        let (base, range) = self.atom()?;
-        if self.token != Token::Operator(Operator::Power) {
-            return Ok((base, range));
-        }
-        self.advance();
-        let (exponent, exponent_range) = self.factor()?;
-        let range = range.start..exponent_range.end;
-        let value = binary(base, Operator::Power, &exponent).or_else(|complaint| stop(range.clone(), complaint))?;
-        Ok((value, range))
-    }
-
-    fn atom(&mut self) -> Computed {
-        let read = match self.token {
-            Token::Integer => self.integer(),
-            Token::Real => self.real(),
-            Token::Text => self.text_literal(),
-            Token::Name => return self.name(),
-            Token::Open => return self.parenthesised(),
-            _ => return Err(self.unexpected("a value")),
-        };
-        let range = self.advance();
-        read.map(|value| (value, range.clone())).or_else(|complaint| stop(range, complaint))
-    }
-
-    fn word(&self) -> &'a [u8] {
-        &self.text[self.range.clone()]
-    }
-
-    fn integer(&self) -> Result<Value, Complaint> {
-        let digits = self.word();
-        if digits.len() > 1 && digits[0] == b'0' && digits.iter().any(|digit| *digit != b'0') {
-            return Err(Complaint::new(format!(
-                "the integer {} begins with 0, which Python takes for octal",
-                quoted(digits)
-            ))
-            .help("leave out the leading zeros"));
-        }
-        let value = str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok());
-        value.map(Value::Integer).ok_or_else(|| integer_too_large(&quoted(digits)))
-    }
-
-    fn real(&self) -> Result<Value, Complaint> {
-        let digits = self.word();
-        let value = str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok());
-        let finite = value.filter(|value: &f64| value.is_finite());
-        finite.map(Value::Real).ok_or_else(|| real_too_large(&quoted(digits)))
-    }
-
-    /// A text without its quotes, with Python's escapes for backslash and quotes; a backslash before anything that is no
-    /// escape stands for itself.
-    fn text_literal(&self) -> Result<Value, Complaint> {
-        let word = self.word();
-        let inner = &word[1..word.len() - 1];
-        // An escape takes two bytes for one.
-        if inner.len() > 2 * MAX_TEXT {
-            return Err(text_too_long(inner.len()));
-        }
-        let mut content = Vec::with_capacity(inner.len());
-        let mut bytes = inner.iter().copied().peekable();
-        while let Some(byte) = bytes.next() {
-            match (byte, bytes.peek().copied()) {
-                (b'\\', Some(escaped @ (b'\\' | b'\'' | b'"'))) => {
-                    content.push(escaped);
-                    bytes.next();
+    /// The value of the expression here; stops before the first token that cannot belong to it.
+    pub(super) fn expression(&mut self) -> Result<Value, Stop> {
+        loop {
+            let mut operand = self.operand()?;
+            loop {
+                if let Token::Operator(operator) = self.token {
+                    // A power binds to the right, so that it leaves the power on its left waiting.
+                    let at_least = if operator == Operator::Power { binding(operator) + 1 } else { binding(operator) };
+                    let left = self.apply_pending(operand, at_least)?;
+                    self.push(Pending::Binary(left, operator))?;
+                    self.advance();
+                    break;
                 }
-                (b'\\', Some(escaped @ (b'a' | b'b' | b'f' | b'n' | b'r' | b't' | b'v' | b'x' | b'0'..=b'7'))) => {
-                    let escape = char::from(escaped);
-                    return Err(Complaint::new(format!(
-                        "the text holds the escape `\\{escape}`, a control character in Python"
-                    ))
-                    .help(format!("write `\\\\{escape}` for a backslash before `{escape}`")));
+                operand = self.apply_pending(operand, 1)?;
+                let Some(opened) = self.pop() else { return Ok(operand.value) };
+                match (opened, self.token) {
+                    (Pending::Parenthesis(open), Token::Close) => operand.range = open.start..self.advance().end,
+                    (Pending::Parenthesis(open), Token::Comma) => {
+                        let complaint = Complaint::new("a list of values in parentheses is not understood");
+                        return stop(open.start..self.range.end, complaint.help("give a parameter one value"));
+                    }
+                    (Pending::Call { function, mut arguments, start, open }, Token::Comma | Token::Close) => {
+                        arguments.push(operand.value);
+                        if self.token == Token::Comma {
+                            self.advance();
+                        }
+                        if self.token != Token::Close {
+                            self.argument_follows(function, arguments, start, open)?;
+                            break;
+                        }
+                        operand = self.call(function, &arguments, start)?;
+                    }
+                    (Pending::Parenthesis(open) | Pending::Call { open, .. }, _) => return Err(self.unclosed(open)),
+                    (Pending::Sign(..) | Pending::Binary(..), _) => unreachable!("operators have been applied"),
                 }
-                _ => content.push(byte),
             }
         }
-        let content =
-            String::from_utf8(content).map_err(|_| Complaint::new("the text holds bytes that are not UTF-8"))?;
-        text(content)
     }
 
-    fn parenthesised(&mut self) -> Computed {
-        let open = self.advance();
-        let (value, _) = self.expression()?;
-        match self.token {
-            Token::Close => Ok((value, open.start..self.advance().end)),
-            Token::Comma => stop(
-                open.start..self.range.end,
-                Complaint::new("a list of values in parentheses is not understood").help("give a parameter one value"),
-            ),
-            _ => Err(self.unclosed(open)),
-        }
-    }
-
-    fn unclosed(&self, open: Range<usize>) -> Stop {
-        match self.token {
-            Token::End | Token::Semicolon => {
-                let complaint = Complaint::new("the parenthesis is not closed").help("add `)`");
-                Stop::Complaint { at: open, complaint }
+    fn push(&mut self, pending: Pending) -> Result<(), Stop> {
+        if pending.nests() {
+            if self.depth == MAX_NESTING {
+                let complaint = Complaint::new(format!("the expression is nested more than {MAX_NESTING} deep"));
+                return stop(self.range.clone(), complaint.help("compute parts of it in parameters of their own"));
             }
-            _ => self.unexpected("an operator or `)`"),
+            self.depth += 1;
         }
+        self.pending.push(pending);
+        Ok(())
     }
 
-    fn name(&mut self) -> Computed {
-        let name = self.word();
-        if is_reserved(name) {
-            return Err(self.unexpected("a value"));
-        }
-        let range = self.advance();
-        let text = String::from_utf8_lossy(name);
-        let definition = self.parameters.definition(&text);
-        if self.token == Token::Open {
-            return match function(name) {
-                Some(function) if definition.is_none() => self.call(function, range.start),
-                Some(_) => {
-                    stop(range, Complaint::new(format!("{} is called, but it is a parameter here", quoted(name))))
+    fn pop(&mut self) -> Option<Pending> {
+        let pending = self.pending.pop()?;
+        self.depth -= usize::from(pending.nests());
+        Some(pending)
+    }
+
+    /// Applies the waiting signs and operators that bind at least so tightly.
+    fn apply_pending(&mut self, mut operand: Operand, at_least: u8) -> Result<Operand, Stop> {
+        while self.pending.last().is_some_and(|pending| pending.binding() >= at_least) {
+            let (range, value) = match self.pop() {
+                Some(Pending::Sign(Operator::Subtract, start)) => (start..operand.range.end, negate(&operand.value)),
+                Some(Pending::Sign(_, start)) => (start..operand.range.end, unsigned(operand.value)),
+                Some(Pending::Binary(left, operator)) => {
+                    (left.range.start..operand.range.end, binary(left.value, operator, &operand.value))
                 }
-                None => stop(
-                    range,
-                    Complaint::new(format!("the function {} is not understood", quoted(name)))
-                        .help(format!("the functions are {}", names())),
-                ),
+                _ => unreachable!("only signs and operators bind"),
+            };
+            match value {
+                Ok(value) => operand = Operand { value, range },
+                Err(complaint) => return stop(range, complaint),
+            }
+        }
+        Ok(operand)
+    }
+
+    /// The next number, text, parameter or call without arguments; whatever opens before it waits.
+    fn operand(&mut self) -> Result<Operand, Stop> {
+        loop {
+            let word = &self.text[self.range.clone()];
+            let value = match self.token {
+                Token::Operator(sign @ (Operator::Add | Operator::Subtract)) => {
+                    self.push(Pending::Sign(sign, self.range.start))?;
+                    self.advance();
+                    continue;
+                }
+                Token::Open => {
+                    self.push(Pending::Parenthesis(self.range.clone()))?;
+                    self.advance();
+                    continue;
+                }
+                Token::Name if !is_reserved(word) => match self.name(word)? {
+                    Some(operand) => return Ok(operand),
+                    None => continue,
+                },
+                Token::Integer => integer_literal(word),
+                Token::Real => real_literal(word),
+                Token::Text => text_literal(word),
+                _ => return Err(self.unexpected("a value")),
+            };
+            let range = self.advance();
+            return match value {
+                Ok(value) => Ok(Operand { value, range }),
+                Err(complaint) => stop(range, complaint),
             };
         }
-        match definition {
-            Some(definition) => match &definition.value {
-                Some(value) => Ok((value.clone(), range)),
-                None => Err(Stop::NoValue),
-            },
-            None if name == b"pi" => Ok((Value::Real(std::f64::consts::PI), range)),
+    }
+
+    /// A parameter's value or a call without arguments; `None` for a call whose first argument follows.
+    fn name(&mut self, name: &[u8]) -> Result<Option<Operand>, Stop> {
+        let range = self.advance();
+        let definition = self.parameters.definition(&String::from_utf8_lossy(name));
+        if self.token == Token::Open {
+            if definition.is_some() {
+                let what = format!("{} is called, but it is a parameter, no function", quoted(name));
+                return stop(range, Complaint::new(what));
+            }
+            let Some(function) = function(name) else {
+                let complaint = Complaint::new(format!("the function {} is not understood", quoted(name)));
+                return stop(range, complaint.help(format!("the functions are {}", names())));
+            };
+            let open = self.advance();
+            if self.token == Token::Close {
+                return self.call(function, &[], range.start).map(Some);
+            }
+            return self.argument_follows(function, Vec::new(), range.start, open).map(|()| None);
+        }
+        match definition.map(|definition| definition.value.clone()) {
+            Some(Some(value)) => Ok(Some(Operand { value, range })),
+            Some(None) => Err(Stop::NoValue),
+            None if name == b"pi" => Ok(Some(Operand { value: Value::Real(std::f64::consts::PI), range })),
             None => stop(range, self.undefined(name)),
         }
     }
 
     fn undefined(&self, name: &[u8]) -> Complaint {
         let text = String::from_utf8_lossy(name);
-        let complaint = Complaint::new(format!("{} is used before it is defined", quoted(name)));
+        let mut complaint = Complaint::new(format!("{} is used before it is defined", quoted(name)));
+        complaint.undefined = Some(text.clone().into_owned());
         match self.parameters.name_in_other_case(&text) {
             Some(other) => {
                 complaint.help(format!("{} is defined; upper and lower case differ in names", quoted(other.as_bytes())))
             }
-            None if function(name).is_some() => complaint.help(format!("call the function: `{text}(…)`")),
+            None if function(name).is_some() => {
+                complaint.help(format!("call the function with its arguments: `{text}(…)`"))
+            }
             None => complaint.help("define it further up: every statement is executed where it stands"),
         }
     }
 
-    /// The arguments of a function, and what it gives.
-    fn call(&mut self, function: &Function, start: usize) -> Computed {
-        let open = self.advance();
-        let mut arguments = Vec::new();
-        while self.token != Token::Close {
-            if arguments.len() == *function.arguments.end() {
-                return stop(start..self.range.start, wrong_count(function, "more"));
-            }
-            arguments.push(self.expression()?.0);
-            match self.token {
-                Token::Comma => _ = self.advance(),
-                Token::Close => {}
-                _ => return Err(self.unclosed(open)),
-            }
+    /// Lets a call wait for one more argument, if it takes one.
+    fn argument_follows(
+        &mut self,
+        function: &'static Function,
+        arguments: Vec<Value>,
+        start: usize,
+        open: Range<usize>,
+    ) -> Result<(), Stop> {
+        if arguments.len() == *function.arguments.end() {
+            return stop(start..self.range.start, wrong_count(function, "more"));
         }
+        self.push(Pending::Call { function, arguments, start, open })
+    }
+
+    /// Passes the `)` of a call and computes it.
+    fn call(&mut self, function: &Function, arguments: &[Value], start: usize) -> Result<Operand, Stop> {
         let range = start..self.advance().end;
         if !function.arguments.contains(&arguments.len()) {
             return stop(range, wrong_count(function, &arguments.len().to_string()));
         }
-        match (function.compute)(&arguments) {
-            Ok(value) => Ok((value, range)),
+        match (function.compute)(arguments) {
+            Ok(value) => Ok(Operand { value, range }),
             Err(complaint) => stop(range, complaint),
+        }
+    }
+
+    fn unclosed(&self, open: Range<usize>) -> Stop {
+        match self.token {
+            Token::End | Token::Semicolon => {
+                Stop::Complaint { at: open, complaint: Complaint::new("the parenthesis is not closed").help("add `)`") }
+            }
+            _ => self.unexpected("an operator or `)`"),
         }
     }
 
     /// The complaint about the next token, which is not what it should be.
     pub(super) fn unexpected(&self, expected: &str) -> Stop {
-        let word = self.word();
+        let word = &self.text[self.range.clone()];
         let shown = quoted(word);
         let complaint = match self.token {
             Token::MalformedNumber => malformed_number(word),
@@ -324,20 +327,6 @@ fn wrong_count(function: &Function, given: &str) -> Complaint {
     };
     let noun = if takes == "1" { "argument" } else { "arguments" };
     Complaint::new(format!("`{}` takes {takes} {noun}, {given} given", function.name))
-}
-
-fn malformed_number(word: &[u8]) -> Complaint {
-    let letters = |byte: &u8| byte.is_ascii_alphabetic();
-    let d_exponent = word.iter().position(letters).filter(|at| matches!(word[*at], b'd' | b'D'));
-    match d_exponent {
-        Some(at) if word[at + 1..].iter().any(u8::is_ascii_digit) && !word[at + 1..].iter().any(letters) => {
-            let mut with_e = word.to_vec();
-            with_e[at] = b'E';
-            Complaint::new(format!("the number {} has a D exponent, which *PARAMETER does not know", quoted(word)))
-                .help(format!("write {}", quoted(&with_e)))
-        }
-        _ => Complaint::new(format!("{} is neither a number nor a name", quoted(word))),
-    }
 }
 
 fn unknown(word: &[u8]) -> Complaint {

@@ -77,7 +77,7 @@ fn definition(
     }
     evaluator.advance();
     *expression = Some(evaluator.range.start);
-    let (value, _) = evaluator.expression()?;
+    let value = evaluator.expression()?;
     match evaluator.token {
         Token::End | Token::Semicolon => Ok(value),
         Token::Comma => stop(
@@ -165,8 +165,8 @@ fn record(
     let value = match value {
         Ok(value) => Some(value),
         Err(Stop::NoValue) => None,
-        Err(Stop::Complaint { at, complaint: Complaint { message, help } }) => {
-            problems.push(ExpressionProblem { span: line.place(&at), message, help });
+        Err(Stop::Complaint { at, complaint: Complaint { message, help, undefined } }) => {
+            problems.push(ExpressionProblem { span: line.place(&at), message, help, undefined });
             None
         }
     };

@@ -46,13 +46,14 @@ impl fmt::Display for Value {
     }
 }
 
-/// `str` of Python 2 for a real number: twelve significant digits, as C's `%.12g`, and `.0` behind a whole number.
+/// `str` of Python 2 for a real number: twelve significant digits, `.0` behind a whole number, and an exponent from 1e11 on
+/// (there C's `%.12g` still has none) and below 1e-4.
 pub(super) fn python_text(value: f64) -> String {
     const DIGITS: i32 = 12;
     let scientific = format!("{:.*e}", DIGITS as usize - 1, value);
     let (mantissa, exponent) = scientific.split_once('e').expect("the scientific format has an exponent");
     let exponent: i32 = exponent.parse().expect("the exponent of the scientific format is an integer");
-    if (-4..DIGITS).contains(&exponent) {
+    if (-4..DIGITS - 1).contains(&exponent) {
         let fixed = format!("{:.*}", usize::try_from(DIGITS - 1 - exponent).unwrap_or(0), value);
         if !fixed.contains('.') {
             return fixed + ".0";
