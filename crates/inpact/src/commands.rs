@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 pub(crate) mod explain;
+pub(crate) mod fmt;
 pub(crate) mod inp;
 pub(crate) mod json;
 pub(crate) mod shell;

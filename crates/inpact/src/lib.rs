@@ -31,6 +31,8 @@ struct Arguments {
 enum Command {
     /// Check decks and fragments: what is wrong, where, and how to mend it.
     Check(commands::check::CheckArguments),
+    /// Format decks: aligned tables and one style, where inpact reads them; the rest stays.
+    Fmt(commands::fmt::FormatArguments),
     /// Print a deck as JSON.
     Json(commands::json::JsonArguments),
     /// Write a deck from JSON, either view.
@@ -51,6 +53,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let result = match arguments.command {
         Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Fmt(arguments) => commands::fmt::run(&arguments),
         Command::Json(arguments) => commands::json::run(&arguments),
         Command::Inp(arguments) => commands::inp::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

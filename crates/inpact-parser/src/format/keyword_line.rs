@@ -22,7 +22,7 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
     let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start, formatted: b"*".to_vec() };
     let name = line.piece(keyword.name)?;
     line.formatted.extend_from_slice(definition.name.as_bytes());
-    let mut behind = line.end_of(keyword.name, name);
+    let mut behind = keyword.name.start + name.len() as u64;
     for parameter in &keyword.parameters {
         let piece = line.piece(parameter.span())?;
         line.take_comma(line.at(behind, parameter.name.start))?;
@@ -36,7 +36,7 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
                 }
             }
         }
-        behind = line.end_of(parameter.span(), piece);
+        behind = parameter.name.start + piece.len() as u64;
     }
     line.take_end(line.at(behind, keyword.span.end))?;
     let formatted = line.formatted;
@@ -78,10 +78,6 @@ impl<'deck> Line<'deck> {
     fn piece(&self, span: Span) -> Option<&'deck [u8]> {
         let piece = self.at(span.start, span.end).trim_ascii_end();
         (!piece.iter().any(|byte| matches!(byte, b'\n' | b'\r'))).then_some(piece)
-    }
-
-    fn end_of(&self, span: Span, piece: &[u8]) -> u64 {
-        span.start + piece.len() as u64
     }
 
     /// Takes what stands between two pieces: one comma, and behind it perhaps a line end and comments (S-19, Q-35).
