@@ -69,11 +69,7 @@ fn write_tables<W: Write>(request: &DeckRequest, out: &mut Counted<W>) -> io::Re
     Ok(())
 }
 
-fn write_meshed<W: Write>(
-    request: &DeckRequest,
-    bytes: u64,
-    out: &mut Counted<W>,
-) -> io::Result<()> {
+fn write_meshed<W: Write>(request: &DeckRequest, bytes: u64, out: &mut Counted<W>) -> io::Result<()> {
     let count = request.interactions + 1;
     let behind_parts = measure(|out| write_behind_parts(request, &vec![Plate::UNIT; count], out))?;
     let mut plates = Vec::with_capacity(count);
@@ -102,22 +98,11 @@ fn write_meshed<W: Write>(
 
 fn write_heading(out: &mut impl Write, request: &DeckRequest) -> io::Result<()> {
     writeln!(out, "*Heading")?;
-    writeln!(
-        out,
-        "{} generated contact interfaces, seed {}",
-        request.interactions, request.seed
-    )?;
-    writeln!(
-        out,
-        "** Written by inpact-bench for measurements; SI units, temperatures in K\n**"
-    )
+    writeln!(out, "{} generated contact interfaces, seed {}", request.interactions, request.seed)?;
+    writeln!(out, "** Written by inpact-bench for measurements; SI units, temperatures in K\n**")
 }
 
-fn write_behind_parts(
-    request: &DeckRequest,
-    plates: &[Plate],
-    out: &mut impl Write,
-) -> io::Result<()> {
+fn write_behind_parts(request: &DeckRequest, plates: &[Plate], out: &mut impl Write) -> io::Result<()> {
     write_assembly(out, plates)?;
     out.write_all(MATERIAL.as_bytes())?;
     writeln!(out, "** INTERACTION PROPERTIES\n** ")?;
@@ -131,10 +116,7 @@ fn write_behind_parts(
     writeln!(out, "** \n** INTERACTIONS\n** ")?;
     for number in 1..=request.interactions {
         writeln!(out, "** Interaction: Int-{number}")?;
-        writeln!(
-            out,
-            "*Contact Pair, interaction=IntProp-{number}, small sliding, type=SURFACE TO SURFACE"
-        )?;
+        writeln!(out, "*Contact Pair, interaction=IntProp-{number}, small sliding, type=SURFACE TO SURFACE")?;
         writeln!(out, "Top-{number}, Bottom-{}", number + 1)?;
     }
     out.write_all(STEPS.as_bytes())
@@ -158,28 +140,19 @@ fn write_interaction(out: &mut impl Write, interface: &Interface) -> io::Result<
 }
 
 fn write_mechanics(out: &mut impl Write, interface: &Interface) -> io::Result<()> {
-    writeln!(
-        out,
-        "*Friction, slip tolerance=0.005\n {},",
-        interface.friction
-    )?;
+    writeln!(out, "*Friction, slip tolerance=0.005\n {},", interface.friction)?;
     writeln!(out, "*Surface Behavior, pressure-overclosure=HARD")
 }
 
 fn write_conductances(out: &mut impl Write, interface: &Interface) -> io::Result<()> {
-    let branches = [
-        ("", &interface.clearances, &interface.open),
-        (", pressure", &interface.pressures, &interface.closed),
-    ];
+    let branches =
+        [("", &interface.clearances, &interface.open), (", pressure", &interface.pressures, &interface.closed)];
     for (parameter, abscissae, values) in branches {
         writeln!(out, "*Gap Electrical Conductance{parameter}")?;
         let groups = values.chunks(abscissae.len()).zip(&interface.temperatures);
         for (group, temperature) in groups {
             for (value, abscissa) in group.iter().zip(abscissae) {
-                writeln!(
-                    out,
-                    " {value:>18.12e}, {abscissa:>18.12e}, {temperature:>7.2}"
-                )?;
+                writeln!(out, " {value:>18.12e}, {abscissa:>18.12e}, {temperature:>7.2}")?;
             }
         }
     }
@@ -187,11 +160,7 @@ fn write_conductances(out: &mut impl Write, interface: &Interface) -> io::Result
 }
 
 fn write_permeability(out: &mut impl Write, interface: &Interface) -> io::Result<()> {
-    let Interface {
-        cutoff_flow_across,
-        cutoff_gap_fill,
-        ..
-    } = interface;
+    let Interface { cutoff_flow_across, cutoff_gap_fill, .. } = interface;
     writeln!(
         out,
         "*Contact Permeability, cutoff flow across={cutoff_flow_across:.6e}, cutoff gap fill={cutoff_gap_fill:.6e}"
@@ -257,12 +226,7 @@ mod tests {
     use super::*;
 
     fn request(content: Content) -> DeckRequest {
-        DeckRequest {
-            content,
-            interactions: 5,
-            rows: 20,
-            seed: 1,
-        }
+        DeckRequest { content, interactions: 5, rows: 20, seed: 1 }
     }
 
     fn text(request: &DeckRequest) -> String {
@@ -279,25 +243,15 @@ mod tests {
     #[test]
     fn a_meshed_deck_has_the_size_asked_for() {
         for (bytes, interactions) in [(100_000, 0), (200_000, 2), (1_000_000, 50), (1_500_000, 1)] {
-            let request = DeckRequest {
-                interactions,
-                ..request(Content::Mesh { bytes })
-            };
+            let request = DeckRequest { interactions, ..request(Content::Mesh { bytes }) };
             let deviation = size(&request) as f64 / bytes as f64 - 1.0;
-            assert!(
-                deviation.abs() < 0.02,
-                "{bytes} bytes, {interactions} interactions: {deviation}"
-            );
+            assert!(deviation.abs() < 0.02, "{bytes} bytes, {interactions} interactions: {deviation}");
         }
     }
 
     #[test]
     fn ten_thousand_interactions_of_a_hundred_rows_take_a_hundred_megabytes() {
-        let hundredth = DeckRequest {
-            interactions: 100,
-            rows: 100,
-            ..request(Content::Tables)
-        };
+        let hundredth = DeckRequest { interactions: 100, rows: 100, ..request(Content::Tables) };
         let deviation = size(&hundredth) as f64 / 1e6 - 1.0;
         assert!(deviation.abs() < 0.02, "{deviation}");
     }
@@ -313,15 +267,9 @@ mod tests {
 
     #[test]
     fn a_deck_too_small_for_its_interactions_is_refused() {
-        let error = write(&request(Content::Mesh { bytes: 10_000 }), io::sink())
-            .expect_err("10 kB are too few");
+        let error = write(&request(Content::Mesh { bytes: 10_000 }), io::sink()).expect_err("10 kB are too few");
         assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
-        assert!(
-            error
-                .to_string()
-                .starts_with("5 interactions need more than"),
-            "{error}"
-        );
+        assert!(error.to_string().starts_with("5 interactions need more than"), "{error}");
     }
 
     #[test]
@@ -334,18 +282,11 @@ mod tests {
                 format!("*Surface, type=ELEMENT, name=Bottom-{}", number + 1),
                 format!("Top-{number}, Bottom-{}", number + 1),
             ] {
-                assert_eq!(
-                    deck.lines().filter(|found| *found == line).count(),
-                    1,
-                    "{line}"
-                );
+                assert_eq!(deck.lines().filter(|found| *found == line).count(), 1, "{line}");
             }
         }
         assert!(deck.lines().all(|line| line.len() <= 256));
-        let fields = deck
-            .lines()
-            .filter(|line| line.starts_with(' '))
-            .flat_map(|line| line.split(','));
+        let fields = deck.lines().filter(|line| line.starts_with(' ')).flat_map(|line| line.split(','));
         assert!(fields.map(str::trim).all(|field| field.len() <= 20));
     }
 }

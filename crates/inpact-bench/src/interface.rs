@@ -73,14 +73,10 @@ impl Interface {
                 0 => 0.0,
                 left => scale * (left as f64 + 0.5 * random.unit()) / points as f64,
             }));
-            closed.extend(
-                (0..points).map(|point| scale * (1.0 + point as f64 + 0.5 * random.unit())),
-            );
+            closed.extend((0..points).map(|point| scale * (1.0 + point as f64 + 0.5 * random.unit())));
         }
         let permeable = random.between(1e-9, 1e-8);
-        let permeabilities = (0..points)
-            .map(|point| permeable / (1.0 + point as f64 + 0.5 * random.unit()))
-            .collect();
+        let permeabilities = (0..points).map(|point| permeable / (1.0 + point as f64 + 0.5 * random.unit())).collect();
         let widest = *clearances.last().unwrap_or(&0.0);
         Self {
             name: format!("IntProp-{}", number + 1),
@@ -107,10 +103,7 @@ fn temperature(group: usize) -> f64 {
 ///
 /// Equal groups keep the tables regular, so that a check of the deck has nothing to note (rule T015).
 fn groups(rows: usize) -> usize {
-    (1..=(rows / 10).clamp(1, MOST_GROUPS))
-        .rev()
-        .find(|groups| rows.is_multiple_of(*groups))
-        .unwrap_or(1)
+    (1..=(rows / 10).clamp(1, MOST_GROUPS)).rev().find(|groups| rows.is_multiple_of(*groups)).unwrap_or(1)
 }
 
 /// `count` whole numbers, ascending from 0 by steps between `low` and `high`.
@@ -134,25 +127,13 @@ mod tests {
 
     #[test]
     fn tables_are_regular_and_start_at_zero() {
-        for (rows, expected) in [
-            (2, 1),
-            (9, 1),
-            (20, 2),
-            (25, 1),
-            (30, 3),
-            (100, 10),
-            (1000, 10),
-        ] {
+        for (rows, expected) in [(2, 1), (9, 1), (20, 2), (25, 1), (30, 3), (100, 10), (1000, 10)] {
             let interface = Interface::new(1, 4, rows);
             assert_eq!(interface.temperatures.len(), expected, "{rows} rows");
             assert_eq!(interface.open.len(), rows);
             assert_eq!(interface.closed.len(), rows);
             assert_eq!(interface.clearances.len() * expected, rows);
-            for abscissae in [
-                &interface.clearances,
-                &interface.pressures,
-                &interface.temperatures,
-            ] {
+            for abscissae in [&interface.clearances, &interface.pressures, &interface.temperatures] {
                 assert!(ascending(abscissae), "{abscissae:?}");
             }
             assert_eq!(interface.clearances[0], 0.0);
@@ -165,11 +146,7 @@ mod tests {
         for number in 0..50 {
             let interface = Interface::new(3, number, 40);
             let points = interface.clearances.len();
-            for (open, closed) in interface
-                .open
-                .chunks(points)
-                .zip(interface.closed.chunks(points))
-            {
+            for (open, closed) in interface.open.chunks(points).zip(interface.closed.chunks(points)) {
                 assert!(open.windows(2).all(|pair| pair[0] > pair[1]), "{open:?}");
                 assert_eq!(open[points - 1], 0.0);
                 assert!(ascending(closed), "{closed:?}");

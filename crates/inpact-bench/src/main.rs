@@ -88,17 +88,9 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> io::Result<()> {
     match command {
-        Command::Generate {
-            out,
-            kind,
-            megabytes,
-            rows,
-            shared,
-        } => {
+        Command::Generate { out, kind, megabytes, rows, shared } => {
             let content = match (kind, megabytes) {
-                (Kind::Mesh, size) => Content::Mesh {
-                    bytes: bytes(size.unwrap_or(100.0)),
-                },
+                (Kind::Mesh, size) => Content::Mesh { bytes: bytes(size.unwrap_or(100.0)) },
                 (Kind::Tables, None) => Content::Tables,
                 (Kind::Tables, Some(_)) => {
                     return Err(io::Error::new(
@@ -111,21 +103,11 @@ fn run(command: Command) -> io::Result<()> {
             let size = deck::write(&request, open(&out)?)?;
             report(&out, size)
         }
-        Command::GenerateNodes {
-            out,
-            rows,
-            nodes,
-            table_rows,
-            shared,
-        } => {
+        Command::GenerateNodes { out, rows, nodes, table_rows, shared } => {
             let deck = deck_request(Content::Tables, table_rows, shared);
             let interfaces: Vec<_> = deck.interfaces().collect();
             let nodes = nodes.unwrap_or(rows).max(1);
-            let request = NodesRequest {
-                rows,
-                nodes,
-                seed: shared.seed,
-            };
+            let request = NodesRequest { rows, nodes, seed: shared.seed };
             let size = nodes::write(&request, &interfaces, open(&out)?)?;
             report(&out, size)
         }
@@ -133,24 +115,15 @@ fn run(command: Command) -> io::Result<()> {
 }
 
 fn deck_request(content: Content, rows: usize, shared: Shared) -> DeckRequest {
-    DeckRequest {
-        content,
-        interactions: shared.interactions,
-        rows,
-        seed: shared.seed,
-    }
+    DeckRequest { content, interactions: shared.interactions, rows, seed: shared.seed }
 }
 
 fn open(path: &Path) -> io::Result<BufWriter<Box<dyn Write>>> {
     let target: Box<dyn Write> = if path == Path::new("-") {
         Box::new(io::stdout().lock())
     } else {
-        let file = File::create(path).map_err(|error| {
-            io::Error::new(
-                error.kind(),
-                format!("cannot write `{}`: {error}", path.display()),
-            )
-        })?;
+        let file = File::create(path)
+            .map_err(|error| io::Error::new(error.kind(), format!("cannot write `{}`: {error}", path.display())))?;
         Box::new(file)
     };
     Ok(BufWriter::with_capacity(1 << 16, target))
@@ -160,11 +133,7 @@ fn report(path: &Path, size: u64) -> io::Result<()> {
     writeln!(io::stderr(), "{}: {size} bytes", path.display())
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "`positive` lets no other number through"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`positive` lets no other number through")]
 fn bytes(megabytes: f64) -> u64 {
     (megabytes * 1e6) as u64
 }

@@ -34,22 +34,12 @@ pub struct NodesRequest {
 /// # Panics
 /// When there is no interface or no node.
 pub fn write(request: &NodesRequest, interfaces: &[Interface], out: impl Write) -> io::Result<u64> {
-    assert!(
-        !interfaces.is_empty() && request.nodes > 0,
-        "a row needs an interface and a node"
-    );
+    assert!(!interfaces.is_empty() && request.nodes > 0, "a row needs an interface and a node");
     let mut out = Counted::new(out);
     let increments = request.rows.div_ceil(request.nodes);
     let history = increments > 1;
-    write!(
-        out,
-        "node,interaction,{}clearance,pressure,",
-        if history { "time," } else { "" }
-    )?;
-    writeln!(
-        out,
-        "temp_s,temp_m,epot_s,epot_m,por_s,por_m,area,char_length,perm_s,perm_m"
-    )?;
+    write!(out, "node,interaction,{}clearance,pressure,", if history { "time," } else { "" })?;
+    writeln!(out, "temp_s,temp_m,epot_s,epot_m,por_s,por_m,area,char_length,perm_s,perm_m")?;
     for row in 0..request.rows {
         let (node, increment) = (row % request.nodes, row / request.nodes);
         let which = usize::try_from(node % interfaces.len() as u64).expect("less than a length");
@@ -58,11 +48,7 @@ pub fn write(request: &NodesRequest, interfaces: &[Interface], out: impl Write) 
         if history {
             write!(out, "{},", increment as f64 / INCREMENTS_A_SECOND)?;
         }
-        let progress = if history {
-            increment as f64 / (increments - 1) as f64
-        } else {
-            0.5
-        };
+        let progress = if history { increment as f64 / (increments - 1) as f64 } else { 0.5 };
         let state = state(interface, request.seed, node, row, progress);
         writeln!(out, "{state}")?;
     }
@@ -80,11 +66,7 @@ fn state(interface: &Interface, seed: u64, node: u64, row: u64, progress: f64) -
 
     let opening = of_node.between(0.0, 1.6);
     let closing = 4.0 * progress * (1.0 - progress) * (1.0 + opening) - opening;
-    let closing = if of_node.whole(0, 3) == 0 {
-        -opening
-    } else {
-        closing
-    };
+    let closing = if of_node.whole(0, 3) == 0 { -opening } else { closing };
     let reach = of_node.between(0.2, 1.5) * closing;
     let snap = of_row.whole(0, 7) == 0;
     let clearance = along(&interface.clearances, -reach, snap, 1e9);
@@ -98,9 +80,7 @@ fn state(interface: &Interface, seed: u64, node: u64, row: u64, progress: f64) -
     let por_s = quotient(of_row.between(1e4, 1e5), 1e1);
     let por_m = quotient(of_row.between(1e4, 1e5), 1e1);
     let area = quotient(of_node.between(0.5e-6, 1e-6), 1e9);
-    format!(
-        "{clearance},{pressure},{temp_s},{temp_m},{epot_s},{epot_m},{por_s},{por_m},{area},0.001,1e-12,3e-12"
-    )
+    format!("{clearance},{pressure},{temp_s},{temp_m},{epot_s},{epot_m},{por_s},{por_m},{area},0.001,1e-12,3e-12")
 }
 
 /// The point at `reach` of the way to the last knot, or the knot at or below it where it `snap`s;
@@ -108,15 +88,7 @@ fn state(interface: &Interface, seed: u64, node: u64, row: u64, progress: f64) -
 fn along(knots: &[f64], reach: f64, snap: bool, per_unit: f64) -> f64 {
     let last = knots[knots.len() - 1];
     let point = quotient(last * reach.max(0.0), per_unit);
-    if snap {
-        knots
-            .iter()
-            .copied()
-            .rfind(|knot| *knot <= point)
-            .unwrap_or(0.0)
-    } else {
-        point
-    }
+    if snap { knots.iter().copied().rfind(|knot| *knot <= point).unwrap_or(0.0) } else { point }
 }
 
 /// The value as a whole number over `per_unit`: it prints in few digits.
@@ -140,12 +112,7 @@ mod tests {
         let text = String::from_utf8(text).expect("ASCII");
         let mut lines = text.lines().map(str::to_owned);
         let header = lines.next().expect("a header");
-        (
-            header,
-            lines
-                .map(|line| line.split(',').map(str::to_owned).collect())
-                .collect(),
-        )
+        (header, lines.map(|line| line.split(',').map(str::to_owned).collect()).collect())
     }
 
     #[test]
@@ -167,10 +134,7 @@ mod tests {
             let history: Vec<_> = table.iter().filter(|row| row[0] == label).collect();
             assert_eq!(history.len(), 15);
             assert!(history.iter().all(|row| row[1] == history[0][1]));
-            let times: Vec<f64> = history
-                .iter()
-                .map(|row| row[2].parse().expect("a time"))
-                .collect();
+            let times: Vec<f64> = history.iter().map(|row| row[2].parse().expect("a time")).collect();
             assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
         }
     }
@@ -181,10 +145,7 @@ mod tests {
         let (_, table) = table(2_000, 50, 1);
         let mut counts = [0_u32; 6];
         for row in &table {
-            let interface = interfaces
-                .iter()
-                .find(|known| known.name == row[1])
-                .expect("a known name");
+            let interface = interfaces.iter().find(|known| known.name == row[1]).expect("a known name");
             let clearance: f64 = row[3].parse().expect("a clearance");
             let pressure: f64 = row[4].parse().expect("a pressure");
             let widest = interface.clearances[interface.clearances.len() - 1];

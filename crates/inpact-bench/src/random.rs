@@ -15,9 +15,7 @@ impl Random {
     /// The stream of one seed.
     pub fn new(seed: u64) -> Self {
         // xorshift has one forbidden state, zero.
-        Self {
-            state: scramble(seed).max(1),
-        }
+        Self { state: scramble(seed).max(1) }
     }
 
     /// The stream of one item, `index`, of a family of streams, `seed`: an item can be drawn without its
@@ -84,9 +82,6 @@ mod tests {
             counts[usize::try_from(whole - 3).expect("at most 9")] += 1;
         }
         // 1000 each are expected, with a standard deviation of 30.
-        assert!(
-            counts.iter().all(|count| (850..1150).contains(count)),
-            "{counts:?}"
-        );
+        assert!(counts.iter().all(|count| (850..1150).contains(count)), "{counts:?}");
     }
 }
