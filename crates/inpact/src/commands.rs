@@ -1,8 +1,12 @@
 //! The commands, one file each: its arguments, and the way from them to a result.
 
 pub(crate) mod check;
+pub(crate) mod eval;
 pub(crate) mod explain;
 pub(crate) mod fmt;
 pub(crate) mod inp;
 pub(crate) mod json;
+pub(crate) mod plan;
 pub(crate) mod shell;
+
+mod scene;

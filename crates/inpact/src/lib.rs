@@ -37,6 +37,10 @@ enum Command {
     Json(commands::json::JsonArguments),
     /// Write a deck from JSON, either view.
     Inp(commands::inp::InpArguments),
+    /// Evaluate the interface laws of a deck on node data.
+    Eval(commands::eval::EvalArguments),
+    /// Show what an evaluation would do: which laws, tables, columns and outputs, and what is left out and why.
+    Plan(commands::plan::PlanArguments),
     /// Explain a rule or a keyword.
     Explain(commands::explain::ExplainArguments),
     /// Print the completions of a shell.
@@ -56,6 +60,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Fmt(arguments) => commands::fmt::run(&arguments),
         Command::Json(arguments) => commands::json::run(&arguments),
         Command::Inp(arguments) => commands::inp::run(&arguments),
+        Command::Eval(arguments) => commands::eval::run(&arguments),
+        Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Completions(arguments) => commands::shell::completions(&arguments, Arguments::command()),
         Command::Man => commands::shell::manual(&Arguments::command()),

@@ -65,7 +65,8 @@ impl<'a> NodeReader<'a> {
         // The end of a line is LF for the csv crate, so that it counts lines right; a CR before it is taken off here.
         builder.has_headers(false).flexible(true).terminator(Terminator::Any(b'\n')).buffer_capacity(PIECE);
         let mut reader = Self {
-            csv: builder.from_reader(input),
+            // A file may end without a line end; one more blank line is no row, so that every row has its own.
+            csv: builder.from_reader(Box::new(input.chain(&b"\n"[..]))),
             header: Header::default(),
             record: ByteRecord::new(),
             rows_read: 0,
@@ -161,8 +162,8 @@ impl<'a> NodeReader<'a> {
 
     /// The line on which the row read last ends.
     fn line(&self) -> u64 {
-        // Its line end has been counted already, unless the file ends without one.
-        self.csv.position().line() - u64::from(!self.csv.is_done())
+        // Its line end has been counted already.
+        self.csv.position().line() - 1
     }
 
     fn report_count(&self, findings: &mut Findings) {

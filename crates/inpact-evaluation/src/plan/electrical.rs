@@ -26,7 +26,7 @@ pub(super) fn plan_electrical(
     const LAW: &str = "electrical law";
     let Some(option) = &planner.interaction.gap_electrical_conductance else {
         let potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential);
-        if potentials.into_iter().any(|column| planner.survey.header.has(column)) {
+        if potentials.into_iter().any(|column| planner.may_have(column)) {
             left_out.push(LAW, Reason::NoKeyword(KEYWORD));
         }
         return None;

@@ -125,6 +125,14 @@ impl Planner<'_> {
         self.survey.presence(self.index, column)
     }
 
+    /// Whether a column has numbers in the rows of the interaction, or may have: one that no law could use was not read.
+    pub(super) fn may_have(self, column: Column) -> bool {
+        match self.survey.columns.contains(&column) {
+            true => self.presence(column).has_numbers(),
+            false => self.survey.header.has(column),
+        }
+    }
+
     /// The columns that tell contact, as far as they have numbers.
     pub(super) fn contact(self) -> ContactColumns {
         let found = |column| Some(column).filter(|column| self.presence(*column).has_numbers());

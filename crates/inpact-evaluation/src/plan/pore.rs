@@ -27,7 +27,7 @@ pub(super) fn plan_pore(
     let option = planner.interaction.contact_permeability.as_ref();
     let sides = [Part::Slave, Part::Master].map(Column::PorePressure);
     if option.is_none() && !planner.model.procedures.iter().any(Procedure::solves_pore_pressure) {
-        if sides.into_iter().any(|column| planner.survey.header.has(column)) {
+        if sides.into_iter().all(|column| planner.may_have(column)) {
             left_out.push(LAW, Reason::NoPoreAnalysis);
         }
         return None;

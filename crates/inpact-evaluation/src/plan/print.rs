@@ -31,7 +31,8 @@ impl fmt::Display for Plan {
         }
         let keys = self.keys().iter().map(ToString::to_string);
         let outputs: Vec<String> = keys.chain(self.outputs.iter().map(ToString::to_string)).collect();
-        writeln!(formatter, "\ncolumns of the result\n  {}", outputs.join(" "))
+        let outputs = if outputs.is_empty() { "none".to_owned() } else { outputs.join(" ") };
+        writeln!(formatter, "\ncolumns of the result\n  {outputs}")
     }
 }
 
@@ -91,15 +92,15 @@ fn write_pore(law: &PorePlan, formatter: &mut Formatter<'_>) -> fmt::Result {
     }
     writeln!(formatter, "    cutoff of gap filling: {}", cutoff(law.cutoffs.gap_fill))?;
     let rate = match law.rate {
-        Rate::Column => "`clearance_rate`",
-        Rate::History => "each node's history",
-        Rate::Unknown | Rate::NotNeeded => "nothing: taken as zero",
+        Rate::Column => "rate of the clearance from `clearance_rate`",
+        Rate::History => "rate of the clearance from each node's history",
+        Rate::Unknown | Rate::NotNeeded => "the clearance is taken as unchanging",
     };
     let shares = match law.bulk {
         Bulk::Columns => "shared as `perm_s` to `perm_m`",
         Bulk::Halves => "half to either side",
     };
-    writeln!(formatter, "    gap filling: rate of the clearance from {rate}; {shares}")
+    writeln!(formatter, "    gap filling: {rate}; {shares}")
 }
 
 fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> fmt::Result {
@@ -111,13 +112,12 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
     for axis in &table.axes {
         let AxisPlan { along, least, greatest, points, matters } = *axis;
         let along = along.to_string();
-        let range = if least == greatest {
-            format!("{} alone", number(least))
-        } else {
-            format!("{} to {}, {points} values", number(least), number(greatest))
+        let range = match (matters, points) {
+            (false, 1) => format!("{} in every row: left out", number(least)),
+            (false, _) => format!("{} to {}, one value a group: left out", number(least), number(greatest)),
+            (true, _) => format!("{} to {}, {points} values", number(least), number(greatest)),
         };
-        let unused = if matters { "" } else { ": left out, each group has one value" };
-        writeln!(formatter, "      {along:<10} {range}{unused}")?;
+        writeln!(formatter, "      {along:<10} {range}")?;
     }
     Ok(())
 }

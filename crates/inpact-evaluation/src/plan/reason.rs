@@ -119,7 +119,7 @@ impl fmt::Display for Reason {
             Self::OneSided { missing } => {
                 write!(
                     formatter,
-                    "`{missing}` is missing: pore pressure on one side only, the interface is impermeable"
+                    "`{missing}` has no numbers: pore pressure on one side only, the interface is impermeable"
                 )
             }
             Self::NoPoreAnalysis => formatter.write_str(

@@ -1,0 +1,222 @@
+//! `inpact eval`: a deck and a node table in, a result table out.
+
+use super::scene::{FindingFormat, Scene, SceneArguments, say_data_findings};
+use crate::failure::{Failure, Outcome, say};
+use crate::files::ResultFile;
+use clap::Args;
+use inpact_evaluation::compile::compile;
+use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
+use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
+use inpact_evaluation::plan::{Plan, Reason};
+use inpact_evaluation::results::{ResultBatch, ResultWriter};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Up to so many interactions each has a line in the summary; more have one together.
+const MOST_INTERACTIONS: usize = 12;
+
+#[derive(Debug, Args)]
+pub(crate) struct EvalArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Where to write the result, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// How to print findings and summary on standard error.
+    #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
+    format: FindingFormat,
+}
+
+pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
+    let start = Instant::now();
+    let format = arguments.format;
+    let Some(mut scene) = arguments.scene.prepare(format)? else { return Ok(Outcome::HasErrors) };
+    if scene.deck_has_errors {
+        return Ok(Outcome::HasErrors);
+    }
+    if scene.plan.outputs.is_empty() {
+        return Err(nothing_to_evaluate(&scene, format));
+    }
+    let mut findings = Findings::new(&scene.nodes_name);
+    let (tally, rows_out) = evaluate(arguments, &mut scene, &mut findings)?;
+    tally.report(&scene.plan, &mut findings);
+    say_data_findings(findings.into_list(), format);
+    let summary = Summary { tally: &tally, plan: &scene.plan, rows_out, time: start.elapsed() };
+    match format {
+        FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
+        FindingFormat::Json => say(&summary.json()),
+    }
+    Ok(Outcome::Clean)
+}
+
+/// Evaluates the node table batch by batch; gives the counts and the number of rows written.
+fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Findings) -> Result<(Tally, u64), Failure> {
+    let nodes_path = arguments.scene.nodes_path();
+    let unreadable = |error| Failure::read(nodes_path, error);
+    let Scene { model, plan, choices, nodes_name, nodes, .. } = scene;
+    let laws = compile(model, plan, choices);
+    let mut reader = NodeReader::open(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
+    reader.select(&plan.selection);
+    let mut output = ResultFile::create(arguments.output.as_deref())?;
+    let written = write(&mut reader, Evaluation::new(model, plan, &laws), plan, &mut output, findings);
+    let (tally, rows_out) = match written {
+        Ok(counts) => counts,
+        Err(Stopped::Reading(error)) => return Err(unreadable(error)),
+        Err(Stopped::Writing(error)) => return Err(output.failure(error)),
+    };
+    if tally.rows != plan.rows || rows_out != plan.rows || findings.has_errors() {
+        let (first, then) = (plan.rows, tally.rows);
+        let message = format!("`{nodes_name}` changed while it was read: {first} rows, then {then}");
+        return Err(Failure::Data(message));
+    }
+    output.finish()?;
+    Ok((tally, rows_out))
+}
+
+/// Which end of an evaluation failed.
+enum Stopped {
+    Reading(std::io::Error),
+    Writing(std::io::Error),
+}
+
+fn write(
+    reader: &mut NodeReader<'_>,
+    mut evaluation: Evaluation<'_>,
+    plan: &Plan,
+    output: &mut ResultFile,
+    findings: &mut Findings,
+) -> Result<(Tally, u64), Stopped> {
+    let mut writer = ResultWriter::new(output, plan.keys(), &plan.outputs).map_err(Stopped::Writing)?;
+    let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
+    while reader.read_batch(&mut batch, findings).map_err(Stopped::Reading)? {
+        evaluation.evaluate(&batch, &mut results);
+        writer.write(&batch, &results).map_err(Stopped::Writing)?;
+    }
+    Ok((evaluation.finish(), writer.rows_written()))
+}
+
+/// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
+fn nothing_to_evaluate(scene: &Scene, format: FindingFormat) -> Failure {
+    let mut findings = Findings::new(&scene.nodes_name);
+    scene.plan.report_missing(&mut findings);
+    say_data_findings(findings.into_list(), format);
+    let reasons = scene.plan.interactions.iter().flat_map(|interaction| {
+        let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
+        others.map(move |left_out| format!("{} of `{}`: {}", left_out.what, interaction.name, left_out.reason))
+    });
+    let reasons: Vec<String> = reasons.collect();
+    let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join("; ")) };
+    Failure::Data(format!("nothing of `{}` can be evaluated on these rows{reasons}", scene.deck_name))
+}
+
+/// What an evaluation did, for standard error.
+struct Summary<'a> {
+    tally: &'a Tally,
+    plan: &'a Plan,
+    rows_out: u64,
+    time: Duration,
+}
+
+impl Summary<'_> {
+    fn text(&self) -> Vec<String> {
+        let seconds = self.time.as_secs_f64();
+        let mut lines = vec![format!("{} rows in, {} rows out, {seconds:.3} s", self.tally.rows, self.rows_out)];
+        if self.plan.interactions.len() > MOST_INTERACTIONS {
+            let whole = self.tally.whole();
+            lines.push(format!("  {} interactions: {}", self.plan.interactions.len(), counts(&whole)));
+            lines.extend(remarks(&whole).into_iter().map(|remark| format!("    {remark}")));
+            return lines;
+        }
+        for interaction in &self.plan.interactions {
+            let of = &self.tally.interactions[interaction.index];
+            lines.push(format!("  {}: {}", interaction.name, counts(of)));
+            lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
+            let laws_and_outputs =
+                interaction.left_out.iter().filter(|left_out| matches!(left_out.reason, Reason::Missing(_)));
+            for left_out in laws_and_outputs {
+                lines.push(format!("    without {}: {}", left_out.what, left_out.reason));
+            }
+        }
+        lines
+    }
+
+    fn json(&self) -> String {
+        #[derive(Serialize)]
+        struct Record<'a> {
+            rows_in: u64,
+            rows_out: u64,
+            seconds: f64,
+            interactions: Vec<Interaction<'a>>,
+        }
+        #[derive(Serialize)]
+        struct Interaction<'a> {
+            name: &'a str,
+            rows: u64,
+            closed: u64,
+            open: u64,
+            beyond_table: u64,
+            cutoff: u64,
+            constrained: u64,
+            incomplete: u64,
+            incomplete_flows: u64,
+            needs_char_length: u64,
+            lost_digits: u64,
+        }
+        #[derive(Serialize)]
+        struct Line<'a> {
+            summary: Record<'a>,
+        }
+        let interactions = self.plan.interactions.iter().map(|interaction| {
+            let of = &self.tally.interactions[interaction.index];
+            Interaction {
+                name: interaction.name.written(),
+                rows: of.rows,
+                closed: of.closed,
+                open: of.open,
+                beyond_table: of.beyond_table,
+                cutoff: of.cutoff,
+                constrained: of.constrained,
+                incomplete: of.incomplete,
+                incomplete_flows: of.incomplete_flows,
+                needs_char_length: of.needs_length,
+                lost_digits: of.lost_digits,
+            }
+        });
+        let summary = Record {
+            rows_in: self.tally.rows,
+            rows_out: self.rows_out,
+            seconds: self.time.as_secs_f64(),
+            interactions: interactions.collect(),
+        };
+        // A record of strings and numbers has no reason to fail.
+        serde_json::to_string(&Line { summary }).unwrap_or_default()
+    }
+}
+
+/// `300 rows, 212 closed, 88 open, 12 beyond a table`.
+fn counts(of: &InteractionTally) -> String {
+    let mut counts = vec![format!("{} rows", of.rows), format!("{} closed", of.closed), format!("{} open", of.open)];
+    let others = [
+        (of.beyond_table, "beyond a table"),
+        (of.cutoff, "beyond the cutoff of flow across"),
+        (of.constrained, "constrained to equal pore pressures"),
+    ];
+    counts.extend(others.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")));
+    counts.join(", ")
+}
+
+/// What a user should know of the rows.
+fn remarks(of: &InteractionTally) -> Vec<String> {
+    let remarks = [
+        (of.incomplete, "lack a number that a law needs and have no results of it"),
+        (of.incomplete_flows, "have no potentials and so no current"),
+        (of.needs_length, "lack the characteristic element length: give `char_length` or `--char-length`"),
+        (
+            of.lost_digits,
+            "have a difference of potentials below 1e-8 of the potentials, which has lost its digits: give `epot_jump`",
+        ),
+    ];
+    let remarks = remarks.into_iter().filter(|(count, _)| *count > 0);
+    remarks.map(|(count, what)| format!("warning: {count} rows {what}")).collect()
+}

@@ -1,0 +1,150 @@
+//! `inpact plan`: a deck and a node table in, what an evaluation of them would do out.
+
+use super::scene::{FindingFormat, Scene, SceneArguments};
+use crate::failure::{Failure, Outcome};
+use crate::files;
+use clap::{Args, ValueEnum};
+use inpact_evaluation::plan::{
+    CharacteristicLength, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan, PorePlan, Source, TablePlan,
+};
+use inpact_parser::model::Regime;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct PlanArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Where to write the plan, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// How to print the plan.
+    #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
+    format: PlanFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PlanFormat {
+    /// For a person.
+    Text,
+    /// For another program.
+    Json,
+}
+
+pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
+    let findings = match arguments.format {
+        PlanFormat::Text => FindingFormat::Concise,
+        PlanFormat::Json => FindingFormat::Json,
+    };
+    let Some(scene) = arguments.scene.prepare(findings)? else { return Ok(Outcome::HasErrors) };
+    let text = match arguments.format {
+        PlanFormat::Text => format!("plan for {} on {}: {}", scene.deck_name, scene.nodes_name, scene.plan),
+        PlanFormat::Json => as_json(&scene),
+    };
+    files::write_result(arguments.output.as_deref(), text.as_bytes())?;
+    Ok(if scene.deck_has_errors { Outcome::HasErrors } else { Outcome::Clean })
+}
+
+fn as_json(scene: &Scene) -> String {
+    let Plan { rows, governed_by, interactions, unused, columns, outputs, .. } = &scene.plan;
+    let columns = columns.iter().map(|column| {
+        let (role, reason) = match &column.role {
+            ColumnRole::Key => ("key", None),
+            ColumnRole::KeyAndRead => ("key and read", None),
+            ColumnRole::Read => ("read", None),
+            ColumnRole::NotRead(reason) => ("left out", Some(reason.to_string())),
+        };
+        json!({
+            "header": column.header,
+            "column": column.column.map(|column| column.to_string()),
+            "role": role,
+            "reason": reason,
+            "range": column.range.map(|(least, greatest)| [least, greatest]),
+        })
+    });
+    let keys = scene.plan.keys().iter().map(ToString::to_string);
+    let document = json!({
+        "schema": "inpact/plan/1",
+        "deck": scene.deck_name,
+        "nodes": scene.nodes_name,
+        "rows": rows,
+        "governed_by": match governed_by {
+            GovernedBy::Chosen(_) => "choice",
+            GovernedBy::TheOnlyOne(_) => "only interaction",
+            GovernedBy::Column => "column",
+        },
+        "interactions": interactions.iter().map(interaction).collect::<Vec<_>>(),
+        "unused": unused.iter().map(inpact_parser::model::Name::written).collect::<Vec<_>>(),
+        "columns": columns.collect::<Vec<_>>(),
+        "outputs": keys.chain(outputs.iter().map(ToString::to_string)).collect::<Vec<_>>(),
+    });
+    // A document of strings and numbers has no reason to fail.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+fn interaction(plan: &InteractionPlan) -> Value {
+    let left_out = plan.left_out.iter();
+    let left_out = left_out.map(|left_out| json!({ "what": left_out.what, "reason": left_out.reason.to_string() }));
+    json!({
+        "name": plan.name.written(),
+        "rows": plan.rows,
+        "closed": plan.closed,
+        "open": plan.open,
+        "histories": plan.histories,
+        "electrical": plan.electrical.as_ref().map(electrical),
+        "pore": plan.pore.as_ref().map(pore),
+        "outputs": plan.outputs.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "left_out": left_out.collect::<Vec<_>>(),
+        "notes": plan.notes,
+    })
+}
+
+fn electrical(law: &ElectricalPlan) -> Value {
+    json!({
+        "regime": regime(law.regime.regime),
+        "reason": law.regime.to_string(),
+        "tables": law.tables.iter().map(table).collect::<Vec<_>>(),
+        "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
+        "potential_jump": law.jump.as_ref().map(columns),
+    })
+}
+
+fn pore(law: &PorePlan) -> Value {
+    json!({
+        "regime": regime(law.regime.regime),
+        "reason": law.regime.to_string(),
+        "table": law.table.as_ref().map(table),
+        "cutoff_flow_across": law.cutoffs.flow_across,
+        "cutoff_gap_fill": law.cutoffs.gap_fill,
+        "characteristic_length": match law.characteristic_length {
+            CharacteristicLength::NotNeeded => json!("not needed"),
+            CharacteristicLength::Column => json!("char_length"),
+            CharacteristicLength::Given(length) => json!(length),
+            CharacteristicLength::Unknown => Value::Null,
+        },
+    })
+}
+
+fn table(table: &TablePlan) -> Value {
+    let axes = table.axes.iter().map(|axis| {
+        json!({
+            "along": axis.along.to_string(),
+            "least": axis.least,
+            "greatest": axis.greatest,
+            "values": axis.points,
+            "used": axis.matters,
+        })
+    });
+    json!({ "against": table.against.to_string(), "rows": table.rows, "axes": axes.collect::<Vec<_>>() })
+}
+
+fn regime(regime: Regime) -> &'static str {
+    match regime {
+        Regime::SteadyState => "steady",
+        Regime::Transient => "transient",
+    }
+}
+
+fn columns(source: &Source<inpact_evaluation::nodes::Column>) -> Vec<String> {
+    source.cells().map(|column| column.to_string()).collect()
+}
