@@ -9,6 +9,7 @@ mod include;
 mod keyword_line;
 pub mod lines;
 mod scan;
+mod survey;
 mod text;
 
 pub use data_line::items;

@@ -7,6 +7,7 @@
 use super::lines::{
     LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
 };
+use super::survey::Survey;
 use super::{
     Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line,
 };
@@ -184,7 +185,14 @@ impl<'grammar> Scanner<'grammar> {
         let mut at = 0;
         if self.offset == 0 {
             at = byte_order_mark(bytes);
-            self.rows(&bytes[..at], &[]);
+            self.rows(&bytes[..at], &[], Survey::of(&bytes[..at]));
+        }
+        if at == 0 && self.open_keyword.is_none() {
+            let survey = Survey::of(bytes);
+            if !survey.has_asterisk {
+                // Nothing but rows, of a mesh most likely: nobody has to look closer.
+                return self.rows(bytes, &[], survey);
+            }
         }
         while at < bytes.len() {
             if self.open_keyword.is_some() {
@@ -200,7 +208,8 @@ impl<'grammar> Scanner<'grammar> {
                     marked.push((start - at, Mark::Directive));
                 }
             });
-            self.rows(&bytes[at..keyword.unwrap_or(bytes.len())], &marked);
+            let rows = &bytes[at..keyword.unwrap_or(bytes.len())];
+            self.rows(rows, &marked, Survey::of(rows));
             let Some(keyword) = keyword else { return };
             at = next_line(bytes, keyword);
             self.open_keyword(&bytes[keyword..at]);
@@ -208,11 +217,11 @@ impl<'grammar> Scanner<'grammar> {
     }
 
     /// Takes rows and comments of the open block; `marked` are the starts of comments that somebody asks for.
-    fn rows(&mut self, bytes: &[u8], marked: &[(usize, Mark)]) {
+    fn rows(&mut self, bytes: &[u8], marked: &[(usize, Mark)], survey: Survey) {
         if bytes.is_empty() {
             return;
         }
-        let mut lines = if self.block.free_text { Vec::new() } else { noteworthy_lines(bytes, self.offset) };
+        let mut lines = if self.block.free_text { Vec::new() } else { noteworthy_lines(bytes, self.offset, survey) };
         lines.extend(marked.iter().map(|(start, mark)| (*start..next_line(bytes, *start), *mark)));
         self.mark(lines, bytes);
         match self.block.keeps_rows {
@@ -221,7 +230,8 @@ impl<'grammar> Scanner<'grammar> {
             KeepsRows::UpTo(_) => self.block.keeps_rows = KeepsRows::None,
             KeepsRows::None => {}
         }
-        self.advance(bytes);
+        self.offset += bytes.len() as u64;
+        self.line += if survey.has_carriage_return { count_line_ends(bytes) } else { survey.line_feeds };
     }
 
     /// Takes down lines of `bytes`, which begin at the current offset.
@@ -263,7 +273,7 @@ impl<'grammar> Scanner<'grammar> {
         self.source.keep(self.offset, self.line, line);
         self.block.keeps_rows = KeepsRows::All;
         self.block.rows_start = self.offset;
-        self.mark(noteworthy_lines(line, self.offset), line);
+        self.mark(noteworthy_lines(line, self.offset, Survey::of(line)), line);
         self.advance(line);
         let may_continue = self.options.grammar.dialect() == Dialect::Abaqus;
         if !may_continue || !keyword_line::ends_in_comma(line) {
@@ -285,7 +295,7 @@ impl<'grammar> Scanner<'grammar> {
         self.source.keep(self.offset, self.line, line);
         if !is_comment {
             open.accepted = open.text.len();
-            self.mark(noteworthy_lines(line, self.offset), line);
+            self.mark(noteworthy_lines(line, self.offset, Survey::of(line)), line);
         }
         self.advance(line);
         if !is_comment && !keyword_line::ends_in_comma(line) {
@@ -324,17 +334,17 @@ impl<'grammar> Scanner<'grammar> {
 }
 
 /// The lines that are too long or not ASCII (S-01, S-06); comments may be both. `offset` is where `bytes` stand in the file.
-fn noteworthy_lines(bytes: &[u8], offset: u64) -> Vec<(Range<usize>, Mark)> {
+fn noteworthy_lines(bytes: &[u8], offset: u64, survey: Survey) -> Vec<(Range<usize>, Mark)> {
     let mut found = Vec::new();
     let is_row = |line: &Range<usize>| matches!(line_kind(&bytes[line.clone()]), LineKind::Data | LineKind::Keyword);
-    let mut from = 0;
+    let mut from = if survey.may_have_long_line { 0 } else { bytes.len() };
     while let Some(long) = find_long_line(bytes, from, LINE_CHARACTERS) {
         from = long.end;
         if is_row(&long) && bytes[long.clone()].trim_ascii_end().len() > LINE_CHARACTERS {
             found.push((long, Mark::Note(LineNoteKind::TooLong)));
         }
     }
-    if bytes.is_ascii() {
+    if survey.is_ascii {
         return found;
     }
     let skipped = if offset == 0 { byte_order_mark(bytes) } else { 0 };
