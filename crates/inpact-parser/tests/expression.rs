@@ -174,7 +174,9 @@ fn names_are_case_sensitive() {
     let (parameters, _) = run("SL = 1");
     assert_eq!(parameters.name_in_other_case("sl"), Some("SL"));
     assert_eq!(parameters.name_in_other_case("SL"), None);
+    assert_eq!(parameters.name_in_other_case("sL"), Some("SL"));
     assert_eq!(parameters.name_in_other_case("SLX"), None);
+    assert_eq!(run("sl = 1").0.name_in_other_case("Sl"), Some("sl"));
 }
 
 #[test]

@@ -33,7 +33,8 @@ fn tree() -> impl Strategy<Value = Tree> {
         prop_oneof![
             5 => (operator, inner.clone(), inner.clone())
                 .prop_map(|(operator, left, right)| Tree::Binary(operator, Box::new(left), Box::new(right))),
-            1 => (prop::sample::select(vec!['+', '-']), inner.clone()).prop_map(|(sign, operand)| Tree::Sign(sign, Box::new(operand))),
+            1 => (prop::sample::select(vec!['+', '-']), inner.clone())
+                .prop_map(|(sign, operand)| Tree::Sign(sign, Box::new(operand))),
             1 => inner.prop_map(|operand| Tree::Parentheses(Box::new(operand))),
         ]
     })
@@ -243,7 +244,9 @@ proptest! {
             .collect();
         let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
         define(lines, &mut parameters, &mut problems);
-        for span in problems.iter().map(|problem| problem.span).chain(parameters.definitions().iter().map(|definition| definition.span)) {
+        let of_problems = problems.iter().map(|problem| problem.span);
+        let of_definitions = parameters.definitions().iter().map(|definition| definition.span);
+        for span in of_problems.chain(of_definitions) {
             prop_assert!(span.start <= span.end && span.end <= bytes.len() as u64, "{:?}", span);
         }
         for definition in parameters.definitions() {
@@ -272,7 +275,8 @@ proptest! {
         }
         // Every `<` up to the next `>` is one candidate; the reference takes what a name is by its definition.
         let candidates = text.match_indices('>').filter(|(end, _)| {
-            let Some(open) = text[..*end].rfind(['<', '>']).filter(|open| text[*open..].starts_with('<')) else { return false };
+            let bracket = text[..*end].rfind(['<', '>']);
+            let Some(open) = bracket.filter(|open| text[*open..].starts_with('<')) else { return false };
             let name = text[open + 1..*end].trim_matches(' ');
             let mut characters = name.chars();
             characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')

@@ -176,7 +176,8 @@ fn real_remainder(left: f64, right: f64) -> f64 {
     if (remainder < 0.0) == (right < 0.0) { remainder } else { remainder + right }
 }
 
-/// The quotient towards minus infinity, by Python's algorithm: exact even where `left / right` would round up to the next integer.
+/// The quotient towards minus infinity, by Python's algorithm: exact even where `left / right` would round up to the
+/// next integer.
 fn real_floor_division(left: f64, right: f64) -> f64 {
     let remainder = left % right;
     let mut quotient = (left - remainder) / right;

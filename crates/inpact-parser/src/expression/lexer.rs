@@ -91,13 +91,12 @@ impl<'text> Lexer<'text> {
             self.at += 1;
             self.skip_while(is_digit);
         }
-        if matches!(self.peek(0), Some(b'e' | b'E')) && self.exponent_digits_at(1).is_some() {
+        if matches!(self.peek(0), Some(b'e' | b'E')) && self.skip_exponent() {
             token = Token::Real;
-            self.skip_exponent();
         }
         match self.peek(0) {
             Some(byte) if is_name_byte(byte) || byte == b'.' || byte >= 0x80 => {
-                if matches!(byte, b'd' | b'D') && self.exponent_digits_at(1).is_some() {
+                if matches!(byte, b'd' | b'D') {
                     self.skip_exponent();
                 }
                 self.skip_while(|byte| is_name_byte(byte) || byte == b'.' || byte >= 0x80);
@@ -107,15 +106,15 @@ impl<'text> Lexer<'text> {
         }
     }
 
-    /// The digits of an exponent whose letter has been passed begin this many bytes ahead, if there are any.
-    fn exponent_digits_at(&self, ahead: usize) -> Option<usize> {
-        let digits = ahead + usize::from(matches!(self.peek(ahead), Some(b'+' | b'-')));
-        self.peek(digits).filter(u8::is_ascii_digit).map(|_| digits)
-    }
-
-    fn skip_exponent(&mut self) {
-        self.at += self.exponent_digits_at(1).unwrap_or(1);
-        self.skip_while(|byte| byte.is_ascii_digit());
+    /// Passes the exponent whose letter stands here; `false` when no digit follows.
+    fn skip_exponent(&mut self) -> bool {
+        let digits = if matches!(self.peek(1), Some(b'+' | b'-')) { 2 } else { 1 };
+        let has_digits = self.peek(digits).is_some_and(|byte| byte.is_ascii_digit());
+        if has_digits {
+            self.at += digits;
+            self.skip_while(|byte| byte.is_ascii_digit());
+        }
+        has_digits
     }
 
     fn text(&mut self, quote: u8) -> Token {
@@ -172,7 +171,7 @@ pub(super) fn is_name_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// Whether the text is a name: letter or underscore, then letters, digits, underscores (S-60; Python adds the underscore in front).
+/// Whether the text is a name: a letter, then letters, digits, underscores (S-60); Python adds the underscore in front.
 pub(super) fn is_name(text: &[u8]) -> bool {
     text.first().is_some_and(|byte| !byte.is_ascii_digit()) && text.iter().all(|byte| is_name_byte(*byte))
 }

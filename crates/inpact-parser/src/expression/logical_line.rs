@@ -43,7 +43,7 @@ struct Open {
 /// Takes the next logical line off `lines`.
 ///
 /// It goes on behind a backslash (S-60; blanks behind it do not count, S-06) and, as in Python, while a parenthesis is
-/// open, but then not over a line that is a definition of its own: one parenthesis that is missing must not swallow the block.
+/// open, but then not over a line that is a definition of its own: a missing parenthesis must not swallow the block.
 pub(super) fn next_logical_line<'deck>(
     lines: &mut Peekable<impl Iterator<Item = StatementLine<'deck>>>,
 ) -> Option<LogicalLine<'deck>> {

@@ -22,7 +22,7 @@ pub struct Definition {
 pub struct Parameters {
     definitions: Vec<Definition>,
     last_of_name: HashMap<String, usize>,
-    /// A definition for every name in lower case, to find the one that was meant.
+    /// The names with capitals, by their lower case: to find the one that was meant.
     of_lower_case: HashMap<String, usize>,
     /// The bytes of all text values.
     pub(super) text_bytes: usize,
@@ -51,7 +51,8 @@ impl Parameters {
 
     /// A defined name that differs from `name` in upper and lower case only.
     pub fn name_in_other_case(&self, name: &str) -> Option<&str> {
-        let index = self.of_lower_case.get(&name.to_ascii_lowercase())?;
+        let lower_case = name.to_ascii_lowercase();
+        let index = self.of_lower_case.get(&lower_case).or_else(|| self.last_of_name.get(&lower_case))?;
         Some(self.definitions[*index].name.as_str()).filter(|other| *other != name)
     }
 
@@ -73,7 +74,9 @@ impl Parameters {
         }
         let index = self.definitions.len();
         self.last_of_name.insert(definition.name.clone(), index);
-        self.of_lower_case.insert(definition.name.to_ascii_lowercase(), index);
+        if definition.name.bytes().any(|byte| byte.is_ascii_uppercase()) {
+            self.of_lower_case.insert(definition.name.to_ascii_lowercase(), index);
+        }
         self.definitions.push(definition);
     }
 }
