@@ -6,7 +6,7 @@
 use crate::rule::{Context, DefinedBlock};
 use inpact_parser::deck::Parameter;
 use inpact_parser::expression::substitute;
-use inpact_parser::grammar::{Lookup, ParameterDefinition, ParameterKind};
+use inpact_parser::grammar::{Dialect, Lookup, ParameterDefinition, ParameterKind};
 use inpact_parser::model::MOST_FIELD_VARIABLES;
 use inpact_parser::number::{NumberError, float_text, read_float, read_integer};
 use inpact_parser::span::Span;
@@ -36,6 +36,20 @@ pub(crate) fn given(block: DefinedBlock<'_>) -> impl Iterator<Item = GivenParame
     })
 }
 
+/// Whether what is known of the keyword is that of Abaqus while the deck is for CalculiX, whose words and bounds may differ.
+pub(crate) fn is_borrowed(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
+    context.grammar.dialect() == Dialect::Calculix && !block.definition.parameters_complete
+}
+
+/// The parameters of a keyword line without those that stand there before, of which there may be any number (K009).
+pub(crate) fn given_once(block: DefinedBlock<'_>) -> Vec<GivenParameter<'_>> {
+    let mut is_there = vec![false; block.definition.parameters.len()];
+    let first = |given: &GivenParameter<'_>| {
+        given.parameter.index().is_some_and(|index| !std::mem::replace(&mut is_there[index], true))
+    };
+    given(block).filter(first).collect()
+}
+
 /// The parameter of that full name, where the line gives it; the first of several.
 pub(crate) fn given_as<'a>(block: DefinedBlock<'a>, name: &str) -> Option<GivenParameter<'a>> {
     given(block).find(|given| given.definition.name == name)
@@ -47,6 +61,8 @@ pub(crate) fn may_be_given(context: &Context<'_>, block: DefinedBlock<'_>, name:
         || block.keyword.parameters.iter().any(|parameter| match &parameter.resolved {
             Lookup::Exact(_) | Lookup::Abbreviated(_) => false,
             Lookup::Ambiguous(indices) => indices.iter().any(|index| block.definition.parameters[*index].name == name),
+            // A value without a name may be that of any parameter.
+            Lookup::Unknown if parameter.name.is_empty() => true,
             Lookup::Unknown => {
                 let written = context.deck.shown(parameter.name);
                 block.definition.nearest_parameters(&written, 3).contains(&name)

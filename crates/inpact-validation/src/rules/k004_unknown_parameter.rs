@@ -7,7 +7,7 @@ use crate::parameter::given_as;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use crate::words::{alternatives, did_you_mean};
 use inpact_parser::deck::Parameter;
-use inpact_parser::grammar::{Lookup, ValueUse};
+use inpact_parser::grammar::{Lookup, ParameterDefinition, ValueUse};
 
 declare_rule! {
     /// A keyword line gives a parameter that the keyword does not have.
@@ -62,14 +62,23 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
             .help("write the name of the parameter before `=`");
         return;
     }
-    let written = context.shown(parameter.name);
+    let message = format!("`*{keyword}` has no parameter `{}`", context.shown(parameter.name));
+    // A suggestion costs a comparison with every name, and a finding that is only counted shows none.
+    if report.is_full() {
+        report.at(parameter.name, message);
+        return;
+    }
+    let release = context.grammar.release();
+    let is_there = |known: &&ParameterDefinition| release.is_within(known.since, known.until);
+    let is_there_by_name = |name: &&str| block.definition.parameter(name).as_ref().is_some_and(is_there);
     let near = block.definition.nearest_parameters(&context.deck.shown(parameter.name), 3);
-    let names = block.definition.parameters.iter().map(|known| known.name.as_str());
+    let near: Vec<&str> = near.into_iter().filter(is_there_by_name).collect();
+    let names = block.definition.parameters.iter().filter(is_there).map(|known| known.name.as_str());
     let help = did_you_mean(near.iter().copied()).unwrap_or_else(|| match alternatives(names) {
         names if names.is_empty() => "it has no parameters: take it away".to_owned(),
         names => format!("the keyword has {names}"),
     });
-    let found = report.at(parameter.name, format!("`*{keyword}` has no parameter `{written}`"));
+    let found = report.at(parameter.name, message);
     found.label("unknown parameter").help(help);
     if let Some(meant) = only_candidate(block, parameter, &near) {
         found.fix(FixSafety::ChangesMeaning, format!("write `{meant}`"), vec![Edit::new(parameter.name, meant)]);

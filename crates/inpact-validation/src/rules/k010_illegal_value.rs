@@ -1,6 +1,6 @@
 //! K010: values that a parameter must not have.
 
-use crate::parameter::{GivenParameter, all_given};
+use crate::parameter::{GivenParameter, all_given, is_borrowed};
 use crate::rule::{Context, Report, declare_rule};
 use crate::words::alternatives;
 use inpact_parser::grammar::ParameterKind;
@@ -37,7 +37,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for given in all_given(context) {
+    for given in all_given(context).filter(|given| !is_borrowed(context, given.block)) {
         match given.definition.kind {
             ParameterKind::Choice => check_choice(context, &given, report),
             _ => check_bounds(context, &given, report),

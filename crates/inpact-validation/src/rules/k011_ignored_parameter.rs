@@ -1,6 +1,6 @@
 //! K011: parameters that mean nothing beside another.
 
-use crate::parameter::{all_given, given_as};
+use crate::parameter::{given_as, given_once};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
@@ -29,7 +29,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for given in all_given(context) {
+    for given in context.defined_blocks().flat_map(given_once) {
         let voiding = given.definition.ignored_with.iter().find_map(|other| given_as(given.block, other));
         let Some(other) = voiding else { continue };
         let (name, other_name) = (&given.definition.name, &other.definition.name);

@@ -41,11 +41,16 @@ declare_rule! {
     "K012", "misplaced-keyword", Error, fix: None, source: "S-21"
 }
 
+/// For how many blocks it is found out what the line above them may mean, which costs a comparison with every keyword.
+const LOOKED_UP: usize = 1000;
+
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for run in runs(context, |kind| matches!(kind, ProblemKind::Misplaced { .. })) {
+    let misplaced = runs(context, |kind| matches!(kind, ProblemKind::Misplaced { .. }));
+    for (number, run) in misplaced.iter().enumerate() {
         let ProblemKind::Misplaced { keyword, closed_by } = run.first.kind else { continue };
         // The line that should open the block has its own finding.
-        if run.above.is_some_and(|above| may_be_interaction(context, above)) {
+        let is_found_out = number < LOOKED_UP && run.above.is_some_and(|above| may_be_interaction(context, above));
+        if is_found_out {
             continue;
         }
         let entry = context.grammar.keyword(keyword);

@@ -1,6 +1,6 @@
 //! K016: parameters that must not stand beside one another.
 
-use crate::parameter::given;
+use crate::parameter::{given_once, is_borrowed};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
@@ -25,11 +25,11 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for block in context.defined_blocks().filter(|block| block.keyword.parameters.len() > 1) {
+    for block in context.defined_blocks().filter(|block| !is_borrowed(context, *block)) {
         // Each finding is about a parameter and one that stands before it, so that a pair is found once.
-        for (place, later) in given(block).enumerate() {
-            let mut before = given(block).take(place);
-            let excluded = before.find(|earlier| {
+        let given = given_once(block);
+        for (place, later) in given.iter().enumerate() {
+            let excluded = given[..place].iter().find(|earlier| {
                 later.definition.excludes.contains(&earlier.definition.name)
                     || earlier.definition.excludes.contains(&later.definition.name)
             });

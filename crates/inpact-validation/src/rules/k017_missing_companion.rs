@@ -1,6 +1,6 @@
 //! K017: parameters that need another beside them.
 
-use crate::parameter::{all_given, may_be_given};
+use crate::parameter::{given_once, is_borrowed, may_be_given};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
@@ -25,7 +25,8 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for given in all_given(context) {
+    let blocks = context.defined_blocks().filter(|block| !is_borrowed(context, *block));
+    for given in blocks.flat_map(given_once) {
         let needed = given.definition.needs.iter().find(|needed| !may_be_given(context, given.block, needed));
         let Some(needed) = needed else { continue };
         let (name, keyword) = (&given.definition.name, given.block.name);

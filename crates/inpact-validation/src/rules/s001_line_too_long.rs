@@ -1,5 +1,6 @@
 //! S001: lines that are too long.
 
+use super::s011_not_a_deck::{Reading, reading};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::LineNoteKind;
 use inpact_parser::span::Span;
@@ -34,7 +35,11 @@ declare_rule! {
 const LIMIT: usize = 256;
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for note in context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::TooLong) {
+    let notes = || context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::TooLong);
+    if notes().next().is_none() || reading(context) == Reading::NoDeck {
+        return;
+    }
+    for note in notes() {
         let line = context.deck.text(note.span).trim_ascii_end();
         // A character of several bytes is not cut in two.
         let first_beyond =

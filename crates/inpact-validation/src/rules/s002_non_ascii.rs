@@ -1,5 +1,6 @@
 //! S002: characters that are not ASCII.
 
+use super::s011_not_a_deck::{Reading, reading};
 use crate::parameter;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::{LineNote, LineNoteKind};
@@ -34,7 +35,7 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let notes = || context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::NonAscii);
-    if notes().next().is_none() {
+    if notes().next().is_none() || reading(context) == Reading::NoDeck {
         return;
     }
     let judged = judged_elsewhere(context);
