@@ -127,10 +127,8 @@ impl Planner<'_> {
 
     /// Whether a column has numbers in the rows of the interaction, or may have: one that no law could use was not read.
     pub(super) fn may_have(self, column: Column) -> bool {
-        match self.survey.columns.contains(&column) {
-            true => self.presence(column).has_numbers(),
-            false => self.survey.header.has(column),
-        }
+        let was_read = self.survey.columns.contains(&column);
+        if was_read { self.presence(column).has_numbers() } else { self.survey.header.has(column) }
     }
 
     /// The columns that tell contact, as far as they have numbers.
