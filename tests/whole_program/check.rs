@@ -43,7 +43,7 @@ fn several_decks_are_checked_in_the_order_given() {
 #[test]
 fn standard_input_is_a_deck() {
     let run = inpact_with_input(&["check", "--format", "concise", "-"], b"*GAP CONDUCTNCE\n1., 0.\n");
-    assert!(run.output.starts_with("-:1:1: error[K001] "), "{}", run.output);
+    assert!(run.output.starts_with("-:1:2: error[K001] "), "{}", run.output);
     assert_eq!(run.code, 1);
 }
 

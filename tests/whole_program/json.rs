@@ -77,7 +77,7 @@ fn a_model_that_no_deck_can_hold_is_refused() {
     let (_, interaction) = interactions.iter().next().expect("one interaction");
     let name = interaction["name"].as_str().expect("a name").to_owned();
     let document = serde_json::json!({
-        "schema": "inpact/model/1", "source": "", "interactions": {name: interaction},
+        "schema": "inpact/model/1", "source": "", "parameters": [], "interactions": {name: interaction},
         "contact_pairs": [], "property_assignments": [], "procedures": [],
     });
     let run = inpact_with_input(&["inp", "-"], document.to_string().as_bytes());

@@ -1,6 +1,6 @@
 //! Runs the pages of the rules: the examples in a rule's documentation are its test.
 //!
-//! A tag `calculix` or `release=6.14` says in which language the example is.
+//! A tag `calculix` or `release-6.14` says in which language the example is.
 //!
 //! A fenced block tagged `inp,expect` must bring up this rule and no other; `inp` must be clean;
 //! `inp,fixed` is what the fix makes of the block before it, and is clean of this rule.
@@ -24,7 +24,7 @@ impl Example {
     /// The tags that say what to expect, without those that say in which language.
     fn kind(&self) -> &'static str {
         let tags: Vec<&str> =
-            self.tags.split(',').filter(|tag| !tag.starts_with("release=") && *tag != "calculix").collect();
+            self.tags.split(',').filter(|tag| !tag.starts_with("release-") && *tag != "calculix").collect();
         match tags.as_slice() {
             ["inp"] => "inp",
             ["inp", "expect"] => "inp,expect",
@@ -82,7 +82,7 @@ impl IncludedFiles for Files {
 
 /// The language an example is in: its tags may name `calculix` or a release.
 fn grammar_of(tags: &str) -> &'static Grammar {
-    let release = tags.split(',').find_map(|tag| tag.strip_prefix("release="));
+    let release = tags.split(',').find_map(|tag| tag.strip_prefix("release-"));
     if tags.split(',').any(|tag| tag == "calculix") {
         return Box::leak(Box::new(Grammar::new(Dialect::Calculix, Release::NEWEST)));
     }

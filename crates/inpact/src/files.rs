@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 /// How much of a deck is read at a time: small enough to stay in cache.
-const PIECE: usize = 256 * 1024;
+const PIECE: usize = 64 * 1024;
 
 /// The name that stands for standard input and standard output.
 pub(crate) const STANDARD_STREAM: &str = "-";

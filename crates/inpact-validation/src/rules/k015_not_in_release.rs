@@ -13,12 +13,12 @@ declare_rule! {
     /// ## What to do
     /// Leave it out, or ask for the release that has it.
     ///
-    /// ```inp,expect,release=2016
+    /// ```inp,expect,release-2016
     /// *SURFACE INTERACTION, NAME=A
     /// *CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=0.1, CUTOFF GAP FILL=0.1, CONSTRAINT METHOD=DIRECT
     /// ```
     ///
-    /// ```inp,release=2017
+    /// ```inp,release-2017
     /// *SURFACE INTERACTION, NAME=A
     /// *CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=0.1, CUTOFF GAP FILL=0.1, CONSTRAINT METHOD=DIRECT
     /// ```
