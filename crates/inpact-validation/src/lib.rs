@@ -14,6 +14,8 @@ mod checking;
 
 mod heat;
 
+mod order;
+
 mod parameter;
 
 mod placement;

@@ -54,3 +54,8 @@ pub(crate) fn of_clear_columns<'a>(
 pub(crate) fn blocks_by_keyword<'a>(context: &Context<'a>) -> HashMap<Span, DefinedBlock<'a>> {
     context.defined_blocks().map(|block| (block.keyword.span, block)).collect()
 }
+
+/// Whether the problem is a row that has no place.
+pub(crate) fn has_no_place(kind: &ProblemKind) -> bool {
+    matches!(kind, ProblemKind::SurplusRow | ProblemKind::TooManyItems { allowed: 0, .. })
+}

@@ -137,9 +137,10 @@ impl Use {
         Self { name: reference.name.clone(), span: reference.span, keyword }
     }
 
-    /// Whether the name is a `<parameter>` (S-62), so that it is not known here what it names.
-    pub(crate) fn is_parameter(&self) -> bool {
-        self.name.written().contains('<')
+    /// Whether it is not known what is named: a `<parameter>` without a value (S-62), or no name at all but `X=Y`, the
+    /// parameters of a keyword line that does not continue (S003).
+    pub(crate) fn is_unclear(&self) -> bool {
+        self.name.written().contains('<') || (!self.name.is_quoted() && self.name.written().contains('='))
     }
 }
 
@@ -178,6 +179,22 @@ pub(crate) fn last_component(name: &Name) -> Option<Name> {
         }
     }
     last_dot.map(|at| Name::new(&name.written()[at + 1..]))
+}
+
+/// The names that are not defined, each where it stands first, and how often it stands again.
+pub(crate) fn missing<'a>(uses: &'a [Use], definitions: &Definitions) -> Vec<(&'a Use, usize)> {
+    let mut found: Vec<(&Use, usize)> = Vec::new();
+    let mut places: HashMap<&Name, usize> = HashMap::new();
+    let missing =
+        uses.iter().filter(|used| !used.is_unclear() && matches!(definitions.find(&used.name), Found::Missing));
+    for used in missing {
+        let place = *places.entry(&used.name).or_insert(found.len());
+        match found.get_mut(place) {
+            Some((_, more)) => *more += 1,
+            None => found.push((used, 0)),
+        }
+    }
+    found
 }
 
 #[cfg(test)]

@@ -92,12 +92,19 @@ fn cells_without_a_number_take_no_part() {
     check(&electrical("", "3, 0.5\n2, x\n0, 20"), "T004@3");
     check(&electrical("", "3, x\n2, 0.5\n0, 20"), "");
     check(&electrical(", DEPENDENCIES=1", "3, 0,,x\n2, 0.5,,1\n0, 20,,1"), "");
+    // A row of names that lost its keyword line.
+    check(&electrical(", PRESSURE, DEPENDENCIES=1", "1, 0,, 1\n2, 10,, 1\nBAR-1, BAR-2"), "");
 }
 
 #[test]
 fn starts_are_judged_group_by_group() {
     check(&electrical("", "3, 0, 20\n0, 1, 20\n3, 0.1, 30\n0, 1, 30"), "T004@5");
     check(&electrical("", "3, -1\n2, 0\n0, 1"), "T004@3");
+    // Out of order the start is judged only where it is the lowest value.
+    check(&electrical("", "3, 0.1\n1, 0.3\n2, 0.2"), "T004@3 T001@5");
+    check(&electrical("", "3, 2e8\n2, 1e-6\n0, 1"), "T001@4");
+    // A wrong temperature makes a group of its own.
+    check(&electrical("", "3, 0, 300\n1, 1, 30\n0, 2, 300"), "T003@4");
     // Pressures in a table that lacks PRESSURE: the start says it all.
     check(&electrical("", "1, 100\n2, 200"), "T004@3");
     check(&electrical(", PRESSURE", "1, -5\n2, 0\n3, 5"), "");
@@ -156,8 +163,9 @@ fn broken_rows_keep_their_line_ends() {
 
 #[test]
 fn field_values_with_one_row() {
-    check(&electrical(", PRESSURE, DEPENDENCIES=1", "1,0,20,1\n1,0,30,1\n1,0,20,2\n2,9,20,2"), "");
+    check(&electrical(", PRESSURE, DEPENDENCIES=1", "1,0,20,1\n1,0,30,1\n1,0,20,2\n2,9,20,2"), "T015@5");
     check(&electrical(", PRESSURE, DEPENDENCIES=1", "1,0,,1\n1,0,,2\n1,0,,3"), "T012@3");
+    check(&electrical(", PRESSURE, DEPENDENCIES=1", "1,0,,1\n2,9,,1\n3,10,,1.1\n1,0,,2\n2,9,,2"), "T012@5");
     check(&electrical(", PRESSURE", "1,0,20\n1,0,30"), "");
 }
 
@@ -196,6 +204,9 @@ fn duplicates_of_each_kind() {
     let thermal = "*GAP CONDUCTANCE, PRESSURE\n1, 0\n2, 1\n";
     check(&format!("{interaction}{thermal}{thermal}{thermal}"), "T010@5 T010@8");
     check(&format!("{interaction}{thermal}*GAP CONDUCTANCE\n1, 0\n0, 1\n"), "");
+    // Between them another interaction may have been meant to begin; or PRESSURE is misspelt.
+    check(&format!("{interaction}{thermal}*SURFACE INTERACTON, NAME=B\n{thermal}"), "");
+    check(&format!("{interaction}*GAP CONDUCTANCE, PRESURE\n1, 0\n2, 1\n*GAP CONDUCTANCE\n1, 0\n0, 1\n"), "");
     let heat = "*GAP HEAT GENERATION\n1., 0.5\n";
     check(&format!("{interaction}*FRICTION\n0.3\n{heat}{heat}"), "T010@6");
     check(&format!("{interaction}{thermal}*GAP CONDUCTANCE, USER\n"), "C003@5");
@@ -258,6 +269,7 @@ fn surfaces() {
     };
     check(&deck("S, S"), "");
     check(&deck("s, Part-1.s"), "");
+    check(&deck("TYPE=SURFACE TO SURFACE\nS, S"), "");
     check(&deck("S, M"), "R004@5");
     check(&deck("S, Part-1.M"), "R004@5");
     check(&deck("M, M"), "R004@5");
@@ -303,4 +315,7 @@ fn heat_generation() {
     check(&deck("", "*FRICTION\n0.3\n*GAP HEAT GENERATION\n-1, -1"), "P004@5 P003@5");
     check(&deck("", "*FRICTION\n0.3\n*GAP HEAT GENERATION\n1., 0.5\n1., 0.6\n1., 0.7"), "T017@6");
     check(&deck("", "1.\n2.\n"), "T017@3");
+    // The keyword of these rows is missing.
+    check(&deck("", "1., 0.\n2., 1.\n3., 2."), "T017@3");
+    check(&deck("", "1., 0.\n"), "T006@2");
 }

@@ -8,11 +8,7 @@ use super::lookup::{Folded, fold};
 const TELLING: usize = 4;
 
 /// The names near to what is written, the nearest first.
-pub fn nearest<'name>(
-    written: &[u8],
-    names: impl IntoIterator<Item = &'name str>,
-    at_most: usize,
-) -> Vec<&'name str> {
+pub fn nearest<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str>, at_most: usize) -> Vec<&'name str> {
     let word: Vec<u8> = fold(written).take(Folded::LONGEST).collect();
     if word.is_empty() {
         return Vec::new();

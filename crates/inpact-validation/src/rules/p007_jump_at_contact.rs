@@ -1,9 +1,10 @@
 //! P007: clearance and pressure tables that are far apart at the moment of contact.
 
+use crate::order::{curves, step};
 use crate::quantity::{group_words, number, value_words};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{Arranged, sound_tables, step};
-use inpact_parser::model::{Interaction, TableKind, TableOf};
+use crate::tables::sound_tables;
+use inpact_parser::model::{Interaction, Table, TableKind, TableOf};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -67,35 +68,33 @@ fn is_same(a: Option<&Interaction>, b: Option<&Interaction>) -> bool {
 
 /// Reports the first group in which the branches are far apart.
 fn check_branches(context: &Context<'_>, report: &mut Report<'_>, clearance: &TableOf<'_>, pressure: &TableOf<'_>) {
-    let branches = (Arranged::in_order(clearance.table), Arranged::in_order(pressure.table));
-    let (Some(open), Some(closed)) = branches else { return };
-    let jump = groups_in_both(&open, &closed).find_map(|(open_places, closed_places)| {
-        let at_zero = open.row(open_places.start);
-        let (place, on_closing) = value_at_zero_pressure(&closed, closed_places)?;
+    let (open, closed) = (clearance.table, pressure.table);
+    let jump = groups_in_both(open, closed).find_map(|(open_rows, closed_rows)| {
+        let at_zero = open.row(open_rows.start);
+        let (row, on_closing) = value_at_zero_pressure(closed, closed_rows)?;
         let (lower, higher) = (at_zero[0].min(on_closing), at_zero[0].max(on_closing));
         let is_jump = at_zero[1] == 0.0 && lower >= 0.0 && higher > FACTOR * lower;
-        is_jump.then_some((open_places.start, at_zero[0], place, on_closing))
+        is_jump.then_some((open_rows.start, at_zero[0], row, on_closing))
     });
-    let Some((open_place, before, closed_place, after)) = jump else { return };
+    let Some((open_row, before, closed_row, after)) = jump else { return };
     let name = value_words(clearance.kind);
-    let group = group_words(clearance.table, open.row(open_place));
-    let message = format!("{name} jumps from {} to {} at contact{group}", number(before), number(after));
+    let group = group_words(open, open.row(open_row));
     report
-        .at(context.cell(pressure, closed.index(closed_place), 0), message)
+        .at(
+            context.cell(pressure, closed_row, 0),
+            format!("{name} jumps from {} to {} at contact{group}", number(before), number(after)),
+        )
         .label("at contact pressure 0")
-        .also(context.cell(clearance, open.index(open_place), 0), "at clearance 0")
+        .also(context.cell(clearance, open_row, 0), "at clearance 0")
         .note("the jump is legal; one of more than a factor of ten may come from units, and converges badly")
         .help("give both tables the same value at 0 if no jump is meant");
 }
 
 /// The groups of both tables that belong together: those with the same outer variables.
-fn groups_in_both<'a>(
-    open: &'a Arranged<'_>,
-    closed: &'a Arranged<'_>,
-) -> impl Iterator<Item = (Range<usize>, Range<usize>)> + 'a {
-    let mut open_groups = open.complete_groups().peekable();
-    let mut closed_groups = closed.complete_groups().peekable();
-    let comparable = open.has_outer_columns_of(closed);
+fn groups_in_both<'a>(open: &'a Table, closed: &'a Table) -> impl Iterator<Item = (Range<usize>, Range<usize>)> + 'a {
+    let mut open_groups = curves(open).peekable();
+    let mut closed_groups = curves(closed).peekable();
+    let comparable = open.columns[2..] == closed.columns[2..];
     std::iter::from_fn(move || {
         loop {
             let (a, b) = (open_groups.peek()?.clone(), closed_groups.peek()?.clone());
@@ -118,18 +117,21 @@ fn groups_in_both<'a>(
     })
 }
 
-/// The value on closing: at zero pressure, or that of the highest pressure where all are negative, and the place of its row.
+/// The value on closing, and a row of it: at zero pressure, or at the highest pressure where all are negative.
 ///
 /// `None` where the table starts above zero (T005).
-fn value_at_zero_pressure(closed: &Arranged<'_>, places: Range<usize>) -> Option<(usize, f64)> {
-    let Some(behind) = places.clone().find(|place| closed.row(*place)[1] >= 0.0) else {
-        return Some((places.end - 1, closed.row(places.end - 1)[0]));
+fn value_at_zero_pressure(closed: &Table, rows: Range<usize>) -> Option<(usize, f64)> {
+    let Some(behind) = rows.clone().find(|row| closed.row(*row)[1] >= 0.0) else {
+        return Some((rows.end - 1, closed.row(rows.end - 1)[0]));
     };
     let after = closed.row(behind);
     if after[1] == 0.0 {
         return Some((behind, after[0]));
     }
-    let before = closed.row(places.contains(&behind.checked_sub(1)?).then(|| behind - 1)?);
+    if behind == rows.start {
+        return None;
+    }
+    let before = closed.row(behind - 1);
     let share = -before[1] / (after[1] - before[1]);
     Some((behind, before[0] + share * (after[0] - before[0])))
 }

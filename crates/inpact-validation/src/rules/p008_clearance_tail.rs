@@ -1,8 +1,9 @@
 //! P008: clearance tables that do not end at zero.
 
+use crate::order::curves;
 use crate::quantity::{and_more, group_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{Arranged, is_written, sound_tables, starts_as_it_must};
+use crate::tables::{sound_tables, starts_as_it_must};
 use inpact_parser::model::TableKind;
 use std::ops::Range;
 
@@ -39,25 +40,22 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // What one row means beyond its clearance is what T008 asks.
     let of_kind = |kind| kind == TableKind::ElectricalClearance;
     for of in sound_tables(context).filter(|of| of_kind(of.kind) && of.table.row_count() > 1) {
-        let Some(arranged) = Arranged::in_order(of.table) else { continue };
+        let table = of.table;
         // A table with a wrong start (T004), or one that only rises (P005), is more likely one against pressure.
-        let is_meant = |places: &Range<usize>| starts_as_it_must(of, arranged.row(places.start)[1]);
-        let only_rises = |places: &Range<usize>| {
-            places.len() > 1 && places.clone().skip(1).all(|place| arranged.row(place)[0] > arranged.row(place - 1)[0])
+        let is_meant = |rows: &Range<usize>| starts_as_it_must(of, table.row(rows.start)[1]);
+        let only_rises = |rows: &Range<usize>| {
+            rows.len() > 1 && rows.clone().skip(1).all(|row| table.row(row)[0] > table.row(row - 1)[0])
         };
-        let tails = arranged.complete_groups().filter(|places| is_meant(places) && !only_rises(places));
-        let mut tails = tails.map(|places| places.end - 1).filter(|place| arranged.row(*place)[0] > 0.0);
-        let Some(place) = tails.next() else { continue };
-        let row = arranged.row(place);
-        if !is_written(context, of, arranged.index(place), 0) {
-            continue;
-        }
-        let group = group_words(of.table, row);
+        let tails = curves(table).filter(|rows| is_meant(rows) && !only_rises(rows)).map(|rows| rows.end - 1);
+        let mut tails = tails.filter(|row| table.row(*row)[0] > 0.0);
+        let Some(index) = tails.next() else { continue };
+        let row = table.row(index);
+        let group = group_words(table, row);
         let message =
             format!("conductance is {} at the last clearance {}{group}, not 0", number(row[0]), number(row[1]));
         let more = and_more(tails.count(), "group does not end at 0", "groups do not end at 0");
         report
-            .at(context.cell(of, arranged.index(place), 0), message)
+            .at(context.cell(of, index, 0), message)
             .label("constant or 0 beyond this clearance?")
             .note(format!("beyond the last clearance the manual's text says constant, its figure says 0{more}"))
             .help("add a last row with conductance 0");

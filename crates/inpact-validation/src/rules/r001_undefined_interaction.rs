@@ -1,10 +1,9 @@
 //! R001: interactions that are named and not defined.
 
 use crate::quantity::and_more;
-use crate::references::{Definitions, Found, Use, suggestion, uses_of_interactions};
+use crate::references::{Definitions, missing, suggestion, uses_of_interactions};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::model::Name;
-use std::collections::HashMap;
 
 declare_rule! {
     /// A contact pair, a property assignment or a *CHANGE FRICTION names an interaction that the deck does not define.
@@ -54,20 +53,4 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let define = || format!("define it: `*SURFACE INTERACTION, NAME={}`", first.name);
         found.help(suggestion(&definitions, &first.name, index).unwrap_or_else(define));
     }
-}
-
-/// The names that are not defined, each where it stands first, and how often it stands again.
-pub(super) fn missing<'a>(uses: &'a [Use], definitions: &Definitions) -> Vec<(&'a Use, usize)> {
-    let mut found: Vec<(&Use, usize)> = Vec::new();
-    let mut places: HashMap<&Name, usize> = HashMap::new();
-    let missing =
-        uses.iter().filter(|used| !used.is_parameter() && matches!(definitions.find(&used.name), Found::Missing));
-    for used in missing {
-        let place = *places.entry(&used.name).or_insert(found.len());
-        match found.get_mut(place) {
-            Some((_, more)) => *more += 1,
-            None => found.push((used, 0)),
-        }
-    }
-    found
 }

@@ -1,7 +1,6 @@
 //! R002: interactions that nothing uses.
 
-use super::r001_undefined_interaction::missing;
-use crate::references::{Definitions, Found, Use, uses_of_interactions};
+use crate::references::{Definitions, Found, Use, missing, uses_of_interactions};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::model::Name;
 
@@ -48,7 +47,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let uses = all_uses(context);
     // Where a name is wrong or missing (R001, R005) the interaction that is meant seems unused.
     let definitions = Definitions::interactions(context);
-    let is_open = |used: &Use| used.is_parameter();
+    let is_open = |used: &Use| used.is_unclear();
     if uses.iter().any(is_open)
         || !missing(&uses, &definitions).is_empty()
         || model.contact_pairs.iter().any(|pair| pair.interaction.is_none())

@@ -1,8 +1,7 @@
 //! R004: surfaces that are named and not defined.
 
-use super::r001_undefined_interaction::missing;
 use crate::quantity::and_more;
-use crate::references::{Definitions, last_component, suggestion, uses_of_surfaces};
+use crate::references::{Definitions, last_component, missing, suggestion, uses_of_surfaces};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {

@@ -1,9 +1,10 @@
 //! T001: rows whose first independent variable falls inside a group.
 
 use crate::diagnostic::FixSafety;
+use crate::order::{falls, sort_edits};
 use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{falls, sort_edits, sound_tables};
+use crate::tables::sound_tables;
 
 declare_rule! {
     /// The first independent variable of a table falls from one row to the next.

@@ -1,8 +1,9 @@
 //! T002: rows that agree in all independent variables.
 
+use crate::order::steps;
 use crate::quantity::{column_words, group_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{sound_tables, steps};
+use crate::tables::sound_tables;
 
 declare_rule! {
     /// Two rows that follow each other have the same values of all independent variables.

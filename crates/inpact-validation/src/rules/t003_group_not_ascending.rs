@@ -1,9 +1,10 @@
 //! T003: groups of rows that do not stand in ascending order.
 
 use crate::diagnostic::FixSafety;
+use crate::order::{falls, sort_edits};
 use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{falls, is_written, sort_edits, sound_tables};
+use crate::tables::{is_written, sound_tables};
 
 declare_rule! {
     /// A temperature, a field variable or another outer variable of a table falls from one row to the next.

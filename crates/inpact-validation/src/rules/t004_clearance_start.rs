@@ -1,8 +1,9 @@
 //! T004: clearance tables that do not start at zero.
 
+use crate::order::starts;
 use crate::quantity::{group_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{Arranged, RADIATION, is_against_clearance, sound_tables, starts_as_it_must};
+use crate::tables::{RADIATION, is_against_clearance, sound_tables, starts_as_it_must};
 
 declare_rule! {
     /// A table against clearance does not start at zero clearance.
@@ -39,15 +40,14 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for of in sound_tables(context).filter(|of| is_against_clearance(of)) {
-        let Some(arranged) = Arranged::new(of.table) else { continue };
-        for place in arranged.starts() {
-            let row = arranged.row(place);
+        for index in starts(of.table) {
+            let row = of.table.row(index);
             if starts_as_it_must(of, row[1]) {
                 continue;
             }
             let group = group_words(of.table, row);
             let message = format!("clearance table starts at {} instead of 0{group}", number(row[1]));
-            let found = report.at(context.cell(of, arranged.index(place), 1), message);
+            let found = report.at(context.cell(of, index, 1), message);
             found
                 .label("the first clearance of the group")
                 .also(context.trimmed(of.table.keyword), "the table of this option")

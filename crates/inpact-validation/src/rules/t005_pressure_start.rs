@@ -1,8 +1,9 @@
 //! T005: pressure tables that start above zero.
 
+use crate::order::starts;
 use crate::quantity::{group_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{Arranged, sound_tables, starts_as_it_must};
+use crate::tables::{sound_tables, starts_as_it_must};
 use inpact_parser::grammar::Dialect;
 
 declare_rule! {
@@ -42,16 +43,15 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         return;
     }
     for of in sound_tables(context).filter(|of| of.kind.is_conductance_against_pressure()) {
-        let Some(arranged) = Arranged::new(of.table) else { continue };
-        for place in arranged.starts() {
-            let row = arranged.row(place);
+        for index in starts(of.table) {
+            let row = of.table.row(index);
             if starts_as_it_must(of, row[1]) {
                 continue;
             }
             let group = group_words(of.table, row);
             let message = format!("pressure table starts at {}, above 0{group}", number(row[1]));
             report
-                .at(context.cell(of, arranged.index(place), 1), message)
+                .at(context.cell(of, index, 1), message)
                 .label("the first contact pressure of the group")
                 .also(context.trimmed(of.table.keyword), "the table of this option")
                 .note("a table against contact pressure must start at zero, or below where contact carries tension")

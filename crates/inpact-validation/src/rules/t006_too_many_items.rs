@@ -1,10 +1,12 @@
 //! T006: rows with more items than the option has.
 
 use crate::parameter::given_as;
-use crate::problems::{first_of_each_block, of_clear_columns};
+use crate::problems::{first_of_each_block, has_no_place, of_clear_columns};
 use crate::quantity::{and_more, count};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use inpact_parser::problem::ProblemKind;
+use inpact_parser::span::Span;
+use std::collections::HashSet;
 
 declare_rule! {
     /// A row has more items than the option has columns.
@@ -38,7 +40,12 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // No item at all is allowed on a row that has no place: that is T017.
     let surplus = |kind: &ProblemKind| matches!(kind, ProblemKind::TooManyItems { allowed, .. } if *allowed > 0);
-    for first in of_clear_columns(context, first_of_each_block(context, surplus)) {
+    // Where rows are too much as well, a keyword is missing in front of all of them: T017 says so.
+    let other = first_of_each_block(context, has_no_place);
+    let other: HashSet<Span> = other.iter().map(|first| first.problem.keyword).collect();
+    let found =
+        first_of_each_block(context, surplus).into_iter().filter(|first| !other.contains(&first.problem.keyword));
+    for first in of_clear_columns(context, found.collect()) {
         let ProblemKind::TooManyItems { allowed, given, lines } = first.problem.kind else { continue };
         let place = if lines > 1 { "line of the row" } else { "row" };
         let message = format!("{place} has {}, the option has room for {allowed}", count(given, "item"));

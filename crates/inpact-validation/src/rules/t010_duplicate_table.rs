@@ -1,9 +1,10 @@
 //! T010: the same kind of law twice in one interaction.
 
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::RADIATION;
+use crate::tables::{RADIATION, has_unclear_parameters};
+use inpact_parser::grammar::RowShape;
 use inpact_parser::model::{Interaction, SetAsideItem, SetAsideReason, TableKind};
-use inpact_parser::span::Span;
+use inpact_parser::span::{SourceId, Span};
 
 declare_rule! {
     /// An interaction has the same option twice, for the same kind of table.
@@ -40,6 +41,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    let mut duplicates = Vec::new();
     for aside in &context.model.set_aside {
         let SetAsideReason::ReplacedBy(later) = aside.reason else { continue };
         let (keyword, earlier) = match &aside.item {
@@ -48,15 +50,41 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             SetAsideItem::HeatGeneration(option) => ("GAP HEAT GENERATION", option.span),
             SetAsideItem::SubOption(_) | SetAsideItem::Interaction(_) => continue,
         };
-        say(context, report, keyword, later, earlier);
+        duplicates.push((keyword, later, earlier));
     }
     for interaction in context.model.all_interactions() {
-        check_others(context, report, interaction);
+        find_among_others(interaction, &mut duplicates);
+    }
+    if duplicates.is_empty() {
+        return;
+    }
+    let doubtful = doubtful_lines(context);
+    let is_doubtful = |later: Span, earlier: Span| {
+        let behind = doubtful.partition_point(|line| *line < (earlier.source, earlier.start));
+        doubtful.get(behind).is_some_and(|line| *line <= (later.source, later.start))
+    };
+    for (keyword, later, earlier) in duplicates {
+        if !is_doubtful(later, earlier) {
+            say(context, report, keyword, later, earlier);
+        }
     }
 }
 
-/// The options that the model keeps in one list.
-fn check_others(context: &Context<'_>, report: &mut Report<'_>, interaction: &Interaction) {
+/// Where lines begin that a duplicate may come from, in ascending order: keywords that nobody knows, since one may begin
+/// another interaction (K001), and parameters that nobody knows, since one may be PRESSURE (K004).
+fn doubtful_lines(context: &Context<'_>) -> Vec<(SourceId, u64)> {
+    let unknown = context.keyword_lines().filter(|keyword| keyword.id().is_none());
+    let unclear = context
+        .defined_blocks()
+        .filter(|block| matches!(block.definition.rows(), RowShape::Table) && has_unclear_parameters(block.keyword));
+    let lines = unknown.chain(unclear.map(|block| block.keyword));
+    let mut lines: Vec<_> = lines.map(|keyword| (keyword.span.source, keyword.span.start)).collect();
+    lines.sort_unstable();
+    lines
+}
+
+/// Finds duplicates among the options that the model keeps in one list: keyword, the later one, the earlier one.
+fn find_among_others<'a>(interaction: &'a Interaction, duplicates: &mut Vec<(&'a str, Span, Span)>) {
     let mut seen: Vec<(&str, TableKind, Span)> = Vec::new();
     for option in &interaction.other {
         let kind = match &option.table {
@@ -66,7 +94,7 @@ fn check_others(context: &Context<'_>, report: &mut Report<'_>, interaction: &In
         };
         match seen.iter_mut().find(|(keyword, of_kind, _)| *keyword == option.keyword && *of_kind == kind) {
             Some((_, _, earlier)) => {
-                say(context, report, &option.keyword, option.span, *earlier);
+                duplicates.push((&option.keyword, option.span, *earlier));
                 *earlier = option.span;
             }
             None => seen.push((&option.keyword, kind, option.span)),

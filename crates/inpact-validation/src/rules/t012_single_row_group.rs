@@ -1,8 +1,9 @@
 //! T012: values of a field variable with one row.
 
+use crate::order::{falls, is_alone};
 use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{Arranged, RADIATION, sound_tables};
+use crate::tables::sound_tables;
 use inpact_parser::model::Table;
 
 declare_rule! {
@@ -36,29 +37,19 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let with_fields = |table: &Table| table.dependencies() > 0 && table.row_count() > 1;
-    for of in sound_tables(context).filter(|of| of.keyword != RADIATION && with_fields(of.table)) {
+    for of in sound_tables(context).filter(|of| with_fields(of.table)) {
         let table = of.table;
+        // A row that takes no part may be the second one (S006), and out of order it may stand elsewhere (T003).
+        let is_clear = !table.values.iter().any(|value| value.is_nan()) && falls(table, |column| column > 1).is_none();
+        let mut alone = (0..table.row_count()).filter(|row| is_clear && is_alone(table, *row));
+        let Some(row) = alone.next() else { continue };
         let fields = table.width() - table.dependencies();
-        let Some(arranged) = Arranged::new(table) else { continue };
-        let (mut first, mut alone) = (None, 0);
-        let mut start = 0;
-        for place in 1..=table.row_count() {
-            let ends = place == table.row_count() || arranged.row(place)[fields..] != arranged.row(start)[fields..];
-            if ends && place - start == 1 {
-                first.get_or_insert(start);
-                alone += 1;
-            }
-            if ends {
-                start = place;
-            }
-        }
-        let Some(place) = first else { continue };
-        let values = table.columns[fields..].iter().zip(&arranged.row(place)[fields..]);
+        let values = table.columns[fields..].iter().zip(&table.row(row)[fields..]);
         let values: Vec<String> =
             values.map(|(column, value)| format!("{} = {}", column_words(column), number(*value))).collect();
-        let more = and_more(alone - 1, "value has one row", "values have one row");
+        let more = and_more(alone.count(), "value has one row", "values have one row");
         report
-            .at(table.row_span(arranged.index(place)), format!("one row for {}", values.join(", ")))
+            .at(table.row_span(row), format!("one row for {}", values.join(", ")))
             .label("the only row for these values")
             .also(context.trimmed(table.keyword), "the table of this option")
             .note(format!("every value of a field variable needs two or more rows{more}"))

@@ -1,8 +1,10 @@
 //! T015: groups that have their own abscissae.
 
+use crate::order::{curves, is_alone};
 use crate::quantity::{and_more, column_words, group_words};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{Arranged, sound_tables, starts_as_it_must};
+use crate::tables::{sound_tables, starts_as_it_must};
+use inpact_parser::model::Table;
 use std::ops::Range;
 
 declare_rule! {
@@ -40,30 +42,28 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for of in sound_tables(context) {
         let table = of.table;
-        let Some(arranged) = Arranged::in_order(table) else { continue };
         // A field value with a single row is what T012 is about, a wrong start T004 and T005.
-        let is_meant = |places: &Range<usize>| {
-            (places.len() > 1 || table.dependencies() == 0) && starts_as_it_must(of, arranged.row(places.start)[1])
-        };
-        let mut groups = arranged.complete_groups().filter(is_meant);
+        if (0..table.row_count()).any(|row| is_alone(table, row)) {
+            continue;
+        }
+        let mut groups = curves(table).filter(|rows| starts_as_it_must(of, table.row(rows.start)[1]));
         let Some(first) = groups.next() else { continue };
-        let mut others = groups.filter(|other| !abscissae(&arranged, other).eq(abscissae(&arranged, &first)));
+        let mut others = groups.filter(|other| !abscissae(table, other).eq(abscissae(table, &first)));
         let Some(other) = others.next() else { continue };
-        let row = arranged.row(other.start);
         let name = column_words(&table.columns[1]);
-        let message = format!("the group{} has its own values of the {name}", group_words(table, row));
+        let group = group_words(table, table.row(other.start));
         let more = and_more(others.count(), "group differs from the first", "groups differ from the first");
         report
-            .at(table.row_span(arranged.index(other.start)), message)
+            .at(table.row_span(other.start), format!("the group{group} has its own values of the {name}"))
             .label("this group begins here")
-            .also(table.row_span(arranged.index(first.start)), "the first group begins here")
+            .also(table.row_span(first.start), "the first group begins here")
             .note(format!("each group is interpolated at its own values, then the groups among each other{more}"));
     }
 }
 
 /// The values of the first independent variable in a group, each once: what stands twice is T002.
-fn abscissae<'a>(arranged: &'a Arranged<'_>, places: &Range<usize>) -> impl Iterator<Item = f64> + 'a {
+fn abscissae<'a>(table: &'a Table, rows: &Range<usize>) -> impl Iterator<Item = f64> + 'a {
     let mut before = f64::NAN;
-    let values = places.clone().map(|place| arranged.row(place)[1]);
+    let values = rows.clone().map(|row| table.row(row)[1]);
     values.filter(move |value| std::mem::replace(&mut before, *value) != *value)
 }

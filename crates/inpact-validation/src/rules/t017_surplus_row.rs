@@ -1,9 +1,8 @@
 //! T017: rows behind the only one that an option has.
 
-use crate::problems::first_of_each_block;
+use crate::problems::{first_of_each_block, has_no_place};
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::problem::ProblemKind;
 
 declare_rule! {
     /// A row stands behind the first, in an option that has only one.
@@ -39,9 +38,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    let is_meant =
-        |kind: &ProblemKind| matches!(kind, ProblemKind::SurplusRow | ProblemKind::TooManyItems { allowed: 0, .. });
-    for first in first_of_each_block(context, is_meant) {
+    for first in first_of_each_block(context, has_no_place) {
         let name = first.block.map_or("the option", |block| block.name);
         let more = and_more(first.more, "row is too much", "rows are too much");
         report
