@@ -1,7 +1,7 @@
 //! The sample decks are right, and between them use every keyword of the grammar.
 
 use crate::program::{inpact, root, sample_decks};
-use inpact_parser::deck::scan;
+use inpact_parser::deck::{Block, scan};
 use inpact_parser::grammar::Grammar;
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ fn every_keyword_of_the_grammar_stands_in_a_sample() {
     let mut used = BTreeSet::new();
     for deck in sample_decks() {
         let bytes = std::fs::read(root().join(&deck)).expect("readable");
-        used.extend(scan(&deck, &bytes, grammar).blocks().iter().filter_map(|block| block.keyword_id()));
+        used.extend(scan(&deck, &bytes, grammar).blocks().iter().filter_map(Block::keyword_id));
     }
     let defined = grammar.keywords().filter(|(_, keyword)| keyword.definition().is_some());
     let missing: Vec<&str> =

@@ -70,16 +70,13 @@ fn json_that_is_not_right_is_refused_with_its_path() {
 #[test]
 fn a_model_that_no_deck_can_hold_is_refused() {
     let json = inpact(&["json", "decks/fragments/minimal.inp"]).output;
-    let bent =
-        json.replace("\"name\": \"", "\"name\": \"X, Y").replacen("\": {\n      \"name\"", "\": {\n      \"name\"", 1);
-    let document: serde_json::Value = serde_json::from_str(&bent).expect("JSON");
-    let interactions = document["interactions"].as_object().expect("interactions");
-    let (_, interaction) = interactions.iter().next().expect("one interaction");
-    let name = interaction["name"].as_str().expect("a name").to_owned();
-    let document = serde_json::json!({
-        "schema": "inpact/model/1", "source": "", "parameters": [], "interactions": {name: interaction},
-        "contact_pairs": [], "property_assignments": [], "procedures": [],
-    });
+    let mut document: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let interactions = document["interactions"].as_object_mut().expect("interactions");
+    let key = interactions.keys().next().expect("one interaction").clone();
+    let mut interaction = interactions.remove(&key).expect("it is there");
+    // Without quotes the comma ends the name.
+    interaction["name"] = "X, Y".into();
+    interactions.insert("X, Y".to_owned(), interaction);
     let run = inpact_with_input(&["inp", "-"], document.to_string().as_bytes());
     assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
     assert!(run.errors.contains("no deck can say this"), "{}", run.errors);
