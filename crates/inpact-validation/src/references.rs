@@ -19,8 +19,8 @@ const MOST_SUGGESTIONS: usize = 20;
 #[derive(Debug, Default)]
 pub(crate) struct Definitions {
     by_name: HashMap<Name, Span>,
-    /// Quoted and unquoted names without case and blanks: what differs by quotes only stands under one key (S-41).
-    by_folded: HashMap<String, (Name, Span)>,
+    /// The quoted names, by what is left of them without quotes, case and blanks (S-41).
+    quoted: HashMap<String, (Name, Span)>,
     /// Some of the names, among which one is looked for that may be meant.
     compared: Vec<String>,
 }
@@ -65,7 +65,9 @@ impl Definitions {
     }
 
     fn add(&mut self, name: Name, span: Span) {
-        self.by_folded.entry(folded(&name)).or_insert_with(|| (name.clone(), span));
+        if name.is_quoted() {
+            self.quoted.entry(folded(&name)).or_insert_with(|| (name.clone(), span));
+        }
         if self.compared.len() < MOST_COMPARED {
             self.compared.push(name.written().to_owned());
         }
@@ -98,7 +100,14 @@ impl Definitions {
         if self.by_name.contains_key(name) {
             return Found::Defined;
         }
-        match self.by_folded.get(&folded(name)) {
+        let quoted_otherwise = if name.is_quoted() {
+            self.by_name.get_key_value(&Name::new(&folded(name)))
+        } else if self.quoted.is_empty() {
+            None
+        } else {
+            self.quoted.get(&folded(name)).map(|(defined, span)| (defined, span))
+        };
+        match quoted_otherwise {
             Some((defined, span)) if defined.differs_by_quotes_only(name) => Found::QuotedOtherwise(defined, *span),
             _ => Found::Missing,
         }

@@ -244,6 +244,8 @@ fn references() {
     check(&deck(", NAME=A", ""), "R005@2");
     check(&deck(", NAME=\"a\"", ", INTERACTION=a"), "R006@2");
     check(&deck(", NAME=\"A\"", ", INTERACTION=a"), "");
+    check(&deck(", NAME=a b", ", INTERACTION=\"A b\""), "R006@2");
+    check(&deck(", NAME=\"a b\"", ", INTERACTION=\"A b\""), "R001@2");
     // What is misspelt elsewhere has its finding there.
     check(&deck(", NMAE=A", ", INTERACTION=A"), "");
     check(&deck(", NAME=A", ", INTERATCION=A"), "");
