@@ -14,6 +14,8 @@ pub(crate) fn unified(path: &str, before: &[u8], after: &[u8]) -> String {
         return String::new();
     }
     let (before, after) = (String::from_utf8_lossy(before), String::from_utf8_lossy(after));
+    // The names below `a/` and `b/` are relative, whatever the path.
+    let path = path.trim_start_matches('/');
     let diff = TextDiff::configure().timeout(PATIENCE).diff_lines(before.as_ref(), after.as_ref());
     diff.unified_diff().context_radius(3).header(&format!("a/{path}"), &format!("b/{path}")).to_string()
 }

@@ -112,13 +112,16 @@ impl DeckArguments {
     /// # Errors
     /// When the configuration cannot be read, or says what it cannot say.
     pub(crate) fn settings(&self, path: &Path) -> Result<Settings, Failure> {
-        let (file, root) = match self.configuration_of(path) {
-            Some(found) => (read(&found)?, found.parent().unwrap_or(Path::new("")).to_owned()),
+        let (file, found) = match self.configuration_of(path) {
+            Some(found) => (read(&found)?, found),
             None => (File::default(), PathBuf::new()),
         };
+        let root = found.parent().unwrap_or(Path::new(""));
         let release = match (self.release, &file.release) {
             (Some(release), _) => release,
-            (None, Some(release)) => release.parse().map_err(|error| in_file(&root, &format!("`release`: {error}")))?,
+            (None, Some(release)) => {
+                release.parse().map_err(|error| in_file(&found, &format!("`release`: {error}")))?
+            }
             (None, None) => Release::NEWEST,
         };
         let dialect = match self.dialect.or(file.dialect) {
@@ -131,8 +134,8 @@ impl DeckArguments {
             include_dirs: self.include_dir.iter().cloned().chain(from_file).collect(),
             relative_to: self.relative_to.or(file.relative_to).unwrap_or(RelativeTo::Deck),
             levels: file.rules,
-            ignores: file.ignore.iter().map(|entry| matchers(entry, &root)).collect::<Result<_, _>>()?,
-            root,
+            ignores: file.ignore.iter().map(|entry| matchers(entry, &found)).collect::<Result<_, _>>()?,
+            root: found.canonicalize().ok().and_then(|found| Some(found.parent()?.to_owned())).unwrap_or_default(),
         })
     }
 
@@ -163,13 +166,13 @@ fn read(path: &Path) -> Result<File, Failure> {
     Ok(file)
 }
 
-fn in_file(root: &Path, message: &str) -> Failure {
-    Failure::Usage(format!("`{}`: {message}", root.join(FILE_NAME).display()))
+fn in_file(file: &Path, message: &str) -> Failure {
+    Failure::Usage(format!("`{}`: {message}", file.display()))
 }
 
-fn matchers(entry: &IgnoreEntry, root: &Path) -> Result<(Vec<GlobMatcher>, Vec<String>), Failure> {
+fn matchers(entry: &IgnoreEntry, file: &Path) -> Result<(Vec<GlobMatcher>, Vec<String>), Failure> {
     let compile = |pattern: &String| {
-        let glob = Glob::new(pattern).map_err(|error| in_file(root, &format!("`ignore.paths`: {error}")))?;
+        let glob = Glob::new(pattern).map_err(|error| in_file(file, &format!("`ignore.paths`: {error}")))?;
         Ok(glob.compile_matcher())
     };
     Ok((entry.paths.iter().map(compile).collect::<Result<_, Failure>>()?, entry.rules.clone()))

@@ -121,7 +121,7 @@ struct Summary<'a> {
 impl Summary<'_> {
     fn text(&self) -> Vec<String> {
         let seconds = self.time.as_secs_f64();
-        let mut lines = vec![format!("{} rows in, {} rows out, {seconds:.3} s", self.tally.rows, self.rows_out)];
+        let mut lines = vec![format!("{} in, {} out, {seconds:.3} s", rows(self.tally.rows), rows(self.rows_out))];
         if self.plan.interactions.len() > MOST_INTERACTIONS {
             let whole = self.tally.whole();
             lines.push(format!("  {} interactions: {}", self.plan.interactions.len(), counts(&whole)));
@@ -194,9 +194,14 @@ impl Summary<'_> {
     }
 }
 
+/// `1 row`, `2 rows`.
+fn rows(number: u64) -> String {
+    format!("{number} row{}", if number == 1 { "" } else { "s" })
+}
+
 /// `300 rows, 212 closed, 88 open, 12 beyond a table`.
 fn counts(of: &InteractionTally) -> String {
-    let mut counts = vec![format!("{} rows", of.rows), format!("{} closed", of.closed), format!("{} open", of.open)];
+    let mut counts = vec![rows(of.rows), format!("{} closed", of.closed), format!("{} open", of.open)];
     let others = [
         (of.beyond_table, "beyond a table"),
         (of.cutoff, "beyond the cutoff of flow across"),
@@ -209,14 +214,14 @@ fn counts(of: &InteractionTally) -> String {
 /// What a user should know of the rows.
 fn remarks(of: &InteractionTally) -> Vec<String> {
     let remarks = [
-        (of.incomplete, "lack a number that a law needs and have no results of it"),
-        (of.incomplete_flows, "have no potentials and so no current"),
-        (of.needs_length, "lack the characteristic element length: give `char_length` or `--char-length`"),
+        (of.incomplete, "without a number that a law needs, and so without its results"),
+        (of.incomplete_flows, "without potentials, and so without current"),
+        (of.needs_length, "without the characteristic element length: give `char_length` or `--char-length`"),
         (
             of.lost_digits,
-            "have a difference of potentials below 1e-8 of the potentials, which has lost its digits: give `epot_jump`",
+            "with a difference of potentials below 1e-8 of the potentials, which has lost its digits: give `epot_jump`",
         ),
     ];
     let remarks = remarks.into_iter().filter(|(count, _)| *count > 0);
-    remarks.map(|(count, what)| format!("warning: {count} rows {what}")).collect()
+    remarks.map(|(count, what)| format!("warning: {} {what}", rows(count))).collect()
 }

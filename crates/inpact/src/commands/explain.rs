@@ -4,7 +4,7 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::page;
 use clap::{Args, ValueEnum};
-use inpact_parser::grammar::Grammar;
+use inpact_parser::grammar::{Grammar, nearest_names};
 use inpact_validation::rules::RULES;
 use std::path::PathBuf;
 
@@ -65,8 +65,15 @@ fn page_of(what: &str) -> Result<String, Failure> {
             Err(Failure::Usage(message))
         }
         None => {
-            let near = grammar.nearest_keywords(words, 3);
-            let near = if near.is_empty() { String::new() } else { format!("; did you mean *{}?", near.join(", *")) };
+            let rules = RULES.iter().flat_map(|rule| [rule.code, rule.name]);
+            let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));
+            let keywords = grammar.nearest_keywords(words, 3).into_iter().map(|keyword| format!("*{keyword}"));
+            let near: Vec<String> = rules.chain(keywords).collect();
+            let near = if near.is_empty() {
+                "; `inpact explain --all` has every page".to_owned()
+            } else {
+                format!("; did you mean {}?", near.join(", "))
+            };
             Err(Failure::Usage(format!("there is no rule and no keyword `{what}`{near}")))
         }
     }
