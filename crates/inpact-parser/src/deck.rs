@@ -114,8 +114,12 @@ impl DataLine<'_> {
     /// The items between the commas, as spans of the deck (S-31).
     pub fn items(&self) -> impl Iterator<Item = Span> {
         let line = self.span;
-        items(self.text)
-            .map(move |range| Span::new(line.source, line.start + range.start as u64, line.start + range.end as u64))
+        items(self.text).map(move |range| part_of(line, range))
+    }
+
+    /// The span of some bytes of the line.
+    pub fn part(&self, range: std::ops::Range<usize>) -> Span {
+        part_of(self.span, range)
     }
 }
 
@@ -175,8 +179,8 @@ impl Deck {
 
     /// The data and blank lines of a block, comments passed over; nothing when its rows were not kept.
     pub fn data_lines<'a>(&'a self, block: &'a Block) -> impl Iterator<Item = DataLine<'a>> {
-        let rows = std::iter::once(block.rows).chain(block.continued_in.iter().copied());
-        rows.flat_map(|rows| self.data_lines_in(rows))
+        let elsewhere = block.continued_in.iter().flat_map(|rows| self.data_lines_in(*rows));
+        self.data_lines_in(block.rows).chain(elsewhere)
     }
 
     /// The data and blank lines of a span of rows.
@@ -274,6 +278,11 @@ impl Parameter {
     pub fn span(&self) -> Span {
         self.value.map_or(self.name, |value| self.name.to(value))
     }
+}
+
+/// The span of some bytes of a line.
+fn part_of(line: Span, range: std::ops::Range<usize>) -> Span {
+    Span::new(line.source, line.start + range.start as u64, line.start + range.end as u64)
 }
 
 /// The length of the UTF-8 byte order mark that `text` begins with, or 0.

@@ -80,6 +80,8 @@ pub enum ProblemKind {
         message: String,
         /// What to do.
         help: Option<String>,
+        /// The parameter that is used without a definition above, when that is what is wrong.
+        undefined: Option<String>,
     },
     /// *PARAMETER with TABLE: the parameters it gives are not interpreted (S-63).
     UninterpretedParameters,

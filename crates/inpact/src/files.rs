@@ -60,18 +60,53 @@ pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Fa
     output.finish()
 }
 
+/// Gives a file new content: the file a link leads to stays where it is, and so do its permissions.
+pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let target = path.canonicalize().map_err(|error| Failure::write(path, error))?;
+    let permissions = target.metadata().map_err(|error| Failure::write(path, error))?.permissions();
+    if permissions.readonly() {
+        // Renaming another file to its name would succeed, against the wish of whoever protected it.
+        let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
+        return Err(Failure::write(path, error));
+    }
+    write_result(Some(&target), bytes)?;
+    std::fs::set_permissions(&target, permissions).map_err(|error| Failure::write(path, error))
+}
+
 /// Where a result goes: standard output, or a file that gets its name only when it is complete.
 ///
 /// The file is written beside its target and renamed, so a stopped run never leaves half a result under the name that was asked for.
+/// A file that is there already keeps its permissions, and a link to it stays a link; a write-protected one is left alone.
 pub(crate) enum ResultFile {
     Standard(io::BufWriter<io::StdoutLock<'static>>),
-    File { beside: io::BufWriter<tempfile::NamedTempFile>, target: std::path::PathBuf },
+    /// A device or a named pipe, which nothing must be renamed to.
+    Stream {
+        stream: io::BufWriter<File>,
+        target: std::path::PathBuf,
+    },
+    File {
+        beside: io::BufWriter<tempfile::NamedTempFile>,
+        target: std::path::PathBuf,
+    },
 }
 
 impl ResultFile {
     pub(crate) fn create(target: Option<&Path>) -> Result<Self, Failure> {
         let Some(target) = target.filter(|target| target.as_os_str() != STANDARD_STREAM) else {
             return Ok(Self::Standard(io::BufWriter::with_capacity(PIECE, io::stdout().lock())));
+        };
+        let present = std::fs::metadata(target).ok();
+        if present.as_ref().is_some_and(|present| !present.is_file() && !present.is_dir()) {
+            let stream = File::options().write(true).open(target).map_err(|error| Failure::write(target, error))?;
+            return Ok(Self::Stream { stream: io::BufWriter::with_capacity(PIECE, stream), target: target.to_owned() });
+        }
+        if present.as_ref().is_some_and(|present| present.is_file() && present.permissions().readonly()) {
+            let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
+            return Err(Failure::write(target, error));
+        }
+        let target = &match present {
+            Some(_) => target.canonicalize().map_err(|error| Failure::write(target, error))?,
+            None => target.to_owned(),
         };
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
@@ -83,6 +118,9 @@ impl ResultFile {
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let beside = builder.tempfile_in(folder).map_err(|error| Failure::write(target, error))?;
+        if let Some(present) = present.filter(std::fs::Metadata::is_file) {
+            beside.as_file().set_permissions(present.permissions()).map_err(|error| Failure::write(target, error))?;
+        }
         Ok(Self::File { beside: io::BufWriter::with_capacity(PIECE, beside), target: target.to_owned() })
     }
 
@@ -90,7 +128,7 @@ impl ResultFile {
     pub(crate) fn failure(&self, error: io::Error) -> Failure {
         match self {
             Self::Standard(_) => Failure::Output(error),
-            Self::File { target, .. } => Failure::write(target, error),
+            Self::Stream { target, .. } | Self::File { target, .. } => Failure::write(target, error),
         }
     }
 
@@ -98,6 +136,7 @@ impl ResultFile {
     pub(crate) fn finish(self) -> Result<(), Failure> {
         match self {
             Self::Standard(mut output) => output.flush().map_err(Failure::Output),
+            Self::Stream { mut stream, target } => stream.flush().map_err(|error| Failure::write(&target, error)),
             Self::File { beside, target } => {
                 let failed = |error| Failure::write(&target, error);
                 let beside = beside.into_inner().map_err(|error| failed(error.into_error()))?;
@@ -111,6 +150,7 @@ impl Write for ResultFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Self::Standard(output) => output.write(bytes),
+            Self::Stream { stream, .. } => stream.write(bytes),
             Self::File { beside, .. } => beside.write(bytes),
         }
     }
@@ -118,6 +158,7 @@ impl Write for ResultFile {
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Self::Standard(output) => output.flush(),
+            Self::Stream { stream, .. } => stream.flush(),
             Self::File { beside, .. } => beside.flush(),
         }
     }

@@ -92,7 +92,12 @@ impl<'a> Reader<'a> {
     fn read_block(&mut self, block: &'a Block) {
         // An unknown keyword leaves an interaction open: it is more often a typing error in a sub-option than the end of the block.
         let Some(keyword) = &block.keyword else { return };
-        let Some(id) = keyword.id() else { return };
+        let Some(id) = keyword.id() else {
+            if is_likely_interaction(self.deck.text(keyword.name)) {
+                self.close_interaction(Some(keyword.visible_span(self.deck)));
+            }
+            return;
+        };
         self.check_references(keyword);
         let entry = self.grammar.keyword(id);
         let Some(definition) = entry.definition() else {
@@ -143,7 +148,11 @@ impl<'a> Reader<'a> {
         let mut invalid = Vec::new();
         define(lines, &mut self.model.parameters, &mut invalid);
         self.problems.extend(invalid.into_iter().map(|problem| Problem {
-            kind: ProblemKind::InvalidExpression { message: problem.message, help: problem.help },
+            kind: ProblemKind::InvalidExpression {
+                message: problem.message,
+                help: problem.help,
+                undefined: problem.undefined,
+            },
             span: problem.span,
             keyword: keyword.span,
         }));
@@ -481,6 +490,13 @@ impl<'a> Reader<'a> {
         let option = SubOption { rows, table: None, ..self.generic(option) };
         self.model.procedures.push(Procedure { step, option });
     }
+}
+
+/// Whether unknown words were likely meant to begin the next *SURFACE INTERACTION, whose sub-options are not the last one's.
+fn is_likely_interaction(words: &[u8]) -> bool {
+    let letters = words.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase);
+    let letters: Vec<u8> = letters.take(40).collect();
+    letters.starts_with(b"SURF") && letters.windows(3).any(|piece| piece == b"INT")
 }
 
 /// Takes the last parameter of that name out of the list.

@@ -3,12 +3,13 @@
 //! Knows the layout of a row, not what its numbers mean. Reads every line, whatever is wrong with the one before.
 
 use super::table::{CellText, Table};
-use crate::deck::{Block, DataLine, Deck};
+use crate::deck::{Block, DataLine, Deck, items};
 use crate::expression::{Parameters, SubstitutionError, substitute};
 use crate::grammar::Layout;
 use crate::number::{FLOAT_CHARACTERS, read_float};
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
+use std::ops::Range;
 
 /// Reads the rows of a block.
 pub(super) fn read_table(
@@ -76,10 +77,10 @@ impl RowReader<'_> {
         let whole_row = self.lines > 1 && line_of_row == 0 && count_items(line) == width;
         let room = if whole_row { width } else { items_on(self.layout, line_of_row) };
         let first_column = self.table.values.len() % width.max(1);
-        let mut items = line.items();
+        let mut items = items(line.text);
         for column in first_column..first_column + room {
             match items.next() {
-                Some(item) => self.take_item(item, column),
+                Some(item) => self.take_item(line, item, column),
                 None => self.table.values.push(self.layout.defaults[column]),
             }
         }
@@ -88,7 +89,8 @@ impl RowReader<'_> {
             let (first, following) = (self.layout.first_line, self.layout.following);
             self.report(ProblemKind::RowOnOneLine { lines: self.lines, first, following }, content);
         }
-        if let Some(surplus) = items.filter(|item| !item.is_empty()).reduce(Span::to) {
+        let surplus = items.filter(|item| !item.is_empty()).map(|item| line.part(item)).reduce(Span::to);
+        if let Some(surplus) = surplus {
             let given = count_items(line);
             self.report(ProblemKind::TooManyItems { allowed: room, given, lines: self.lines }, surplus);
         }
@@ -99,8 +101,16 @@ impl RowReader<'_> {
         if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
     }
 
-    fn take_item(&mut self, item: Span, column: usize) {
-        let text = self.deck.text(item);
+    fn take_item(&mut self, line: &DataLine<'_>, item: Range<usize>, column: usize) {
+        let text = &line.text[item.clone()];
+        // A plain number, as nearly every item is, needs no place.
+        if text.len() <= FLOAT_CHARACTERS
+            && let Ok(value) = read_float(text)
+        {
+            self.table.values.push(value);
+            return;
+        }
+        let item = line.part(item);
         if text.is_empty() {
             if column == 0 && self.layout.columns.len() > 1 {
                 self.report(ProblemKind::EmptyValue { column: self.layout.columns[column].clone() }, item);

@@ -34,6 +34,10 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    if context.has_unread_files() {
+        // A file that was not read may define it.
+        return;
+    }
     for problem in context.problems {
         let ProblemKind::UndefinedParameter { name, similar } = &problem.kind else { continue };
         let found = report.at(problem.span, format!("the parameter `{name}` is not defined"));

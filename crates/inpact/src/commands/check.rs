@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     progress.finish();
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
     let mut total = Tally::default();
-    let (mut unreadable, mut fixes, mut fixed_files) = (false, 0, 0);
+    let (mut unreadable, mut decks, mut fixes, mut fixed_files) = (false, 0, 0, 0);
     let document = render::document(arguments.format);
     let has_frame = !arguments.statistics && !arguments.diff;
     let mut text = if has_frame { document.head } else { String::new() };
@@ -90,6 +90,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     for result in checked {
         match result {
             Ok(checked) => {
+                decks += 1;
                 if !is_first && !checked.text.is_empty() {
                     text += document.separator;
                 }
@@ -123,7 +124,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
             let verb = if arguments.diff { "would mend" } else { "mended" };
             say(&format!("{verb} {} in {}", count(fixes, "finding"), count(fixed_files, "file")));
         }
-        say(&total.summary(arguments.decks.len()));
+        if decks > 0 {
+            say(&total.summary(decks));
+        }
     }
     match () {
         () if unreadable => Err(Failure::AlreadySaid),
@@ -162,7 +165,7 @@ fn check_deck(path: &Path, arguments: &CheckArguments, style: Style, progress: &
 fn write_back(fixed: &Fixed) -> Result<(), Failure> {
     for (path, (before, after)) in &fixed.files {
         if before != after {
-            files::write_result(Some(path), after)?;
+            files::rewrite(path, after)?;
         }
     }
     Ok(())

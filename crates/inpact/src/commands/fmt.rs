@@ -10,7 +10,7 @@ use clap::Args;
 use inpact_parser::deck::scan;
 use inpact_parser::format::format;
 use inpact_parser::span::SourceId;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
             let to_standard_output = if !only_shown {
                 let is_stream = path.as_os_str() == STANDARD_STREAM;
                 if is_changed && !is_stream {
-                    rewrite(path, &after)?;
+                    files::rewrite(path, &after)?;
                 }
                 if is_stream { after } else { Vec::new() }
             } else if !is_changed {
@@ -87,19 +87,6 @@ fn read(path: &Path, arguments: &FormatArguments) -> Result<(Vec<u8>, Vec<u8>), 
     let deck = scan(&path.display().to_string(), &before, settings.grammar);
     let after = format(&deck, SourceId::ROOT, settings.grammar);
     Ok((before, after))
-}
-
-/// Gives a file new content: the file a link leads to stays where it is, and so do its permissions.
-fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let target = path.canonicalize().map_err(|error| Failure::write(path, error))?;
-    let permissions = target.metadata().map_err(|error| Failure::write(path, error))?.permissions();
-    if permissions.readonly() {
-        // Renaming another file to its name would succeed, against the wish of whoever protected it.
-        let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
-        return Err(Failure::write(path, error));
-    }
-    files::write_result(Some(&target), bytes)?;
-    std::fs::set_permissions(&target, permissions).map_err(|error| Failure::write(path, error))
 }
 
 impl Tally {

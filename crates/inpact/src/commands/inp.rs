@@ -1,4 +1,4 @@
-//! `inpact inp`: JSON in, a deck out.
+//! `inpact inp`: JSON in, a deck out, and the files it includes where the lossless form has them.
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
@@ -6,7 +6,7 @@ use clap::Args;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::json::{self, View};
 use inpact_parser::model;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct InpArguments {
@@ -16,28 +16,54 @@ pub(crate) struct InpArguments {
     /// Where to write the deck, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Write every file of the lossless form below this folder, under the name it has there.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "output")]
+    into: Option<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &InpArguments) -> Result<Outcome, Failure> {
     let text = files::read_text(&arguments.json)?;
-    let bytes = deck_bytes(&text).map_err(|message| in_file(&arguments.json, &message))?;
-    files::write_result(arguments.output.as_deref(), &bytes)?;
+    let decks = decks(&text).map_err(|message| in_file(&arguments.json, &message))?;
+    match (&arguments.into, decks.as_slice()) {
+        (Some(folder), _) => {
+            for (name, bytes) in &decks {
+                write_below(folder, name, bytes)?;
+            }
+        }
+        (None, [(_, bytes)]) => files::write_result(arguments.output.as_deref(), bytes)?,
+        (None, _) => {
+            let message = format!("the JSON holds {} files: say where to write them with `--into FOLDER`", decks.len());
+            return Err(Failure::Usage(message));
+        }
+    }
     Ok(Outcome::Clean)
 }
 
-/// The deck that the JSON says; the lossless form gives the first file, which is the deck itself.
-fn deck_bytes(text: &str) -> Result<Vec<u8>, String> {
+/// The files that the JSON says; the model view is one, without a name.
+fn decks(text: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
     let grammar = Grammar::builtin();
     match json::view_of(text).map_err(|error| error.to_string())? {
         View::Model => {
             let model = json::model::read(text).map_err(|error| error.to_string())?;
-            model::print(&model, grammar).map(String::into_bytes).map_err(|error| error.to_string())
+            let deck = model::print(&model, grammar).map_err(|error| error.to_string())?;
+            Ok(vec![("deck.inp".to_owned(), deck.into_bytes())])
         }
-        View::Syntax => {
-            let files = json::syntax::read(text, grammar).map_err(|error| error.to_string())?;
-            Ok(files.into_iter().next().map(|(_, bytes)| bytes).unwrap_or_default())
-        }
+        View::Syntax => json::syntax::read(text, grammar).map_err(|error| error.to_string()),
     }
+}
+
+/// Writes a file below a folder; a name that leads out of it is refused.
+fn write_below(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+    let name = Path::new(name);
+    if !name.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        let message = format!("`{}` leads out of `{}`: name the files relative to it", name.display(), folder.display());
+        return Err(Failure::Data(message));
+    }
+    let path = folder.join(name);
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent).map_err(|error| Failure::write(parent, error))?;
+    }
+    files::write_result(Some(&path), bytes)
 }
 
 fn in_file(path: &Path, message: &str) -> Failure {
