@@ -1,0 +1,104 @@
+//! Any option: its parameters and its rows, as the grammar describes them.
+
+use super::Reader;
+use crate::deck::{Block, KeywordLine, Parameter};
+use crate::grammar::{Definition, KeywordId, RowShape};
+use crate::model::rows::read_table;
+use crate::model::{GivenParameter, MOST_FIELD_VARIABLES, Name, Reference, SubOption, Table};
+use crate::number::{read_float, read_integer};
+use crate::span::Span;
+
+/// A block whose keyword the grammar defines.
+#[derive(Clone, Copy)]
+pub(super) struct Entry<'a> {
+    pub(super) id: KeywordId,
+    pub(super) name: &'a str,
+    pub(super) definition: &'a Definition,
+    pub(super) keyword: &'a KeywordLine,
+    pub(super) block: &'a Block,
+}
+
+impl<'a> Entry<'a> {
+    /// The last setting of a parameter counts.
+    pub(super) fn parameter(self, name: &str) -> Option<&'a Parameter> {
+        let is_meant = |parameter: &&Parameter| {
+            parameter.index().is_some_and(|index| self.definition.parameters[index].name == name)
+        };
+        self.keyword.parameters.iter().rev().find(is_meant)
+    }
+
+    pub(super) fn is_given(self, name: &str) -> bool {
+        self.parameter(name).is_some()
+    }
+}
+
+impl Reader<'_> {
+    /// The rows as a table; `None` when there are none, or USER makes them void.
+    pub(super) fn table(&mut self, option: Entry<'_>) -> Option<Table> {
+        let dependencies = self.dependencies(option);
+        let layout = option.definition.layout(|name| option.is_given(name), dependencies)?;
+        let table = read_table(self.deck, option.block, layout, &self.model.parameters, &mut self.problems);
+        (table.row_count() > 0).then_some(table)
+    }
+
+    pub(super) fn dependencies(&self, option: Entry<'_>) -> usize {
+        let value = self.value_of(option, "DEPENDENCIES");
+        let number = value.and_then(|value| read_integer(value.as_bytes()).ok()).unwrap_or(0);
+        usize::try_from(number).unwrap_or(0).min(MOST_FIELD_VARIABLES)
+    }
+
+    pub(super) fn generic(&mut self, option: Entry<'_>) -> SubOption {
+        let is_table = matches!(option.definition.rows(), RowShape::Table) && !option.is_given("USER");
+        let table = if is_table { self.table(option) } else { None };
+        let rows = if table.is_some() || is_table { Vec::new() } else { self.texts(option.block) };
+        SubOption {
+            keyword: option.name.to_owned(),
+            span: option.keyword.visible_span(self.deck),
+            parameters: self.given_parameters(option),
+            table,
+            rows,
+        }
+    }
+
+    /// The items of every line; empty ones at the end of a line left out.
+    pub(super) fn texts(&self, block: &Block) -> Vec<Vec<String>> {
+        let lines = self.deck.data_lines(block).filter(|line| !line.is_blank());
+        let items = lines.map(|line| {
+            let mut items: Vec<String> = line.items().map(|item| self.deck.shown(item)).collect();
+            let used = items.iter().rposition(|item| !item.is_empty()).map_or(0, |last| last + 1);
+            items.truncate(used);
+            items
+        });
+        items.collect()
+    }
+
+    pub(super) fn value_of(&self, option: Entry<'_>, name: &str) -> Option<String> {
+        Some(self.value_text(option.parameter(name)?.value?))
+    }
+
+    pub(super) fn float_of(&self, option: Entry<'_>, name: &str) -> Option<f64> {
+        read_float(self.value_of(option, name)?.as_bytes()).ok()
+    }
+
+    pub(super) fn given_parameters(&self, option: Entry<'_>) -> Vec<GivenParameter> {
+        let given = option.keyword.parameters.iter().map(|parameter| GivenParameter {
+            name: match parameter.index() {
+                Some(index) => option.definition.parameters[index].name.clone(),
+                None => self.deck.shown(parameter.name),
+            },
+            value: parameter.value.map(|value| self.deck.shown(value)),
+            span: parameter.span(),
+        });
+        given.collect()
+    }
+
+    pub(super) fn reference(&self, span: Span) -> Option<Reference> {
+        (!span.is_empty()).then(|| Reference { name: Name::new(&self.value_text(span)), span })
+    }
+}
+
+/// Takes the last parameter of that name out of the list.
+pub(super) fn take(parameters: &mut Vec<GivenParameter>, name: &str) -> Option<GivenParameter> {
+    let found = parameters.iter().rposition(|parameter| parameter.name == name)?;
+    Some(parameters.remove(found))
+}

@@ -1,0 +1,174 @@
+//! *SURFACE INTERACTION and the sub-options in its block (2.1 to 2.5).
+
+use super::Reader;
+use super::entry::{Entry, take};
+use crate::deck::KeywordLine;
+use crate::grammar::KeywordId;
+use crate::model::{
+    ConstraintMethod, ContactPermeability, HeatGeneration, Interaction, Name, SetAside, SetAsideItem, SetAsideReason,
+};
+use crate::number::read_float;
+use crate::problem::{Problem, ProblemKind};
+use crate::span::Span;
+
+impl Reader<'_> {
+    pub(super) fn open_interaction(&mut self, option: Entry<'_>) {
+        self.close_interaction(Some(option.keyword.span));
+        self.check_level(option);
+        self.parent = Some(option.id);
+        let mut parameters = self.given_parameters(option);
+        // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
+        take(&mut parameters, "NAME");
+        let name = self.value_of(option, "NAME").unwrap_or_default();
+        let mut interaction = Interaction::new(Name::new(&name), option.keyword.visible_span(self.deck));
+        let is_user = parameters.iter().any(|parameter| parameter.name == "USER");
+        interaction.parameters = parameters;
+        self.read_interaction_rows(option, is_user, &mut interaction);
+        self.interaction = Some(interaction);
+    }
+
+    /// The thickness on the first line; with USER the properties on the further ones (K-01, K-02).
+    pub(super) fn read_interaction_rows(&mut self, option: Entry<'_>, is_user: bool, interaction: &mut Interaction) {
+        let constants = if is_user { 8 } else { 0 };
+        for (index, line) in self.deck.data_lines(option.block).enumerate() {
+            let allowed = if index == 0 { 1 } else { constants };
+            let given = line.items().filter(|item| !item.is_empty()).count();
+            if given > allowed {
+                let kind = ProblemKind::TooManyItems { allowed, given, lines: 1 };
+                self.problems.push(Problem { kind, span: line.span, keyword: option.keyword.span });
+            }
+            for item in line.items().filter(|item| !item.is_empty()).take(allowed) {
+                match read_float(self.deck.text(item)) {
+                    Ok(value) if index == 0 => interaction.thickness = value,
+                    Ok(value) => interaction.properties.push(value),
+                    Err(error) => {
+                        let column = if index == 0 { "thickness" } else { "property" }.to_owned();
+                        let kind = ProblemKind::MalformedNumber { error, column };
+                        self.problems.push(Problem { kind, span: item, keyword: option.keyword.span });
+                    }
+                }
+            }
+        }
+    }
+
+    pub(super) fn leave_interaction(&mut self, id: KeywordId, keyword: &KeywordLine) {
+        self.close_interaction(Some(keyword.visible_span(self.deck)));
+        self.parent = Some(id);
+    }
+
+    pub(super) fn close_interaction(&mut self, closed_by: Option<Span>) {
+        let Some(interaction) = self.interaction.take() else { return };
+        self.closed_by = closed_by;
+        let span = interaction.span;
+        if let Some(earlier) = self.model.interactions.insert(interaction.name.clone(), interaction) {
+            self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::Interaction(Box::new(earlier)));
+        }
+    }
+
+    pub(super) fn set_aside(&mut self, reason: SetAsideReason, item: SetAsideItem) {
+        self.model.set_aside.push(SetAside { reason, item });
+    }
+
+    // Sub-options.
+
+    pub(super) fn read_sub_option(&mut self, option: Entry<'_>) {
+        let under_other_parent = self.interaction.is_none()
+            && self.parent.is_some_and(|parent| option.definition.has_parent(&self.grammar.keyword(parent).name));
+        if under_other_parent || (self.interaction.is_none() && option.definition.has_parent("MATERIAL")) {
+            return;
+        }
+        let placed = if self.check_level(option) {
+            if self.interaction.is_none() {
+                let kind = ProblemKind::Misplaced { keyword: option.id, closed_by: self.closed_by };
+                self.report(kind, option);
+            }
+            self.interaction.is_some()
+        } else {
+            false
+        };
+        // What is misplaced is read all the same, into a block of its own that is set aside.
+        let mut interaction = if placed { self.interaction.take() } else { None }
+            .unwrap_or_else(|| Interaction::new(Name::new(""), option.keyword.span));
+        match option.name {
+            "GAP ELECTRICAL CONDUCTANCE" => self.read_electrical(option, &mut interaction),
+            "CONTACT PERMEABILITY" => self.read_permeability(option, &mut interaction),
+            "GAP HEAT GENERATION" => self.read_heat_generation(option, &mut interaction),
+            _ => interaction.other.push(self.generic(option)),
+        }
+        if placed {
+            self.interaction = Some(interaction);
+        } else {
+            self.set_parts_aside(interaction);
+        }
+    }
+
+    pub(super) fn set_parts_aside(&mut self, interaction: Interaction) {
+        let electrical = interaction.gap_electrical_conductance.into_iter();
+        let tables =
+            electrical.flat_map(|option| [option.clearance, option.pressure]).flatten().map(SetAsideItem::Table);
+        let items = tables
+            .chain(interaction.contact_permeability.map(SetAsideItem::ContactPermeability))
+            .chain(interaction.gap_heat_generation.map(SetAsideItem::HeatGeneration))
+            .chain(interaction.other.into_iter().map(SetAsideItem::SubOption));
+        for item in items {
+            self.set_aside(SetAsideReason::Misplaced, item);
+        }
+    }
+
+    pub(super) fn read_electrical(&mut self, option: Entry<'_>, interaction: &mut Interaction) {
+        let law = interaction.gap_electrical_conductance.get_or_insert_default();
+        if let Some(kind) = self.value_of(option, "TYPE") {
+            law.kind = Some(kind);
+        }
+        if option.is_given("USER") {
+            law.user = Some(option.keyword.visible_span(self.deck));
+            return;
+        }
+        let Some(table) = self.table(option) else { return };
+        let branch = if option.is_given("PRESSURE") { &mut law.pressure } else { &mut law.clearance };
+        if let Some(earlier) = branch.replace(table) {
+            let span = option.keyword.visible_span(self.deck);
+            self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::Table(earlier));
+        }
+    }
+
+    pub(super) fn read_permeability(&mut self, option: Entry<'_>, interaction: &mut Interaction) {
+        let span = option.keyword.visible_span(self.deck);
+        let permeability = ContactPermeability {
+            span,
+            table: self.table(option),
+            cutoff_flow_across: self.float_of(option, "CUTOFF FLOW ACROSS"),
+            cutoff_gap_fill: self.float_of(option, "CUTOFF GAP FILL"),
+            constraint_method: self.constraint_method(option),
+        };
+        if let Some(earlier) = interaction.contact_permeability.replace(permeability) {
+            self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::ContactPermeability(earlier));
+        }
+    }
+
+    pub(super) fn constraint_method(&self, option: Entry<'_>) -> Option<ConstraintMethod> {
+        let parameter = option.parameter("CONSTRAINT METHOD")?;
+        let definition = &option.definition.parameters[parameter.index()?];
+        match definition.choice_named(self.deck.text(parameter.value?))? {
+            "DIRECT" => Some(ConstraintMethod::Direct),
+            "PENALTY" => Some(ConstraintMethod::Penalty),
+            _ => None,
+        }
+    }
+
+    pub(super) fn read_heat_generation(&mut self, option: Entry<'_>, interaction: &mut Interaction) {
+        let span = option.keyword.visible_span(self.deck);
+        let table = self.table(option);
+        let row = table.as_ref().and_then(|table| table.rows.first().copied());
+        let values = table.as_ref().map_or(&[1.0, 0.5][..], |table| table.row(0));
+        let [fraction, slave_weight] = [values[0], values[1]];
+        for surplus in table.iter().flat_map(|table| table.rows.iter().skip(1)) {
+            let problem = Problem { kind: ProblemKind::SurplusRow, span: *surplus, keyword: option.keyword.span };
+            self.problems.push(problem);
+        }
+        let heat = HeatGeneration { span, row, fraction, slave_weight };
+        if let Some(earlier) = interaction.gap_heat_generation.replace(heat) {
+            self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::HeatGeneration(earlier));
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! What uses the interactions: surfaces, contact pairs, property assignments, procedures (section 9).
+
+use super::Reader;
+use super::entry::{Entry, take};
+use crate::grammar::Level;
+use crate::model::{ContactPair, Procedure, PropertyAssignment, SubOption, Surface, SurfacePair};
+
+impl Reader<'_> {
+    pub(super) fn read_surface(&mut self, option: Entry<'_>) {
+        let value = option.parameter("NAME").and_then(|parameter| parameter.value);
+        if let Some(name) = value.and_then(|value| self.reference(value)) {
+            self.model.surfaces.push(Surface { span: option.keyword.visible_span(self.deck), name });
+        }
+    }
+
+    pub(super) fn read_contact_pair(&mut self, option: Entry<'_>) {
+        self.check_level(option);
+        let interaction = option.parameter("INTERACTION").and_then(|parameter| parameter.value);
+        let mut parameters = self.given_parameters(option);
+        take(&mut parameters, "INTERACTION");
+        let pairs = self.deck.data_lines(option.block).filter_map(|line| {
+            let mut items = line.items();
+            let slave = self.reference(items.next()?)?;
+            Some(SurfacePair { slave, master: items.next().and_then(|item| self.reference(item)) })
+        });
+        let pair = ContactPair {
+            span: option.keyword.visible_span(self.deck),
+            interaction: interaction.and_then(|value| self.reference(value)),
+            parameters,
+            pairs: pairs.collect(),
+        };
+        self.model.contact_pairs.push(pair);
+    }
+
+    pub(super) fn read_property_assignments(&mut self, option: Entry<'_>) {
+        for line in self.deck.data_lines(option.block).filter(|line| !line.is_blank()) {
+            let mut items = line.items();
+            let mut next = || items.next().and_then(|item| self.reference(item));
+            let assignment = PropertyAssignment { span: line.span, first: next(), second: next(), interaction: next() };
+            self.model.property_assignments.push(assignment);
+        }
+    }
+
+    pub(super) fn read_procedure(&mut self, option: Entry<'_>) {
+        self.explicit |= option.is_given("EXPLICIT");
+        let step = if self.level().0 == Level::Step { self.steps } else { 0 };
+        let rows = self.texts(option.block);
+        let option = SubOption { rows, table: None, ..self.generic(option) };
+        self.model.procedures.push(Procedure { step, option });
+    }
+}
