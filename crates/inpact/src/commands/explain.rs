@@ -83,17 +83,33 @@ fn page_of(what: &str) -> Result<String, Failure> {
 fn plain(markdown: &str) -> String {
     let mut text = String::new();
     let mut is_code = false;
+    let mut table = Vec::new();
     for line in markdown.lines() {
+        if !is_code && line.starts_with('|') {
+            table.push(line);
+            continue;
+        }
+        text += &aligned(&std::mem::take(&mut table));
         if line.starts_with("```") {
             is_code = !is_code;
             continue;
         }
-        match line {
-            _ if is_code => text += &format!("    {line}"),
-            _ if line.starts_with("|---") => continue,
-            _ => text += line.trim_start_matches('#').trim_start_matches(' '),
-        }
-        text.push('\n');
+        let indent = if is_code { "    " } else { "" };
+        let line = if is_code { line } else { line.trim_start_matches('#').trim_start_matches(' ') };
+        text += &format!("{indent}{line}\n");
     }
-    text
+    text + &aligned(&table)
+}
+
+/// A table of Markdown with its columns one below another.
+fn aligned(table: &[&str]) -> String {
+    let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
+    let is_ruler = |line: &&&str| line.starts_with("|---");
+    let rows: Vec<Vec<String>> = table.iter().filter(|line| !is_ruler(line)).map(|line| cells(line)).collect();
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
+    let line = |row: &Vec<String>| {
+        let padded = row.iter().enumerate().map(|(column, cell)| format!("{cell:<0$}", width(column).unwrap_or(0)));
+        format!("    {}\n", padded.collect::<Vec<_>>().join("  ").trim_end())
+    };
+    rows.iter().map(line).collect()
 }
