@@ -1,6 +1,6 @@
 //! `inpact json` and `inpact inp`: both views, and back.
 
-use crate::program::{inpact, inpact_with_input, root, sample_decks};
+use crate::program::{Folder, inpact, inpact_with_input, root, sample_decks};
 
 #[test]
 fn the_model_view() {
@@ -16,9 +16,19 @@ fn the_syntax_view() {
 fn every_sample_comes_back_byte_for_byte_from_the_syntax_view() {
     for deck in sample_decks() {
         let json = inpact(&["json", "--view", "syntax", &deck]);
-        let back = inpact_with_input(&["inp", "-"], json.output.as_bytes());
+        let folder = Folder::with(&[("deck.json", &json.output)]);
+        let back = folder.inpact(&["inp", "deck.json", "--into", "again"]);
         assert_eq!(back.code, 0, "{deck}: {}", back.errors);
-        assert_eq!(back.output, std::fs::read_to_string(root().join(&deck)).expect("readable"), "{deck}");
+        let document: serde_json::Value = serde_json::from_str(&json.output).expect("JSON");
+        let files = document["files"].as_array().expect("files");
+        for source in files.iter().map(|file| file["source"].as_str().expect("a name")) {
+            let text = std::fs::read_to_string(root().join(source)).expect("readable");
+            assert_eq!(folder.read(&format!("again/{source}")), text, "{source}");
+        }
+        if let [_] = files.as_slice() {
+            let back = inpact_with_input(&["inp", "-"], json.output.as_bytes());
+            assert_eq!((back.code, back.output), (0, folder.read(&format!("again/{deck}"))), "{}", back.errors);
+        }
     }
 }
 

@@ -1,6 +1,17 @@
 //! Runs the program as a user would: exit codes, standard streams, every format, every sample deck.
 
 mod check;
+mod configuration;
 mod decks;
+mod dialects;
+mod eval;
+mod eval_laws;
+mod eval_wrong;
+mod fix;
+mod fmt;
+mod formats;
+mod includes;
 mod json;
+mod plan;
 mod program;
+mod write;

@@ -25,11 +25,19 @@ pub(crate) fn inpact(arguments: &[&str]) -> Run {
 
 /// Runs the program with `input` as its standard input.
 pub(crate) fn inpact_with_input(arguments: &[&str], input: &[u8]) -> Run {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_inpact-under-test"))
-        .args(arguments)
-        .current_dir(root())
-        .env_remove("CLICOLOR_FORCE")
-        .env("NO_COLOR", "1")
+    run(command(&root(), arguments), input)
+}
+
+/// The program, to be started in a folder, without colours.
+pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_inpact-under-test"));
+    command.args(arguments).current_dir(folder).env_remove("CLICOLOR_FORCE").env("NO_COLOR", "1");
+    command
+}
+
+/// Runs a command with `input` as its standard input.
+pub(crate) fn run(mut command: Command, input: &[u8]) -> Run {
+    let mut child = command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -45,6 +53,53 @@ pub(crate) fn inpact_with_input(arguments: &[&str], input: &[u8]) -> Run {
         code: output.status.code().unwrap_or(-1),
         output: String::from_utf8_lossy(&output.stdout).into_owned(),
         errors: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+/// A folder of its own for a test, deleted when the test ends.
+pub(crate) struct Folder(tempfile::TempDir);
+
+impl Folder {
+    /// A folder that holds these files.
+    pub(crate) fn with(files: &[(&str, &str)]) -> Self {
+        let folder = Self(tempfile::tempdir().expect("a folder for the test"));
+        for (name, text) in files {
+            folder.write(name, text);
+        }
+        folder
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        let path = self.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("below the folder")).expect("a folder");
+        std::fs::write(path, text).expect("writable");
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path().join(name)).expect("readable")
+    }
+
+    /// The names in the folder itself, sorted.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.path()).expect("readable");
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// Runs the program in the folder.
+    pub(crate) fn inpact(&self, arguments: &[&str]) -> Run {
+        self.inpact_with_input(arguments, b"")
+    }
+
+    /// Runs the program in the folder with `input` as its standard input.
+    pub(crate) fn inpact_with_input(&self, arguments: &[&str], input: &[u8]) -> Run {
+        run(command(self.path(), arguments), input)
     }
 }
 

@@ -1,0 +1,118 @@
+//! One deck that means two things: `--dialect` and `--release`.
+
+use crate::program::Folder;
+
+const CONDUCTANCE: &str = "*SURFACE INTERACTION, NAME=A\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n*GAP CONDUCTANCE\n100., 0., 273.\n120., 1., 273.\n";
+
+/// Checks `d.inp`; gives severity and code of each finding, and the exit code.
+fn check(folder: &Folder, options: &[&str]) -> (Vec<String>, i32) {
+    let run = folder.inpact(&[&["check", "--format", "concise", "d.inp"], options].concat());
+    (run.output.lines().map(|line| line.split(' ').nth(1).expect("a severity").to_owned()).collect(), run.code)
+}
+
+#[test]
+fn the_columns_of_gap_conductance() {
+    let folder = Folder::with(&[("d.inp", CONDUCTANCE)]);
+    let columns = |dialect| {
+        let run = folder.inpact(&["json", "--dialect", dialect, "d.inp"]);
+        let document: serde_json::Value = serde_json::from_str(&run.output).expect("JSON");
+        let others = document["interactions"]["A"]["other"].as_array().expect("others").clone();
+        let table = others.into_iter().find(|other| other["keyword"] == "GAP CONDUCTANCE").expect("the option");
+        table["table"]["columns"].to_string()
+    };
+    assert_eq!(columns("abaqus"), r#"["conductance","clearance","temp","mass_flow"]"#);
+    assert_eq!(columns("calculix"), r#"["conductance","pressure","temp"]"#);
+}
+
+#[test]
+fn conductance_that_rises_is_odd_against_clearance_and_not_against_pressure() {
+    let folder = Folder::with(&[("d.inp", CONDUCTANCE)]);
+    assert_eq!(check(&folder, &[]), (vec!["warning[P005]".to_owned()], 0));
+    assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec![], 0));
+}
+
+#[test]
+fn t_016_more_rows_than_calculix_has_room_for() {
+    let deck = |rows: usize| {
+        let rows: String = (0..rows).map(|row| format!("{}., {row}., 273.\n", 100 + row)).collect();
+        format!(
+            "*SURFACE INTERACTION, NAME=A\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n*GAP CONDUCTANCE, PRESSURE\n{rows}"
+        )
+    };
+    let folder = Folder::with(&[("d.inp", &deck(21).replace(", PRESSURE\n", "\n"))]);
+    assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec!["warning[T016]".to_owned()], 0));
+    folder.write("d.inp", &deck(20).replace(", PRESSURE\n", "\n"));
+    assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec![], 0));
+    folder.write("d.inp", &deck(21));
+    assert_eq!(check(&folder, &[]), (vec![], 0));
+}
+
+#[test]
+fn keyword_lines_go_on_in_abaqus_only() {
+    let deck = "*SURFACE INTERACTION,\nNAME=A\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n";
+    let folder = Folder::with(&[("d.inp", deck)]);
+    assert_eq!(check(&folder, &[]), (vec![], 0));
+    let (found, code) = check(&folder, &["--dialect", "calculix"]);
+    assert_eq!(code, 1);
+    assert!(found.contains(&"warning[S003]".to_owned()) && found.contains(&"error[K006]".to_owned()), "{found:?}");
+}
+
+#[test]
+fn an_unknown_keyword_is_an_error_in_abaqus_and_a_warning_in_calculix() {
+    let folder = Folder::with(&[("d.inp", "*NODE PRINTT\n*NODE\n1, 0.\n")]);
+    assert_eq!(check(&folder, &[]), (vec!["error[K001]".to_owned()], 1));
+    assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec!["warning[K001]".to_owned()], 0));
+    // Keywords of one of the two programs.
+    folder.write("d.inp", "*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n");
+    let (found, _) = check(&folder, &["--dialect", "calculix"]);
+    assert!(found.contains(&"warning[K001]".to_owned()), "{found:?}");
+}
+
+#[test]
+fn the_third_item_of_gap_heat_generation_and_the_file_of_include() {
+    let heat = "*SURFACE INTERACTION, NAME=A\n*FRICTION\n.3, 1.E6\n*GAP HEAT GENERATION\n1., .5, 3.\n";
+    let folder = Folder::with(&[("heat.inp", heat), ("d.inp", "*INCLUDE, FILE=heat.inp\n")]);
+    assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec![], 0));
+    let (found, code) = check(&folder, &[]);
+    assert_eq!((found, code), (vec!["error[K006]".to_owned(), "error[K004]".to_owned()], 1));
+    folder.write("d.inp", heat);
+    let (found, code) = check(&folder, &[]);
+    assert_eq!(code, 1);
+    assert!(found.contains(&"error[T006]".to_owned()), "{found:?}");
+}
+
+#[test]
+fn releases_know_what_they_knew() {
+    let deck = "*SURFACE INTERACTION, NAME=A\n\
+                *CONTACT PERMEABILITY, CONSTRAINT METHOD=DIRECT, CUTOFF FLOW ACROSS=1., CUTOFF GAP FILL=1.\n1., 0.\n\
+                *GAP DIFFUSIVITY, TYPE=ION CONCENTRATION, CUTOFF FLOW ACROSS=1., CUTOFF GAP FILL=1.\n1., 0.\n";
+    let folder = Folder::with(&[("d.inp", deck)]);
+    let errors =
+        |release| check(&folder, &["--release", release]).0.iter().filter(|found| *found == "error[K015]").count();
+    let counts: Vec<usize> = ["6.11", "6.14", "2016", "2017", "2022", "2024"].map(errors).to_vec();
+    // CONSTRAINT METHOD is of 2017, *GAP DIFFUSIVITY of 2023.
+    assert_eq!(counts, [2, 2, 2, 1, 1, 0]);
+    assert_eq!(check(&folder, &[]).1, 0, "2024 is what counts unless another is named");
+    assert_eq!(check(&folder, &["--release", "6.13"]).1, 2);
+}
+
+#[test]
+fn abbreviations_follow_the_keywords_of_the_release() {
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAPC\n1., 0.\n.5, 1.\n";
+    let folder = Folder::with(&[("d.inp", deck)]);
+    assert_eq!(check(&folder, &["--release", "6.14"]), (vec!["note[K003]".to_owned()], 0));
+    // *GAP CONVECTION came later.
+    assert_eq!(check(&folder, &[]), (vec!["error[K002]".to_owned()], 1));
+}
+
+#[test]
+fn every_command_reads_by_the_dialect_it_is_given() {
+    let folder =
+        Folder::with(&[("d.inp", "*SURFACE INTERACTION,NAME=A\n*GAP CONDUCTANCE\n100.,0.,273.\n120.,1.,273.\n")]);
+    for command in [&["json"][..], &["fmt", "--check"]] {
+        let run = folder.inpact(&[command, &["--dialect", "fortran", "d.inp"]].concat());
+        assert_eq!(run.code, 2, "{}", run.errors);
+    }
+    let abaqus = folder.inpact(&["json", "d.inp"]).output;
+    assert_ne!(abaqus, folder.inpact(&["json", "--dialect", "calculix", "d.inp"]).output);
+}
