@@ -3,8 +3,9 @@
 //! A line is a string when it is UTF-8 and ends the way most lines of its file do; otherwise it is an object that says
 //! its bytes or its line end. What is derived from the lines (`keyword`, `parameters`) is there for reading;
 //! when the JSON comes back it must still agree with them, so that an edit to it is refused rather than ignored.
+//! `schema/syntax.schema.json` is generated from the types here, and a test holds it fresh.
 
-use super::{JsonError, layout, parse};
+use super::{JsonError, layout, parse, required};
 use crate::deck::lines::{lines, without_line_end};
 use crate::deck::{Block, Deck, scan};
 use crate::grammar::Grammar;
@@ -14,47 +15,63 @@ use serde::{Deserialize, Serialize};
 /// The value of the `schema` field.
 pub const SCHEMA: &str = "inpact/syntax/1";
 
-/// The document.
+/// The lossless view of a deck: every line of every file as it stands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "Lossless view of a deck"))]
+#[serde(deny_unknown_fields, expecting = "a document: an object")]
 struct Document {
+    /// The kind of document, and the number of its form.
+    #[cfg_attr(test, schemars(extend("const" = SCHEMA)))]
     schema: String,
+    /// The deck, then the files it includes.
     files: Vec<File>,
 }
 
 /// One source file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "file"))]
+#[serde(deny_unknown_fields, expecting = "a file: an object")]
 struct File {
+    /// The name of the file.
     source: String,
     /// The line end of every line that does not say another.
     line_end: String,
+    /// The blocks, in order; the lines of all of them are the file.
     blocks: Vec<BlockDocument>,
 }
 
 /// A keyword line and the lines behind it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "block"))]
+#[serde(deny_unknown_fields, expecting = "a block: an object")]
 struct BlockDocument {
-    /// The keyword in full; `null` when it is unknown or there is none.
+    /// The keyword in full, for reading only: it follows from the lines. `null` when it is unknown or there is none.
+    #[serde(deserialize_with = "required")]
     keyword: Option<String>,
+    /// The parameters of the keyword line, for reading only: they follow from the lines.
     parameters: Vec<ParameterDocument>,
     /// The physical lines of the keyword line.
     keyword_lines: Vec<Line>,
+    /// The lines behind it, up to the next keyword line, comments included.
     rows: Vec<Line>,
 }
 
 /// A parameter as it is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "parameter"))]
+#[serde(deny_unknown_fields, expecting = "a parameter: an object")]
 struct ParameterDocument {
+    /// Its name.
     name: String,
+    /// Its value; `null` for a flag.
+    #[serde(deserialize_with = "required")]
     value: Option<String>,
 }
 
-/// A line.
+/// A line: a text, or an object where its line end or its bytes have to be said.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "line"))]
+#[serde(untagged, expecting = "expected a line: a text, an object of `text` and `end`, or one of `bytes` and `end`")]
 enum Line {
     Plain(String),
     Ended(EndedLine),
@@ -63,17 +80,23 @@ enum Line {
 
 /// A line with a line end of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "line_with_its_end"))]
+#[serde(deny_unknown_fields, expecting = "a line with its end: an object")]
 struct EndedLine {
+    /// The line without its end.
     text: String,
+    /// Its end; empty for a last line without one.
     end: String,
 }
 
 /// A line that is not UTF-8.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "line_of_bytes"))]
+#[serde(deny_unknown_fields, expecting = "a line of bytes: an object")]
 struct ByteLine {
+    /// The bytes of the line without its end.
     bytes: Vec<u8>,
+    /// Its end; empty for a last line without one.
     end: String,
 }
 
@@ -83,8 +106,16 @@ pub fn write(deck: &Deck, grammar: &Grammar) -> String {
         let id = SourceId(u32::try_from(index).unwrap_or(u32::MAX));
         let blocks: Vec<&Block> = deck.blocks().iter().filter(|block| block.rows.source == id).collect();
         let line_end = usual_line_end(deck, &blocks);
-        let blocks = blocks.iter().map(|block| block_document(deck, grammar, block, line_end)).collect();
-        File { source: source.name().to_owned(), line_end: line_end.to_owned(), blocks }
+        let mut documents: Vec<BlockDocument> = Vec::new();
+        for block in blocks {
+            let document = block_document(deck, grammar, block, line_end);
+            match documents.last_mut() {
+                // Rows behind an *INCLUDE go on with another block (S-51), but in their file they stand behind its line.
+                Some(before) if block.keyword.is_none() => before.rows.extend(document.rows),
+                _ => documents.push(document),
+            }
+        }
+        File { source: source.name().to_owned(), line_end: line_end.to_owned(), blocks: documents }
     });
     let document = Document { schema: SCHEMA.to_owned(), files: files.collect() };
     layout::to_string(&document)
@@ -198,5 +229,13 @@ impl Line {
                 bytes.extend_from_slice(line.end.as_bytes());
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_schema_is_fresh() {
+        crate::json::schema::check::<super::Document>("syntax.schema.json");
     }
 }

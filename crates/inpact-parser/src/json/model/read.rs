@@ -1,0 +1,241 @@
+//! From the document to the model: what the types of the document cannot say is checked here.
+
+use super::SCHEMA;
+use super::document::{
+    AssignmentDocument, Cell, ContactPairDocument, Document, ElectricalDocument, GivenDocuments, InteractionDocument,
+    MethodDocument, ParameterDocument, PermeabilityDocument, ProcedureDocument, SubOptionDocument, SymbolicCell,
+    TableDocument,
+};
+use crate::expression::{Parameters, StatementLine, define};
+use crate::json::{JsonError, parse};
+use crate::model::{
+    CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
+    HeatGeneration, Interaction, Model, Name, Procedure, PropertyAssignment, Reference, SubOption, SurfacePair, Table,
+};
+use crate::span::{SourceId, Span};
+
+/// Reads the model view back.
+///
+/// # Errors
+/// JSON that is not of this view, a table whose rows do not fit its columns, a name or an item that no deck could hold.
+pub fn read(text: &str) -> Result<Model, JsonError> {
+    let document: Document = parse(text)?;
+    if document.schema != SCHEMA {
+        return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
+    }
+    let mut model = Model { parameters: parameters(&document.parameters)?, ..Model::default() };
+    for (key, interaction) in document.interactions {
+        let path = format!("interactions.{key}");
+        if Name::new(&key) != Name::new(&interaction.name) {
+            let message = format!("`{}` is not the name it stands under", interaction.name);
+            return Err(JsonError::new(format!("{path}.name"), message));
+        }
+        let interaction = interaction.into_model(&path)?;
+        if model.interactions.contains_key(&interaction.name) {
+            return Err(JsonError::new(path, "an interaction of that name stands there already"));
+        }
+        model.interactions.insert(interaction.name.clone(), interaction);
+    }
+    model.contact_pairs = document.contact_pairs.into_iter().map(ContactPairDocument::into_model).collect();
+    model.property_assignments =
+        document.property_assignments.into_iter().map(AssignmentDocument::into_model).collect();
+    let procedures = document.procedures.into_iter().enumerate();
+    model.procedures = procedures.map(|(index, found)| found.into_model(index)).collect::<Result<_, _>>()?;
+    Ok(model)
+}
+
+/// Executes the definitions again; what the JSON says of their values must agree.
+fn parameters(documents: &[ParameterDocument]) -> Result<Parameters, JsonError> {
+    let mut parameters = Parameters::new();
+    for (index, document) in documents.iter().enumerate() {
+        let statement = format!("{} = {}", document.name, document.expression);
+        let line = StatementLine { span: Span::default(), text: statement.as_bytes() };
+        let mut problems = Vec::new();
+        define([line], &mut parameters, &mut problems);
+        let path = format!("parameters[{index}]");
+        if let Some(problem) = problems.first().filter(|_| document.value.is_some()) {
+            return Err(JsonError::new(format!("{path}.expression"), problem.message.clone()));
+        }
+        let again = parameters.definitions().get(index).map(ParameterDocument::from);
+        if again.as_ref().map(|again| &again.value) != Some(&document.value) {
+            return Err(JsonError::new(format!("{path}.value"), "does not follow from the expression"));
+        }
+    }
+    Ok(parameters)
+}
+
+impl InteractionDocument {
+    fn into_model(self, path: &str) -> Result<Interaction, JsonError> {
+        let [start, end] = self.span;
+        let mut interaction = Interaction::new(Name::new(&self.name), Span::new(SourceId::ROOT, start, end));
+        interaction.thickness = self.thickness;
+        interaction.parameters = given_parameters(self.parameters);
+        interaction.properties = self.properties;
+        let electrical = self.gap_electrical_conductance;
+        interaction.gap_electrical_conductance =
+            electrical.map(|law| law.into_model(&format!("{path}.gap_electrical_conductance"))).transpose()?;
+        interaction.contact_permeability = self
+            .contact_permeability
+            .map(|option| option.into_model(&format!("{path}.contact_permeability")))
+            .transpose()?;
+        interaction.gap_heat_generation = self.gap_heat_generation.map(|heat| HeatGeneration {
+            span: Span::default(),
+            row: None,
+            fraction: heat.fraction,
+            slave_weight: heat.slave_weight,
+        });
+        let other = self.other.into_iter().enumerate();
+        interaction.other = other
+            .map(|(index, option)| option.into_model(&format!("{path}.other[{index}]")))
+            .collect::<Result<_, _>>()?;
+        Ok(interaction)
+    }
+}
+
+fn given_parameters(parameters: GivenDocuments) -> Vec<GivenParameter> {
+    parameters.into_iter().map(|(name, value)| GivenParameter { name, value, span: Span::default() }).collect()
+}
+
+impl ElectricalDocument {
+    fn into_model(self, path: &str) -> Result<ElectricalConductance, JsonError> {
+        if !self.user {
+            for (branch, is_there) in [("clearance", self.clearance.is_some()), ("pressure", self.pressure.is_some())] {
+                if !is_there {
+                    return Err(JsonError::new(path, format!("missing field `{branch}`: a table, or null")));
+                }
+            }
+        }
+        let table = |table: Option<Option<TableDocument>>, branch: &str| {
+            let expected = ["conductance", branch, "temp"];
+            table.flatten().map(|table| table.into_model(&format!("{path}.{branch}"), &expected)).transpose()
+        };
+        Ok(ElectricalConductance {
+            user: self.user.then(Span::default),
+            clearance: table(self.clearance, "clearance")?,
+            pressure: table(self.pressure, "pressure")?,
+            kind: self.kind,
+        })
+    }
+}
+
+impl PermeabilityDocument {
+    fn into_model(self, path: &str) -> Result<ContactPermeability, JsonError> {
+        let expected = ["permeability", "pressure", "pore_pressure", "temp"];
+        Ok(ContactPermeability {
+            span: Span::default(),
+            table: self.table.map(|table| table.into_model(&format!("{path}.table"), &expected)).transpose()?,
+            cutoff_flow_across: self.cutoff_flow_across,
+            cutoff_gap_fill: self.cutoff_gap_fill,
+            constraint_method: self.constraint_method.map(|method| match method {
+                MethodDocument::Direct => ConstraintMethod::Direct,
+                MethodDocument::Penalty => ConstraintMethod::Penalty,
+            }),
+        })
+    }
+}
+
+impl SubOptionDocument {
+    fn into_model(self, path: &str) -> Result<SubOption, JsonError> {
+        Ok(SubOption {
+            keyword: self.keyword,
+            span: Span::default(),
+            parameters: given_parameters(self.parameters),
+            table: self.table.map(|table| table.into_model(&format!("{path}.table"), &[])).transpose()?,
+            rows: self.rows,
+        })
+    }
+}
+
+impl TableDocument {
+    /// The table; its first columns must be `expected`, and field variables may follow.
+    fn into_model(self, path: &str, expected: &[&str]) -> Result<Table, JsonError> {
+        self.check_columns(path, expected)?;
+        let mut table = Table { columns: self.columns, ..Table::default() };
+        for (index, row) in self.rows.into_iter().enumerate() {
+            if row.len() != table.width() {
+                let message = format!("{} items in a table of {} columns", row.len(), table.width());
+                return Err(JsonError::new(format!("{path}.rows[{index}]"), message));
+            }
+            for cell in row {
+                match cell {
+                    Cell::Number(value) => table.values.push(value),
+                    Cell::Symbolic(SymbolicCell { text, value }) => {
+                        table.texts.push(CellText { cell: table.values.len(), text });
+                        table.values.push(value);
+                    }
+                    Cell::Text(text) => {
+                        table.texts.push(CellText { cell: table.values.len(), text });
+                        table.values.push(f64::NAN);
+                    }
+                }
+            }
+        }
+        Ok(table)
+    }
+
+    fn check_columns(&self, path: &str, expected: &[&str]) -> Result<(), JsonError> {
+        let fields = (1..).map(|number| format!("fv{number}"));
+        let names = expected.iter().map(|name| (*name).to_owned()).chain(fields);
+        if self.columns.is_empty() || self.columns.len() < expected.len() {
+            let message = format!("expected the columns {}, then fv1, fv2, …", expected.join(", "));
+            return Err(JsonError::new(format!("{path}.columns"), message));
+        }
+        for (index, (column, name)) in self.columns.iter().zip(names).enumerate() {
+            if !expected.is_empty() && *column != name {
+                let message = format!("unknown column `{column}`, expected `{name}`");
+                return Err(JsonError::new(format!("{path}.columns[{index}]"), message));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ContactPairDocument {
+    fn into_model(self) -> ContactPair {
+        let pairs = self
+            .pairs
+            .into_iter()
+            .map(|pair| SurfacePair { slave: reference_to(pair.slave), master: pair.master.map(reference_to) });
+        ContactPair {
+            span: Span::default(),
+            interaction: self.interaction.map(reference_to),
+            parameters: given_parameters(self.parameters),
+            pairs: pairs.collect(),
+        }
+    }
+}
+
+impl AssignmentDocument {
+    fn into_model(self) -> PropertyAssignment {
+        PropertyAssignment {
+            span: Span::default(),
+            first: self.first.map(reference_to),
+            second: self.second.map(reference_to),
+            interaction: self.interaction.map(reference_to),
+        }
+    }
+}
+
+impl ProcedureDocument {
+    fn into_model(self, index: usize) -> Result<Procedure, JsonError> {
+        let option = SubOption {
+            keyword: self.keyword,
+            span: Span::default(),
+            parameters: given_parameters(self.parameters),
+            table: None,
+            rows: self.rows,
+        };
+        let procedure = Procedure { step: self.step, option };
+        let derived = ProcedureDocument::from(&procedure).regime;
+        if self.regime.is_some() && self.regime != derived {
+            let message = "does not follow from the keyword and its parameters";
+            return Err(JsonError::new(format!("procedures[{index}].regime"), message));
+        }
+        Ok(procedure)
+    }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "used as a function of an Option's content")]
+fn reference_to(name: String) -> Reference {
+    Reference { name: Name::new(&name), span: Span::default() }
+}
