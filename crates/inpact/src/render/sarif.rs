@@ -2,8 +2,10 @@
 
 use super::{Document, include_chain};
 use inpact_parser::deck::Deck;
+use inpact_parser::deck::lines::count_line_ends;
+use inpact_parser::span::Position;
 use inpact_validation::rules::RULES;
-use inpact_validation::{Diagnostic, Severity};
+use inpact_validation::{Diagnostic, Label, Severity};
 use serde_json::{Value, json};
 
 /// The name of the fingerprint; its number rises when the way to compute it changes.
@@ -86,19 +88,33 @@ fn result(found: &Diagnostic, deck: &Deck, fingerprint: u64) -> Value {
     })
 }
 
-fn location(label: &inpact_validation::Label, deck: &Deck) -> Value {
+fn location(label: &Label, deck: &Deck) -> Value {
     let name = deck.source(label.span.source).name();
-    json!({
-        "physicalLocation": {
-            "artifactLocation": {"uri": uri(name)},
-            "region": {
-                "startLine": label.position.line,
-                "startColumn": label.position.column,
-                "byteOffset": label.span.start,
-                "byteLength": label.span.len(),
-            },
-        },
-    })
+    let mut region = json!({
+        "startLine": label.position.line,
+        "startColumn": label.position.column,
+        "byteOffset": label.span.start,
+        "byteLength": label.span.len(),
+    });
+    if let Some(end) = end(label, deck) {
+        region["endLine"] = end.line.into();
+        region["endColumn"] = end.column.into();
+    }
+    json!({"physicalLocation": {"artifactLocation": {"uri": uri(name)}, "region": region}})
+}
+
+/// The place behind the last character of a label; without it a region goes on to the end of its line (SARIF 3.30.8).
+///
+/// `None` where the scan did not keep the text.
+fn end(label: &Label, deck: &Deck) -> Option<Position> {
+    let text = deck.text(label.span);
+    if text.len() as u64 != label.span.len() {
+        return None;
+    }
+    let last_line = text.iter().rposition(|byte| matches!(byte, b'\n' | b'\r')).map(|at| &text[at + 1..]);
+    let characters = last_line.unwrap_or(text).iter().filter(|byte| **byte & 0xC0 != 0x80).count() as u64;
+    let first_column = if last_line.is_some() { 1 } else { label.position.column };
+    Some(Position { line: label.position.line + count_line_ends(text), column: first_column + characters })
 }
 
 /// A path as a relative reference: what a URI cannot hold is percent-encoded.
