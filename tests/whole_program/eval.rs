@@ -193,3 +193,13 @@ fn the_procedure_of_the_deck_decides_unless_it_is_given() {
     assert_eq!(last_heat(&["steady.inp", "--procedure", "transient"]), "39");
     assert_eq!(last_heat(&["transient.inp", "--procedure", "steady"]), "75");
 }
+
+#[test]
+fn columns_stand_in_any_order_and_labels_may_hold_commas() {
+    let folder = scene();
+    // Where the jump is given it is used, as the difference would lose its digits.
+    folder.write("n.csv", "epot_jump,clearance,node,epot_s,epot_m,remark\n2,.05,\"PART-1,8\",5,5,\"a, b\"\n");
+    let run = folder.inpact(&["eval", "a.inp", "--nodes", "n.csv"]);
+    let header = RESULT.lines().next().expect("a header");
+    assert_eq!(run.output, format!("{header}\n\"PART-1,8\",30,60,0.5,15,30,30,open\n"), "{}", run.errors);
+}

@@ -180,3 +180,14 @@ fn a_history_gives_the_rate_of_the_clearance_and_the_time_integrals() {
     let rows = eval(deck, nodes, &["--procedure", "transient"], &columns);
     assert_eq!(rows, ["1 1 0 -1 0 0", "2 0 0 0 0 0", "1 1 0.0625 -1.0625 -2.125 -4.25", "2 0 -0.125 0.125 0.25 0.5"]);
 }
+
+#[test]
+fn a_field_variable_is_the_average_of_both_sides() {
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE, DEPENDENCIES=1\n\
+                1., 0., , 1.\n2., 10., , 1.\n3., 0., , 2.\n4., 10., , 2.\n";
+    let columns = ["conductance", "dconductance_dpressure", "dconductance_dfv1"];
+    let sides = "node,clearance,pressure,fv1_s,fv1_m\n1,0,5,1,2\n";
+    assert_eq!(eval(deck, sides, &["--derivatives"], &columns), ["2.5 0.1 2"]);
+    let average = "node,clearance,pressure,fv1\n1,0,5,1.5\n";
+    assert_eq!(eval(deck, average, &["--derivatives"], &columns), ["2.5 0.1 2"]);
+}
