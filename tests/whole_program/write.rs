@@ -43,3 +43,24 @@ fn a_read_only_file_is_left_alone() {
     let run = folder.inpact(&["explain", "T001", "-o", "page.txt"]);
     assert_eq!((run.code, folder.read("page.txt").as_str()), (2, "old\n"), "{}", run.errors);
 }
+
+/// A result never replaces what it is made from.
+#[test]
+fn the_inputs_are_not_overwritten() {
+    let folder = Folder::with(&[]);
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n1., 0.\n";
+    folder.write("a.inp", deck);
+    folder.write("n.csv", "node,pressure,epot_s,epot_m\n1,2.,1.,0.\n");
+    for arguments in [
+        &["eval", "a.inp", "--nodes", "n.csv", "-o", "a.inp"][..],
+        &["eval", "a.inp", "--nodes", "n.csv", "-o", "./n.csv"],
+        &["check", "a.inp", "-o", "a.inp"],
+        &["json", "a.inp", "-o", "a.inp"],
+    ] {
+        let run = folder.inpact(arguments);
+        assert_eq!(run.code, 2, "{arguments:?}");
+        assert!(run.errors.contains("which it is made from"), "{}", run.errors);
+    }
+    assert_eq!(folder.read("a.inp"), deck);
+    assert_eq!(folder.inpact(&["check", "-", "-"]).code, 2);
+}

@@ -53,6 +53,19 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
+/// Refuses to write a result over a file that it is made from.
+pub(crate) fn refuse_overwriting<P: AsRef<Path>>(target: Option<&Path>, inputs: &[P]) -> Result<(), Failure> {
+    let Some(whole) = target.and_then(|target| target.canonicalize().ok()) else { return Ok(()) };
+    let is_same = |input: &&P| input.as_ref().canonicalize().is_ok_and(|input| input == whole);
+    match inputs.iter().find(is_same) {
+        Some(input) => {
+            let message = format!("the result would replace `{}`, which it is made from", input.as_ref().display());
+            Err(Failure::Usage(message))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Writes a result to `target`, or to standard output when there is none or it is `-`.
 pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let mut output = ResultFile::create(target)?;

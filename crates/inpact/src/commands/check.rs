@@ -72,6 +72,11 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     if let Some(unknown) = arguments.fix_also.iter().find(|code| !RULES.iter().any(|rule| rule.code == **code)) {
         return Err(Failure::Usage(format!("`--fix-also`: there is no rule `{unknown}`")));
     }
+    let standard_input = arguments.decks.iter().filter(|path| path.as_os_str() == files::STANDARD_STREAM);
+    if standard_input.count() > 1 {
+        return Err(Failure::Usage("standard input can be read only once".to_owned()));
+    }
+    files::refuse_overwriting(arguments.output.as_deref(), &arguments.decks)?;
     if arguments.timings {
         return time_rules(arguments);
     }

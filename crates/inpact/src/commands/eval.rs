@@ -2,7 +2,7 @@
 
 use super::scene::{FindingFormat, Scene, SceneArguments, say_data_findings};
 use crate::failure::{Failure, Outcome, say};
-use crate::files::ResultFile;
+use crate::files::{self, ResultFile};
 use clap::Args;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
@@ -30,6 +30,7 @@ pub(crate) struct EvalArguments {
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
+    files::refuse_overwriting(arguments.output.as_deref(), &arguments.scene.inputs())?;
     let format = arguments.format;
     let Some(mut scene) = arguments.scene.prepare(format)? else { return Ok(Outcome::HasErrors) };
     if scene.deck_has_errors {

@@ -22,6 +22,7 @@ pub(crate) struct InpArguments {
 }
 
 pub(crate) fn run(arguments: &InpArguments) -> Result<Outcome, Failure> {
+    files::refuse_overwriting(arguments.output.as_deref(), &[&arguments.json])?;
     let text = files::read_text(&arguments.json)?;
     let decks = decks(&text).map_err(|message| in_file(&arguments.json, &message))?;
     match (&arguments.into, decks.as_slice()) {
@@ -56,7 +57,8 @@ fn decks(text: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
 fn write_below(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
     let name = Path::new(name);
     if !name.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
-        let message = format!("`{}` leads out of `{}`: name the files relative to it", name.display(), folder.display());
+        let message =
+            format!("`{}` leads out of `{}`: name the files relative to it", name.display(), folder.display());
         return Err(Failure::Data(message));
     }
     let path = folder.join(name);

@@ -33,6 +33,7 @@ enum View {
 }
 
 pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
+    files::refuse_overwriting(arguments.output.as_deref(), &[&arguments.deck])?;
     let settings = arguments.reading.settings(&arguments.deck)?;
     let grammar = settings.grammar;
     let text = match arguments.view {

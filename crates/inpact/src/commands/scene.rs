@@ -103,6 +103,11 @@ pub(crate) enum NodesInput {
 }
 
 impl SceneArguments {
+    /// The files a scene is read from.
+    pub(crate) fn inputs(&self) -> [&Path; 2] {
+        [&self.deck, &self.nodes]
+    }
+
     /// Reads deck and node table and makes the plan; `None` after saying what is wrong with the node table.
     pub(crate) fn prepare(&self, format: FindingFormat) -> Result<Option<Scene>, Failure> {
         let is_standard = |path: &Path| path.as_os_str() == STANDARD_STREAM;
