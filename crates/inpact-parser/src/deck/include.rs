@@ -7,6 +7,7 @@
 use super::scan::LeadingRows;
 use super::{Block, Deck, KeywordLine, ScanOptions, Scanner, Source};
 use crate::span::{SourceId, Span};
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 /// The most files below one another, the deck itself not counted (S-52).
@@ -14,6 +15,12 @@ pub const MOST_LEVELS: usize = 5;
 
 /// The most files a deck may include in all: a bound against files that include one another over and over.
 pub const MOST_FILES: usize = 200_000;
+
+/// The most bytes of files that are read again, besides sixteen times what is read for the first time.
+///
+/// Files of a few kilobytes that include one another's neighbours a hundred times on each of five levels would come to
+/// terabytes; a deck in which a mesh is included for each of its parts stays below.
+const MOST_BYTES_AGAIN: u64 = 16 << 20;
 
 /// An *INCLUDE of the deck.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -79,8 +86,19 @@ impl Deck {
             return self;
         }
         let path = files.deck().into_iter().collect();
+        let first_bytes = self.sources.iter().map(Source::length).sum();
         let deck = Self { blocks: Vec::new(), ..self };
-        let mut assembly = Assembly { options, files, deck, open: None, path, level: 0 };
+        let mut assembly = Assembly {
+            options,
+            files,
+            deck,
+            open: None,
+            path,
+            level: 0,
+            lengths: HashMap::new(),
+            first_bytes,
+            bytes_again: 0,
+        };
         assembly.place(self.blocks);
         assembly.deck
     }
@@ -101,6 +119,12 @@ struct Assembly<'a> {
     path: Vec<PathBuf>,
     /// How many of them are included.
     level: usize,
+    /// How long each file is that has been read.
+    lengths: HashMap<PathBuf, u64>,
+    /// The bytes of the deck and of the files that have been read, each counted once.
+    first_bytes: u64,
+    /// The bytes of files that were read before.
+    bytes_again: u64,
 }
 
 impl Assembly<'_> {
@@ -163,6 +187,14 @@ impl Assembly<'_> {
         if self.path.contains(&found.path) {
             return IncludeOutcome::Cycle;
         }
+        let length_before = self.lengths.get(&found.path).copied();
+        let allowed = MOST_BYTES_AGAIN.saturating_add(self.first_bytes.saturating_mul(16));
+        if length_before.is_some_and(|length| self.bytes_again.saturating_add(length) > allowed) {
+            let again = self.bytes_again;
+            return IncludeOutcome::Unreadable(format!(
+                "files that are included more than once come to {again} bytes already, as much as is allowed"
+            ));
+        }
         let id = SourceId(u32::try_from(self.deck.sources.len()).unwrap_or(u32::MAX));
         let keeps_leading = match self.open {
             Some(open) if self.deck.blocks[open].rows_kept => LeadingRows::All,
@@ -174,6 +206,12 @@ impl Assembly<'_> {
             return IncludeOutcome::Unreadable(reason);
         }
         let mut included = scanner.finish();
+        let length = included.sources.iter().map(Source::length).sum();
+        match length_before {
+            Some(_) => self.bytes_again += length,
+            None => self.first_bytes += length,
+        }
+        self.lengths.insert(found.path.clone(), length);
         included.sources.iter_mut().for_each(|source| source.set_included_by(keyword));
         self.deck.sources.append(&mut included.sources);
         self.deck.notes.append(&mut included.notes);

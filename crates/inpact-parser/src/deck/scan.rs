@@ -11,7 +11,7 @@ use super::survey::Survey;
 use super::{
     Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line,
 };
-use crate::grammar::{Definition, Dialect, Grammar, Lookup, ParameterKind, RowShape};
+use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, ParameterKind, RowShape};
 use crate::span::{SourceId, Span};
 use std::ops::Range;
 
@@ -80,6 +80,8 @@ pub struct Scanner<'grammar> {
 #[derive(Debug)]
 struct OpenKeyword {
     start: u64,
+    /// Which keyword it is; asked for once, however many lines continue it.
+    id: Option<KeywordId>,
     /// The physical lines taken so far, comments between them included.
     text: Vec<u8>,
     /// How much of `text` belongs to the keyword line for sure: comments at its end do not.
@@ -269,14 +271,15 @@ impl<'grammar> Scanner<'grammar> {
 
     fn open_keyword(&mut self, line: &[u8]) {
         self.close_block();
-        self.open_keyword = Some(OpenKeyword { start: self.offset, text: line.to_vec(), accepted: line.len() });
+        let may_continue = self.options.grammar.dialect() == Dialect::Abaqus && keyword_line::ends_in_comma(line);
+        let id = if may_continue { id_of(&line[keyword_line::parse(line).name], self.options.grammar) } else { None };
+        self.open_keyword = Some(OpenKeyword { start: self.offset, id, text: line.to_vec(), accepted: line.len() });
         self.source.keep(self.offset, self.line, line);
         self.block.keeps_rows = KeepsRows::All;
         self.block.rows_start = self.offset;
         self.mark(noteworthy_lines(line, self.offset, Survey::of(line)), line);
         self.advance(line);
-        let may_continue = self.options.grammar.dialect() == Dialect::Abaqus;
-        if !may_continue || !keyword_line::ends_in_comma(line) {
+        if !may_continue {
             self.close_keyword();
         }
     }
@@ -287,7 +290,7 @@ impl<'grammar> Scanner<'grammar> {
         let line = &bytes[at..end];
         let Some(open) = &mut self.open_keyword else { return at };
         let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
-        if !is_comment && !continues(&open.text[..open.accepted], line, self.options.grammar) {
+        if !is_comment && !continues(open.id, line, self.options.grammar) {
             self.close_keyword();
             return at;
         }
@@ -380,12 +383,11 @@ fn end_of_last_line(bytes: &[u8]) -> usize {
 }
 
 /// Whether `line` reads as parameters of the keyword line `so_far`: it has `=`, or its words are flags the keyword knows (S-19).
-fn continues(so_far: &[u8], line: &[u8], grammar: &Grammar) -> bool {
+fn continues(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> bool {
     if line_kind(line) != LineKind::Data {
         return false;
     }
-    let pieces = keyword_line::parse(so_far);
-    let definition = id_of(&so_far[pieces.name], grammar).and_then(|id| grammar.keyword(id).definition());
+    let definition = keyword.and_then(|id| grammar.keyword(id).definition());
     let is_parameter = |item: &[u8]| {
         let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
         let known = definition.map_or(Lookup::Unknown, |definition| grammar.parameter_named(definition, name));
@@ -404,7 +406,7 @@ fn continues(so_far: &[u8], line: &[u8], grammar: &Grammar) -> bool {
     words.peek().is_some() && if has_value { words.any(is_parameter) } else { words.all(is_parameter) }
 }
 
-fn id_of(name: &[u8], grammar: &Grammar) -> Option<crate::grammar::KeywordId> {
+fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {
     match grammar.keyword_named(name) {
         Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),
         Lookup::Ambiguous(_) | Lookup::Unknown => None,
