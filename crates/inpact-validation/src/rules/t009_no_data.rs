@@ -44,10 +44,12 @@ declare_rule! {
 const HEAT_GENERATION: &str = "GAP HEAT GENERATION";
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    // Asked once: the answer looks at every *INCLUDE.
+    let has_unread_files = context.has_unread_files();
     let mut blocks = context.defined_blocks().peekable();
     while let Some(block) = blocks.next() {
         // Rows may stand in a file that is included here (S-51).
-        let goes_on = blocks.peek().is_some_and(|next| next.name == "INCLUDE" && context.has_unread_files());
+        let goes_on = blocks.peek().is_some_and(|next| next.name == "INCLUDE" && has_unread_files);
         if !goes_on && needs_rows(context, block) && !has_rows(context, block) {
             say(context, report, block);
         }
