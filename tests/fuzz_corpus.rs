@@ -1,0 +1,164 @@
+//! The fuzz targets on a fixed set of inputs, without libFuzzer: every seed as it is, then seeds changed by chance.
+//!
+//! Chance begins at the same number in every run, so a failure comes back; the message gives the input.
+//! The seeds are those of `fuzz/seeds` and the sample decks; the words that are put in are those of `fuzz/*.dict`.
+
+#[path = "../fuzz/src/lib.rs"]
+#[expect(unreachable_pub, reason = "the same file is the library of the fuzz targets")]
+mod targets;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+/// The most bytes of an input, so that none takes long.
+const MOST_BYTES: usize = 3000;
+
+/// SplitMix64: numbers by chance, the same in every run.
+struct Chance(u64);
+
+impl Chance {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// A number from 0 up to but without `end`; 0 when there is none.
+    fn below(&mut self, end: usize) -> usize {
+        usize::try_from(self.next() % end.max(1) as u64).expect("smaller than a usize")
+    }
+
+    fn one_of<'items>(&mut self, items: &'items [Vec<u8>]) -> &'items [u8] {
+        &items[self.below(items.len())]
+    }
+}
+
+fn project() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The files of a folder and of those in it, in the order of their names.
+fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
+    let mut paths: Vec<PathBuf> =
+        std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("readable").path()).collect();
+    paths.sort();
+    let contents = paths.iter().map(|path| match path {
+        path if path.is_dir() => files(path, extension),
+        path if path.extension().is_some_and(|found| found == extension) => {
+            vec![std::fs::read(path).expect("readable")]
+        }
+        _ => Vec::new(),
+    });
+    contents.flatten().collect()
+}
+
+fn decks() -> Vec<Vec<u8>> {
+    [files(&project().join("fuzz/seeds/decks"), "inp"), files(&project().join("decks"), "inp")].concat()
+}
+
+/// The words of a dictionary of libFuzzer: in quotes, with `\\`, `\"` and `\xHH`.
+fn words(name: &str) -> Vec<Vec<u8>> {
+    let text = std::fs::read_to_string(project().join("fuzz").join(name)).expect("readable");
+    let quoted = text.lines().filter(|line| !line.starts_with('#'));
+    quoted
+        .map(|line| unescaped(line.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).expect("quotes")))
+        .collect()
+}
+
+fn unescaped(word: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut rest = word.bytes();
+    while let Some(byte) = rest.next() {
+        match (byte, if byte == b'\\' { rest.next() } else { None }) {
+            (b'\\', Some(b'x')) => {
+                let digits = [rest.next().expect("a digit"), rest.next().expect("a digit")];
+                let digits = str::from_utf8(&digits).expect("ASCII");
+                bytes.push(u8::from_str_radix(digits, 16).expect("two hexadecimal digits"));
+            }
+            (_, Some(escaped)) => bytes.push(escaped),
+            (plain, None) => bytes.push(plain),
+        }
+    }
+    bytes
+}
+
+/// A few changes of the kinds that libFuzzer makes.
+fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[Vec<u8>], chance: &mut Chance) {
+    for _ in 0..=chance.below(5) {
+        let at = chance.below(bytes.len() + 1);
+        let end = (at + 1 + chance.below(40)).min(bytes.len());
+        match chance.below(8) {
+            0 if at < end => bytes[at] = chance.next().to_le_bytes()[0],
+            1 => drop(bytes.drain(at..end)),
+            2 => {
+                let copied = bytes[at..end].to_vec();
+                let to = chance.below(bytes.len() + 1);
+                bytes.splice(to..to, copied);
+            }
+            3 => {
+                let other = chance.one_of(seeds);
+                bytes.truncate(at);
+                bytes.extend_from_slice(&other[chance.below(other.len() + 1)..]);
+            }
+            4 => {
+                let word = chance.one_of(words).repeat(1 + chance.below(30));
+                bytes.splice(at..at, word);
+            }
+            5 => drop(bytes.splice(at..end, chance.one_of(words).iter().copied())),
+            _ => drop(bytes.splice(at..at, chance.one_of(words).iter().copied())),
+        }
+        bytes.truncate(MOST_BYTES);
+    }
+}
+
+/// Runs a target on every seed and on `number` changed ones.
+#[track_caller]
+fn run(target: fn(&[u8]), seeds: &[Vec<u8>], words: &[Vec<u8>], number: usize) {
+    assert!(seeds.len() > 3 && words.len() > 3, "the seeds and words are not found");
+    let mut chance = Chance(3);
+    let changed = std::iter::repeat_with(|| {
+        let mut bytes = chance.one_of(seeds).to_vec();
+        change(&mut bytes, seeds, words, &mut chance);
+        bytes
+    });
+    for bytes in seeds.iter().cloned().chain(changed.take(number)) {
+        let outcome = catch_unwind(AssertUnwindSafe(|| target(&bytes)));
+        assert!(outcome.is_ok(), "see above; the input was\n{}", bytes.escape_ascii());
+    }
+}
+
+#[test]
+fn decks_come_back_in_pieces_of_any_size() {
+    run(targets::scan_and_print, &decks(), &words("decks.dict"), 500);
+}
+
+#[test]
+fn decks_are_read() {
+    run(targets::read, &decks(), &words("decks.dict"), 400);
+}
+
+#[test]
+fn decks_are_checked() {
+    run(targets::check, &decks(), &words("decks.dict"), 400);
+}
+
+#[test]
+fn decks_are_formatted() {
+    run(targets::format, &decks(), &words("decks.dict"), 500);
+}
+
+#[test]
+fn expressions_are_executed() {
+    run(
+        targets::expressions,
+        &files(&project().join("fuzz/seeds/expressions"), "txt"),
+        &words("expressions.dict"),
+        3000,
+    );
+}
+
+#[test]
+fn json_is_read() {
+    run(targets::json_in, &files(&project().join("fuzz/seeds/json"), "json"), &words("json.dict"), 800);
+}
