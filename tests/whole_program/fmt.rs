@@ -123,8 +123,10 @@ fn the_samples_mean_the_same_and_come_to_rest() {
     for deck in sample_decks().iter().filter(|deck| !deck.starts_with("decks/faulty/")) {
         let text = std::fs::read_to_string(root().join(deck)).expect("readable");
         let folder = Folder::with(&[("d.inp", &text)]);
+        // What the deck includes stays where it was.
+        let beside = root().join(deck).parent().expect("a folder").to_string_lossy().into_owned();
         let model = || {
-            let run = folder.inpact(&["json", "d.inp"]);
+            let run = folder.inpact(&["json", "d.inp", "--include-dir", &beside]);
             assert_eq!(run.code, 0, "{deck}: {}", run.errors);
             // Places move.
             let spans = |line: &&str| !line.trim_start().starts_with("\"span\"");

@@ -91,3 +91,13 @@ fn a_model_that_no_deck_can_hold_is_refused() {
     assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
     assert!(run.errors.contains("no deck can say this"), "{}", run.errors);
 }
+
+/// What is wrong with a deck may be missing from the model: it is said, and the exit code says so too.
+#[test]
+fn the_errors_of_a_deck_are_said_beside_its_model() {
+    let run = inpact_with_input(&["json", "-"], b"*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTNCE\n1., 0.\n");
+    assert_eq!(run.code, 1);
+    assert!(run.errors.starts_with("-:2:2: error[K001]"), "{}", run.errors);
+    let document: serde_json::Value = serde_json::from_str(&run.output).expect("the model all the same");
+    assert_eq!(document["interactions"]["A"]["other"], serde_json::json!([]));
+}

@@ -1,12 +1,14 @@
 //! `inpact json`: a deck in, JSON out.
 
-use crate::failure::{Failure, Outcome};
+use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::input;
-use crate::settings::DeckArguments;
+use crate::render::{self, Format, Style};
+use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
 use inpact_parser::{json, model};
+use inpact_validation::{Severity, check};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -35,15 +37,27 @@ enum View {
 pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
     files::refuse_overwriting(arguments.output.as_deref(), &[&arguments.deck])?;
     let settings = arguments.reading.settings(&arguments.deck)?;
-    let grammar = settings.grammar;
-    let text = match arguments.view {
-        View::Model => {
-            let deck = input::read_deck(&arguments.deck, Keep::Interpreted, &settings)?;
-            let (model, _) = model::read(&deck, grammar);
-            json::model::write(&model, &arguments.deck.display().to_string())
+    let (text, outcome) = match arguments.view {
+        View::Model => model_view(arguments, &settings)?,
+        View::Syntax => {
+            let deck = input::read_deck(&arguments.deck, Keep::Everything, &settings)?;
+            (json::syntax::write(&deck, settings.grammar), Outcome::Clean)
         }
-        View::Syntax => json::syntax::write(&input::read_deck(&arguments.deck, Keep::Everything, &settings)?, grammar),
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
-    Ok(Outcome::Clean)
+    Ok(outcome)
+}
+
+/// What the deck says; its errors go to standard error, since what they are about may be missing from the model.
+fn model_view(arguments: &JsonArguments, settings: &Settings) -> Result<(String, Outcome), Failure> {
+    let deck = input::read_deck(&arguments.deck, Keep::Interpreted, settings)?;
+    let (model, problems) = model::read(&deck, settings.grammar);
+    let text = json::model::write(&model, &arguments.deck.display().to_string());
+    let findings = settings.apply(check(&deck, settings.grammar, &model, &problems), &deck);
+    let errors: Vec<_> = findings.into_iter().filter(|found| found.severity == Severity::Error).collect();
+    let said = render::diagnostics(&errors, &deck, Format::Concise, Style::Plain);
+    if !said.is_empty() {
+        say(said.trim_end());
+    }
+    Ok((text, if errors.is_empty() { Outcome::Clean } else { Outcome::HasErrors }))
 }
