@@ -47,6 +47,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
     }
 
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String> {
+        let name = &expand(name, |variable| std::env::var(variable).ok())?;
         let beside_includer = folder_of(Path::new(from));
         let first = match self.settings.relative_to {
             RelativeTo::Deck => self.deck.map_or(Path::new(""), folder_of),
@@ -72,6 +73,31 @@ impl IncludedFiles for FilesOnDisk<'_> {
     }
 }
 
+/// Puts the values of environment variables into the name of a file: `$NAME` and `${NAME}` (S-52).
+///
+/// # Errors
+/// A variable that is not set.
+fn expand(name: &str, value_of: impl Fn(&str) -> Option<String>) -> Result<String, String> {
+    let mut expanded = String::new();
+    let mut rest = name;
+    while let Some((before, behind)) = rest.split_once('$') {
+        expanded += before;
+        let is_part = |character: char| character.is_ascii_alphanumeric() || character == '_';
+        let (variable, after) = match behind.strip_prefix('{').and_then(|inner| inner.split_once('}')) {
+            Some((variable, after)) => (variable, after),
+            None => behind.split_at(behind.find(|character| !is_part(character)).unwrap_or(behind.len())),
+        };
+        if variable.is_empty() {
+            // A dollar by itself is a character like any other.
+            expanded.push('$');
+        } else {
+            expanded += &value_of(variable).ok_or_else(|| format!("the environment has no variable `{variable}`"))?;
+        }
+        rest = after;
+    }
+    Ok(expanded + rest)
+}
+
 fn identify(path: &Path) -> Result<FoundFile, String> {
     let whole = path.canonicalize().map_err(|error| error.to_string())?;
     Ok(FoundFile { name: path.display().to_string(), path: whole })
@@ -83,4 +109,18 @@ fn folder_of(path: &Path) -> &Path {
 
 fn shown_folder(folder: &Path) -> String {
     if folder.as_os_str().is_empty() { ".".to_owned() } else { folder.display().to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::expand;
+
+    #[test]
+    fn s_52_environment_variables() {
+        let value_of = |variable: &str| (variable == "DECKS").then(|| "/decks".to_owned());
+        assert_eq!(expand("$DECKS/a.inp", value_of), Ok("/decks/a.inp".to_owned()));
+        assert_eq!(expand("${DECKS}2/$/b.inp", value_of), Ok("/decks2/$/b.inp".to_owned()));
+        assert_eq!(expand("a.inp", value_of), Ok("a.inp".to_owned()));
+        assert_eq!(expand("$MESH/a.inp", value_of), Err("the environment has no variable `MESH`".to_owned()));
+    }
 }
