@@ -37,7 +37,7 @@ fn definition(name: &str) -> &'static Definition {
 
 fn parameter(keyword: &str, written: &str, expected: &str) {
     let definition = definition(keyword);
-    let shown = match definition.parameter_named(written.as_bytes()) {
+    let shown = match definition.parameter_named_in(written.as_bytes(), Release::NEWEST) {
         Lookup::Exact(index) | Lookup::Abbreviated(index) => definition.parameters[index].name.clone(),
         Lookup::Ambiguous(indices) => {
             let names = indices.into_iter().map(|index| definition.parameters[index].name.as_str());

@@ -181,12 +181,7 @@ impl Definition {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
-    /// The parameter that is written so, in the newest release, as its place in the list (S-13, S-16).
-    pub fn parameter_named(&self, written: &[u8]) -> Lookup<usize> {
-        self.parameter_named_in(written, Release::NEWEST)
-    }
-
-    /// The parameter that is written so in a deck for `release`.
+    /// The parameter that is written so in a deck for `release`, as its place in the list (S-13, S-16).
     pub fn parameter_named_in(&self, written: &[u8], release: Release) -> Lookup<usize> {
         let parameters = self.parameters.iter().enumerate();
         let there = parameters.filter(|(_, parameter)| release.is_within(parameter.since, parameter.until));
