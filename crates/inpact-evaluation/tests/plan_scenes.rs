@@ -105,8 +105,7 @@ fn procedures_that_disagree() {
     ];
     let plan = evaluate(&deck.concat(), "clearance,fv1\n0.05,1\n").plan.expect("a plan");
     let regime = &plan.interactions[0].electrical.as_ref().expect("a law").regime;
-    let said =
-        "transient by *COUPLED THERMAL-ELECTRICAL of step 2, the last that solves its field; 1 procedure before it is of the other kind";
+    let said = "transient by *COUPLED THERMAL-ELECTRICAL of step 2, the last that solves its field; 1 procedure before it is of the other kind";
     assert_eq!(regime.to_string(), said);
 }
 

@@ -62,8 +62,12 @@ impl fmt::Display for RegimeInForce {
                 }
                 match others {
                     0 => Ok(()),
-                    1 => formatter.write_str(", the last that solves its field; 1 procedure before it is of the other kind"),
-                    _ => write!(formatter, ", the last that solves its field; {others} procedures before it are of the other kind"),
+                    1 => formatter
+                        .write_str(", the last that solves its field; 1 procedure before it is of the other kind"),
+                    _ => write!(
+                        formatter,
+                        ", the last that solves its field; {others} procedures before it are of the other kind"
+                    ),
                 }
             }
         }
