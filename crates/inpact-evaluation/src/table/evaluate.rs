@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::{Level, PiecewiseTable, Sides, Tail};
+use super::{Level, Marks, PiecewiseTable, Sides, Tail};
 use crate::numbers::{between, interpolate, slope};
 
 /// The coordinates of a query: axis 0, then the others.
@@ -52,8 +52,12 @@ impl PiecewiseTable {
 
     /// The value, and along which axes the point lies outside the range of a group that took part in it.
     pub fn value_and_sides_at(&self, first: f64, others: &[f64]) -> (f64, Sides) {
+        let point = Point { first, others };
+        if let Some(marks) = &self.marks {
+            return (self.value_at(first, others), marks.sides(point, self.is_undefined_at(point)));
+        }
         let mut sides = Sides::default();
-        let value = self.descend_from_top(Point { first, others }, &mut |axis, side| match side {
+        let value = self.descend_from_top(point, &mut |axis, side| match side {
             Ordering::Less => sides.mark_below(axis),
             _ => sides.mark_above(axis),
         });
@@ -201,6 +205,27 @@ impl PiecewiseTable {
     /// Whether the table is zero beyond the last knot of `level`.
     fn drops_to_zero_beyond(&self, level: &Level) -> bool {
         level.axis == 0 && self.tail == Tail::Zero
+    }
+}
+
+impl Marks {
+    /// On which sides a point lies; on none where the value is undefined.
+    fn sides(&self, point: Point<'_>, is_undefined: bool) -> Sides {
+        let mut sides = Sides::default();
+        if is_undefined {
+            return sides;
+        }
+        for (axis, (least, greatest)) in &self.ranges {
+            let x = point.along(*axis);
+            if x < *least {
+                sides.mark_below(*axis);
+            }
+            // Between two groups without a common range a point is below one and above the other.
+            if *greatest < x {
+                sides.mark_above(*axis);
+            }
+        }
+        sides.or(self.always)
     }
 }
 
