@@ -12,6 +12,7 @@ mod fold;
 mod sides;
 
 pub use build::{TableError, TableFault};
+pub(crate) use evaluate::Place;
 pub use fold::FoldRefusal;
 pub use sides::Sides;
 
@@ -29,11 +30,11 @@ pub struct PiecewiseTable {
     /// How many axes the rows have.
     axis_count: usize,
     /// What follows the last row of a group of axis 0.
-    tail: Tail,
+    pub(crate) tail: Tail,
     /// The axes the value depends on, fastest first. An axis every group of which has one row is left out.
-    levels: Vec<Level>,
+    pub(crate) levels: Vec<Level>,
     /// One value a row.
-    values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// For each row the slope towards the next; of no meaning in the last row of a group.
     slopes: Vec<KernelSlope>,
     /// What the rows say of each axis, left out or not.
@@ -101,12 +102,12 @@ impl AxisSummary {
 
 /// One axis the value depends on: the abscissae of all its groups in row order.
 #[derive(Clone, Debug)]
-struct Level {
+pub(crate) struct Level {
     /// Which axis of the rows this is.
-    axis: usize,
-    knots: Vec<f64>,
+    pub(crate) axis: usize,
+    pub(crate) knots: Vec<f64>,
     /// Knot j owns the knots `children[j]..children[j + 1]` of the level below. Empty in the innermost level, whose knot j owns row j.
-    children: Vec<usize>,
+    pub(crate) children: Vec<usize>,
 }
 
 impl PiecewiseTable {

@@ -28,7 +28,7 @@ impl Point<'_> {
 }
 
 /// Where a coordinate lies among the abscissae of a group.
-enum Place {
+pub(crate) enum Place {
     Below,
     Knot(usize),
     Segment(usize),
@@ -231,7 +231,7 @@ impl Marks {
 
 impl Level {
     /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07).
-    fn place(&self, knots: &Range<usize>, x: f64) -> Place {
+    pub(crate) fn place(&self, knots: &Range<usize>, x: f64) -> Place {
         if knots.len() == 1 {
             return Place::Knot(knots.start);
         }
@@ -246,7 +246,7 @@ impl Level {
     }
 
     /// The knots of the level below that belong to `knot`.
-    fn children_of(&self, knot: usize) -> Range<usize> {
+    pub(crate) fn children_of(&self, knot: usize) -> Range<usize> {
         self.children[knot]..self.children[knot + 1]
     }
 }
