@@ -11,6 +11,7 @@ use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
 use super::tables::InteractionTables;
 use super::{ContactColumns, History, InteractionPlan, Plan};
+use crate::accuracy::Accuracy;
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
 use inpact_parser::model::{Interaction, Model};
@@ -124,8 +125,11 @@ impl Planner<'_> {
         plan
     }
 
-    /// Whether tables may be folded: slopes along every axis are those of the whole table.
+    /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
     pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+        if self.choices.accuracy == Accuracy::Reference {
+            return false;
+        }
         let asked = self.choices.outputs.as_ref();
         self.choices.derivatives == Derivatives::LeftOut || asked.is_some_and(|asked| !asked.iter().any(is_slope))
     }
