@@ -81,7 +81,8 @@ impl Planner<'_> {
         let mut left_out = LeftOuts::default();
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let mut dropped = Vec::new();
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut dropped);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
@@ -119,6 +120,7 @@ impl Planner<'_> {
             pore,
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
+            dropped,
             notes,
         };
         keep_asked(&mut plan, self.choices);
