@@ -6,6 +6,7 @@ use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
 use crate::law::electrical::Dissipation;
+use crate::law::heat::GeneratedHeat;
 use crate::numbers::mean;
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
@@ -14,7 +15,7 @@ use inpact_parser::model::Regime;
 /// Below this share of the potentials their difference has lost its digits.
 const LOST_DIGITS: f64 = 1e-8;
 
-/// Evaluates the law; gives its status.
+/// Evaluates the law; gives its status and the heat of the current, where the row has a jump of potential.
 pub(super) fn evaluate(
     law: &CompiledElectrical,
     row: Row<'_>,
@@ -22,19 +23,19 @@ pub(super) fn evaluate(
     (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) -> Outcome {
+) -> (Outcome, Option<GeneratedHeat>) {
     let needs = law.needs(row.state);
     if let Some((against, needs)) = needs {
         let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
         if needs.abscissa && abscissa.is_none() {
-            return Outcome::Incomplete;
+            return (Outcome::Incomplete, None);
         }
     }
     variables.clear();
     for (index, source) in law.variables.iter().enumerate() {
         let value = source.as_ref().and_then(|source| row.fetch(source, mean));
         if value.is_none() && needs.is_some_and(|(_, needs)| needs.variables.contains(&index)) {
-            return Outcome::Incomplete;
+            return (Outcome::Incomplete, None);
         }
         variables.push(value.unwrap_or(f64::NAN));
     }
@@ -58,13 +59,13 @@ pub(super) fn evaluate(
                 Along::Pressure => Some(along_contact.pressure),
                 Along::Temperature => slopes.first().copied(),
                 Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
-                Along::PorePressure => None,
+                Along::PorePressure | Along::MassFlow => None,
             };
             results.set(Some(*slot), row.index, slope);
         }
     }
-    evaluate_flow(law, row, conductance, history, results, tally);
-    Outcome::Evaluated(status(&conductance, row, tally))
+    let heat = evaluate_flow(law, row, conductance, history, results, tally);
+    (Outcome::Evaluated(status(&conductance, row, tally)), heat)
 }
 
 /// Current and heat, where the row has a jump of potential.
@@ -75,11 +76,11 @@ fn evaluate_flow(
     history: Option<&mut ElectricalHistory>,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) {
-    let Some(source) = &law.jump else { return };
+) -> Option<GeneratedHeat> {
+    let source = law.jump.as_ref()?;
     let Some(jump) = row.fetch(source, |slave, master| PotentialJump::between(slave, master).0) else {
         tally.incomplete_flows += 1;
-        return;
+        return None;
     };
     tally.lost_digits += u64::from(has_lost_digits(source, row, jump));
     let jump = PotentialJump(jump);
@@ -110,6 +111,7 @@ fn evaluate_flow(
         set(slots.sjdt, Some(history.heat()));
         set(slots.sjdta, history.heat_of_area());
     }
+    Some(flow.heat)
 }
 
 /// Whether the jump is the difference of potentials so much larger that few of its digits are left.

@@ -69,10 +69,12 @@ impl fmt::Display for CalculixError {
 
 impl std::error::Error for CalculixError {}
 
-/// A row: conductance, pressure, temperature.
-const WIDTH: usize = 3;
+const WIDTH: usize = CalculixConductance::WIDTH;
 
 impl CalculixConductance {
+    /// How many numbers a row has: conductance, pressure, temperature.
+    pub const WIDTH: usize = 3;
+
     /// The conductance of `cells`, rows of conductance, pressure and temperature.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use crate::law::pore::CutoffBoundary;
 use crate::table::Tail;
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Name, Regime};
 
 /// The choices of an evaluation; the default is what deck and semantics say.
@@ -17,6 +18,8 @@ pub struct Choices {
     pub characteristic_length: Option<f64>,
     /// Whether pore fluid flows at the very cutoff.
     pub cutoff_boundary: CutoffBoundary,
+    /// Whose meaning the keywords have: *GAP CONDUCTANCE and the heat of friction differ in CalculiX.
+    pub dialect: Dialect,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
 }

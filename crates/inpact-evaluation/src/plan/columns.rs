@@ -11,7 +11,7 @@ impl InteractionPlan {
     /// The columns whose numbers its rows need.
     pub(super) fn columns_read(&self) -> Vec<Column> {
         let mut columns = Vec::new();
-        if self.electrical.is_none() && self.pore.is_none() {
+        if self.electrical.is_none() && self.thermal.is_none() && self.pore.is_none() {
             return columns;
         }
         let contact = self.contact;
@@ -27,8 +27,13 @@ impl InteractionPlan {
             is_history |= law.history == History::ByTime;
             area = area.or(law.area);
         }
+        if let Some(law) = &self.thermal {
+            columns.extend(law.columns());
+            is_history |= law.history == History::ByTime;
+            area = area.or(law.area);
+        }
         if let Some(law) = &self.pore {
-            take(&law.variables);
+            columns.extend(law.variables.iter().flatten().flat_map(Source::cells));
             columns.extend([Part::Slave, Part::Master].map(Column::PorePressure));
             if law.bulk == Bulk::Columns {
                 columns.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
@@ -89,7 +94,7 @@ fn role(
 
 fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions: &[InteractionPlan]) -> Reason {
     let is_empty = survey.columns.contains(&column) && survey.range(column).is_none();
-    let electrical = interactions.iter().any(|plan| plan.electrical.is_some());
+    let has_tables = interactions.iter().any(|plan| plan.electrical.is_some() || plan.thermal.is_some());
     let pore = || interactions.iter().filter_map(|plan| plan.pore.as_ref());
     match column {
         Column::CharacteristicLength if choices.characteristic_length.is_some() => Reason::Option("--char-length"),
@@ -107,7 +112,9 @@ fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions
         Column::Potential(Part::Slave | Part::Master) if is_read_whole(Column::Potential(Part::Both), interactions) => {
             Reason::GivenBy(Column::Potential(Part::Both))
         }
-        Column::Temperature(_) | Column::FieldVariable(..) if electrical || pore().next().is_some() => {
+        Column::Temperature(_) | Column::FieldVariable(..) | Column::MassFlow(_)
+            if has_tables || pore().next().is_some() =>
+        {
             Reason::NoTableDepends
         }
         Column::ClearanceRate | Column::BulkPermeability(_)

@@ -9,6 +9,8 @@ use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
 use super::tables::InteractionTables;
+use super::thermal::plan_thermal;
+use super::thermal_tables::ThermalTables;
 use super::{ContactColumns, History, InteractionPlan, Plan};
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
@@ -80,15 +82,14 @@ impl Planner<'_> {
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
         let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let thermal_tables = ThermalTables::of(self.model, self.interaction, self.choices.dialect);
+        let thermal = plan_thermal(self, &thermal_tables, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
         }
         for option in &self.interaction.other {
-            if matches!(
-                option.keyword.as_str(),
-                "GAP CONDUCTANCE" | "GAP RADIATION" | "GAP DIFFUSIVITY" | "GAP CONVECTION"
-            ) {
+            if matches!(option.keyword.as_str(), "GAP DIFFUSIVITY" | "GAP CONVECTION") {
                 let what = format!("*{}", option.keyword);
                 if !left_out.0.iter().any(|left_out| left_out.what == what) {
                     left_out.push(what, Reason::NotEvaluated);
@@ -96,7 +97,7 @@ impl Planner<'_> {
             }
         }
         let untold = self.of.rows - self.of.closed - self.of.open;
-        if untold > 0 && (electrical.is_some() || pore.is_some()) {
+        if untold > 0 && (electrical.is_some() || thermal.is_some() || pore.is_some()) {
             let rows = if untold == 1 { "1 row".to_owned() } else { format!("{untold} rows") };
             notes.push(format!(
                 "{rows} from which contact cannot be told: `closed` empty, and `clearance` too or one of them NaN"
@@ -104,6 +105,7 @@ impl Planner<'_> {
         }
         let uses_history = |history: Option<History>| history == Some(History::ByTime);
         let has_history = uses_history(electrical.as_ref().map(|law| law.history))
+            || uses_history(thermal.as_ref().map(|law| law.history))
             || uses_history(pore.as_ref().map(|law| law.history));
         InteractionPlan {
             name: self.interaction.name.clone(),
@@ -114,6 +116,7 @@ impl Planner<'_> {
             histories: self.of.histories.filter(|_| has_history),
             contact: self.contact(),
             electrical,
+            thermal,
             pore,
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,

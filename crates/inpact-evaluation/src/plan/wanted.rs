@@ -4,6 +4,8 @@ use super::choices::Choices;
 use super::governing::GovernedBy;
 use super::regime::regime;
 use super::tables::{InteractionTables, electrical_axis, matters, pore_axis};
+use super::thermal::tells_of_friction;
+use super::thermal_tables::{ThermalTables, thermal_axis};
 use crate::nodes::{Column, Header, Part};
 use crate::results::Along;
 use crate::table::PiecewiseTable;
@@ -25,6 +27,7 @@ pub(super) fn wanted_columns(
     for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
         want_electrical(&tables, &mut wanted);
+        want_thermal(interaction, &ThermalTables::of(model, interaction, choices.dialect), &mut wanted);
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -44,6 +47,21 @@ fn want_electrical(tables: &InteractionTables, wanted: &mut BTreeSet<Column>) {
         wanted.extend(OF_ANY_LAW);
         wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
+    }
+}
+
+fn want_thermal(interaction: &Interaction, tables: &ThermalTables, wanted: &mut BTreeSet<Column>) {
+    let of_conductance = tables.conductance_tables();
+    if !of_conductance.is_empty() || tables.radiation.is_some() {
+        wanted.extend(OF_ANY_LAW);
+        wanted.extend([Part::Slave, Part::Master].map(Column::Temperature));
+    }
+    for (against, table) in of_conductance {
+        want_variables(table, |axis| thermal_axis(against, axis), wanted);
+    }
+    if tells_of_friction(interaction) {
+        wanted.extend(OF_ANY_LAW);
+        wanted.extend([Column::Shear, Column::SlipRate]);
     }
 }
 
@@ -85,6 +103,7 @@ pub(super) fn columns_of(along: Along) -> Option<[Column; 3]> {
     let parts = [Part::Both, Part::Slave, Part::Master];
     match along {
         Along::Temperature => Some(parts.map(Column::Temperature)),
+        Along::MassFlow => Some(parts.map(Column::MassFlow)),
         Along::FieldVariable(number) => Some(parts.map(|part| Column::FieldVariable(number, part))),
         Along::Clearance | Along::Pressure | Along::PorePressure => None,
     }

@@ -11,7 +11,7 @@ use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey};
 use inpact_evaluation::table::Tail;
 use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::grammar::Grammar;
+use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity, check};
 use serde::Serialize;
@@ -45,7 +45,7 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
-    /// Give the slopes of conductance and permeability as well.
+    /// Give the slopes of conductances and permeability as well.
     #[arg(long)]
     derivatives: bool,
     #[command(flatten)]
@@ -121,7 +121,7 @@ impl SceneArguments {
         if model.interactions.is_empty() {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
-        let choices = self.choices();
+        let choices = self.choices(grammar.dialect());
         let nodes_name = self.nodes.display().to_string();
         let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
@@ -138,7 +138,7 @@ impl SceneArguments {
         Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
 
-    fn choices(&self) -> Choices {
+    fn choices(&self, dialect: Dialect) -> Choices {
         Choices {
             interaction: self.interaction.as_deref().map(Name::new),
             regime: self.procedure.map(|procedure| match procedure {
@@ -154,6 +154,7 @@ impl SceneArguments {
                 Boundary::Inclusive => CutoffBoundary::Inclusive,
                 Boundary::Exclusive => CutoffBoundary::Exclusive,
             },
+            dialect,
             derivatives: if self.derivatives { Derivatives::Given } else { Derivatives::LeftOut },
         }
     }
