@@ -8,6 +8,7 @@
 //! - [`pore`]: pore fluid across the interface and into its changing gap (*CONTACT PERMEABILITY, semantics P-01 to P-42);
 //! - [`heat`]: how generated heat is shared between the two sides (*GAP HEAT GENERATION);
 //! - [`conductance`]: the clearance and pressure branches every conductance law shares;
+//! - [`user`]: the conductance that a routine of the user's gives (*GAP ELECTRICAL CONDUCTANCE, USER, semantics 7.1);
 //! - [`contact`]: the quantities at a point of contact and whether it is closed.
 
 pub mod conductance;
@@ -15,3 +16,4 @@ pub mod contact;
 pub mod electrical;
 pub mod heat;
 pub mod pore;
+pub mod user;

@@ -1,6 +1,7 @@
 //! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
 
 use crate::law::pore::CutoffBoundary;
+use crate::law::user::UserLaw;
 use crate::table::Tail;
 use inpact_parser::model::{Name, Regime};
 
@@ -19,6 +20,8 @@ pub struct Choices {
     pub cutoff_boundary: CutoffBoundary,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
+    /// The conductance of interactions with *GAP ELECTRICAL CONDUCTANCE, USER; without it they have no electrical law (U-3).
+    pub user_conductance: Option<UserLaw>,
 }
 
 /// Whether the slopes of conductance and permeability come out (semantics 4.4).
