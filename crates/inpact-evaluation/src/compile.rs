@@ -1,8 +1,11 @@
 //! From a plan to laws that can be evaluated: tables compiled, columns turned into places of a batch.
 
+mod user;
+
+pub(crate) use user::CompiledUser;
+
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
-use crate::law::electrical::ElectricalLaw;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
@@ -40,18 +43,34 @@ pub(crate) struct InteractionLaws {
 /// The electrical law with its places.
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledElectrical {
-    pub(crate) law: ElectricalLaw,
+    pub(crate) conductance: ConductanceSource,
+    pub(crate) heat_generation: HeatGeneration,
     pub(crate) regime: Regime,
-    /// What the table against clearance needs.
-    pub(crate) clearance: Needs,
-    /// What the table against contact pressure needs.
-    pub(crate) pressure: Needs,
-    pub(crate) variables: Vec<Option<Source<usize>>>,
     pub(crate) jump: Option<Source<usize>>,
     pub(crate) area: Option<usize>,
     pub(crate) history: History,
     pub(crate) slots: ElectricalSlots,
     pub(crate) slopes: Vec<(usize, Along)>,
+}
+
+/// What gives the electrical conductance.
+#[derive(Debug, Clone)]
+pub(crate) enum ConductanceSource {
+    /// Tables of the deck.
+    Tables(CompiledTables),
+    /// A routine of the user's.
+    User(Box<CompiledUser>),
+}
+
+/// The tables of the electrical conductance with their places.
+#[derive(Debug, Clone)]
+pub(crate) struct CompiledTables {
+    pub(crate) tables: ConductanceTables,
+    /// What the table against clearance needs.
+    clearance: Needs,
+    /// What the table against contact pressure needs.
+    pressure: Needs,
+    pub(crate) variables: Vec<Option<Source<usize>>>,
 }
 
 /// The pore fluid law with its places.
@@ -136,7 +155,7 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
         let compiler = Compiler { plan, of: planned };
         interactions[planned.index] = Some(InteractionLaws {
             contact: compiler.contact(),
-            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables)),
+            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables, choices)),
             pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
         });
     }
@@ -191,10 +210,38 @@ impl Compiler<'_> {
         sources.iter().map(|source| self.source(*source)).collect()
     }
 
-    fn electrical(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledElectrical> {
+    fn electrical(
+        self,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<CompiledElectrical> {
+        let conductance = match (&plan.user, &choices.user_conductance) {
+            (Some(user), Some(law)) => {
+                ConductanceSource::User(Box::new(CompiledUser::new(user, &self.plan.selection, law)?))
+            }
+            _ => ConductanceSource::Tables(self.electrical_tables(plan, tables)?),
+        };
+        let slopes = self.of.outputs.iter().filter_map(|output| match output {
+            Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
+            _ => None,
+        });
+        Some(CompiledElectrical {
+            conductance,
+            heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
+            regime: plan.regime.regime,
+            jump: self.source(plan.jump),
+            area: plan.area.and_then(|column| self.place(column)),
+            history: plan.history,
+            slots: ElectricalSlots::new(|output| self.slot(output)),
+            slopes: slopes.collect(),
+        })
+    }
+
+    fn electrical_tables(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledTables> {
         let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table);
         let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
-        let conductance = match (clearance, pressure) {
+        let conductance_tables = match (clearance, pressure) {
             (Some(clearance), None) => ConductanceTables::Clearance(clearance.clone()),
             (None, Some(pressure)) => ConductanceTables::Pressure(pressure.clone()),
             (Some(clearance), Some(pressure)) => {
@@ -202,24 +249,11 @@ impl Compiler<'_> {
             }
             (None, None) => return None,
         };
-        let slopes = self.of.outputs.iter().filter_map(|output| match output {
-            Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
-            _ => None,
-        });
-        Some(CompiledElectrical {
-            law: ElectricalLaw {
-                conductance,
-                heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
-            },
-            regime: plan.regime.regime,
+        Some(CompiledTables {
+            tables: conductance_tables,
             clearance: clearance.map(Needs::of).unwrap_or_default(),
             pressure: pressure.map(Needs::of).unwrap_or_default(),
             variables: self.sources(&plan.variables),
-            jump: self.source(plan.jump),
-            area: plan.area.and_then(|column| self.place(column)),
-            history: plan.history,
-            slots: ElectricalSlots::new(|output| self.slot(output)),
-            slopes: slopes.collect(),
         })
     }
 
@@ -266,11 +300,11 @@ impl Needs {
     }
 }
 
-impl CompiledElectrical {
+impl CompiledTables {
     /// What a row in this state needs; `None` where no table is in force.
     #[inline]
     pub(crate) fn needs(&self, state: ContactState) -> Option<(Along, &Needs)> {
-        match (&self.law.conductance, state) {
+        match (&self.tables, state) {
             (ConductanceTables::Clearance(_), _) | (ConductanceTables::Both { .. }, ContactState::Open) => {
                 Some((Along::Clearance, &self.clearance))
             }

@@ -11,15 +11,18 @@
 mod electrical;
 mod pore;
 mod tally;
+mod user;
 
-pub use tally::{AxisTally, InteractionTally, Tally};
+pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
 
 use crate::compile::Laws;
 use crate::history::{ElectricalHistory, PoreHistory};
 use crate::law::contact::ContactState;
+use crate::law::user::UserFault;
 use crate::nodes::{Batch, NodeIndex};
 use crate::plan::{History, Plan, RowInteractions, Source};
 use crate::results::{ResultBatch, Status};
+use electrical::Scratch;
 use inpact_parser::model::Model;
 
 /// An evaluation under way: the laws, the histories of the nodes so far, and a count of what happened.
@@ -30,10 +33,7 @@ pub struct Evaluation<'a> {
     nodes: NodeIndex,
     histories: Vec<NodeHistory>,
     tally: Tally,
-    /// Temperatures and field variables of a row.
-    variables: Vec<f64>,
-    /// Slopes along them.
-    slopes: Vec<f64>,
+    scratch: Scratch,
 }
 
 /// What a node's rows so far add up to.
@@ -56,12 +56,14 @@ struct Row<'a> {
 }
 
 /// What came of a law in a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Outcome {
     /// The row lacks a number that the law needs.
     Incomplete,
     /// It was evaluated, and this is the row's status as far as it goes.
     Evaluated(Option<Status>),
+    /// A user's routine gave what is no conductance.
+    Faulty(UserFault),
 }
 
 impl<'a> Evaluation<'a> {
@@ -73,8 +75,7 @@ impl<'a> Evaluation<'a> {
             nodes: NodeIndex::default(),
             histories: Vec::new(),
             tally: Tally::new(plan, model.interactions.len()),
-            variables: Vec::new(),
-            slopes: Vec::new(),
+            scratch: Scratch::default(),
         }
     }
 
@@ -125,18 +126,24 @@ impl<'a> Evaluation<'a> {
             }
             None => None,
         };
-        let scratch = (&mut self.variables, &mut self.slopes);
-        let mut outcomes = [None; 2];
+        let scratch = &mut self.scratch;
+        let mut outcomes = [None, None];
         if let Some(law) = &laws.electrical {
             let history = history.as_mut().map(|history| &mut history.electrical);
-            outcomes[0] = Some(electrical::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+            outcomes[0] = Some(electrical::evaluate(law, row, history, scratch, results, tally));
         }
         if let Some(law) = &laws.pore {
             let history = history.as_mut().map(|history| &mut history.pore);
-            outcomes[1] = Some(pore::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+            outcomes[1] =
+                Some(pore::evaluate(law, row, history, (&mut scratch.variables, &mut scratch.slopes), results, tally));
+        }
+        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
+        if let Some(Outcome::Faulty(fault)) = &outcomes[0]
+            && tally.count_fault()
+        {
+            self.tally.user_faults.push(user::told(row, fault));
         }
         let status = outcomes.into_iter().flatten().filter_map(Outcome::status).max();
-        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
         tally.count_status(status);
         results.status[index] = status;
     }
@@ -145,7 +152,7 @@ impl<'a> Evaluation<'a> {
 impl Outcome {
     fn status(self) -> Option<Status> {
         match self {
-            Self::Incomplete => None,
+            Self::Incomplete | Self::Faulty(_) => None,
             Self::Evaluated(status) => status,
         }
     }

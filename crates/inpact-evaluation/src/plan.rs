@@ -23,6 +23,7 @@ mod regime;
 mod source;
 mod survey;
 mod tables;
+mod user;
 mod wanted;
 
 pub use choices::{Choices, Derivatives};
@@ -33,6 +34,7 @@ pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
 pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
+pub use user::UserPlan;
 
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
@@ -108,8 +110,10 @@ pub struct ContactColumns {
 pub struct ElectricalPlan {
     /// Steady state or transient, and why.
     pub regime: RegimeInForce,
-    /// The tables that rows reach.
+    /// The tables that rows reach; none where a user's routine gives the conductance.
     pub tables: Vec<TablePlan>,
+    /// What a user's routine is called with, where it gives the conductance.
+    pub user: Option<UserPlan>,
     /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat: Option<HeatGeneration>,
     /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.

@@ -1,40 +1,82 @@
 //! The electrical law in one row.
 
+use super::user;
 use super::{InteractionTally, Outcome, Row, contact_status};
-use crate::compile::CompiledElectrical;
+use crate::compile::{CompiledElectrical, CompiledTables, ConductanceSource};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
-use crate::law::electrical::Dissipation;
+use crate::law::electrical::{Dissipation, flow};
 use crate::numbers::mean;
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
+use crate::table::Sides;
 use inpact_parser::model::Regime;
 
 /// Below this share of the potentials their difference has lost its digits.
 const LOST_DIGITS: f64 = 1e-8;
+
+/// Room that one row leaves to the next.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    /// Temperatures and field variables of a row, for tables.
+    pub(super) variables: Vec<f64>,
+    /// Slopes along them.
+    pub(super) slopes: Vec<f64>,
+    /// The field variables of a row on either side, for a user's routine.
+    fields: Vec<[f64; 2]>,
+}
 
 /// Evaluates the law; gives its status.
 pub(super) fn evaluate(
     law: &CompiledElectrical,
     row: Row<'_>,
     history: Option<&mut ElectricalHistory>,
-    (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
+    scratch: &mut Scratch,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
 ) -> Outcome {
-    let needs = law.needs(row.state);
+    let conductance = match &law.conductance {
+        ConductanceSource::Tables(tables) => by_tables(tables, &law.slopes, row, scratch, results),
+        ConductanceSource::User(routine) => match user::conductance(routine, row, &mut scratch.fields, tally) {
+            Some(Ok(value)) => {
+                // The plan asks for no other slope.
+                for (slot, _) in &law.slopes {
+                    results.set(Some(*slot), row.index, Some(value.slope_along_mean_temperature()));
+                }
+                Some(Conductance { value: value.conductance, branch: Branch::Neither, sides: Sides::default() })
+            }
+            Some(Err(fault)) => return Outcome::Faulty(fault),
+            None => None,
+        },
+    };
+    let Some(conductance) = conductance else { return Outcome::Incomplete };
+    results.set(law.slots.conductance, row.index, Some(conductance.value));
+    results.set(law.slots.weight, row.index, Some(law.heat_generation.slave_weight));
+    evaluate_flow(law, row, conductance, history, results, tally);
+    Outcome::Evaluated(status(&conductance, row, tally))
+}
+
+/// The conductance by the tables of the deck; `None` where the row lacks a number they need.
+fn by_tables(
+    tables: &CompiledTables,
+    slots_of_slopes: &[(usize, Along)],
+    row: Row<'_>,
+    Scratch { variables, slopes, .. }: &mut Scratch,
+    results: &mut ResultBatch,
+) -> Option<Conductance> {
+    let needs = tables.needs(row.state);
     if let Some((against, needs)) = needs {
         let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
         if needs.abscissa && abscissa.is_none() {
-            return Outcome::Incomplete;
+            return None;
         }
     }
     variables.clear();
-    for (index, source) in law.variables.iter().enumerate() {
+    for (index, source) in tables.variables.iter().enumerate() {
         let value = source.as_ref().and_then(|source| row.fetch(source, mean));
         if value.is_none() && needs.is_some_and(|(_, needs)| needs.variables.contains(&index)) {
-            return Outcome::Incomplete;
+            return None;
         }
         variables.push(value.unwrap_or(f64::NAN));
     }
@@ -44,15 +86,13 @@ pub(super) fn evaluate(
         state: row.state,
         variables,
     };
-    let conductance = law.law.conductance.conductance(&point);
-    results.set(law.slots.conductance, row.index, Some(conductance.value));
-    results.set(law.slots.weight, row.index, Some(law.law.heat_generation.slave_weight));
-    if !law.slopes.is_empty() {
+    let conductance = tables.tables.conductance(&point);
+    if !slots_of_slopes.is_empty() {
         slopes.clear();
         slopes.resize(variables.len(), 0.0);
         let point = ContactPoint { variables, ..point };
-        let along_contact = law.law.conductance.slopes(&point, slopes);
-        for (slot, along) in &law.slopes {
+        let along_contact = tables.tables.slopes(&point, slopes);
+        for (slot, along) in slots_of_slopes {
             let slope = match along {
                 Along::Clearance => Some(along_contact.clearance),
                 Along::Pressure => Some(along_contact.pressure),
@@ -63,8 +103,7 @@ pub(super) fn evaluate(
             results.set(Some(*slot), row.index, slope);
         }
     }
-    evaluate_flow(law, row, conductance, history, results, tally);
-    Outcome::Evaluated(status(&conductance, row, tally))
+    Some(conductance)
 }
 
 /// Current and heat, where the row has a jump of potential.
@@ -92,7 +131,7 @@ fn evaluate_flow(
             jump_at_start: increment.as_ref().map_or(jump, |increment| increment.jump_at_start),
         },
     };
-    let flow = law.law.flow(conductance.value, jump, dissipation);
+    let flow = flow(conductance.value, jump, dissipation, law.heat_generation);
     let slots = &law.slots;
     let mut set = |slot, value| results.set(slot, row.index, value);
     // No current is 0, not −0.

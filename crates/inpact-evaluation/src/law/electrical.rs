@@ -50,10 +50,21 @@ impl ElectricalLaw {
     /// Current and heat for a conductance found with [`ConductanceTables::conductance`].
     #[inline]
     pub fn flow(&self, conductance: f64, jump: PotentialJump, dissipation: Dissipation) -> ElectricalFlow {
-        ElectricalFlow {
-            current_density: conductance * jump.0,
-            heat: generated_heat(conductance, jump, dissipation, self.heat_generation),
-        }
+        flow(conductance, jump, dissipation, self.heat_generation)
+    }
+}
+
+/// Current and heat for a conductance, whatever gives it.
+#[inline]
+pub fn flow(
+    conductance: f64,
+    jump: PotentialJump,
+    dissipation: Dissipation,
+    generation: HeatGeneration,
+) -> ElectricalFlow {
+    ElectricalFlow {
+        current_density: conductance * jump.0,
+        heat: generated_heat(conductance, jump, dissipation, generation),
     }
 }
 

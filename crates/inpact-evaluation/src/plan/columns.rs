@@ -3,7 +3,9 @@
 use super::choices::Choices;
 use super::reason::Reason;
 use super::survey::Survey;
-use super::{Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source};
+use super::{
+    Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source, UserPlan,
+};
 use crate::nodes::{Column, Part, Selection};
 use inpact_parser::model::Regime;
 
@@ -42,6 +44,8 @@ impl InteractionPlan {
             is_history |= law.history == History::ByTime;
             area = area.or(law.area);
         }
+        let users = self.electrical.iter().filter_map(|law| law.user.as_ref());
+        columns.extend(users.flat_map(UserPlan::columns));
         columns.extend(area);
         columns.extend(is_history.then_some(Column::Time));
         columns

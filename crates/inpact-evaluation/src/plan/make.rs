@@ -79,7 +79,7 @@ impl Planner<'_> {
         let mut left_out = LeftOuts::default();
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);

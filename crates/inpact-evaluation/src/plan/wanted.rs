@@ -4,6 +4,7 @@ use super::choices::Choices;
 use super::governing::GovernedBy;
 use super::regime::regime;
 use super::tables::{InteractionTables, electrical_axis, matters, pore_axis};
+use super::user::want_user;
 use crate::nodes::{Column, Header, Part};
 use crate::results::Along;
 use crate::table::PiecewiseTable;
@@ -25,6 +26,12 @@ pub(super) fn wanted_columns(
     for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
         want_electrical(&tables, &mut wanted);
+        let electrical = interaction.gap_electrical_conductance.as_ref();
+        if choices.user_conductance.is_some() && electrical.is_some_and(|option| option.user.is_some()) {
+            wanted.extend(OF_ANY_LAW);
+            wanted.extend(POTENTIALS);
+            want_user(header, &mut wanted);
+        }
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -39,10 +46,14 @@ pub(super) fn wanted_columns(
 /// What every law could use.
 const OF_ANY_LAW: [Column; 5] = [Column::Clearance, Column::Pressure, Column::Closed, Column::Area, Column::Time];
 
+/// What the current needs.
+const POTENTIALS: [Column; 3] =
+    [Column::Potential(Part::Both), Column::Potential(Part::Slave), Column::Potential(Part::Master)];
+
 fn want_electrical(tables: &InteractionTables, wanted: &mut BTreeSet<Column>) {
     for (against, table) in tables.electrical() {
         wanted.extend(OF_ANY_LAW);
-        wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
+        wanted.extend(POTENTIALS);
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
     }
 }

@@ -6,6 +6,7 @@ use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
     CharacteristicLength, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan, PorePlan, Source, TablePlan,
+    UserPlan,
 };
 use inpact_parser::model::Regime;
 use serde_json::{Value, json};
@@ -104,8 +105,19 @@ fn electrical(law: &ElectricalPlan) -> Value {
         "regime": regime(law.regime.regime),
         "reason": law.regime.to_string(),
         "tables": law.tables.iter().map(table).collect::<Vec<_>>(),
+        "user": law.user.as_ref().map(user),
         "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
         "potential_jump": law.jump.as_ref().map(columns),
+    })
+}
+
+fn user(user: &UserPlan) -> Value {
+    json!({
+        "subroutine": "GAPELECTR",
+        "npred": user.field_variables.len(),
+        "ciname": user.names.interaction.text(),
+        "slname": user.names.slave.text(),
+        "msname": user.names.master.text(),
     })
 }
 
