@@ -11,7 +11,7 @@ use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
 use crate::plan::{
     Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
-    Plan, PorePlan, Rate, Source,
+    Plan, PorePlan, Rate, Source, folded_as_planned,
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
@@ -59,7 +59,7 @@ pub(crate) enum ConductanceSource {
     /// Tables of the deck.
     Tables(CompiledTables),
     /// A routine of the user's.
-    User(Box<CompiledUser>),
+    User(CompiledUser),
 }
 
 /// The tables of the electrical conductance with their places.
@@ -188,6 +188,7 @@ impl Compiler<'_> {
             clearance: place(columns.clearance),
             pressure: place(columns.pressure),
             closed: place(columns.closed),
+            state: columns.state,
         }
     }
 
@@ -217,9 +218,7 @@ impl Compiler<'_> {
         choices: &Choices,
     ) -> Option<CompiledElectrical> {
         let conductance = match (&plan.user, &choices.user_conductance) {
-            (Some(user), Some(law)) => {
-                ConductanceSource::User(Box::new(CompiledUser::new(user, &self.plan.selection, law)?))
-            }
+            (Some(user), Some(law)) => ConductanceSource::User(CompiledUser::new(user, &self.plan.selection, law)?),
             _ => ConductanceSource::Tables(self.electrical_tables(plan, tables)?),
         };
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
@@ -239,27 +238,34 @@ impl Compiler<'_> {
     }
 
     fn electrical_tables(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledTables> {
-        let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table);
+        let table = |against| {
+            let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
+            let planned = plan.tables.iter().find(|planned| planned.against == against);
+            // A table that no row reaches stays as it is: it says what kind of conductance this is.
+            Some(planned.map_or_else(|| table.clone(), |planned| folded_as_planned(table, planned)))
+        };
         let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
-        let conductance_tables = match (clearance, pressure) {
-            (Some(clearance), None) => ConductanceTables::Clearance(clearance.clone()),
-            (None, Some(pressure)) => ConductanceTables::Pressure(pressure.clone()),
-            (Some(clearance), Some(pressure)) => {
-                ConductanceTables::Both { clearance: clearance.clone(), pressure: pressure.clone() }
-            }
+        let needs = [&clearance, &pressure].map(|table| table.as_ref().map(Needs::of).unwrap_or_default());
+        let [clearance_needs, pressure_needs] = needs;
+        let tables = match (clearance, pressure) {
+            (Some(clearance), None) => ConductanceTables::Clearance(clearance),
+            (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
+            (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
             (None, None) => return None,
         };
         Some(CompiledTables {
-            tables: conductance_tables,
-            clearance: clearance.map(Needs::of).unwrap_or_default(),
-            pressure: pressure.map(Needs::of).unwrap_or_default(),
+            tables,
+            clearance: clearance_needs,
+            pressure: pressure_needs,
             variables: self.sources(&plan.variables),
         })
     }
 
     fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> Option<CompiledPore> {
-        let table = tables.permeability();
-        let permeability = table.map_or(Permeability::Infinite, |table| Permeability::Finite(table.clone()));
+        let table = tables.permeability().zip(plan.table.as_ref());
+        let table = table.map(|(table, planned)| folded_as_planned(table, planned));
+        let needs = table.as_ref().map(Needs::of).unwrap_or_default();
+        let permeability = table.map_or(Permeability::Infinite, Permeability::Finite);
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),
             _ => None,
@@ -270,7 +276,7 @@ impl Compiler<'_> {
         Some(CompiledPore {
             law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
             regime: plan.regime.regime,
-            needs: table.map(Needs::of).unwrap_or_default(),
+            needs,
             variables: self.sources(&plan.variables),
             slave,
             master,

@@ -18,7 +18,6 @@ pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
 use crate::compile::Laws;
 use crate::history::{ElectricalHistory, PoreHistory};
 use crate::law::contact::ContactState;
-use crate::law::user::UserFault;
 use crate::nodes::{Batch, NodeIndex};
 use crate::plan::{History, Plan, RowInteractions, Source};
 use crate::results::{ResultBatch, Status};
@@ -62,8 +61,8 @@ enum Outcome {
     Incomplete,
     /// It was evaluated, and this is the row's status as far as it goes.
     Evaluated(Option<Status>),
-    /// A user's routine gave what is no conductance.
-    Faulty(UserFault),
+    /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
+    Faulty(Option<UserFaultInRow>),
 }
 
 impl<'a> Evaluation<'a> {
@@ -138,10 +137,8 @@ impl<'a> Evaluation<'a> {
                 Some(pore::evaluate(law, row, history, (&mut scratch.variables, &mut scratch.slopes), results, tally));
         }
         tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
-        if let Some(Outcome::Faulty(fault)) = &outcomes[0]
-            && tally.count_fault()
-        {
-            self.tally.user_faults.push(user::told(row, fault));
+        if let Some(Outcome::Faulty(Some(told))) = &outcomes[0] {
+            self.tally.user_faults.push(told.clone());
         }
         let status = outcomes.into_iter().flatten().filter_map(Outcome::status).max();
         tally.count_status(status);

@@ -46,7 +46,9 @@ pub(super) fn evaluate(
                 }
                 Some(Conductance { value: value.conductance, branch: Branch::Neither, sides: Sides::default() })
             }
-            Some(Err(fault)) => return Outcome::Faulty(fault),
+            Some(Err(fault)) => {
+                return Outcome::Faulty(tally.count_fault().then(|| user::told(routine, row, &fault)));
+            }
             None => None,
         },
     };

@@ -61,10 +61,10 @@ fn counter(value: f64) -> i32 {
 
 /// What there is to say of a row whose conductance is none.
 #[cold]
-pub(super) fn told(row: Row<'_>, fault: &UserFault) -> UserFaultInRow {
+pub(super) fn told(user: &CompiledUser, row: Row<'_>, fault: &UserFault) -> UserFaultInRow {
     let place = row.batch.place(row.index, None);
     let number = place.row.unwrap_or_default();
-    let clearance = row.clearance.unwrap_or(f64::NAN);
+    let clearance = row.number(user.clearance).unwrap_or(f64::NAN);
     let message = format!("user subroutine GAPELECTR {fault} in row {number}, clearance {clearance:?}");
     UserFaultInRow { place, message }
 }

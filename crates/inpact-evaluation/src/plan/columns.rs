@@ -4,12 +4,25 @@ use super::choices::Choices;
 use super::reason::Reason;
 use super::survey::Survey;
 use super::{
-    Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source, UserPlan,
+    Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source, TablePlan,
+    UserPlan,
 };
 use crate::nodes::{Column, Part, Selection};
+use crate::results::Along;
 use inpact_parser::model::Regime;
 
 impl InteractionPlan {
+    /// The tables in use.
+    pub fn tables(&self) -> impl Iterator<Item = &TablePlan> {
+        let electrical = self.electrical.iter().flat_map(|law| &law.tables);
+        electrical.chain(self.pore.iter().filter_map(|law| law.table.as_ref()))
+    }
+
+    /// Whether a user's routine gives the conductance.
+    fn has_user(&self) -> bool {
+        self.electrical.as_ref().is_some_and(|law| law.user.is_some())
+    }
+
     /// The columns whose numbers its rows need.
     pub(super) fn columns_read(&self) -> Vec<Column> {
         let mut columns = Vec::new();
@@ -80,7 +93,7 @@ fn role(
     let has_history = interactions.iter().any(|plan| plan.histories.is_some());
     let is_read = match column {
         Column::Interaction => survey.governed_by == GovernedBy::Column,
-        Column::Node => has_history,
+        Column::Node => has_history || interactions.iter().any(InteractionPlan::has_user),
         _ => selection.number(column).is_some(),
     };
     match (column.is_key(), is_read) {
@@ -111,6 +124,7 @@ fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions
         Column::Potential(Part::Slave | Part::Master) if is_read_whole(Column::Potential(Part::Both), interactions) => {
             Reason::GivenBy(Column::Potential(Part::Both))
         }
+        _ if let Some(value) = folded_value(column, interactions) => Reason::Folded(value),
         Column::Temperature(_) | Column::FieldVariable(..) if electrical || pore().next().is_some() => {
             Reason::NoTableDepends
         }
@@ -119,8 +133,23 @@ fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions
         {
             Reason::SteadyState
         }
+        Column::Potential(_) | Column::Area if choices.outputs.is_some() => Reason::NotAsked,
         _ => Reason::NotNeeded,
     }
+}
+
+/// The value for which the tables are folded along the variable of a column.
+fn folded_value(column: Column, interactions: &[InteractionPlan]) -> Option<f64> {
+    let along = match column {
+        Column::Clearance => Along::Clearance,
+        Column::Pressure => Along::Pressure,
+        Column::Temperature(_) => Along::Temperature,
+        Column::FieldVariable(number, _) => Along::FieldVariable(number),
+        Column::PorePressure(_) => Along::PorePressure,
+        _ => return None,
+    };
+    let tables = interactions.iter().flat_map(InteractionPlan::tables);
+    tables.flat_map(|table| &table.axes).filter(|axis| axis.along == along).find_map(|axis| axis.fold)
 }
 
 /// Whether the column that stands for both sides is read.

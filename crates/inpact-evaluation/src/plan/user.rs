@@ -30,7 +30,7 @@ impl UserPlan {
     /// The columns it reads, besides those that tell contact.
     pub(super) fn columns(&self) -> impl Iterator<Item = Column> {
         let sources = std::iter::once(&self.temperatures).chain(&self.field_variables);
-        sources.flat_map(Source::cells).chain(self.others.iter().copied())
+        sources.flat_map(Source::cells).chain(self.others.iter().copied()).chain([Column::Clearance])
     }
 }
 
@@ -82,7 +82,8 @@ fn sides_or_whole(columns: [Column; 3], planner: Planner<'_>) -> Result<Source<C
 fn note_fields_behind_a_gap(planner: Planner<'_>, count: usize, notes: &mut Vec<String>) {
     let is_behind =
         |column: &Column| matches!(column, Column::FieldVariable(number, _) if *number as usize > count + 1);
-    let behind: Vec<String> = planner.survey.columns.iter().filter(|column| is_behind(column)).map(quoted).collect();
+    let behind: Vec<String> =
+        planner.survey.columns.iter().filter(|column| is_behind(column)).copied().map(quoted).collect();
     if !behind.is_empty() {
         notes.push(format!(
             "GAPELECTR is called with NPRED = {count}: field variable {} has no numbers, so {} cannot be handed over",
@@ -99,7 +100,7 @@ fn note_defaults(planner: Planner<'_>, lacking: &[Column], notes: &mut Vec<Strin
     let missing: Vec<Column> =
         [Part::Slave, Part::Master].into_iter().flat_map(coordinates).filter(|column| lacks(column)).collect();
     if !missing.is_empty() {
-        let names: Vec<String> = missing.iter().map(quoted).collect();
+        let names: Vec<String> = missing.iter().copied().map(quoted).collect();
         defaults.push(format!("COORDS 0 for {}", names.join(", ")));
     }
     if !planner.survey.header.has(Column::Node) {
@@ -117,7 +118,7 @@ fn note_defaults(planner: Planner<'_>, lacking: &[Column], notes: &mut Vec<Strin
     }
 }
 
-fn quoted(column: &Column) -> String {
+fn quoted(column: Column) -> String {
     format!("`{column}`")
 }
 
