@@ -4,6 +4,7 @@ mod user;
 
 pub(crate) use user::CompiledUser;
 
+use crate::accuracy::Accuracy;
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
@@ -15,6 +16,7 @@ use crate::plan::{
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
+use crate::table_form::TableForm;
 use inpact_parser::model::{Model, Regime};
 
 /// The laws of a plan.
@@ -45,6 +47,7 @@ pub(crate) struct InteractionLaws {
 pub(crate) struct CompiledElectrical {
     pub(crate) conductance: ConductanceSource,
     pub(crate) heat_generation: HeatGeneration,
+    pub(crate) accuracy: Accuracy,
     pub(crate) regime: Regime,
     pub(crate) jump: Option<Source<usize>>,
     pub(crate) area: Option<usize>,
@@ -57,15 +60,19 @@ pub(crate) struct CompiledElectrical {
 #[derive(Debug, Clone)]
 pub(crate) enum ConductanceSource {
     /// Tables of the deck.
-    Tables(CompiledTables),
+    Tables(Box<CompiledTables>),
     /// A routine of the user's.
-    User(CompiledUser),
+    User(Box<CompiledUser>),
 }
 
 /// The tables of the electrical conductance with their places.
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledTables {
     pub(crate) tables: ConductanceTables,
+    /// The table against clearance as it is evaluated.
+    pub(crate) clearance_form: Option<TableForm>,
+    /// The table against contact pressure as it is evaluated.
+    pub(crate) pressure_form: Option<TableForm>,
     /// What the table against clearance needs.
     clearance: Needs,
     /// What the table against contact pressure needs.
@@ -218,8 +225,10 @@ impl Compiler<'_> {
         choices: &Choices,
     ) -> Option<CompiledElectrical> {
         let conductance = match (&plan.user, &choices.user_conductance) {
-            (Some(user), Some(law)) => ConductanceSource::User(CompiledUser::new(user, &self.plan.selection, law)?),
-            _ => ConductanceSource::Tables(self.electrical_tables(plan, tables)?),
+            (Some(user), Some(law)) => {
+                ConductanceSource::User(Box::new(CompiledUser::new(user, &self.plan.selection, law)?))
+            }
+            _ => ConductanceSource::Tables(Box::new(self.electrical_tables(plan, tables, choices)?)),
         };
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
@@ -228,6 +237,7 @@ impl Compiler<'_> {
         Some(CompiledElectrical {
             conductance,
             heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
+            accuracy: choices.accuracy,
             regime: plan.regime.regime,
             jump: self.source(plan.jump),
             area: plan.area.and_then(|column| self.place(column)),
@@ -237,7 +247,12 @@ impl Compiler<'_> {
         })
     }
 
-    fn electrical_tables(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledTables> {
+    fn electrical_tables(
+        self,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<CompiledTables> {
         let table = |against| {
             let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
             let planned = plan.tables.iter().find(|planned| planned.against == against);
@@ -247,6 +262,8 @@ impl Compiler<'_> {
         let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
         let needs = [&clearance, &pressure].map(|table| table.as_ref().map(Needs::of).unwrap_or_default());
         let [clearance_needs, pressure_needs] = needs;
+        let forms = [&clearance, &pressure].map(|table| Some(TableForm::new(table.clone()?, choices.accuracy)));
+        let [clearance_form, pressure_form] = forms;
         let tables = match (clearance, pressure) {
             (Some(clearance), None) => ConductanceTables::Clearance(clearance),
             (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
@@ -255,6 +272,8 @@ impl Compiler<'_> {
         };
         Some(CompiledTables {
             tables,
+            clearance_form,
+            pressure_form,
             clearance: clearance_needs,
             pressure: pressure_needs,
             variables: self.sources(&plan.variables),

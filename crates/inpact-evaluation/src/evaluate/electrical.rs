@@ -1,12 +1,13 @@
 //! The electrical law in one row.
 
-use super::user;
-use super::{InteractionTally, Outcome, Row, contact_status};
+use super::conductances::RowConductance;
+use super::{InteractionTally, Outcome, Row, contact_status, user};
+use crate::accuracy::Accuracy;
 use crate::compile::{CompiledElectrical, CompiledTables, ConductanceSource};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
-use crate::law::electrical::{Dissipation, flow};
+use crate::law::electrical::{Dissipation, flow, reference_flow};
 use crate::numbers::mean;
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
@@ -28,23 +29,27 @@ pub(super) struct Scratch {
 }
 
 /// Evaluates the law; gives its status.
+///
+/// `found` is the conductance by tables; a user's routine is asked here, row by row.
 pub(super) fn evaluate(
     law: &CompiledElectrical,
     row: Row<'_>,
+    found: Option<RowConductance>,
     history: Option<&mut ElectricalHistory>,
     scratch: &mut Scratch,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
 ) -> Outcome {
-    let conductance = match &law.conductance {
-        ConductanceSource::Tables(tables) => by_tables(tables, &law.slopes, row, scratch, results),
+    let found = match &law.conductance {
+        ConductanceSource::Tables(_) => found,
         ConductanceSource::User(routine) => match user::conductance(routine, row, &mut scratch.fields, tally) {
             Some(Ok(value)) => {
                 // The plan asks for no other slope.
                 for (slot, _) in &law.slopes {
                     results.set(Some(*slot), row.index, Some(value.slope_along_mean_temperature()));
                 }
-                Some(Conductance { value: value.conductance, branch: Branch::Neither, sides: Sides::default() })
+                let (value, branch, sides) = (value.conductance, Branch::Neither, Sides::default());
+                Some(RowConductance { conductance: Conductance { value, branch, sides }, rest: 0.0 })
             }
             Some(Err(fault)) => {
                 return Outcome::Faulty(tally.count_fault().then(|| user::told(routine, row, &fault)));
@@ -52,67 +57,58 @@ pub(super) fn evaluate(
             None => None,
         },
     };
-    let Some(conductance) = conductance else { return Outcome::Incomplete };
+    let Some(found) = found else { return Outcome::Incomplete };
+    let conductance = found.conductance;
     results.set(law.slots.conductance, row.index, Some(conductance.value));
     results.set(law.slots.weight, row.index, Some(law.heat_generation.slave_weight));
-    evaluate_flow(law, row, conductance, history, results, tally);
+    if let ConductanceSource::Tables(tables) = &law.conductance
+        && !law.slopes.is_empty()
+    {
+        set_slopes(tables, &law.slopes, row, scratch, results);
+    }
+    evaluate_flow(law, row, &found, history, results, tally);
     Outcome::Evaluated(status(&conductance, row, tally))
 }
 
-/// The conductance by the tables of the deck; `None` where the row lacks a number they need.
-fn by_tables(
+/// The slopes of the conductance, one column each.
+fn set_slopes(
     tables: &CompiledTables,
-    slots_of_slopes: &[(usize, Along)],
+    slots: &[(usize, Along)],
     row: Row<'_>,
     Scratch { variables, slopes, .. }: &mut Scratch,
     results: &mut ResultBatch,
-) -> Option<Conductance> {
-    let needs = tables.needs(row.state);
-    if let Some((against, needs)) = needs {
-        let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
-        if needs.abscissa && abscissa.is_none() {
-            return None;
-        }
-    }
+) {
     variables.clear();
-    for (index, source) in tables.variables.iter().enumerate() {
+    variables.extend(tables.variables.iter().map(|source| {
         let value = source.as_ref().and_then(|source| row.fetch(source, mean));
-        if value.is_none() && needs.is_some_and(|(_, needs)| needs.variables.contains(&index)) {
-            return None;
-        }
-        variables.push(value.unwrap_or(f64::NAN));
-    }
+        value.unwrap_or(f64::NAN)
+    }));
+    slopes.clear();
+    slopes.resize(variables.len(), 0.0);
     let point = ContactPoint {
         clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
         pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
         state: row.state,
         variables,
     };
-    let conductance = tables.tables.conductance(&point);
-    if !slots_of_slopes.is_empty() {
-        slopes.clear();
-        slopes.resize(variables.len(), 0.0);
-        let point = ContactPoint { variables, ..point };
-        let along_contact = tables.tables.slopes(&point, slopes);
-        for (slot, along) in slots_of_slopes {
-            let slope = match along {
-                Along::Clearance => Some(along_contact.clearance),
-                Along::Pressure => Some(along_contact.pressure),
-                Along::Temperature => slopes.first().copied(),
-                Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
-                Along::PorePressure => None,
-            };
-            results.set(Some(*slot), row.index, slope);
-        }
+    let along_contact = tables.tables.slopes(&point, slopes);
+    for (slot, along) in slots {
+        let slope = match along {
+            Along::Clearance => Some(along_contact.clearance),
+            Along::Pressure => Some(along_contact.pressure),
+            Along::Temperature => slopes.first().copied(),
+            Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
+            Along::PorePressure => None,
+        };
+        results.set(Some(*slot), row.index, slope);
     }
-    Some(conductance)
 }
 
 /// Current and heat, where the row has a jump of potential.
 fn evaluate_flow(
     law: &CompiledElectrical,
     row: Row<'_>,
-    conductance: Conductance,
+    found: &RowConductance,
     history: Option<&mut ElectricalHistory>,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
@@ -133,7 +129,11 @@ fn evaluate_flow(
             jump_at_start: increment.as_ref().map_or(jump, |increment| increment.jump_at_start),
         },
     };
-    let flow = flow(conductance.value, jump, dissipation, law.heat_generation);
+    let generation = law.heat_generation;
+    let flow = match law.accuracy {
+        Accuracy::Reference => reference_flow((found.conductance.value, found.rest), jump, dissipation, generation),
+        Accuracy::Full | Accuracy::Fast => flow(found.conductance.value, jump, dissipation, generation),
+    };
     let slots = &law.slots;
     let mut set = |slot, value| results.set(slot, row.index, value);
     // No current is 0, not −0.

@@ -19,7 +19,7 @@ impl InteractionPlan {
     }
 
     /// Whether a user's routine gives the conductance.
-    fn has_user(&self) -> bool {
+    pub(super) fn has_user(&self) -> bool {
         self.electrical.as_ref().is_some_and(|law| law.user.is_some())
     }
 
