@@ -3,10 +3,13 @@
 mod evaluate_support;
 
 use evaluate_support::{Run, evaluate, evaluate_with};
+use inpact_evaluation::accuracy::Accuracy;
 use inpact_evaluation::law::user::{
     UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserLaw, UserNames,
 };
+use inpact_evaluation::nodes::Column;
 use inpact_evaluation::plan::{Choices, Derivatives};
+use inpact_evaluation::results::Output;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex};
 
@@ -179,4 +182,36 @@ fn tables_beside_user_are_ignored_and_another_interaction_keeps_its_own() {
     assert_eq!(run.column("dconductance_dtemp"), ["", "3", ""]);
     assert_eq!(run.column("dconductance_dclearance"), ["-1", "", "-1"]);
     assert_eq!(calls.lines().count(), 1);
+}
+
+#[test]
+fn outputs_by_name_and_accuracy_change_nothing_for_the_routine() {
+    let nodes =
+        "node,time,clearance,temp_s,temp_m,x_s,epot_s,epot_m,area\n3,1,0.5,20,30,9,1,0,2\n4,1,1.5,20,30,8,1,0,2\n";
+    let (all, calls) = run(nodes);
+    for accuracy in [Accuracy::Reference, Accuracy::Full] {
+        let law = Linear::default();
+        let calls_of_one = law.calls.clone();
+        let user_conductance = Some(UserLaw::new(law));
+        let outputs = Some(vec![Output::Conductance]);
+        let choices = Choices { user_conductance, outputs, accuracy, ..Choices::default() };
+        let one = evaluate_with(DECK, nodes, &choices, 1024);
+        assert_eq!(one.header(), "node,time,conductance");
+        assert_eq!(one.column("conductance"), all.column("conductance"));
+        // Every row is open, so contact needs no column; the routine needs the clearance all the same.
+        assert_eq!(*calls_of_one.lock().expect("no call panicked"), calls);
+        let read = one.plan.expect("the table is right").selection.numbers;
+        assert!(!read.iter().any(|column| matches!(column, Column::Potential(_) | Column::Area)), "{read:?}");
+    }
+}
+
+#[test]
+fn a_table_without_rows_or_with_a_thousand_field_variables_is_planned() {
+    let header: Vec<String> = (1..=1000).map(|number| format!("fv{number}")).collect();
+    let header = format!("clearance,temp,{}", header.join(","));
+    let (empty, calls) = run(&format!("{header}\n"));
+    assert_eq!((empty.csv.lines().count(), calls.as_str()), (1, ""));
+    let cells: Vec<String> = (1..=1000).map(|number| number.to_string()).collect();
+    let (_, calls) = run(&format!("{header}\n0,20,{}\n", cells.join(",")));
+    assert!(calls.contains("[999.0, 999.0], [1000.0, 1000.0]] time"), "all thousand are handed over");
 }

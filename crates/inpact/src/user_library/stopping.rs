@@ -40,7 +40,7 @@ extern "C" fn tell() {
         return;
     }
     say(&format!(
-        "error: user subroutine GAPELECTR ended the program (STOP) when it was called for node {node}; the result is not whole"
+        "error: user subroutine GAPELECTR ended the program (by STOP or an error of the Fortran runtime) when it was called for node {node}; the result is not whole"
     ));
     // SAFETY: it takes a number and does not return.
     unsafe { _exit(2) }
