@@ -84,6 +84,8 @@ pub(crate) struct CompiledTables {
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledPore {
     pub(crate) law: PoreLaw,
+    /// The table of permeabilities as it is evaluated.
+    pub(crate) form: Option<TableForm>,
     pub(crate) regime: Regime,
     /// What the permeability needs; variable 0 is the mean pore pressure, which is always there.
     pub(crate) needs: Needs,
@@ -284,6 +286,7 @@ impl Compiler<'_> {
         let table = tables.permeability().zip(plan.table.as_ref());
         let table = table.map(|(table, planned)| folded_as_planned(table, planned));
         let needs = table.as_ref().map(Needs::of).unwrap_or_default();
+        let form = table.clone().map(|table| TableForm::new(table, choices.accuracy));
         let permeability = table.map_or(Permeability::Infinite, Permeability::Finite);
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),
@@ -293,6 +296,7 @@ impl Compiler<'_> {
         let (slave, master) = sides(Column::PorePressure)?;
         let length = self.place(Column::CharacteristicLength);
         Some(CompiledPore {
+            form,
             law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
             regime: plan.regime.regime,
             needs,

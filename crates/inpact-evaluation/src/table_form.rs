@@ -20,6 +20,17 @@ enum Means {
     Reference,
 }
 
+/// The value of a table at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundValue {
+    /// The value, rounded.
+    pub value: f64,
+    /// What rounding took away, where the form knows it.
+    pub rest: Option<f64>,
+    /// Where the point lies outside the table.
+    pub sides: Sides,
+}
+
 /// The values of a table in some rows.
 #[derive(Clone, Debug, Default)]
 pub struct TableValues {
@@ -58,16 +69,21 @@ impl TableForm {
             for (axis, other) in others.iter_mut().enumerate() {
                 *other = coordinate(axis + 1);
             }
-            let (value, sides) = self.table.value_and_sides_at(first, &others);
+            let FoundValue { value, rest, sides } = self.value_at(first, &others);
+            found.values.push(value);
+            found.rests.extend(rest);
             found.sides.push(sides);
-            match self.means {
-                Means::Full => found.values.push(value),
-                Means::Reference => {
-                    let (value, rest) =
-                        self.table.reference_at(first, &others).map_or((f64::NAN, 0.0), Scaled::to_pair);
-                    found.values.push(value);
-                    found.rests.push(rest);
-                }
+        }
+    }
+
+    /// The value at one point.
+    pub fn value_at(&self, first: f64, others: &[f64]) -> FoundValue {
+        let (value, sides) = self.table.value_and_sides_at(first, others);
+        match self.means {
+            Means::Full => FoundValue { value, rest: None, sides },
+            Means::Reference => {
+                let (value, rest) = self.table.reference_at(first, others).map_or((f64::NAN, 0.0), Scaled::to_pair);
+                FoundValue { value, rest: Some(rest), sides }
             }
         }
     }
