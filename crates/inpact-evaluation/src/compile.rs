@@ -1,9 +1,12 @@
 //! From a plan to laws that can be evaluated: tables compiled, columns turned into places of a batch.
 
+mod user;
+
+pub(crate) use user::CompiledUser;
+
 use crate::accuracy::Accuracy;
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
-use crate::law::electrical::ElectricalLaw;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
@@ -43,23 +46,39 @@ pub(crate) struct InteractionLaws {
 /// The electrical law with its places.
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledElectrical {
-    pub(crate) law: ElectricalLaw,
-    /// The table against clearance as it is evaluated.
-    pub(crate) clearance_form: Option<TableForm>,
-    /// The table against contact pressure as it is evaluated.
-    pub(crate) pressure_form: Option<TableForm>,
+    pub(crate) conductance: ConductanceSource,
+    pub(crate) heat_generation: HeatGeneration,
     pub(crate) accuracy: Accuracy,
     pub(crate) regime: Regime,
-    /// What the table against clearance needs.
-    pub(crate) clearance: Needs,
-    /// What the table against contact pressure needs.
-    pub(crate) pressure: Needs,
-    pub(crate) variables: Vec<Option<Source<usize>>>,
     pub(crate) jump: Option<Source<usize>>,
     pub(crate) area: Option<usize>,
     pub(crate) history: History,
     pub(crate) slots: ElectricalSlots,
     pub(crate) slopes: Vec<(usize, Along)>,
+}
+
+/// What gives the electrical conductance.
+#[derive(Debug, Clone)]
+pub(crate) enum ConductanceSource {
+    /// Tables of the deck.
+    Tables(Box<CompiledTables>),
+    /// A routine of the user's.
+    User(Box<CompiledUser>),
+}
+
+/// The tables of the electrical conductance with their places.
+#[derive(Debug, Clone)]
+pub(crate) struct CompiledTables {
+    pub(crate) tables: ConductanceTables,
+    /// The table against clearance as it is evaluated.
+    pub(crate) clearance_form: Option<TableForm>,
+    /// The table against contact pressure as it is evaluated.
+    pub(crate) pressure_form: Option<TableForm>,
+    /// What the table against clearance needs.
+    clearance: Needs,
+    /// What the table against contact pressure needs.
+    pressure: Needs,
+    pub(crate) variables: Vec<Option<Source<usize>>>,
 }
 
 /// The pore fluid law with its places.
@@ -216,6 +235,35 @@ impl Compiler<'_> {
         tables: &InteractionTables,
         choices: &Choices,
     ) -> Option<CompiledElectrical> {
+        let conductance = match (&plan.user, &choices.user_conductance) {
+            (Some(user), Some(law)) => {
+                ConductanceSource::User(Box::new(CompiledUser::new(user, &self.plan.selection, law)?))
+            }
+            _ => ConductanceSource::Tables(Box::new(self.electrical_tables(plan, tables, choices)?)),
+        };
+        let slopes = self.of.outputs.iter().filter_map(|output| match output {
+            Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
+            _ => None,
+        });
+        Some(CompiledElectrical {
+            conductance,
+            heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
+            accuracy: choices.accuracy,
+            regime: plan.regime.regime,
+            jump: self.source(plan.jump),
+            area: plan.area.and_then(|column| self.place(column)),
+            history: plan.history,
+            slots: ElectricalSlots::new(|output| self.slot(output)),
+            slopes: slopes.collect(),
+        })
+    }
+
+    fn electrical_tables(
+        self,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<CompiledTables> {
         let table = |against| {
             let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
             let planned = plan.tables.iter().find(|planned| planned.against == against);
@@ -227,33 +275,19 @@ impl Compiler<'_> {
         let [clearance_needs, pressure_needs] = needs;
         let forms = [&clearance, &pressure].map(|table| Some(TableForm::new(table.clone()?, choices.accuracy)));
         let [clearance_form, pressure_form] = forms;
-        let conductance = match (clearance, pressure) {
+        let tables = match (clearance, pressure) {
             (Some(clearance), None) => ConductanceTables::Clearance(clearance),
             (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
             (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
             (None, None) => return None,
         };
-        let slopes = self.of.outputs.iter().filter_map(|output| match output {
-            Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
-            _ => None,
-        });
-        Some(CompiledElectrical {
-            law: ElectricalLaw {
-                conductance,
-                heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
-            },
+        Some(CompiledTables {
+            tables,
             clearance_form,
             pressure_form,
-            accuracy: choices.accuracy,
-            regime: plan.regime.regime,
             clearance: clearance_needs,
             pressure: pressure_needs,
             variables: self.sources(&plan.variables),
-            jump: self.source(plan.jump),
-            area: plan.area.and_then(|column| self.place(column)),
-            history: plan.history,
-            slots: ElectricalSlots::new(|output| self.slot(output)),
-            slopes: slopes.collect(),
         })
     }
 
@@ -304,11 +338,11 @@ impl Needs {
     }
 }
 
-impl CompiledElectrical {
+impl CompiledTables {
     /// What a row in this state needs; `None` where no table is in force.
     #[inline]
     pub(crate) fn needs(&self, state: ContactState) -> Option<(Along, &Needs)> {
-        match (&self.law.conductance, state) {
+        match (&self.tables, state) {
             (ConductanceTables::Clearance(_), _) | (ConductanceTables::Both { .. }, ContactState::Open) => {
                 Some((Along::Clearance, &self.clearance))
             }

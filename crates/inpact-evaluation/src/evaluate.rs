@@ -13,11 +13,13 @@ mod electrical;
 mod pore;
 mod tally;
 mod thermal;
+mod user;
 
-pub use tally::{AxisTally, InteractionTally, Tally};
+pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
 
 use self::conductances::Conductances;
-use crate::compile::Laws;
+use self::electrical::Scratch;
+use crate::compile::{CompiledTables, ConductanceSource, InteractionLaws, Laws};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::contact::ContactState;
 use crate::nodes::{Batch, NodeIndex};
@@ -36,10 +38,7 @@ pub struct Evaluation<'a> {
     /// The interaction and the state of each row of a batch; `None` where there is no interaction with a law.
     governed: Vec<Option<(usize, Option<ContactState>)>>,
     conductances: Conductances,
-    /// Temperatures and field variables of a row.
-    variables: Vec<f64>,
-    /// Slopes along them.
-    slopes: Vec<f64>,
+    scratch: Scratch,
 }
 
 /// What a node's rows so far add up to.
@@ -63,12 +62,14 @@ struct Row<'a> {
 }
 
 /// What came of a law in a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Outcome {
     /// The row lacks a number that the law needs.
     Incomplete,
     /// It was evaluated, and this is the row's status as far as it goes.
     Evaluated(Option<Status>),
+    /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
+    Faulty(Option<UserFaultInRow>),
 }
 
 impl<'a> Evaluation<'a> {
@@ -82,8 +83,7 @@ impl<'a> Evaluation<'a> {
             tally: Tally::new(plan, model.interactions.len()),
             governed: Vec::new(),
             conductances: Conductances::default(),
-            variables: Vec::new(),
-            slopes: Vec::new(),
+            scratch: Scratch::default(),
         }
     }
 
@@ -116,11 +116,11 @@ impl<'a> Evaluation<'a> {
             };
             let state = laws.contact.state(batch, index);
             self.governed.push(Some((interaction, state)));
-            if let (Some(law), Some(state)) = (&laws.electrical, state) {
+            if let (Some(law), Some(state)) = (laws.conductance_tables(), state) {
                 self.conductances.take(interaction, law, Row::new(batch, index, state, laws.contact, self.laws.time));
             }
         }
-        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.electrical.as_ref());
+        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.conductance_tables());
     }
 
     fn evaluate_row(&mut self, batch: &Batch, index: usize, results: &mut ResultBatch) {
@@ -148,36 +148,50 @@ impl<'a> Evaluation<'a> {
             }
             None => None,
         };
-        let scratch = (&mut self.variables, &mut self.slopes);
-        let mut outcomes = [None; 3];
+        let scratch = &mut self.scratch;
+        let mut outcomes = [None, None, None];
         let mut heat_of_current = None;
         if let Some(law) = &laws.electrical {
             let history = history.as_mut().map(|history| &mut history.electrical);
             let conductance = self.conductances.of_row(index);
-            let scratch = (&mut *scratch.0, &mut *scratch.1);
             let evaluated = electrical::evaluate(law, row, conductance, history, scratch, results, tally);
-            (outcomes[0], heat_of_current) = (Some(evaluated.0), evaluated.1);
+            heat_of_current = evaluated.1;
+            outcomes[0] = Some(evaluated.0);
         }
         if let Some(law) = &laws.thermal {
             let history = history.as_mut().map(|history| &mut history.thermal);
-            let scratch = (&mut *scratch.0, &mut *scratch.1);
+            let scratch = (&mut scratch.variables, &mut scratch.slopes);
             outcomes[2] = Some(thermal::evaluate(law, row, heat_of_current, history, scratch, results, tally));
         }
         if let Some(law) = &laws.pore {
             let history = history.as_mut().map(|history| &mut history.pore);
-            outcomes[1] = Some(pore::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+            outcomes[1] =
+                Some(pore::evaluate(law, row, history, (&mut scratch.variables, &mut scratch.slopes), results, tally));
+        }
+        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
+        if let Some(Outcome::Faulty(Some(told))) = &outcomes[0] {
+            self.tally.user_faults.push(told.clone());
         }
         let status = outcomes.into_iter().flatten().filter_map(Outcome::status).max();
-        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
         tally.count_status(status);
         results.status[index] = status;
+    }
+}
+
+impl InteractionLaws {
+    /// The tables of the electrical conductance, where tables give it.
+    fn conductance_tables(&self) -> Option<&CompiledTables> {
+        match &self.electrical.as_ref()?.conductance {
+            ConductanceSource::Tables(tables) => Some(tables),
+            ConductanceSource::User(_) => None,
+        }
     }
 }
 
 impl Outcome {
     fn status(self) -> Option<Status> {
         match self {
-            Self::Incomplete => None,
+            Self::Incomplete | Self::Faulty(_) => None,
             Self::Evaluated(status) => status,
         }
     }

@@ -30,6 +30,7 @@ mod survey;
 mod tables;
 mod thermal;
 mod thermal_tables;
+mod user;
 mod wanted;
 
 pub use choices::{Choices, Derivatives};
@@ -42,6 +43,7 @@ pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
 pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
 pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
+pub use user::UserPlan;
 
 pub(crate) use folding::folded_as_planned;
 pub(crate) use survey::ContactPlaces;
@@ -126,8 +128,10 @@ pub struct ContactColumns {
 pub struct ElectricalPlan {
     /// Steady state or transient, and why.
     pub regime: RegimeInForce,
-    /// The tables that rows reach.
+    /// The tables that rows reach; none where a user's routine gives the conductance.
     pub tables: Vec<TablePlan>,
+    /// What a user's routine is called with, where it gives the conductance.
+    pub user: Option<UserPlan>,
     /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat: Option<HeatGeneration>,
     /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.

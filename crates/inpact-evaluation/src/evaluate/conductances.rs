@@ -1,7 +1,7 @@
 //! The conductances of a batch: its rows are gathered by the table that they read, each table is evaluated over columns, and the values go back to their rows.
 
 use super::Row;
-use crate::compile::CompiledElectrical;
+use crate::compile::CompiledTables;
 use crate::law::conductance::{Branch, Conductance};
 use crate::law::contact::ContactState;
 use crate::numbers::mean;
@@ -47,7 +47,7 @@ impl Conductances {
 
     /// Takes a row of an interaction; one that lacks a number which its table needs gets no conductance.
     #[inline]
-    pub(super) fn take(&mut self, interaction: usize, law: &CompiledElectrical, row: Row<'_>) {
+    pub(super) fn take(&mut self, interaction: usize, law: &CompiledTables, row: Row<'_>) {
         let Some((against, needs)) = law.needs(row.state) else {
             // Open with a table against pressure alone: no table holds, nothing is conducted (section 4.2).
             let value = if row.state == ContactState::Undetermined { f64::NAN } else { 0.0 };
@@ -83,7 +83,7 @@ impl Conductances {
     }
 
     /// Evaluates the tables of all interactions for the rows taken.
-    pub(super) fn finish<'a>(&mut self, law_of: impl Fn(usize) -> Option<&'a CompiledElectrical>) {
+    pub(super) fn finish<'a>(&mut self, law_of: impl Fn(usize) -> Option<&'a CompiledTables>) {
         for interaction in std::mem::take(&mut self.met) {
             if let Some(law) = law_of(interaction) {
                 self.evaluate(interaction, law);
@@ -91,7 +91,7 @@ impl Conductances {
         }
     }
 
-    fn evaluate(&mut self, interaction: usize, law: &CompiledElectrical) {
+    fn evaluate(&mut self, interaction: usize, law: &CompiledTables) {
         let tables = [(Branch::Clearance, &law.clearance_form), (Branch::Pressure, &law.pressure_form)];
         for (gathered, (branch, form)) in self.gathered[interaction].iter_mut().zip(tables) {
             let Some(form) = form.as_ref().filter(|_| !gathered.rows.is_empty()) else { continue };

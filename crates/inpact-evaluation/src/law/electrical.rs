@@ -50,17 +50,10 @@ impl ElectricalLaw {
     /// Current and heat for a conductance found with [`ConductanceTables::conductance`].
     #[inline]
     pub fn flow(&self, conductance: f64, jump: PotentialJump, dissipation: Dissipation) -> ElectricalFlow {
-        ElectricalFlow {
-            current_density: conductance * jump.0,
-            heat: generated_heat(conductance, jump, dissipation, self.heat_generation),
-        }
+        flow(conductance, jump, dissipation, self.heat_generation)
     }
-}
 
-impl ElectricalLaw {
-    /// [`Self::flow`] in twice the precision of f64, each result rounded once, for a conductance of `value` + `rest` from the reference kernel.
-    ///
-    /// Inputs that are infinite or NaN give what [`Self::flow`] gives.
+    /// [`reference_flow`] with the heat generation of this law.
     pub fn reference_flow(
         &self,
         value: f64,
@@ -68,16 +61,42 @@ impl ElectricalLaw {
         jump: PotentialJump,
         dissipation: Dissipation,
     ) -> ElectricalFlow {
-        let start = dissipation.jump_at_start(jump);
-        let HeatGeneration { fraction, slave_weight } = self.heat_generation;
-        if ![value, rest, jump.0, start.0, fraction, slave_weight].iter().all(|input| input.is_finite()) {
-            return self.flow(value, jump, dissipation);
-        }
-        let conductance = Scaled::new(value) + Scaled::new(rest);
-        ElectricalFlow {
-            current_density: (conductance * Scaled::new(jump.0)).to_f64(),
-            heat: scaled_heat(conductance, (jump.0, start.0), self.heat_generation),
-        }
+        reference_flow((value, rest), jump, dissipation, self.heat_generation)
+    }
+}
+
+/// Current and heat for a conductance, whatever gives it.
+#[inline]
+pub fn flow(
+    conductance: f64,
+    jump: PotentialJump,
+    dissipation: Dissipation,
+    generation: HeatGeneration,
+) -> ElectricalFlow {
+    ElectricalFlow {
+        current_density: conductance * jump.0,
+        heat: generated_heat(conductance, jump, dissipation, generation),
+    }
+}
+
+/// [`flow`] in twice the precision of f64, each result rounded once, for a conductance of `value` + `rest` from the reference kernel.
+///
+/// Inputs that are infinite or NaN give what [`flow`] gives.
+pub fn reference_flow(
+    (value, rest): (f64, f64),
+    jump: PotentialJump,
+    dissipation: Dissipation,
+    generation: HeatGeneration,
+) -> ElectricalFlow {
+    let start = dissipation.jump_at_start(jump);
+    let HeatGeneration { fraction, slave_weight } = generation;
+    if ![value, rest, jump.0, start.0, fraction, slave_weight].iter().all(|input| input.is_finite()) {
+        return flow(value, jump, dissipation, generation);
+    }
+    let conductance = Scaled::new(value) + Scaled::new(rest);
+    ElectricalFlow {
+        current_density: (conductance * Scaled::new(jump.0)).to_f64(),
+        heat: scaled_heat(conductance, (jump.0, start.0), generation),
     }
 }
 

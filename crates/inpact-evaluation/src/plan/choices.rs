@@ -2,6 +2,7 @@
 
 use crate::accuracy::Accuracy;
 use crate::law::pore::CutoffBoundary;
+use crate::law::user::UserLaw;
 use crate::results::Output;
 use crate::table::Tail;
 use inpact_parser::grammar::Dialect;
@@ -24,6 +25,8 @@ pub struct Choices {
     pub dialect: Dialect,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
+    /// The conductance of interactions with *GAP ELECTRICAL CONDUCTANCE, USER; without it they have no electrical law (U-3).
+    pub user_conductance: Option<UserLaw>,
     /// How exactly values are found.
     pub accuracy: Accuracy,
     /// The outputs that are asked for by name; `None` for all there are.

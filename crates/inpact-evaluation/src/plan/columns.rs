@@ -5,6 +5,7 @@ use super::reason::Reason;
 use super::survey::Survey;
 use super::{
     Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source, TablePlan,
+    UserPlan,
 };
 use crate::nodes::{Column, Part, Selection};
 use crate::results::Along;
@@ -23,6 +24,11 @@ impl InteractionPlan {
             .chain(conduction.map(named("thermal conductance")))
             .chain(radiation.map(named("view factor")))
             .chain(pore.map(named("permeability")))
+    }
+
+    /// Whether a user's routine gives the conductance.
+    pub(super) fn has_user(&self) -> bool {
+        self.electrical.as_ref().is_some_and(|law| law.user.is_some())
     }
 
     /// The columns whose numbers its rows need.
@@ -64,6 +70,8 @@ impl InteractionPlan {
             is_history |= law.history == History::ByTime;
             area = area.or(law.area);
         }
+        let users = self.electrical.iter().filter_map(|law| law.user.as_ref());
+        columns.extend(users.flat_map(UserPlan::columns));
         columns.extend(area);
         columns.extend(is_history.then_some(Column::Time));
         columns
@@ -98,7 +106,7 @@ fn role(
     let has_history = interactions.iter().any(|plan| plan.histories.is_some());
     let is_read = match column {
         Column::Interaction => survey.governed_by == GovernedBy::Column,
-        Column::Node => has_history,
+        Column::Node => has_history || interactions.iter().any(InteractionPlan::has_user),
         _ => selection.number(column).is_some(),
     };
     match (column.is_key(), is_read) {

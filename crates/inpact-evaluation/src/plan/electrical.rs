@@ -6,6 +6,7 @@ use super::reason::{Missing, Reason};
 use super::regime::regime;
 use super::source::{Source, whole_or_sides};
 use super::tables::{InteractionTables, electrical_axis, matters};
+use super::user::{UserPlan, plan_user};
 use super::wanted::columns_of;
 use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
 use crate::law::heat::HeatGeneration;
@@ -23,6 +24,7 @@ pub(super) fn plan_electrical(
     tables: &InteractionTables,
     outputs: &mut BTreeSet<Output>,
     left_out: &mut LeftOuts,
+    notes: &mut Vec<String>,
     dropped: &mut Vec<Dropped>,
 ) -> Option<ElectricalPlan> {
     const LAW: &str = "electrical law";
@@ -34,8 +36,17 @@ pub(super) fn plan_electrical(
         return None;
     };
     if option.user.is_some() {
-        left_out.push(LAW, Reason::NeedsUserSubroutine("GAPELECTR"));
-        return None;
+        if planner.choices.user_conductance.is_none() {
+            left_out.push(LAW, Reason::NeedsUserSubroutine("GAPELECTR"));
+            return None;
+        }
+        return match plan_user(planner, notes) {
+            Ok(user) => Some(plan_with_user(planner, user, outputs, left_out)),
+            Err(missing) => {
+                left_out.push(LAW, Reason::Missing(missing));
+                None
+            }
+        };
     }
     if let Some(error) = tables.electrical_error() {
         left_out.push(LAW, Reason::BrokenTable(error));
@@ -90,6 +101,7 @@ pub(super) fn plan_electrical(
     let mut plan = ElectricalPlan {
         regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
         tables,
+        user: None,
         heat,
         variables,
         jump: None,
@@ -103,6 +115,31 @@ pub(super) fn plan_electrical(
     }
     plan_flows(planner, &mut plan, outputs, left_out);
     Some(plan)
+}
+
+/// Plans the law with the conductance of a user's routine, which stands in the place of all tables (K-08).
+fn plan_with_user(
+    planner: Planner<'_>,
+    user: UserPlan,
+    outputs: &mut BTreeSet<Output>,
+    left_out: &mut LeftOuts,
+) -> ElectricalPlan {
+    let mut plan = ElectricalPlan {
+        regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
+        tables: Vec::new(),
+        user: Some(user),
+        heat: heat(planner, left_out),
+        variables: Vec::new(),
+        jump: None,
+        area: None,
+        history: History::None,
+    };
+    outputs.insert(Output::Conductance);
+    if planner.choices.derivatives == Derivatives::Given {
+        outputs.insert(Output::ConductanceSlope(Along::Temperature));
+    }
+    plan_flows(planner, &mut plan, outputs, left_out);
+    plan
 }
 
 /// Where the variables of the tables in use come from, or what is missing.

@@ -84,7 +84,7 @@ impl Planner<'_> {
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
         let mut dropped = Vec::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut dropped);
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut notes, &mut dropped);
         let thermal_tables = ThermalTables::of(self.model, self.interaction, self.choices.dialect);
         let thermal = plan_thermal(self, &thermal_tables, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);

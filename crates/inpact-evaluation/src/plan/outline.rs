@@ -138,6 +138,12 @@ impl InteractionPlan {
                 });
             }
         }
+        if self.has_user() {
+            // Whatever it costs, none of it can be cut.
+            let node = Node::leaf("conductance by GAPELECTR, whose cost is not known", 0.0);
+            before.parts.push(node.clone());
+            after.parts.push(node);
+        }
         for Dropped { what, cost, reason } in &self.dropped {
             before.parts.push(Node::leaf(what.clone(), share * cost));
             outline.cuts.push(Cut {

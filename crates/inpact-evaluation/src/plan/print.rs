@@ -71,6 +71,20 @@ fn write_electrical(law: &ElectricalPlan, formatter: &mut Formatter<'_>) -> fmt:
     for table in &law.tables {
         write_table("conductance", table, formatter)?;
     }
+    if let Some(user) = &law.user {
+        let names = &user.names;
+        let [interaction, slave, master] =
+            [names.interaction, names.slave, names.master].map(|name| name.text().into_owned());
+        writeln!(
+            formatter,
+            "    conductance by user subroutine GAPELECTR, without contact pressure (it has no such argument)"
+        )?;
+        writeln!(
+            formatter,
+            "      NPRED = {}, CINAME = `{interaction}`, SLNAME = `{slave}`, MSNAME = `{master}`",
+            user.field_variables.len()
+        )?;
+    }
     if let Some(heat) = law.heat {
         let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
         writeln!(formatter, "    heat: fraction {fraction}, slave weight {weight}")?;

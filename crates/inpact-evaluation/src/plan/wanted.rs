@@ -7,6 +7,7 @@ use super::regime::regime;
 use super::tables::{InteractionTables, electrical_axis, matters, pore_axis};
 use super::thermal::tells_of_friction;
 use super::thermal_tables::{ThermalTables, thermal_axis};
+use super::user::want_user;
 use crate::nodes::{Column, Header, Part};
 use crate::results::Along;
 use crate::table::PiecewiseTable;
@@ -29,6 +30,11 @@ pub(super) fn wanted_columns(
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
         want_electrical(&tables, choices, &mut wanted);
         want_thermal(interaction, &ThermalTables::of(model, interaction, choices.dialect), choices, &mut wanted);
+        let electrical = interaction.gap_electrical_conductance.as_ref();
+        if choices.user_conductance.is_some() && electrical.is_some_and(|option| option.user.is_some()) {
+            want_of_electrical_law(choices, &mut wanted);
+            want_user(header, &mut wanted);
+        }
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -49,12 +55,17 @@ fn want_of_any_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
     wanted.insert(Column::Time);
 }
 
+/// What every electrical law could use, whatever gives its conductance.
+fn want_of_electrical_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    want_of_any_law(choices, wanted);
+    if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {
+        wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
+    }
+}
+
 fn want_electrical(tables: &InteractionTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
     for (against, table) in tables.electrical() {
-        want_of_any_law(choices, wanted);
-        if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {
-            wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
-        }
+        want_of_electrical_law(choices, wanted);
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
     }
 }

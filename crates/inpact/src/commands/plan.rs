@@ -6,7 +6,7 @@ use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
     CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, GovernedBy, InteractionPlan, Node, Plan,
-    PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan,
+    PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan, UserPlan,
 };
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::Regime;
@@ -120,6 +120,7 @@ fn electrical(law: &ElectricalPlan) -> Value {
         "regime": regime(law.regime.regime),
         "reason": law.regime.to_string(),
         "tables": law.tables.iter().map(table).collect::<Vec<_>>(),
+        "user": law.user.as_ref().map(user),
         "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
         "potential_jump": law.jump.as_ref().map(columns),
     })
@@ -157,6 +158,16 @@ fn thermal(law: &ThermalPlan) -> Value {
         "friction": friction,
         "heat_of_current": law.current == CurrentHeat::Generated,
         "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
+    })
+}
+
+fn user(user: &UserPlan) -> Value {
+    json!({
+        "subroutine": "GAPELECTR",
+        "npred": user.field_variables.len(),
+        "ciname": user.names.interaction.text(),
+        "slname": user.names.slave.text(),
+        "msname": user.names.master.text(),
     })
 }
 

@@ -5,9 +5,11 @@ use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
+use crate::user_library;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::accuracy::Accuracy;
 use inpact_evaluation::law::pore::CutoffBoundary;
+use inpact_evaluation::law::user::UserLaw;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey};
 use inpact_evaluation::results::Output;
@@ -56,6 +58,15 @@ pub(crate) struct SceneArguments {
     /// Give the slopes of conductances and permeability as well.
     #[arg(long)]
     derivatives: bool,
+    /// A shared library with the user subroutine GAPELECTR, compiled with
+    /// `gfortran -shared -fPIC -o gapelectr.so gapelectr.f`, for *GAP ELECTRICAL CONDUCTANCE, USER.
+    ///
+    /// It is loaded and run only when it is named here, and when an interaction of the deck has such a conductance.
+    /// `INCLUDE 'ABA_PARAM.INC'` reads a file beside the source with one line, `      IMPLICIT REAL*8 (A-H,O-Z)`.
+    /// It is native code: inpact cannot stop it from harm, and a crash in it ends the program.
+    /// What it writes to unit 6 comes out on standard output: write the result to a file with `-o`.
+    #[arg(long, value_name = "FILE")]
+    user_library: Option<PathBuf>,
     #[command(flatten)]
     reading: DeckArguments,
 }
@@ -137,7 +148,7 @@ impl SceneArguments {
         if model.interactions.is_empty() {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
-        let choices = self.choices(grammar.dialect());
+        let choices = self.choices(&model, grammar.dialect())?;
         let nodes_name = self.nodes.display().to_string();
         let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
@@ -161,8 +172,8 @@ impl SceneArguments {
         Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
 
-    fn choices(&self, dialect: Dialect) -> Choices {
-        Choices {
+    fn choices(&self, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
+        Ok(Choices {
             interaction: self.interaction.as_deref().map(Name::new),
             regime: self.procedure.map(|procedure| match procedure {
                 Procedure::Steady => Regime::SteadyState,
@@ -184,7 +195,20 @@ impl SceneArguments {
                 AccuracyChoice::Full => Accuracy::Full,
             },
             outputs: self.outputs.clone(),
+            user_conductance: self.user_conductance(model)?,
+        })
+    }
+
+    /// The routine of `--user-library`, loaded only if an interaction of the deck asks for one.
+    fn user_conductance(&self, model: &Model) -> Result<Option<UserLaw>, Failure> {
+        let Some(path) = &self.user_library else { return Ok(None) };
+        let electrical = model.interactions.values().filter_map(|of| of.gap_electrical_conductance.as_ref());
+        if electrical.filter(|option| option.user.is_some()).count() == 0 {
+            let path = path.display();
+            say(&format!("warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `{path}` is not loaded"));
+            return Ok(None);
         }
+        user_library::load(path).map(Some)
     }
 
     /// Slopes are planned where they are asked for in general or by name.
