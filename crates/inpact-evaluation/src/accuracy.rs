@@ -7,9 +7,26 @@
 //! Rules of evaluation are those of [`crate::table`]: T-04 to T-07, constant ends, [`Tail::Zero`](crate::table::Tail), NaN in gives NaN out.
 //! Knows tables and numbers, no plan, no column names, no files.
 
+mod approximation;
+mod choose;
+mod cost;
+mod flat;
+mod grid;
+mod number;
 mod reference;
+mod refusal;
+mod registers;
+mod running;
+mod search;
+mod spread;
 
-use crate::table::PiecewiseTable;
+pub use approximation::{Approximation, Form};
+pub use choose::{Candidate, Choice, FAST_TOLERANCE, Method, Tolerance, Wanted, choose};
+pub use cost::{Shape, cost};
+pub use grid::commensurate_cells;
+pub use refusal::Refusal;
+
+use crate::table::{AxisSummary, PiecewiseTable};
 
 /// The accuracy a user asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,10 +70,18 @@ impl ErrorBound {
 /// so the pointwise bound of such a table is infinite.
 pub fn full_bound(table: &PiecewiseTable) -> ErrorBound {
     let axes = table.axes().iter().filter(|axis| axis.matters()).count();
-    if axes == 0 {
+    bound_in_ulps(table, if axes == 0 { 0.0 } else { axes as f64 + 1.0 })
+}
+
+/// The error bound of the reference: one rounding, and what 106 bits lack.
+pub fn reference_bound(table: &PiecewiseTable) -> ErrorBound {
+    bound_in_ulps(table, if table.axes().iter().any(AxisSummary::matters) { 0.501 } else { 0.0 })
+}
+
+fn bound_in_ulps(table: &PiecewiseTable, ulps: f64) -> ErrorBound {
+    if ulps == 0.0 {
         return ErrorBound::EXACT;
     }
-    let ulps = axes as f64 + 1.0;
     let relative = ulps * f64::EPSILON;
     let has_one_sign =
         table.values().iter().all(|&value| value >= 0.0) || table.values().iter().all(|&value| value <= 0.0);
