@@ -80,12 +80,13 @@ impl AxisSummary {
 
 /// One axis the value depends on: the abscissae of all its groups in row order.
 #[derive(Clone, Debug)]
-struct Level {
+pub(crate) struct Level {
     /// Which axis of the rows this is.
-    axis: usize,
-    knots: Vec<f64>,
+    pub(crate) axis: usize,
+    /// The abscissae.
+    pub(crate) knots: Vec<f64>,
     /// Knot j owns the knots `children[j]..children[j + 1]` of the level below. Empty in the innermost level, whose knot j owns row j.
-    children: Vec<usize>,
+    pub(crate) children: Vec<usize>,
 }
 
 impl PiecewiseTable {
@@ -99,6 +100,16 @@ impl PiecewiseTable {
             slopes: vec![KernelSlope::UNUSED],
             axes: Vec::new(),
         }
+    }
+
+    /// The axes the value depends on, fastest first.
+    pub(crate) fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// For each row the slope towards the next; of no meaning in the last row of a group.
+    pub(crate) fn slopes(&self) -> &[KernelSlope] {
+        &self.slopes
     }
 
     /// How many axes the rows have, those the value does not depend on included.
