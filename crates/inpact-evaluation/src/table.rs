@@ -105,6 +105,7 @@ impl AxisSummary {
 pub(crate) struct Level {
     /// Which axis of the rows this is.
     pub(crate) axis: usize,
+    /// The abscissae.
     pub(crate) knots: Vec<f64>,
     /// Knot j owns the knots `children[j]..children[j + 1]` of the level below. Empty in the innermost level, whose knot j owns row j.
     pub(crate) children: Vec<usize>,
@@ -122,6 +123,16 @@ impl PiecewiseTable {
             axes: Vec::new(),
             marks: None,
         }
+    }
+
+    /// The axes the value depends on, fastest first.
+    pub(crate) fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// For each row the slope towards the next; of no meaning in the last row of a group.
+    pub(crate) fn slopes(&self) -> &[KernelSlope] {
+        &self.slopes
     }
 
     /// How many axes the rows have, those the value does not depend on included.

@@ -135,9 +135,10 @@ impl fmt::Display for Reason {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Missing(missing) => missing.fmt(formatter),
-            Self::NeedsUserSubroutine(name) => {
-                write!(formatter, "needs user subroutine {name}; give it with `--user-library FILE`")
+            Self::NeedsUserSubroutine("GAPELECTR") => {
+                formatter.write_str("needs user subroutine GAPELECTR; give it with `--user-library FILE`")
             }
+            Self::NeedsUserSubroutine(name) => write!(formatter, "needs user subroutine {name}, which is not evaluated"),
             Self::NoKeyword(keyword) => write!(formatter, "the interaction has no *{keyword}"),
             Self::NoRows(keyword) => write!(formatter, "*{keyword} has no rows"),
             Self::BrokenTable(error) => write!(formatter, "its rows form no table: {error}"),
