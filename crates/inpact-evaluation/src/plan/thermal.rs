@@ -5,13 +5,14 @@
 //! Friction is another matter: most decks have *FRICTION and few node tables tell of slip, so HFL without it is given, and the plan says so.
 
 use super::electrical::table_plan;
+use super::folding::fold_and_choose;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::source::{Source, cell, whole_or_sides};
 use super::tables::matters;
 use super::thermal_tables::{ConductanceRows, RadiationFault, ThermalTables, thermal_axis};
 use super::wanted::columns_of;
-use super::{Derivatives, ElectricalPlan, History, TablePlan};
+use super::{AxisPlan, Derivatives, ElectricalPlan, History, TablePlan};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::{Along, Output};
@@ -267,7 +268,32 @@ fn conduction_of_tables(
         });
     }
     let tables = used.iter().map(|(against, table)| table_plan(table, |axis| thermal_axis(*against, axis)));
-    Ok(ConductionPlan { dialect: planner.choices.dialect, tables: tables.collect(), variables, mass_flow })
+    let mut plan = ConductionPlan { dialect: planner.choices.dialect, tables: tables.collect(), variables, mass_flow };
+    // The curves of CalculiX are no plain table, and are evaluated as they are.
+    if plan.dialect == Dialect::Abaqus {
+        let tables: Vec<&PiecewiseTable> = used.iter().map(|(_, table)| *table).collect();
+        fold_conduction(planner, &tables, &mut plan);
+    }
+    Ok(plan)
+}
+
+/// Folds the tables along what is the same in every row, and chooses their forms; what no table reads any more is left out.
+fn fold_conduction(planner: Planner<'_>, tables: &[&PiecewiseTable], plan: &mut ConductionPlan) {
+    let may_fold = planner.may_fold(|output| matches!(output, Output::ThermalConductanceSlope(_)));
+    let variables = &plan.variables;
+    for (table, of_table) in tables.iter().zip(&mut plan.tables) {
+        fold_and_choose(planner, table, of_table, |along| match along {
+            _ if !may_fold => None,
+            Along::Clearance => planner.constant_clearance(),
+            Along::Pressure => planner.constant_pressure(),
+            Along::Temperature => planner.constant_of((*variables.first()?)?),
+            Along::FieldVariable(number) => planner.constant_of((*variables.get(number as usize + 1)?)?),
+            Along::MassFlow | Along::PorePressure => None,
+        });
+    }
+    let is_read = |axis: usize| plan.tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    let sources = plan.variables.iter().enumerate();
+    plan.variables = sources.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
 }
 
 /// One column is enough: the mean, or the rate of one side.
