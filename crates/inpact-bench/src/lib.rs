@@ -3,9 +3,11 @@
 //! The generator writes decks and node tables of any size for measurements and tests.
 //! It knows the layout of decks and node tables, and none of the other crates: what they read is
 //! generated from the spec alone, so a mistake of theirs cannot hide in it.
+//! [`extremes`] runs the other crates and writes the page of what they make of extreme numbers.
 //! It holds no more in memory than the interfaces of a node table, whatever the size of the output.
 
 pub mod deck;
+pub mod extremes;
 pub mod interface;
 pub mod nodes;
 pub mod plate;
