@@ -8,7 +8,7 @@ use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
 use crate::plan::{
     Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
-    Plan, PorePlan, Rate, Source,
+    Plan, PorePlan, Rate, Source, folded_as_planned,
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
@@ -169,6 +169,7 @@ impl Compiler<'_> {
             clearance: place(columns.clearance),
             pressure: place(columns.pressure),
             closed: place(columns.closed),
+            state: columns.state,
         }
     }
 
@@ -192,14 +193,19 @@ impl Compiler<'_> {
     }
 
     fn electrical(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledElectrical> {
-        let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table);
+        let table = |against| {
+            let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
+            let planned = plan.tables.iter().find(|planned| planned.against == against);
+            // A table that no row reaches stays as it is: it says what kind of conductance this is.
+            Some(planned.map_or_else(|| table.clone(), |planned| folded_as_planned(table, planned)))
+        };
         let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
+        let needs = [&clearance, &pressure].map(|table| table.as_ref().map(Needs::of).unwrap_or_default());
+        let [clearance_needs, pressure_needs] = needs;
         let conductance = match (clearance, pressure) {
-            (Some(clearance), None) => ConductanceTables::Clearance(clearance.clone()),
-            (None, Some(pressure)) => ConductanceTables::Pressure(pressure.clone()),
-            (Some(clearance), Some(pressure)) => {
-                ConductanceTables::Both { clearance: clearance.clone(), pressure: pressure.clone() }
-            }
+            (Some(clearance), None) => ConductanceTables::Clearance(clearance),
+            (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
+            (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
             (None, None) => return None,
         };
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
@@ -212,8 +218,8 @@ impl Compiler<'_> {
                 heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
             },
             regime: plan.regime.regime,
-            clearance: clearance.map(Needs::of).unwrap_or_default(),
-            pressure: pressure.map(Needs::of).unwrap_or_default(),
+            clearance: clearance_needs,
+            pressure: pressure_needs,
             variables: self.sources(&plan.variables),
             jump: self.source(plan.jump),
             area: plan.area.and_then(|column| self.place(column)),
@@ -224,8 +230,10 @@ impl Compiler<'_> {
     }
 
     fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> Option<CompiledPore> {
-        let table = tables.permeability();
-        let permeability = table.map_or(Permeability::Infinite, |table| Permeability::Finite(table.clone()));
+        let table = tables.permeability().zip(plan.table.as_ref());
+        let table = table.map(|(table, planned)| folded_as_planned(table, planned));
+        let needs = table.as_ref().map(Needs::of).unwrap_or_default();
+        let permeability = table.map_or(Permeability::Infinite, Permeability::Finite);
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),
             _ => None,
@@ -236,7 +244,7 @@ impl Compiler<'_> {
         Some(CompiledPore {
             law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
             regime: plan.regime.regime,
-            needs: table.map(Needs::of).unwrap_or_default(),
+            needs,
             variables: self.sources(&plan.variables),
             slave,
             master,

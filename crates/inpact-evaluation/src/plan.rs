@@ -10,10 +10,12 @@
 //! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
 //! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
 
+mod asked;
 mod choices;
 mod columns;
 mod concern;
 mod electrical;
+mod folding;
 mod governing;
 mod make;
 mod pore;
@@ -34,14 +36,16 @@ pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
 pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
 
+pub(crate) use folding::folded_as_planned;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
 
+use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::Cutoffs;
 use crate::nodes::{Column, Findings, MISSING_COLUMN, Place, Selection};
 use crate::results::{Along, Output};
-use crate::table::Tail;
+use crate::table::{FoldRefusal, Tail};
 use inpact_parser::model::Name;
 
 /// What an evaluation does.
@@ -101,6 +105,8 @@ pub struct ContactColumns {
     pub pressure: Option<Column>,
     /// `closed`.
     pub closed: Option<Column>,
+    /// The state of every row, where there is only one: then the columns are read for the tables alone.
+    pub state: Option<ContactState>,
 }
 
 /// What the electrical law of an interaction works with.
@@ -202,6 +208,10 @@ pub struct TablePlan {
     pub ends_in_zero: bool,
     /// Its variables.
     pub axes: Vec<AxisPlan>,
+    /// How many rows are left of it once it is folded.
+    pub folded_rows: usize,
+    /// The variables that have one value and along which it could not be folded.
+    pub not_folded: Vec<(Along, FoldRefusal)>,
 }
 
 /// A variable of a table in use.
@@ -217,6 +227,10 @@ pub struct AxisPlan {
     pub points: usize,
     /// Whether the table's value depends on it; otherwise nothing of the node table is read for it.
     pub matters: bool,
+    /// Its value in every row, along which the table is folded.
+    pub fold: Option<f64>,
+    /// Whether the table no longer depends on it once others are folded.
+    pub is_idle: bool,
 }
 
 /// What becomes of a column of the node table.
@@ -254,7 +268,7 @@ impl Plan {
     /// Reports each column that something is left out for (D001): for a plan that leaves nothing to evaluate.
     pub fn report_missing(&self, findings: &mut Findings) {
         for interaction in &self.interactions {
-            for LeftOut { what, reason } in &interaction.left_out {
+            for LeftOut { what, reason, .. } in &interaction.left_out {
                 let Reason::Missing(missing) = reason else { continue };
                 let message = format!("{missing}, which the {what} of `{}` needs", interaction.name);
                 let place = Place { column: missing.columns.first().map(ToString::to_string), ..Place::default() };

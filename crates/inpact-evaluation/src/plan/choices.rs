@@ -1,6 +1,7 @@
 //! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
 
 use crate::law::pore::CutoffBoundary;
+use crate::results::Output;
 use crate::table::Tail;
 use inpact_parser::model::{Name, Regime};
 
@@ -19,6 +20,15 @@ pub struct Choices {
     pub cutoff_boundary: CutoffBoundary,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
+    /// The outputs that are asked for by name; `None` for all there are.
+    pub outputs: Option<Vec<Output>>,
+}
+
+impl Choices {
+    /// Whether one of these outputs is asked for, by name or because all are.
+    pub(super) fn asks_for(&self, outputs: &[Output]) -> bool {
+        self.outputs.as_ref().is_none_or(|asked| asked.iter().any(|output| outputs.contains(output)))
+    }
 }
 
 /// Whether the slopes of conductance and permeability come out (semantics 4.4).

@@ -3,11 +3,20 @@
 use super::choices::Choices;
 use super::reason::Reason;
 use super::survey::Survey;
-use super::{Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source};
+use super::{
+    Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source, TablePlan,
+};
 use crate::nodes::{Column, Part, Selection};
+use crate::results::Along;
 use inpact_parser::model::Regime;
 
 impl InteractionPlan {
+    /// The tables in use.
+    pub fn tables(&self) -> impl Iterator<Item = &TablePlan> {
+        let electrical = self.electrical.iter().flat_map(|law| &law.tables);
+        electrical.chain(self.pore.iter().filter_map(|law| law.table.as_ref()))
+    }
+
     /// The columns whose numbers its rows need.
     pub(super) fn columns_read(&self) -> Vec<Column> {
         let mut columns = Vec::new();
@@ -107,6 +116,7 @@ fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions
         Column::Potential(Part::Slave | Part::Master) if is_read_whole(Column::Potential(Part::Both), interactions) => {
             Reason::GivenBy(Column::Potential(Part::Both))
         }
+        _ if let Some(value) = folded_value(column, interactions) => Reason::Folded(value),
         Column::Temperature(_) | Column::FieldVariable(..) if electrical || pore().next().is_some() => {
             Reason::NoTableDepends
         }
@@ -115,8 +125,23 @@ fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions
         {
             Reason::SteadyState
         }
+        Column::Potential(_) | Column::Area if choices.outputs.is_some() => Reason::NotAsked,
         _ => Reason::NotNeeded,
     }
+}
+
+/// The value for which the tables are folded along the variable of a column.
+fn folded_value(column: Column, interactions: &[InteractionPlan]) -> Option<f64> {
+    let along = match column {
+        Column::Clearance => Along::Clearance,
+        Column::Pressure => Along::Pressure,
+        Column::Temperature(_) => Along::Temperature,
+        Column::FieldVariable(number, _) => Along::FieldVariable(number),
+        Column::PorePressure(_) => Along::PorePressure,
+        _ => return None,
+    };
+    let tables = interactions.iter().flat_map(InteractionPlan::tables);
+    tables.flat_map(|table| &table.axes).filter(|axis| axis.along == along).find_map(|axis| axis.fold)
 }
 
 /// Whether the column that stands for both sides is read.

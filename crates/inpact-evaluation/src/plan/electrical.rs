@@ -1,5 +1,6 @@
 //! The plan of the electrical law of one interaction.
 
+use super::folding::fold;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
@@ -65,9 +66,23 @@ pub(super) fn plan_electrical(
         }
     };
     let heat = heat(planner, left_out);
+    let mut tables: Vec<TablePlan> =
+        used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect();
+    if planner.may_fold(|output| matches!(output, Output::ConductanceSlope(_))) {
+        for ((_, table), plan) in used.iter().zip(&mut tables) {
+            fold(table, plan, |along| match along {
+                Along::Clearance => planner.constant_clearance(),
+                Along::Pressure => planner.constant_pressure(),
+                _ => planner.constant_of(variables[variable_index(along)?]?),
+            });
+        }
+    }
+    let is_read = |axis: usize| tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    let variables = variables.into_iter().enumerate();
+    let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
     let mut plan = ElectricalPlan {
         regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
-        tables: used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect(),
+        tables,
         heat,
         variables,
         jump: None,
@@ -168,6 +183,15 @@ fn plan_flows(
     }
 }
 
+/// The place of a temperature or a field variable among the variables of the law.
+fn variable_index(along: Along) -> Option<usize> {
+    match along {
+        Along::Temperature => Some(0),
+        Along::FieldVariable(number) => Some(number as usize),
+        Along::Clearance | Along::Pressure | Along::PorePressure => None,
+    }
+}
+
 fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: &PiecewiseTable) -> TablePlan {
     let rows = if against == Along::Clearance { &option.clearance } else { &option.pressure };
     let ends_in_zero = rows.as_ref().is_some_and(|rows| rows.groups().all(|group| rows.row(group.end - 1)[0] == 0.0));
@@ -182,6 +206,8 @@ pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
         greatest: summary.greatest,
         points: summary.distinct_count,
         matters: summary.matters(),
+        fold: None,
+        is_idle: false,
     });
     TablePlan {
         against: along(0),
@@ -189,5 +215,7 @@ pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
         tail: table.tail(),
         ends_in_zero: false,
         axes: axes.collect(),
+        folded_rows: table.row_count(),
+        not_folded: Vec::new(),
     }
 }

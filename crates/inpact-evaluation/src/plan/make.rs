@@ -1,6 +1,7 @@
 //! From a deck's model, a survey of a node table and the user's choices to the plan.
 
-use super::choices::Choices;
+use super::asked::keep_asked;
+use super::choices::{Choices, Derivatives};
 use super::columns::column_plans;
 use super::electrical::plan_electrical;
 use super::governing::GovernedBy;
@@ -63,13 +64,13 @@ pub(super) struct LeftOuts(pub(super) Vec<LeftOut>);
 impl LeftOuts {
     /// Leaves something out that has words of its own.
     pub(super) fn push(&mut self, what: impl Into<String>, reason: Reason) {
-        self.0.push(LeftOut { what: what.into(), reason });
+        self.0.push(LeftOut { what: what.into(), outputs: Vec::new(), reason });
     }
 
     /// Leaves outputs out; those left out for one reason stand together.
     pub(super) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
         let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
-        self.push(names.join(", "), reason);
+        self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
     }
 }
 
@@ -105,7 +106,7 @@ impl Planner<'_> {
         let uses_history = |history: Option<History>| history == Some(History::ByTime);
         let has_history = uses_history(electrical.as_ref().map(|law| law.history))
             || uses_history(pore.as_ref().map(|law| law.history));
-        InteractionPlan {
+        let mut plan = InteractionPlan {
             name: self.interaction.name.clone(),
             index: self.index,
             rows: self.of.rows,
@@ -118,7 +119,15 @@ impl Planner<'_> {
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
             notes,
-        }
+        };
+        keep_asked(&mut plan, self.choices);
+        plan
+    }
+
+    /// Whether tables may be folded: slopes along every axis are those of the whole table.
+    pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+        let asked = self.choices.outputs.as_ref();
+        self.choices.derivatives == Derivatives::LeftOut || asked.is_some_and(|asked| !asked.iter().any(is_slope))
     }
 
     pub(super) fn presence(self, column: Column) -> Presence {
@@ -138,6 +147,7 @@ impl Planner<'_> {
             clearance: found(Column::Clearance),
             pressure: found(Column::Pressure),
             closed: found(Column::Closed),
+            state: None,
         }
     }
 

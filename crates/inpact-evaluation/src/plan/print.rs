@@ -4,7 +4,7 @@ use super::{
     AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan,
     PorePlan, Rate, TablePlan,
 };
-use crate::results::push_number;
+use crate::results::number_text as number;
 use crate::table::Tail;
 use std::fmt::{self, Formatter};
 
@@ -110,14 +110,25 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
     };
     writeln!(formatter, "    {what} against {}: {}{tail}", table.against, count(table.rows as u64, "row"))?;
     for axis in &table.axes {
-        let AxisPlan { along, least, greatest, points, matters } = *axis;
+        let AxisPlan { along, least, greatest, points, matters, .. } = *axis;
+        let fold = match axis.fold {
+            Some(at) => format!(": folded at {}, the value of every row", number(at)),
+            None if axis.is_idle => ": makes no difference to what is left of the table".to_owned(),
+            None => match table.not_folded.iter().find(|(refused, _)| *refused == along) {
+                Some((_, refusal)) => format!(": one value in every row, yet not folded, as {refusal}"),
+                None => String::new(),
+            },
+        };
         let along = along.to_string();
         let range = match (matters, points) {
             (false, 1) => format!("{} in every row: left out", number(least)),
             (false, _) => format!("{} to {}, one value a group: left out", number(least), number(greatest)),
             (true, _) => format!("{} to {}, {points} values", number(least), number(greatest)),
         };
-        writeln!(formatter, "      {along:<10} {range}")?;
+        writeln!(formatter, "      {along:<10} {range}{fold}")?;
+    }
+    if table.axes.iter().any(|axis| axis.fold.is_some()) {
+        writeln!(formatter, "      {} left of it", count(table.folded_rows as u64, "row"))?;
     }
     Ok(())
 }
@@ -144,11 +155,4 @@ fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>
 /// `1 row`, `2 rows`.
 fn count(number: u64, word: &str) -> String {
     format!("{number} {word}{}", if number == 1 { "" } else { "s" })
-}
-
-/// A number in its shortest form.
-fn number(value: f64) -> String {
-    let mut text = Vec::new();
-    push_number(&mut text, value);
-    String::from_utf8_lossy(&text).into_owned()
 }

@@ -153,6 +153,8 @@ pub(crate) struct ContactPlaces {
     pub(crate) pressure: Option<usize>,
     /// `closed`.
     pub(crate) closed: Option<usize>,
+    /// The state of every row, where the plan knows it.
+    pub(crate) state: Option<ContactState>,
 }
 
 impl ContactPlaces {
@@ -161,6 +163,9 @@ impl ContactPlaces {
     /// `None` where the row has not enough to tell.
     #[inline]
     pub(crate) fn state(&self, batch: &Batch, row: usize) -> Option<ContactState> {
+        if self.state.is_some() {
+            return self.state;
+        }
         let number = |place: Option<usize>| batch.numbers[place?].get(row);
         if let Some(closed) = number(self.closed) {
             return Some(if closed == 0.0 { ContactState::Open } else { ContactState::Closed });
@@ -191,6 +196,7 @@ impl<'a> Surveyor<'a> {
                 clearance: selection.number(Column::Clearance),
                 pressure: selection.number(Column::Pressure),
                 closed: selection.number(Column::Closed),
+                state: None,
             },
             area: selection.number(Column::Area),
             properties: properties.collect(),

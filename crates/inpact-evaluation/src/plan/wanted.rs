@@ -1,5 +1,6 @@
 //! The columns of a node table that some law of a deck could use, before its rows are known.
 
+use super::asked::{ELECTRICAL_FLOWS, OF_AREA};
 use super::choices::Choices;
 use super::governing::GovernedBy;
 use super::regime::regime;
@@ -24,7 +25,7 @@ pub(super) fn wanted_columns(
     let mut wanted = BTreeSet::new();
     for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
-        want_electrical(&tables, &mut wanted);
+        want_electrical(&tables, choices, &mut wanted);
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -36,13 +37,21 @@ pub(super) fn wanted_columns(
     columns
 }
 
-/// What every law could use.
-const OF_ANY_LAW: [Column; 5] = [Column::Clearance, Column::Pressure, Column::Closed, Column::Area, Column::Time];
+/// What tells contact, area and time, as far as the outputs asked for need them.
+fn want_of_any_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    wanted.extend([Column::Clearance, Column::Pressure, Column::Closed]);
+    if choices.asks_for(&OF_AREA) {
+        wanted.insert(Column::Area);
+    }
+    wanted.insert(Column::Time);
+}
 
-fn want_electrical(tables: &InteractionTables, wanted: &mut BTreeSet<Column>) {
+fn want_electrical(tables: &InteractionTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
     for (against, table) in tables.electrical() {
-        wanted.extend(OF_ANY_LAW);
-        wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
+        want_of_any_law(choices, wanted);
+        if choices.asks_for(&ELECTRICAL_FLOWS) {
+            wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
+        }
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
     }
 }
@@ -58,7 +67,7 @@ fn want_pore(
     if option.is_none() && !model.procedures.iter().any(Procedure::solves_pore_pressure) {
         return;
     }
-    wanted.extend(OF_ANY_LAW);
+    want_of_any_law(choices, wanted);
     wanted.extend([Part::Slave, Part::Master].map(Column::PorePressure));
     if let Some(table) = tables.permeability() {
         want_variables(table, pore_axis, wanted);

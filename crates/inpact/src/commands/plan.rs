@@ -132,10 +132,16 @@ fn table(table: &TablePlan) -> Value {
             "least": axis.least,
             "greatest": axis.greatest,
             "values": axis.points,
-            "used": axis.matters,
+            "used": axis.is_read(),
+            "folded_at": axis.fold,
         })
     });
-    json!({ "against": table.against.to_string(), "rows": table.rows, "axes": axes.collect::<Vec<_>>() })
+    json!({
+        "against": table.against.to_string(),
+        "rows": table.rows,
+        "rows_evaluated": table.folded_rows,
+        "axes": axes.collect::<Vec<_>>(),
+    })
 }
 
 fn regime(regime: Regime) -> &'static str {

@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 use inpact_evaluation::law::pore::CutoffBoundary;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey};
+use inpact_evaluation::results::Output;
 use inpact_evaluation::table::Tail;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::grammar::Grammar;
@@ -45,6 +46,9 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
+    /// The outputs that are wanted, by the names of their columns; all that deck and node table give where there is none.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = output_named)]
+    outputs: Option<Vec<Output>>,
     /// Give the slopes of conductance and permeability as well.
     #[arg(long)]
     derivatives: bool,
@@ -132,6 +136,13 @@ impl SceneArguments {
         say_data_findings(findings.into_list(), format);
         let Some(surveyed) = surveyed.filter(|_| !has_errors) else { return Ok(None) };
         let plan = make(&model, &surveyed, &choices);
+        let mut unavailable = Findings::new(&nodes_name);
+        plan.report_unavailable(&choices, &mut unavailable);
+        let is_unavailable = unavailable.has_errors();
+        say_data_findings(unavailable.into_list(), format);
+        if is_unavailable {
+            return Ok(None);
+        }
         let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &plan, format);
         let deck_name = self.deck.display().to_string();
@@ -154,8 +165,16 @@ impl SceneArguments {
                 Boundary::Inclusive => CutoffBoundary::Inclusive,
                 Boundary::Exclusive => CutoffBoundary::Exclusive,
             },
-            derivatives: if self.derivatives { Derivatives::Given } else { Derivatives::LeftOut },
+            derivatives: self.derivatives(),
+            outputs: self.outputs.clone(),
         }
+    }
+
+    /// Slopes are planned where they are asked for in general or by name.
+    fn derivatives(&self) -> Derivatives {
+        let is_slope = |output: &Output| matches!(output, Output::ConductanceSlope(_) | Output::PermeabilitySlope(_));
+        let by_name = self.outputs.as_ref().is_some_and(|outputs| outputs.iter().any(is_slope));
+        if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
 
     /// Where the node table is, for a failure to read it.
@@ -261,6 +280,13 @@ fn json(found: &DataDiagnostic) -> String {
     };
     // A record of strings and numbers has no reason to fail.
     serde_json::to_string(&record).unwrap_or_default()
+}
+
+fn output_named(text: &str) -> Result<Output, String> {
+    Output::named(text).ok_or_else(|| {
+        let names: Vec<String> = Output::NAMED.iter().map(ToString::to_string).collect();
+        format!("there is no such output; there are {} and slopes such as dconductance_dtemp", names.join(", "))
+    })
 }
 
 fn positive_length(text: &str) -> Result<f64, String> {
