@@ -14,5 +14,12 @@ pub(super) struct Evaluator {
 }
 
 /// All of them.
-pub(super) const EVALUATORS: &[Evaluator] =
-    &[Evaluator { name: "`full`, scalar", of: |table| Some(Box::new(|point| table.value(point))) }];
+pub(super) const EVALUATORS: &[Evaluator] = &[
+    Evaluator { name: "`reference`", of: |table| Some(Box::new(|point| reference(table, point))) },
+    Evaluator { name: "`full`, scalar", of: |table| Some(Box::new(|point| table.value(point))) },
+];
+
+fn reference(table: &PiecewiseTable, point: &[f64]) -> f64 {
+    let (first, others) = point.split_first().map_or((f64::NAN, &[][..]), |(first, others)| (*first, others));
+    table.reference_value_at(first, others)
+}
