@@ -1,5 +1,6 @@
 //! From a plan to laws that can be evaluated: tables compiled, columns turned into places of a batch.
 
+use crate::accuracy::Accuracy;
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
 use crate::law::electrical::ElectricalLaw;
@@ -12,6 +13,7 @@ use crate::plan::{
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
+use crate::table_form::TableForm;
 use inpact_parser::model::{Model, Regime};
 
 /// The laws of a plan.
@@ -41,6 +43,11 @@ pub(crate) struct InteractionLaws {
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledElectrical {
     pub(crate) law: ElectricalLaw,
+    /// The table against clearance as it is evaluated.
+    pub(crate) clearance_form: Option<TableForm>,
+    /// The table against contact pressure as it is evaluated.
+    pub(crate) pressure_form: Option<TableForm>,
+    pub(crate) accuracy: Accuracy,
     pub(crate) regime: Regime,
     /// What the table against clearance needs.
     pub(crate) clearance: Needs,
@@ -58,6 +65,8 @@ pub(crate) struct CompiledElectrical {
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledPore {
     pub(crate) law: PoreLaw,
+    /// The table of permeabilities as it is evaluated.
+    pub(crate) form: Option<TableForm>,
     pub(crate) regime: Regime,
     /// What the permeability needs; variable 0 is the mean pore pressure, which is always there.
     pub(crate) needs: Needs,
@@ -136,7 +145,7 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
         let compiler = Compiler { plan, of: planned };
         interactions[planned.index] = Some(InteractionLaws {
             contact: compiler.contact(),
-            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables)),
+            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables, choices)),
             pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
         });
     }
@@ -192,7 +201,12 @@ impl Compiler<'_> {
         sources.iter().map(|source| self.source(*source)).collect()
     }
 
-    fn electrical(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledElectrical> {
+    fn electrical(
+        self,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<CompiledElectrical> {
         let table = |against| {
             let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
             let planned = plan.tables.iter().find(|planned| planned.against == against);
@@ -202,6 +216,8 @@ impl Compiler<'_> {
         let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
         let needs = [&clearance, &pressure].map(|table| table.as_ref().map(Needs::of).unwrap_or_default());
         let [clearance_needs, pressure_needs] = needs;
+        let forms = [&clearance, &pressure].map(|table| Some(TableForm::new(table.clone()?, choices.accuracy)));
+        let [clearance_form, pressure_form] = forms;
         let conductance = match (clearance, pressure) {
             (Some(clearance), None) => ConductanceTables::Clearance(clearance),
             (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
@@ -217,6 +233,9 @@ impl Compiler<'_> {
                 conductance,
                 heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
             },
+            clearance_form,
+            pressure_form,
+            accuracy: choices.accuracy,
             regime: plan.regime.regime,
             clearance: clearance_needs,
             pressure: pressure_needs,
@@ -233,6 +252,7 @@ impl Compiler<'_> {
         let table = tables.permeability().zip(plan.table.as_ref());
         let table = table.map(|(table, planned)| folded_as_planned(table, planned));
         let needs = table.as_ref().map(Needs::of).unwrap_or_default();
+        let form = table.clone().map(|table| TableForm::new(table, choices.accuracy));
         let permeability = table.map_or(Permeability::Infinite, Permeability::Finite);
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),
@@ -242,6 +262,7 @@ impl Compiler<'_> {
         let (slave, master) = sides(Column::PorePressure)?;
         let length = self.place(Column::CharacteristicLength);
         Some(CompiledPore {
+            form,
             law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
             regime: plan.regime.regime,
             needs,

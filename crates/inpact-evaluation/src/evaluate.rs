@@ -8,17 +8,19 @@
 //! the next increment then begins at the last row that had them all.
 //! Opens no file: batches in, batches out.
 
+mod conductances;
 mod electrical;
 mod pore;
 mod tally;
 
 pub use tally::{AxisTally, InteractionTally, Tally};
 
+use self::conductances::Conductances;
 use crate::compile::Laws;
 use crate::history::{ElectricalHistory, PoreHistory};
 use crate::law::contact::ContactState;
 use crate::nodes::{Batch, NodeIndex};
-use crate::plan::{History, Plan, RowInteractions, Source};
+use crate::plan::{ContactPlaces, History, Plan, RowInteractions, Source};
 use crate::results::{ResultBatch, Status};
 use inpact_parser::model::Model;
 
@@ -30,6 +32,9 @@ pub struct Evaluation<'a> {
     nodes: NodeIndex,
     histories: Vec<NodeHistory>,
     tally: Tally,
+    /// The interaction and the state of each row of a batch; `None` where there is no interaction with a law.
+    governed: Vec<Option<(usize, Option<ContactState>)>>,
+    conductances: Conductances,
     /// Temperatures and field variables of a row.
     variables: Vec<f64>,
     /// Slopes along them.
@@ -73,6 +78,8 @@ impl<'a> Evaluation<'a> {
             nodes: NodeIndex::default(),
             histories: Vec::new(),
             tally: Tally::new(plan, model.interactions.len()),
+            governed: Vec::new(),
+            conductances: Conductances::default(),
             variables: Vec::new(),
             slopes: Vec::new(),
         }
@@ -81,6 +88,7 @@ impl<'a> Evaluation<'a> {
     /// Evaluates the rows of a batch, which go on where the batch before ended.
     pub fn evaluate(&mut self, batch: &Batch, results: &mut ResultBatch) {
         results.reset(batch.rows, self.laws.result_columns);
+        self.find_conductances(batch);
         for row in 0..batch.rows {
             self.evaluate_row(batch, row, results);
         }
@@ -92,27 +100,39 @@ impl<'a> Evaluation<'a> {
         self.tally
     }
 
+    /// Finds interaction, contact and conductance of every row: the tables are evaluated over columns.
+    fn find_conductances(&mut self, batch: &Batch) {
+        let interactions = &self.laws.interactions;
+        self.conductances.begin(batch.rows, interactions.len());
+        self.governed.clear();
+        for index in 0..batch.rows {
+            let interaction = self.interactions.of_row(batch, index);
+            let laws = interaction.and_then(|interaction| Some((interaction, interactions[interaction].as_ref()?)));
+            let Some((interaction, laws)) = laws else {
+                self.governed.push(None);
+                continue;
+            };
+            let state = laws.contact.state(batch, index);
+            self.governed.push(Some((interaction, state)));
+            if let (Some(law), Some(state)) = (&laws.electrical, state) {
+                self.conductances.take(interaction, law, Row::new(batch, index, state, laws.contact, self.laws.time));
+            }
+        }
+        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.electrical.as_ref());
+    }
+
     fn evaluate_row(&mut self, batch: &Batch, index: usize, results: &mut ResultBatch) {
-        let Some(interaction) = self.interactions.of_row(batch, index) else { return };
+        let Some((interaction, state)) = self.governed[index] else { return };
         let Some(laws) = &self.laws.interactions[interaction] else { return };
         let tally = &mut self.tally.interactions[interaction];
         tally.rows += 1;
-        let state = laws.contact.state(batch, index);
         tally.closed += u64::from(state == Some(ContactState::Closed));
         tally.open += u64::from(state == Some(ContactState::Open));
         let Some(state) = state else {
             tally.incomplete += 1;
             return;
         };
-        let number = |place: Option<usize>| batch.numbers[place?].get(index);
-        let row = Row {
-            batch,
-            index,
-            state,
-            clearance: number(laws.contact.clearance),
-            pressure: number(laws.contact.pressure),
-            time: number(self.laws.time),
-        };
+        let row = Row::new(batch, index, state, laws.contact, self.laws.time);
         let keeps_history = laws.electrical.as_ref().is_some_and(|law| law.history == History::ByTime)
             || laws.pore.as_ref().is_some_and(|law| law.history == History::ByTime);
         let mut history = match self.laws.node.filter(|_| keeps_history && row.time.is_some()) {
@@ -129,7 +149,9 @@ impl<'a> Evaluation<'a> {
         let mut outcomes = [None; 2];
         if let Some(law) = &laws.electrical {
             let history = history.as_mut().map(|history| &mut history.electrical);
-            outcomes[0] = Some(electrical::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+            let conductance = self.conductances.of_row(index);
+            outcomes[0] =
+                Some(electrical::evaluate(law, row, conductance, history, (scratch.0, scratch.1), results, tally));
         }
         if let Some(law) = &laws.pore {
             let history = history.as_mut().map(|history| &mut history.pore);
@@ -151,7 +173,13 @@ impl Outcome {
     }
 }
 
-impl Row<'_> {
+impl<'a> Row<'a> {
+    fn new(batch: &'a Batch, index: usize, state: ContactState, contact: ContactPlaces, time: Option<usize>) -> Self {
+        let number = |place: Option<usize>| batch.numbers[place?].get(index);
+        let (clearance, pressure) = (number(contact.clearance), number(contact.pressure));
+        Self { batch, index, state, clearance, pressure, time: number(time) }
+    }
+
     fn number(&self, place: usize) -> Option<f64> {
         self.batch.numbers[place].get(self.index)
     }

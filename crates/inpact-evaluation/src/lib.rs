@@ -13,6 +13,8 @@ pub mod numbers;
 
 pub mod table;
 
+pub mod table_form;
+
 pub mod accuracy;
 
 pub mod law;

@@ -14,10 +14,12 @@ mod asked;
 mod choices;
 mod columns;
 mod concern;
+mod cost;
 mod electrical;
 mod folding;
 mod governing;
 mod make;
+mod outline;
 mod pore;
 mod print;
 mod reason;
@@ -31,6 +33,7 @@ pub use choices::{Choices, Derivatives};
 pub use concern::concerning;
 pub use governing::{GovernedBy, RowInteractions};
 pub use make::make;
+pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
@@ -92,6 +95,8 @@ pub struct InteractionPlan {
     pub outputs: Vec<Output>,
     /// What does not, and why.
     pub left_out: Vec<LeftOut>,
+    /// What of its laws was cut, with its cost.
+    pub dropped: Vec<Dropped>,
     /// What else there is to know.
     pub notes: Vec<String>,
 }

@@ -1,6 +1,8 @@
 //! The electrical law in one row.
 
+use super::conductances::RowConductance;
 use super::{InteractionTally, Outcome, Row, contact_status};
+use crate::accuracy::Accuracy;
 use crate::compile::CompiledElectrical;
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
@@ -18,60 +20,61 @@ const LOST_DIGITS: f64 = 1e-8;
 pub(super) fn evaluate(
     law: &CompiledElectrical,
     row: Row<'_>,
+    found: Option<RowConductance>,
     history: Option<&mut ElectricalHistory>,
-    (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
+    scratch: (&mut Vec<f64>, &mut Vec<f64>),
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
 ) -> Outcome {
-    let needs = law.needs(row.state);
-    if let Some((against, needs)) = needs {
-        let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
-        if needs.abscissa && abscissa.is_none() {
-            return Outcome::Incomplete;
-        }
+    let Some(found) = found else { return Outcome::Incomplete };
+    let conductance = found.conductance;
+    results.set(law.slots.conductance, row.index, Some(conductance.value));
+    results.set(law.slots.weight, row.index, Some(law.law.heat_generation.slave_weight));
+    if !law.slopes.is_empty() {
+        set_slopes(law, row, scratch, results);
     }
+    evaluate_flow(law, row, &found, history, results, tally);
+    Outcome::Evaluated(status(&conductance, row, tally))
+}
+
+/// The slopes of the conductance, one column each.
+fn set_slopes(
+    law: &CompiledElectrical,
+    row: Row<'_>,
+    (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
+    results: &mut ResultBatch,
+) {
     variables.clear();
-    for (index, source) in law.variables.iter().enumerate() {
+    variables.extend(law.variables.iter().map(|source| {
         let value = source.as_ref().and_then(|source| row.fetch(source, mean));
-        if value.is_none() && needs.is_some_and(|(_, needs)| needs.variables.contains(&index)) {
-            return Outcome::Incomplete;
-        }
-        variables.push(value.unwrap_or(f64::NAN));
-    }
+        value.unwrap_or(f64::NAN)
+    }));
+    slopes.clear();
+    slopes.resize(variables.len(), 0.0);
     let point = ContactPoint {
         clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
         pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
         state: row.state,
         variables,
     };
-    let conductance = law.law.conductance.conductance(&point);
-    results.set(law.slots.conductance, row.index, Some(conductance.value));
-    results.set(law.slots.weight, row.index, Some(law.law.heat_generation.slave_weight));
-    if !law.slopes.is_empty() {
-        slopes.clear();
-        slopes.resize(variables.len(), 0.0);
-        let point = ContactPoint { variables, ..point };
-        let along_contact = law.law.conductance.slopes(&point, slopes);
-        for (slot, along) in &law.slopes {
-            let slope = match along {
-                Along::Clearance => Some(along_contact.clearance),
-                Along::Pressure => Some(along_contact.pressure),
-                Along::Temperature => slopes.first().copied(),
-                Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
-                Along::PorePressure => None,
-            };
-            results.set(Some(*slot), row.index, slope);
-        }
+    let along_contact = law.law.conductance.slopes(&point, slopes);
+    for (slot, along) in &law.slopes {
+        let slope = match along {
+            Along::Clearance => Some(along_contact.clearance),
+            Along::Pressure => Some(along_contact.pressure),
+            Along::Temperature => slopes.first().copied(),
+            Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
+            Along::PorePressure => None,
+        };
+        results.set(Some(*slot), row.index, slope);
     }
-    evaluate_flow(law, row, conductance, history, results, tally);
-    Outcome::Evaluated(status(&conductance, row, tally))
 }
 
 /// Current and heat, where the row has a jump of potential.
 fn evaluate_flow(
     law: &CompiledElectrical,
     row: Row<'_>,
-    conductance: Conductance,
+    found: &RowConductance,
     history: Option<&mut ElectricalHistory>,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
@@ -92,7 +95,10 @@ fn evaluate_flow(
             jump_at_start: increment.as_ref().map_or(jump, |increment| increment.jump_at_start),
         },
     };
-    let flow = law.law.flow(conductance.value, jump, dissipation);
+    let flow = match law.accuracy {
+        Accuracy::Reference => law.law.reference_flow(found.conductance.value, found.rest, jump, dissipation),
+        Accuracy::Full | Accuracy::Fast => law.law.flow(found.conductance.value, jump, dissipation),
+    };
     let slots = &law.slots;
     let mut set = |slot, value| results.set(slot, row.index, value);
     // No current is 0, not −0.

@@ -1,8 +1,10 @@
 //! What is left of a plan when outputs are asked for by name: laws, histories and columns that serve no other output are dropped.
 
 use super::choices::Choices;
+use super::cost::KEEP_HISTORY;
+use super::outline::{Dropped, cost_of};
 use super::reason::{LeftOut, Reason};
-use super::{ContactColumns, ElectricalPlan, History, InteractionPlan, Plan, PorePlan, Rate};
+use super::{ContactColumns, ElectricalPlan, History, InteractionPlan, Plan, PorePlan, Rate, TablePlan};
 use crate::law::contact::ContactState;
 use crate::nodes::{Findings, MISSING_COLUMN, Place};
 use crate::results::{Along, Output};
@@ -70,15 +72,20 @@ pub(super) fn keep_asked(plan: &mut InteractionPlan, choices: &Choices) {
             .retain(|left| left.outputs.is_empty() || left.outputs.iter().any(|output| asked.contains(output)));
         let has_status = plan.outputs.contains(&Output::Status);
         if plan.electrical.is_some() && !has_status && !plan.outputs.iter().any(is_of_electrical) {
+            let cost = plan.electrical.iter().flat_map(|law| &law.tables).map(TablePlan::whole_cost).sum();
+            plan.dropped.push(Dropped::not_asked("electrical law", cost));
             plan.electrical = None;
             plan.left_out.push(LeftOut::law("electrical law", Reason::NotAsked));
         }
         if plan.pore.is_some() && !has_status && !plan.outputs.iter().any(is_of_pore) {
+            let cost = plan.pore.iter().flat_map(|law| &law.table).map(TablePlan::whole_cost).sum();
+            plan.dropped.push(Dropped::not_asked("pore fluid law", cost));
             plan.pore = None;
             plan.left_out.push(LeftOut::law("pore fluid law", Reason::NotAsked));
         }
         let names: Vec<String> = dropped.iter().map(|output| format!("`{output}`")).collect();
         if !names.is_empty() {
+            plan.dropped.push(Dropped::not_asked(&names.join(", "), cost_of(&dropped)));
             plan.left_out.push(LeftOut { what: names.join(", "), outputs: dropped, reason: Reason::NotAsked });
         }
     }
@@ -91,8 +98,8 @@ pub(super) fn keep_asked(plan: &mut InteractionPlan, choices: &Choices) {
         drop_from_pore(law, has);
     }
     let histories = [plan.electrical.as_ref().map(|law| law.history), plan.pore.as_ref().map(|law| law.history)];
-    if !histories.contains(&Some(History::ByTime)) {
-        plan.histories = None;
+    if !histories.contains(&Some(History::ByTime)) && plan.histories.take().is_some() {
+        plan.dropped.push(Dropped::not_asked("histories", KEEP_HISTORY));
     }
     drop_contact_columns(plan);
 }
@@ -119,6 +126,12 @@ fn drop_from_pore(law: &mut PorePlan, has: impl Fn(&[Output]) -> bool) {
     let needs_rate = matches!(law.rate, Rate::History | Rate::Column);
     if !has(&OF_TIME) && !needs_rate {
         law.history = History::None;
+    }
+}
+
+impl Dropped {
+    fn not_asked(what: &str, cost: f64) -> Self {
+        Self { what: what.to_owned(), cost, reason: Reason::NotAsked }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
 
+use crate::accuracy::Accuracy;
 use crate::law::pore::CutoffBoundary;
 use crate::results::Output;
 use crate::table::Tail;
@@ -20,6 +21,8 @@ pub struct Choices {
     pub cutoff_boundary: CutoffBoundary,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
+    /// How exactly values are found.
+    pub accuracy: Accuracy,
     /// The outputs that are asked for by name; `None` for all there are.
     pub outputs: Option<Vec<Output>>,
 }

@@ -7,7 +7,7 @@ use super::regime::regime;
 use super::source::{Source, whole_or_sides};
 use super::tables::{InteractionTables, electrical_axis, matters};
 use super::wanted::columns_of;
-use super::{AxisPlan, Derivatives, ElectricalPlan, History, TablePlan};
+use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::{Along, Output};
@@ -23,6 +23,7 @@ pub(super) fn plan_electrical(
     tables: &InteractionTables,
     outputs: &mut BTreeSet<Output>,
     left_out: &mut LeftOuts,
+    dropped: &mut Vec<Dropped>,
 ) -> Option<ElectricalPlan> {
     const LAW: &str = "electrical law";
     let Some(option) = &planner.interaction.gap_electrical_conductance else {
@@ -54,7 +55,13 @@ pub(super) fn plan_electrical(
             _ => None,
         };
         match unreached {
-            Some(reason) => left_out.push(format!("table against {against}"), reason),
+            Some(reason) => {
+                let what = format!("table against {against}");
+                let whole = electrical_table_plan(option, *against, table);
+                // No row reads it, so evaluating by branches it would cost nothing; without them every row reads both.
+                dropped.push(Dropped { what: what.clone(), cost: whole.whole_cost(), reason: reason.clone() });
+                left_out.push(what, reason);
+            }
             None => used.push((*against, *table)),
         }
     }

@@ -11,6 +11,7 @@ use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
 use super::tables::InteractionTables;
 use super::{ContactColumns, History, InteractionPlan, Plan};
+use crate::accuracy::Accuracy;
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
 use inpact_parser::model::{Interaction, Model};
@@ -80,7 +81,8 @@ impl Planner<'_> {
         let mut left_out = LeftOuts::default();
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let mut dropped = Vec::new();
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut dropped);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
@@ -118,14 +120,18 @@ impl Planner<'_> {
             pore,
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
+            dropped,
             notes,
         };
         keep_asked(&mut plan, self.choices);
         plan
     }
 
-    /// Whether tables may be folded: slopes along every axis are those of the whole table.
+    /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
     pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+        if self.choices.accuracy == Accuracy::Reference {
+            return false;
+        }
         let asked = self.choices.outputs.as_ref();
         self.choices.derivatives == Derivatives::LeftOut || asked.is_some_and(|asked| !asked.iter().any(is_slope))
     }

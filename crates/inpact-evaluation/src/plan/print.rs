@@ -32,7 +32,8 @@ impl fmt::Display for Plan {
         let keys = self.keys().iter().map(ToString::to_string);
         let outputs: Vec<String> = keys.chain(self.outputs.iter().map(ToString::to_string)).collect();
         let outputs = if outputs.is_empty() { "none".to_owned() } else { outputs.join(" ") };
-        writeln!(formatter, "\ncolumns of the result\n  {outputs}")
+        writeln!(formatter, "\ncolumns of the result\n  {outputs}\n")?;
+        write!(formatter, "{}", self.outline())
     }
 }
 

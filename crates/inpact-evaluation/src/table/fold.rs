@@ -37,6 +37,8 @@ impl fmt::Display for FoldRefusal {
     }
 }
 
+impl std::error::Error for FoldRefusal {}
+
 /// A part of a table while it is folded.
 #[derive(Clone, Debug)]
 enum Part {

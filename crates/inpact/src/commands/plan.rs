@@ -5,7 +5,8 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
-    CharacteristicLength, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan, PorePlan, Source, TablePlan,
+    CharacteristicLength, ColumnRole, Cut, ElectricalPlan, GovernedBy, InteractionPlan, Node, Plan, PorePlan, Source,
+    TablePlan,
 };
 use inpact_parser::model::Regime;
 use serde_json::{Value, json};
@@ -62,6 +63,7 @@ fn as_json(scene: &Scene) -> String {
             "range": column.range.map(|(least, greatest)| [least, greatest]),
         })
     });
+    let outline = scene.plan.outline();
     let keys = scene.plan.keys().iter().map(ToString::to_string);
     let document = json!({
         "schema": "inpact/plan/1",
@@ -76,10 +78,22 @@ fn as_json(scene: &Scene) -> String {
         "interactions": interactions.iter().map(interaction).collect::<Vec<_>>(),
         "unused": unused.iter().map(inpact_parser::model::Name::written).collect::<Vec<_>>(),
         "columns": columns.collect::<Vec<_>>(),
+        "before": node(&outline.before),
+        "after": node(&outline.after),
+        "cuts": outline.cuts.iter().map(cut).collect::<Vec<_>>(),
         "outputs": keys.chain(outputs.iter().map(ToString::to_string)).collect::<Vec<_>>(),
     });
     // A document of strings and numbers has no reason to fail.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+/// A part of the evaluation with its estimated cost in nanoseconds a row, its parts included.
+fn node(part: &Node) -> Value {
+    json!({ "name": part.name, "cost": part.total(), "parts": part.parts.iter().map(node).collect::<Vec<_>>() })
+}
+
+fn cut(cut: &Cut) -> Value {
+    json!({ "interaction": cut.interaction, "what": cut.what, "reason": cut.reason, "saved": cut.saved })
 }
 
 fn interaction(plan: &InteractionPlan) -> Value {

@@ -6,6 +6,7 @@ use crate::input;
 use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
+use inpact_evaluation::accuracy::Accuracy;
 use inpact_evaluation::law::pore::CutoffBoundary;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey};
@@ -46,6 +47,9 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
+    /// How exactly values are found.
+    #[arg(long, value_enum, default_value_t = AccuracyChoice::Full)]
+    accuracy: AccuracyChoice,
     /// The outputs that are wanted, by the names of their columns; all that deck and node table give where there is none.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = output_named)]
     outputs: Option<Vec<Output>>,
@@ -68,6 +72,14 @@ enum ClearanceTail {
     Constant,
     /// Zero, as its figure has it.
     Zero,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum AccuracyChoice {
+    /// In twice the precision of f64, rounded once.
+    Reference,
+    /// In f64, within two units in the last place an axis.
+    Full,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -166,6 +178,10 @@ impl SceneArguments {
                 Boundary::Exclusive => CutoffBoundary::Exclusive,
             },
             derivatives: self.derivatives(),
+            accuracy: match self.accuracy {
+                AccuracyChoice::Reference => Accuracy::Reference,
+                AccuracyChoice::Full => Accuracy::Full,
+            },
             outputs: self.outputs.clone(),
         }
     }
