@@ -50,6 +50,9 @@ const RIGHT: f64 = 928.0;
 const TOP: f64 = 92.0;
 const BOTTOM: f64 = 496.0;
 
+/// The size of the font of labels.
+const SIZE: f64 = 13.0;
+
 /// About how wide a letter is, as a part of the size of its font.
 const LETTER: f64 = 0.58;
 
@@ -66,8 +69,9 @@ impl Chart {
         let (x_axis, y_axis) = self.axes();
         let mut drawing = svg::Drawing::new(WIDTH, HEIGHT, &self.title);
         self.draw_grid(&mut drawing, &x_axis, &y_axis);
-        self.draw_lines(&mut drawing, &x_axis, &y_axis);
-        self.draw_points(&mut drawing, &x_axis, &y_axis);
+        let mut taken = Vec::new();
+        self.draw_lines(&mut drawing, &x_axis, &y_axis, &mut taken);
+        self.draw_points(&mut drawing, &x_axis, &y_axis, &mut taken);
         drawing.finish()
     }
 
@@ -95,19 +99,23 @@ impl Chart {
         drawing.text((LEFT, HEIGHT - 18.0), &self.footnote, "note", "start");
     }
 
-    fn draw_lines(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis) {
+    fn draw_lines(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
         for (number, (at, meaning)) in self.vertical.iter().enumerate() {
             let x = x_axis.place(*at);
             drawing.line((x, TOP), (x, BOTTOM), "roof");
-            let y = TOP + 16.0 + 18.0 * number as f64;
-            let is_left = x + 14.0 + width(meaning, 13.0) < RIGHT;
-            let (x, anchor) = if is_left { (x + 7.0, "start") } else { (x - 7.0, "end") };
-            drawing.text((x, y), meaning, "roof-label", anchor);
+            let base = TOP + 16.0 + 18.0 * number as f64;
+            let width = width(meaning, SIZE);
+            let is_right = x + 14.0 + width < RIGHT;
+            let (at, anchor) = if is_right { (x + 7.0, "start") } else { (x - 7.0, "end") };
+            drawing.text((at, base), meaning, "roof-label", anchor);
+            taken.push(Area::of_text(if is_right { at } else { at - width }, base, meaning));
+            taken.push(Area { left: x - 2.0, right: x + 2.0, top: TOP, bottom: BOTTOM });
         }
         for (at, meaning) in &self.horizontal {
             let y = y_axis.place(*at);
             drawing.line((LEFT, y), (RIGHT, y), "level");
-            drawing.text((RIGHT - 6.0, y - 6.0), meaning, "level-label", "end");
+            drawing.text((LEFT + 8.0, y - 6.0), meaning, "level-label", "start");
+            taken.push(Area::of_text(LEFT + 8.0, y - 6.0, meaning));
         }
         let mut front: Vec<&Point> = self.points.iter().filter(|point| point.on_front).collect();
         front.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -123,50 +131,72 @@ impl Chart {
         drawing.path(&corners, "front");
     }
 
-    fn draw_points(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis) {
+    fn draw_points(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
         for point in &self.points {
             let (x, y) = (x_axis.place(point.x), y_axis.place(point.y));
+            taken.push(Area { left: x - 7.0, right: x + 7.0, top: y - 7.0, bottom: y + 7.0 });
             if let Some(bar_to) = point.bar_to {
                 let end = y_axis.place(bar_to);
                 drawing.line((x, y), (x, end), "bar");
                 drawing.line((x - 5.0, end), (x + 5.0, end), "bar");
+                taken.push(Area { left: x - 5.0, right: x + 5.0, top: end, bottom: y });
             }
         }
-        let mut taken = Vec::new();
         for point in &self.points {
             let place = (x_axis.place(point.x), y_axis.place(point.y));
             drawing.circle(place, 5.5, if point.on_front { "best" } else { "other" });
-            let (at, anchor) = label_place(place, &point.label, &mut taken);
+            let (at, anchor) = label_place(place, &point.label, taken);
             drawing.text(at, &point.label, "label", anchor);
         }
         let marked = self.points.iter().any(|point| point.on_front);
         if marked && !self.front_title.is_empty() {
-            let x = RIGHT - width(&self.front_title, 13.0) - 28.0;
+            let x = RIGHT - width(&self.front_title, SIZE) - 28.0;
             drawing.circle((x, 54.0), 5.5, "best");
             drawing.text((x + 12.0, 58.5), &self.front_title, "note", "start");
         }
     }
 }
 
-/// Where a label goes: beside its point, on the side and at the height at which it meets no other label.
-fn label_place((x, y): (f64, f64), label: &str, taken: &mut Vec<(f64, f64, f64)>) -> ((f64, f64), &'static str) {
-    let width = width(label, 13.0);
-    let right_fits = x + 12.0 + width < RIGHT;
-    let candidates = [0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0].into_iter().flat_map(|shift| {
-        let right = ((x + 11.0, y + 4.5 + shift), "start", x + 11.0);
-        let left = ((x - 11.0, y + 4.5 + shift), "end", x - 11.0 - width);
-        if right_fits { [right, left] } else { [left, right] }
+/// A part of the drawing that something stands in.
+#[derive(Debug, Clone, Copy)]
+struct Area {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+}
+
+impl Area {
+    /// The area of a text of usual size that starts at `left`, on this base line.
+    fn of_text(left: f64, base: f64, text: &str) -> Self {
+        Self { left, right: left + width(text, SIZE), top: base - SIZE, bottom: base + 4.0 }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
+    fn is_inside_the_axes(&self) -> bool {
+        LEFT < self.left && self.right < RIGHT && TOP < self.top && self.bottom < BOTTOM
+    }
+}
+
+/// Where a label goes: beside its point, on the side and at the height at which it meets nothing else.
+fn label_place((x, y): (f64, f64), label: &str, taken: &mut Vec<Area>) -> ((f64, f64), &'static str) {
+    let width = width(label, SIZE);
+    let candidates = [0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0, -64.0, 64.0].into_iter().flat_map(|shift| {
+        let base = y + 4.5 + shift;
+        [((x + 11.0, base), "start", x + 11.0), ((x - 11.0, base), "end", x - 11.0 - width)]
     });
-    let is_free = |start: f64, height: f64| {
-        let meets = |(other, end, other_height): &(f64, f64, f64)| {
-            start < *end && *other < start + width && (height - other_height).abs() < 15.0
-        };
-        LEFT < start && start + width < RIGHT && TOP + 8.0 < height && height < BOTTOM && !taken.iter().any(meets)
-    };
     let candidates: Vec<_> = candidates.collect();
-    let chosen = candidates.iter().find(|((_, height), _, start)| is_free(*start, *height)).unwrap_or(&candidates[0]);
-    let (at, anchor, start) = *chosen;
-    taken.push((start, start + width, at.1));
+    let is_free = |candidate: &&((f64, f64), &str, f64)| {
+        let area = Area::of_text(candidate.2, candidate.0.1, label);
+        area.is_inside_the_axes() && !taken.iter().any(|other| area.meets(other))
+    };
+    let fits = |candidate: &&((f64, f64), &str, f64)| Area::of_text(candidate.2, y, label).is_inside_the_axes();
+    let chosen = candidates.iter().find(is_free).or_else(|| candidates.iter().find(fits)).unwrap_or(&candidates[0]);
+    let (at, anchor, left) = *chosen;
+    taken.push(Area::of_text(left, at.1, label));
     (at, anchor)
 }
 

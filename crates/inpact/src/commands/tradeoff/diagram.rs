@@ -14,7 +14,7 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
         x: entry.time,
         y: entry.errors.largest.max(LEAST_ERROR),
         bar_to: Some(entry.bound.max(LEAST_ERROR)).filter(|bound| bound.is_finite()),
-        label: format!("{}, {:.3} ns, {:.0} B/row", entry.mode, entry.time, entry.bytes),
+        label: format!("{}, {} ns, {:.0} B/row", entry.mode, short(entry.time), entry.bytes),
         on_front: entry.on_front,
     });
     Chart {
@@ -23,10 +23,19 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
         x_title: "time of a row, ns".to_owned(),
         y_title: "largest error / largest value of the table".to_owned(),
         points: points.collect(),
-        vertical: vec![(group.copy, format!("memory roofline: copy of the same columns, {:.2} ns", group.copy))],
+        vertical: vec![(group.copy, format!("memory roofline: copy of the same columns, {} ns", short(group.copy)))],
         horizontal: vec![(f64::EPSILON / 2.0, "½ ulp of the largest value".to_owned())],
         front_title: "Pareto front".to_owned(),
         footnote: format!("{}; bars go up to the error bound computed from the table", how(measured)),
+    }
+}
+
+/// A time in about three digits.
+fn short(time: f64) -> String {
+    match time {
+        ..10.0 => format!("{time:.2}"),
+        ..100.0 => format!("{time:.1}"),
+        _ => format!("{time:.0}"),
     }
 }
 

@@ -6,7 +6,7 @@ use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
 use std::time::Instant;
 
 /// Fewer rows than that are repeated, so that a run takes long enough to be timed.
-const LEAST_ROWS: usize = 1 << 18;
+const LEAST_ROWS: usize = 1 << 16;
 
 /// What was measured on a deck and its node table.
 pub(super) struct Measured {

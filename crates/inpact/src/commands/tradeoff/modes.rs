@@ -1,7 +1,8 @@
 //! The modes that are measured: a list, each with how it evaluates a table, its bound and what it moves in memory.
 
 use super::subjects::Subject;
-use inpact_evaluation::accuracy::full_bound;
+use inpact_evaluation::accuracy::{Accuracy, full_bound};
+use inpact_evaluation::table_form::{TableForm, TableValues};
 use std::hint::black_box;
 
 /// A mode of evaluation.
@@ -29,20 +30,20 @@ pub(super) trait Run {
     fn value(&self, row: usize) -> f64;
 }
 
-/// All modes, most exact first. The first is what the others are measured against.
+/// All modes, most exact first.
 pub(super) const MODES: &[Mode] = &[
     Mode {
         name: "reference",
         of: |subject| {
-            let run = Scalar::new(subject, |first, others| subject.table.reference_value_at(first, others));
+            let run = Formed::new(subject, Accuracy::Reference);
             Some(Prepared { run: Box::new(run), bound: REFERENCE_ULPS * f64::EPSILON, bytes: bytes(subject, 8) })
         },
     },
     Mode {
         name: "full",
         of: |subject| {
-            let run = Scalar::new(subject, |first, others| subject.table.value_at(first, others));
             let bound = full_bound(&subject.table).relative_to_largest;
+            let run = Formed::new(subject, Accuracy::Full);
             Some(Prepared { run: Box::new(run), bound, bytes: bytes(subject, 8) })
         },
     },
@@ -51,34 +52,42 @@ pub(super) const MODES: &[Mode] = &[
 /// The bound of `reference`, in ulp.
 const REFERENCE_ULPS: f64 = 0.501;
 
+/// Rows are evaluated in blocks of so many, as the batches of an evaluation have.
+const ROWS_OF_A_BLOCK: usize = 1024;
+
 /// What a mode reads and writes for a row with numbers of that size.
 fn bytes(subject: &Subject, size: usize) -> usize {
     (subject.axes() + 1) * size
 }
 
-/// One row after the other.
-struct Scalar<'a, F> {
-    subject: &'a Subject,
-    value: F,
-    others: Vec<f64>,
+/// A table in the form in which an evaluation of that accuracy has it.
+struct Formed<'a> {
+    columns: Vec<&'a [f64]>,
+    form: TableForm,
+    found: TableValues,
     output: Vec<f64>,
 }
 
-impl<'a, F: Fn(f64, &[f64]) -> f64> Scalar<'a, F> {
-    fn new(subject: &'a Subject, value: F) -> Self {
-        let others = vec![f64::NAN; subject.columns.len().saturating_sub(1)];
-        Self { subject, value, others, output: vec![0.0; subject.rows()] }
+impl<'a> Formed<'a> {
+    fn new(subject: &'a Subject, accuracy: Accuracy) -> Self {
+        Self {
+            columns: subject.columns.iter().map(Vec::as_slice).collect(),
+            form: TableForm::new(subject.table.clone(), accuracy),
+            found: TableValues::default(),
+            output: vec![0.0; subject.rows()],
+        }
     }
 }
 
-impl<F: Fn(f64, &[f64]) -> f64> Run for Scalar<'_, F> {
+impl Run for Formed<'_> {
     fn run(&mut self) {
-        let Some((first, others)) = self.subject.columns.split_first() else { return };
-        for (row, output) in self.output.iter_mut().enumerate() {
-            for (coordinate, column) in self.others.iter_mut().zip(others) {
-                *coordinate = column.get(row).copied().unwrap_or(f64::NAN);
-            }
-            *output = (self.value)(first.get(row).copied().unwrap_or(f64::NAN), &self.others);
+        let mut block: Vec<&[f64]> = Vec::with_capacity(self.columns.len());
+        for (number, output) in self.output.chunks_mut(ROWS_OF_A_BLOCK).enumerate() {
+            let start = number * ROWS_OF_A_BLOCK;
+            block.clear();
+            block.extend(self.columns.iter().map(|column| column.get(start..start + output.len()).unwrap_or_default()));
+            self.form.evaluate(&block, output.len(), &mut self.found);
+            output.copy_from_slice(&self.found.values);
         }
         black_box(&mut self.output);
     }
