@@ -9,7 +9,7 @@ use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
 use crate::plan::{
     Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
-    Plan, PorePlan, Rate, Source, folded_as_planned,
+    Plan, PorePlan, Rate, Source, ThermalTables, folded_as_planned,
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
@@ -36,6 +36,7 @@ pub struct Laws {
 pub(crate) struct InteractionLaws {
     pub(crate) contact: ContactPlaces,
     pub(crate) electrical: Option<CompiledElectrical>,
+    pub(crate) thermal: Option<CompiledThermal>,
     pub(crate) pore: Option<CompiledPore>,
 }
 
@@ -133,6 +134,10 @@ slots! {
     }
 }
 
+mod thermal;
+
+pub(crate) use thermal::{CompiledConduction, CompiledFriction, CompiledRadiation, CompiledThermal, MASS_FLOW, Speed};
+
 /// Compiles the laws of a plan that was made from this model and these choices.
 pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
     let mut interactions: Vec<Option<InteractionLaws>> = Vec::new();
@@ -146,6 +151,10 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
         interactions[planned.index] = Some(InteractionLaws {
             contact: compiler.contact(),
             electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables, choices)),
+            thermal: planned
+                .thermal
+                .as_ref()
+                .map(|law| compiler.thermal(law, &ThermalTables::of(model, interaction, choices.dialect))),
             pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
         });
     }

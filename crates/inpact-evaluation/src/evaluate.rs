@@ -12,12 +12,13 @@ mod conductances;
 mod electrical;
 mod pore;
 mod tally;
+mod thermal;
 
 pub use tally::{AxisTally, InteractionTally, Tally};
 
 use self::conductances::Conductances;
 use crate::compile::Laws;
-use crate::history::{ElectricalHistory, PoreHistory};
+use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::contact::ContactState;
 use crate::nodes::{Batch, NodeIndex};
 use crate::plan::{ContactPlaces, History, Plan, RowInteractions, Source};
@@ -45,6 +46,7 @@ pub struct Evaluation<'a> {
 #[derive(Debug, Clone, Default)]
 struct NodeHistory {
     electrical: ElectricalHistory,
+    thermal: ThermalHistory,
     pore: PoreHistory,
 }
 
@@ -134,6 +136,7 @@ impl<'a> Evaluation<'a> {
         };
         let row = Row::new(batch, index, state, laws.contact, self.laws.time);
         let keeps_history = laws.electrical.as_ref().is_some_and(|law| law.history == History::ByTime)
+            || laws.thermal.as_ref().is_some_and(|law| law.history == History::ByTime)
             || laws.pore.as_ref().is_some_and(|law| law.history == History::ByTime);
         let mut history = match self.laws.node.filter(|_| keeps_history && row.time.is_some()) {
             Some(node) => {
@@ -146,12 +149,19 @@ impl<'a> Evaluation<'a> {
             None => None,
         };
         let scratch = (&mut self.variables, &mut self.slopes);
-        let mut outcomes = [None; 2];
+        let mut outcomes = [None; 3];
+        let mut heat_of_current = None;
         if let Some(law) = &laws.electrical {
             let history = history.as_mut().map(|history| &mut history.electrical);
             let conductance = self.conductances.of_row(index);
-            outcomes[0] =
-                Some(electrical::evaluate(law, row, conductance, history, (scratch.0, scratch.1), results, tally));
+            let scratch = (&mut *scratch.0, &mut *scratch.1);
+            let evaluated = electrical::evaluate(law, row, conductance, history, scratch, results, tally);
+            (outcomes[0], heat_of_current) = (Some(evaluated.0), evaluated.1);
+        }
+        if let Some(law) = &laws.thermal {
+            let history = history.as_mut().map(|history| &mut history.thermal);
+            let scratch = (&mut *scratch.0, &mut *scratch.1);
+            outcomes[2] = Some(thermal::evaluate(law, row, heat_of_current, history, scratch, results, tally));
         }
         if let Some(law) = &laws.pore {
             let history = history.as_mut().map(|history| &mut history.pore);

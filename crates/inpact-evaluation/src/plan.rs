@@ -7,6 +7,7 @@
 //!
 //! - steady state or transient by the last procedure of the deck that solves the law's field, steady state where there is none, and as [`Choices::regime`] says above all;
 //! - an interaction has the electrical law when it has *GAP ELECTRICAL CONDUCTANCE, whatever the procedures;
+//! - it has the thermal law when it has *GAP CONDUCTANCE or *GAP RADIATION, or its rows tell of friction;
 //! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
 //! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
 
@@ -27,6 +28,8 @@ mod regime;
 mod source;
 mod survey;
 mod tables;
+mod thermal;
+mod thermal_tables;
 mod wanted;
 
 pub use choices::{Choices, Derivatives};
@@ -38,10 +41,12 @@ pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
 pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
+pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
 
 pub(crate) use folding::folded_as_planned;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
+pub(crate) use thermal_tables::ThermalTables;
 
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
@@ -89,6 +94,8 @@ pub struct InteractionPlan {
     pub contact: ContactColumns,
     /// The electrical law.
     pub electrical: Option<ElectricalPlan>,
+    /// The thermal law.
+    pub thermal: Option<ThermalPlan>,
     /// The pore fluid law.
     pub pore: Option<PorePlan>,
     /// What comes out, in the order of the result's columns.

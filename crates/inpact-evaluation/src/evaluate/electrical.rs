@@ -8,6 +8,7 @@ use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
 use crate::law::electrical::Dissipation;
+use crate::law::heat::GeneratedHeat;
 use crate::numbers::mean;
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
@@ -16,7 +17,7 @@ use inpact_parser::model::Regime;
 /// Below this share of the potentials their difference has lost its digits.
 const LOST_DIGITS: f64 = 1e-8;
 
-/// Evaluates the law; gives its status.
+/// Evaluates the law; gives its status and the heat of the current, where the row has a jump of potential.
 pub(super) fn evaluate(
     law: &CompiledElectrical,
     row: Row<'_>,
@@ -25,16 +26,16 @@ pub(super) fn evaluate(
     scratch: (&mut Vec<f64>, &mut Vec<f64>),
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) -> Outcome {
-    let Some(found) = found else { return Outcome::Incomplete };
+) -> (Outcome, Option<GeneratedHeat>) {
+    let Some(found) = found else { return (Outcome::Incomplete, None) };
     let conductance = found.conductance;
     results.set(law.slots.conductance, row.index, Some(conductance.value));
     results.set(law.slots.weight, row.index, Some(law.law.heat_generation.slave_weight));
     if !law.slopes.is_empty() {
         set_slopes(law, row, scratch, results);
     }
-    evaluate_flow(law, row, &found, history, results, tally);
-    Outcome::Evaluated(status(&conductance, row, tally))
+    let heat = evaluate_flow(law, row, &found, history, results, tally);
+    (Outcome::Evaluated(status(&conductance, row, tally)), heat)
 }
 
 /// The slopes of the conductance, one column each.
@@ -64,7 +65,7 @@ fn set_slopes(
             Along::Pressure => Some(along_contact.pressure),
             Along::Temperature => slopes.first().copied(),
             Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
-            Along::PorePressure => None,
+            Along::PorePressure | Along::MassFlow => None,
         };
         results.set(Some(*slot), row.index, slope);
     }
@@ -78,11 +79,11 @@ fn evaluate_flow(
     history: Option<&mut ElectricalHistory>,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) {
-    let Some(source) = &law.jump else { return };
+) -> Option<GeneratedHeat> {
+    let source = law.jump.as_ref()?;
     let Some(jump) = row.fetch(source, |slave, master| PotentialJump::between(slave, master).0) else {
         tally.incomplete_flows += 1;
-        return;
+        return None;
     };
     tally.lost_digits += u64::from(has_lost_digits(source, row, jump));
     let jump = PotentialJump(jump);
@@ -116,6 +117,7 @@ fn evaluate_flow(
         set(slots.sjdt, Some(history.heat()));
         set(slots.sjdta, history.heat_of_area());
     }
+    Some(flow.heat)
 }
 
 /// Whether the jump is the difference of potentials so much larger that few of its digits are left.

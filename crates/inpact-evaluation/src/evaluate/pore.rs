@@ -82,7 +82,7 @@ pub(super) fn evaluate(
                 Along::PorePressure => slopes.first().copied(),
                 Along::Temperature => slopes.get(1).copied(),
                 Along::FieldVariable(number) => slopes.get(*number as usize + 1).copied(),
-                Along::Clearance => None,
+                Along::Clearance | Along::MassFlow => None,
             };
             // Without a permeability there is no slope of it either.
             results.set(Some(*slot), row.index, slope.filter(|_| flow.permeability.is_some()));

@@ -35,6 +35,12 @@ pub enum Column {
     CharacteristicLength,
     /// `perm_s`; `perm_m`: bulk permeability, for the shares of gap filling.
     BulkPermeability(Part),
+    /// `mass_flow_s`; `mass_flow_m`; `mass_flow`, the mean of their magnitudes: mass flow rate per area, M L⁻² T⁻¹.
+    MassFlow(Part),
+    /// `shear`: frictional shear stress τ, F L⁻².
+    Shear,
+    /// `slip_rate`: rate of relative slip γ̇ along the shear stress, L T⁻¹.
+    SlipRate,
 }
 
 /// Of which side of the interface a quantity is.
@@ -69,6 +75,11 @@ const NAMES: &[(Column, &[&str])] = &[
     (Column::CharacteristicLength, &["char_length"]),
     (Column::BulkPermeability(Part::Slave), &["perm_s"]),
     (Column::BulkPermeability(Part::Master), &["perm_m"]),
+    (Column::MassFlow(Part::Slave), &["mass_flow_s"]),
+    (Column::MassFlow(Part::Master), &["mass_flow_m"]),
+    (Column::MassFlow(Part::Both), &["mass_flow"]),
+    (Column::Shear, &["shear"]),
+    (Column::SlipRate, &["slip_rate"]),
 ];
 
 impl Column {

@@ -4,6 +4,7 @@ use crate::accuracy::Accuracy;
 use crate::law::pore::CutoffBoundary;
 use crate::results::Output;
 use crate::table::Tail;
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Name, Regime};
 
 /// The choices of an evaluation; the default is what deck and semantics say.
@@ -19,6 +20,8 @@ pub struct Choices {
     pub characteristic_length: Option<f64>,
     /// Whether pore fluid flows at the very cutoff.
     pub cutoff_boundary: CutoffBoundary,
+    /// Whose meaning the keywords have: *GAP CONDUCTANCE and the heat of friction differ in CalculiX.
+    pub dialect: Dialect,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
     /// How exactly values are found.

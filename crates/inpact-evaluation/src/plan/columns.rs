@@ -11,16 +11,24 @@ use crate::results::Along;
 use inpact_parser::model::Regime;
 
 impl InteractionPlan {
-    /// The tables in use.
-    pub fn tables(&self) -> impl Iterator<Item = &TablePlan> {
-        let electrical = self.electrical.iter().flat_map(|law| &law.tables);
-        electrical.chain(self.pore.iter().filter_map(|law| law.table.as_ref()))
+    /// The tables in use, each with the name of its values.
+    pub fn tables(&self) -> impl Iterator<Item = (&'static str, &TablePlan)> {
+        let named = |name| move |table| (name, table);
+        let electrical = self.electrical.iter().flat_map(|law| &law.tables).map(named("conductance"));
+        let thermal = self.thermal.iter();
+        let conduction = thermal.clone().flat_map(|law| &law.conduction).flat_map(|part| &part.tables);
+        let radiation = thermal.flat_map(|law| &law.radiation).map(|part| &part.table);
+        let pore = self.pore.iter().filter_map(|law| law.table.as_ref());
+        electrical
+            .chain(conduction.map(named("thermal conductance")))
+            .chain(radiation.map(named("view factor")))
+            .chain(pore.map(named("permeability")))
     }
 
     /// The columns whose numbers its rows need.
     pub(super) fn columns_read(&self) -> Vec<Column> {
         let mut columns = Vec::new();
-        if self.electrical.is_none() && self.pore.is_none() {
+        if self.electrical.is_none() && self.thermal.is_none() && self.pore.is_none() {
             return columns;
         }
         let contact = self.contact;
@@ -36,8 +44,13 @@ impl InteractionPlan {
             is_history |= law.history == History::ByTime;
             area = area.or(law.area);
         }
+        if let Some(law) = &self.thermal {
+            columns.extend(law.columns());
+            is_history |= law.history == History::ByTime;
+            area = area.or(law.area);
+        }
         if let Some(law) = &self.pore {
-            take(&law.variables);
+            columns.extend(law.variables.iter().flatten().flat_map(Source::cells));
             columns.extend([Part::Slave, Part::Master].map(Column::PorePressure));
             if law.bulk == Bulk::Columns {
                 columns.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
@@ -98,7 +111,7 @@ fn role(
 
 fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions: &[InteractionPlan]) -> Reason {
     let is_empty = survey.columns.contains(&column) && survey.range(column).is_none();
-    let electrical = interactions.iter().any(|plan| plan.electrical.is_some());
+    let has_tables = interactions.iter().any(|plan| plan.electrical.is_some() || plan.thermal.is_some());
     let pore = || interactions.iter().filter_map(|plan| plan.pore.as_ref());
     match column {
         Column::CharacteristicLength if choices.characteristic_length.is_some() => Reason::Option("--char-length"),
@@ -117,7 +130,9 @@ fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions
             Reason::GivenBy(Column::Potential(Part::Both))
         }
         _ if let Some(value) = folded_value(column, interactions) => Reason::Folded(value),
-        Column::Temperature(_) | Column::FieldVariable(..) if electrical || pore().next().is_some() => {
+        Column::Temperature(_) | Column::FieldVariable(..) | Column::MassFlow(_)
+            if has_tables || pore().next().is_some() =>
+        {
             Reason::NoTableDepends
         }
         Column::ClearanceRate | Column::BulkPermeability(_)
@@ -138,10 +153,11 @@ fn folded_value(column: Column, interactions: &[InteractionPlan]) -> Option<f64>
         Column::Temperature(_) => Along::Temperature,
         Column::FieldVariable(number, _) => Along::FieldVariable(number),
         Column::PorePressure(_) => Along::PorePressure,
+        Column::MassFlow(_) => Along::MassFlow,
         _ => return None,
     };
     let tables = interactions.iter().flat_map(InteractionPlan::tables);
-    tables.flat_map(|table| &table.axes).filter(|axis| axis.along == along).find_map(|axis| axis.fold)
+    tables.flat_map(|(_, table)| &table.axes).filter(|axis| axis.along == along).find_map(|axis| axis.fold)
 }
 
 /// Whether the column that stands for both sides is read.

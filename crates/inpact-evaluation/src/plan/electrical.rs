@@ -195,7 +195,7 @@ fn variable_index(along: Along) -> Option<usize> {
     match along {
         Along::Temperature => Some(0),
         Along::FieldVariable(number) => Some(number as usize),
-        Along::Clearance | Along::Pressure | Along::PorePressure => None,
+        Along::Clearance | Along::Pressure | Along::PorePressure | Along::MassFlow => None,
     }
 }
 

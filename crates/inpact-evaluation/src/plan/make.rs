@@ -10,7 +10,9 @@ use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
 use super::tables::InteractionTables;
-use super::{ContactColumns, History, InteractionPlan, Plan};
+use super::thermal::plan_thermal;
+use super::thermal_tables::ThermalTables;
+use super::{ContactColumns, InteractionPlan, Plan};
 use crate::accuracy::Accuracy;
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
@@ -83,15 +85,14 @@ impl Planner<'_> {
         let mut outputs = BTreeSet::new();
         let mut dropped = Vec::new();
         let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut dropped);
+        let thermal_tables = ThermalTables::of(self.model, self.interaction, self.choices.dialect);
+        let thermal = plan_thermal(self, &thermal_tables, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
         }
         for option in &self.interaction.other {
-            if matches!(
-                option.keyword.as_str(),
-                "GAP CONDUCTANCE" | "GAP RADIATION" | "GAP DIFFUSIVITY" | "GAP CONVECTION"
-            ) {
+            if matches!(option.keyword.as_str(), "GAP DIFFUSIVITY" | "GAP CONVECTION") {
                 let what = format!("*{}", option.keyword);
                 if !left_out.0.iter().any(|left_out| left_out.what == what) {
                     left_out.push(what, Reason::NotEvaluated);
@@ -99,30 +100,29 @@ impl Planner<'_> {
             }
         }
         let untold = self.of.rows - self.of.closed - self.of.open;
-        if untold > 0 && (electrical.is_some() || pore.is_some()) {
+        if untold > 0 && (electrical.is_some() || thermal.is_some() || pore.is_some()) {
             let rows = if untold == 1 { "1 row".to_owned() } else { format!("{untold} rows") };
             notes.push(format!(
                 "{rows} from which contact cannot be told: `closed` empty, and `clearance` too or one of them NaN"
             ));
         }
-        let uses_history = |history: Option<History>| history == Some(History::ByTime);
-        let has_history = uses_history(electrical.as_ref().map(|law| law.history))
-            || uses_history(pore.as_ref().map(|law| law.history));
         let mut plan = InteractionPlan {
             name: self.interaction.name.clone(),
             index: self.index,
             rows: self.of.rows,
             closed: self.of.closed,
             open: self.of.open,
-            histories: self.of.histories.filter(|_| has_history),
+            histories: None,
             contact: self.contact(),
             electrical,
+            thermal,
             pore,
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
             dropped,
             notes,
         };
+        plan.histories = self.of.histories.filter(|_| plan.has_history());
         keep_asked(&mut plan, self.choices);
         plan
     }

@@ -2,7 +2,7 @@
 
 use super::cost::{COMPUTE_OUTPUT, KEEP_HISTORY, READ_NUMBER, WRITE_NUMBER};
 use super::reason::Reason;
-use super::{ColumnRole, History, InteractionPlan, Plan, TablePlan};
+use super::{ColumnRole, InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, number_text};
 use std::fmt::{self, Formatter};
 
@@ -115,13 +115,8 @@ impl InteractionPlan {
         let mut before = Node::leaf(self.name.to_string(), 0.0);
         let mut after = before.clone();
         let interaction = Some(self.name.to_string());
-        for table in self.tables() {
+        for (what, table) in self.tables() {
             let share = share * self.share_of(table);
-            let what = if self.pore.as_ref().is_some_and(|law| law.table.as_ref() == Some(table)) {
-                "permeability"
-            } else {
-                "conductance"
-            };
             before.parts.push(Node::leaf(
                 format!("{what} against {}", axes(table, |axis| axis.matters)),
                 share * table.whole_cost(),
@@ -152,8 +147,7 @@ impl InteractionPlan {
                 saved: share * cost,
             });
         }
-        let histories = [self.electrical.as_ref().map(|law| law.history), self.pore.as_ref().map(|law| law.history)];
-        if histories.contains(&Some(History::ByTime)) {
+        if self.has_history() {
             let node = Node::leaf("histories", share * KEEP_HISTORY);
             before.parts.push(node.clone());
             after.parts.push(node);
@@ -167,9 +161,11 @@ impl InteractionPlan {
 
     /// The share of the interaction's rows that read a table.
     fn share_of(&self, table: &TablePlan) -> f64 {
-        let Some(law) = self.electrical.as_ref().filter(|law| law.tables.contains(table)) else { return 1.0 };
+        let conduction = self.thermal.iter().flat_map(|law| &law.conduction).map(|part| &part.tables);
+        let mut of_conductance = self.electrical.iter().map(|law| &law.tables).chain(conduction);
+        let Some(tables) = of_conductance.find(|tables| tables.contains(table)) else { return 1.0 };
         match table.against {
-            _ if law.tables.len() < 2 || self.rows == 0 => 1.0,
+            _ if tables.len() < 2 || self.rows == 0 => 1.0,
             Along::Pressure => self.closed as f64 / self.rows as f64,
             _ => self.open as f64 / self.rows as f64,
         }

@@ -76,7 +76,7 @@ pub(super) fn plan_pore(
             Along::PorePressure => planner.constant_pore_pressure(),
             Along::Temperature => planner.constant_of((*variables.first()?)?),
             Along::FieldVariable(number) => planner.constant_of((*variables.get(number as usize)?)?),
-            Along::Clearance => None,
+            Along::Clearance | Along::MassFlow => None,
         });
     }
     let is_read =

@@ -1,11 +1,12 @@
 //! The plan as text for a person.
 
 use super::{
-    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan,
-    PorePlan, Rate, TablePlan,
+    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, GovernedBy,
+    InteractionPlan, Plan, PorePlan, Rate, SlipRateSource, TablePlan, ThermalPlan,
 };
 use crate::results::number_text as number;
 use crate::table::Tail;
+use inpact_parser::grammar::Dialect;
 use std::fmt::{self, Formatter};
 
 impl fmt::Display for Plan {
@@ -46,6 +47,9 @@ fn write_interaction(plan: &InteractionPlan, formatter: &mut Formatter<'_>) -> f
     if let Some(law) = &plan.electrical {
         write_electrical(law, formatter)?;
     }
+    if let Some(law) = &plan.thermal {
+        write_thermal(law, formatter)?;
+    }
     if let Some(law) = &plan.pore {
         write_pore(law, formatter)?;
     }
@@ -68,6 +72,40 @@ fn write_electrical(law: &ElectricalPlan, formatter: &mut Formatter<'_>) -> fmt:
         write_table("conductance", table, formatter)?;
     }
     if let Some(heat) = law.heat {
+        let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
+        writeln!(formatter, "    heat: fraction {fraction}, slave weight {weight}")?;
+    }
+    Ok(())
+}
+
+fn write_thermal(law: &ThermalPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(formatter, "  thermal law")?;
+    if let Some(conduction) = &law.conduction {
+        let is_calculix = conduction.dialect == Dialect::Calculix;
+        if is_calculix {
+            writeln!(
+                formatter,
+                "    conduction as in CalculiX: closed only, between two curves over the pressures both have"
+            )?;
+        }
+        for table in &conduction.tables {
+            write_table("thermal conductance", table, formatter)?;
+        }
+    }
+    if let Some(radiation) = &law.radiation {
+        let (coefficient, zero) = (number(radiation.coefficient), number(radiation.absolute_zero));
+        writeln!(formatter, "    radiation: {coefficient} per fourth power of temperature above {zero}")?;
+        write_table("view factor", &radiation.table, formatter)?;
+    }
+    match law.friction.map(|friction| friction.slip_rate) {
+        Some(SlipRateSource::Column) => writeln!(formatter, "    friction: `shear` × `slip_rate`")?,
+        Some(SlipRateSource::Given(speed)) => {
+            writeln!(formatter, "    friction: `shear` × {}, the speed of the deck", number(speed))?;
+        }
+        None => {}
+    }
+    let generates = law.friction.is_some() || law.current == CurrentHeat::Generated;
+    if let Some(heat) = law.heat.filter(|_| generates) {
         let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
         writeln!(formatter, "    heat: fraction {fraction}, slave weight {weight}")?;
     }

@@ -1,5 +1,6 @@
 //! Why something is left out of an evaluation.
 
+use crate::law::calculix::CalculixError;
 use crate::nodes::Column;
 use crate::results::{Output, number_text};
 use crate::table::TableError;
@@ -36,6 +37,14 @@ pub enum Reason {
     NoRows(&'static str),
     /// The rows of a table do not form one.
     BrokenTable(TableError),
+    /// The curves of CalculiX do not form a conductance.
+    BrokenCurves(CalculixError),
+    /// *PHYSICAL CONSTANTS does not give a constant that radiation needs (T-42).
+    NoConstant(&'static str),
+    /// *GAP RADIATION has no two emissivities from 0 to 1.
+    BadEmissivities,
+    /// CalculiX has no such keyword, or asks for another beside it.
+    NotInCalculix(&'static str),
     /// Pore pressure on one side only: the interface is impermeable (P-01).
     OneSided {
         /// The side that has none.
@@ -130,6 +139,10 @@ impl fmt::Display for Reason {
             Self::NoKeyword(keyword) => write!(formatter, "the interaction has no *{keyword}"),
             Self::NoRows(keyword) => write!(formatter, "*{keyword} has no rows"),
             Self::BrokenTable(error) => write!(formatter, "its rows form no table: {error}"),
+            Self::BrokenCurves(error) => write!(formatter, "its rows form no conductance: {error}"),
+            Self::NoConstant(name) => write!(formatter, "*PHYSICAL CONSTANTS does not give {name}"),
+            Self::BadEmissivities => formatter.write_str("*GAP RADIATION has no two emissivities from 0 to 1"),
+            Self::NotInCalculix(why) => write!(formatter, "CalculiX {why}"),
             Self::OneSided { missing } => {
                 write!(
                     formatter,

@@ -1,10 +1,12 @@
 //! The columns of a node table that some law of a deck could use, before its rows are known.
 
-use super::asked::{ELECTRICAL_FLOWS, OF_AREA};
+use super::asked::{ELECTRICAL_FLOWS, OF_AREA, SUMS_OF_HEAT};
 use super::choices::Choices;
 use super::governing::GovernedBy;
 use super::regime::regime;
 use super::tables::{InteractionTables, electrical_axis, matters, pore_axis};
+use super::thermal::tells_of_friction;
+use super::thermal_tables::{ThermalTables, thermal_axis};
 use crate::nodes::{Column, Header, Part};
 use crate::results::Along;
 use crate::table::PiecewiseTable;
@@ -26,6 +28,7 @@ pub(super) fn wanted_columns(
     for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
         want_electrical(&tables, choices, &mut wanted);
+        want_thermal(interaction, &ThermalTables::of(model, interaction, choices.dialect), choices, &mut wanted);
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -49,10 +52,25 @@ fn want_of_any_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
 fn want_electrical(tables: &InteractionTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
     for (against, table) in tables.electrical() {
         want_of_any_law(choices, wanted);
-        if choices.asks_for(&ELECTRICAL_FLOWS) {
+        if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {
             wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
         }
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
+    }
+}
+
+fn want_thermal(interaction: &Interaction, tables: &ThermalTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    let of_conductance = tables.conductance_tables();
+    if !of_conductance.is_empty() || tables.radiation.is_some() {
+        want_of_any_law(choices, wanted);
+        wanted.extend([Part::Slave, Part::Master].map(Column::Temperature));
+    }
+    for (against, table) in of_conductance {
+        want_variables(table, |axis| thermal_axis(against, axis), wanted);
+    }
+    if tells_of_friction(interaction) {
+        want_of_any_law(choices, wanted);
+        wanted.extend([Column::Shear, Column::SlipRate]);
     }
 }
 
@@ -94,6 +112,7 @@ pub(super) fn columns_of(along: Along) -> Option<[Column; 3]> {
     let parts = [Part::Both, Part::Slave, Part::Master];
     match along {
         Along::Temperature => Some(parts.map(Column::Temperature)),
+        Along::MassFlow => Some(parts.map(Column::MassFlow)),
         Along::FieldVariable(number) => Some(parts.map(|part| Column::FieldVariable(number, part))),
         Along::Clearance | Along::Pressure | Along::PorePressure => None,
     }

@@ -33,12 +33,12 @@ impl Sides {
     }
 
     #[inline]
-    pub(super) fn mark_below(&mut self, axis: usize) {
+    pub(crate) fn mark_below(&mut self, axis: usize) {
         self.below |= flag(axis);
     }
 
     #[inline]
-    pub(super) fn mark_above(&mut self, axis: usize) {
+    pub(crate) fn mark_above(&mut self, axis: usize) {
         self.above |= flag(axis);
     }
 }

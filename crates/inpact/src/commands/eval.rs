@@ -163,6 +163,10 @@ impl Summary<'_> {
             incomplete_flows: u64,
             needs_char_length: u64,
             lost_digits: u64,
+            incomplete_heat: u64,
+            beyond_curves: u64,
+            below_absolute_zero: u64,
+            negative_friction: u64,
         }
         #[derive(Serialize)]
         struct Line<'a> {
@@ -182,6 +186,10 @@ impl Summary<'_> {
                 incomplete_flows: of.incomplete_flows,
                 needs_char_length: of.needs_length,
                 lost_digits: of.lost_digits,
+                incomplete_heat: of.incomplete_heat,
+                beyond_curves: of.beyond_curves,
+                below_absolute_zero: of.below_absolute_zero,
+                negative_friction: of.negative_friction,
             }
         });
         let summary = Record {
@@ -222,6 +230,16 @@ fn remarks(of: &InteractionTally) -> Vec<String> {
             of.lost_digits,
             "with a difference of potentials below 1e-8 of the potentials, which has lost its digits: give `epot_jump`",
         ),
+        (
+            of.incomplete_heat,
+            "without a number that the heat at the interface depends on, and so without all of its parts",
+        ),
+        (
+            of.beyond_curves,
+            "outside the curves of CalculiX, or the pressures that two of them share: the value at the end is kept",
+        ),
+        (of.below_absolute_zero, "with a temperature below absolute zero"),
+        (of.negative_friction, "with `shear` and `slip_rate` of opposite signs, and so a heat of friction below zero"),
     ];
     let remarks = remarks.into_iter().filter(|(count, _)| *count > 0);
     remarks.map(|(count, what)| format!("warning: {} {what}", rows(count))).collect()

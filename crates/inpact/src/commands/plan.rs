@@ -5,9 +5,10 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
-    CharacteristicLength, ColumnRole, Cut, ElectricalPlan, GovernedBy, InteractionPlan, Node, Plan, PorePlan, Source,
-    TablePlan,
+    CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, GovernedBy, InteractionPlan, Node, Plan,
+    PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan,
 };
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::Regime;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -106,6 +107,7 @@ fn interaction(plan: &InteractionPlan) -> Value {
         "open": plan.open,
         "histories": plan.histories,
         "electrical": plan.electrical.as_ref().map(electrical),
+        "thermal": plan.thermal.as_ref().map(thermal),
         "pore": plan.pore.as_ref().map(pore),
         "outputs": plan.outputs.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "left_out": left_out.collect::<Vec<_>>(),
@@ -120,6 +122,41 @@ fn electrical(law: &ElectricalPlan) -> Value {
         "tables": law.tables.iter().map(table).collect::<Vec<_>>(),
         "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
         "potential_jump": law.jump.as_ref().map(columns),
+    })
+}
+
+fn thermal(law: &ThermalPlan) -> Value {
+    let conduction = law.conduction.as_ref().map(|conduction| {
+        json!({
+            "dialect": match conduction.dialect {
+                Dialect::Abaqus => "abaqus",
+                Dialect::Calculix => "calculix",
+            },
+            "tables": conduction.tables.iter().map(table).collect::<Vec<_>>(),
+        })
+    });
+    let radiation = law.radiation.as_ref().map(|radiation| {
+        json!({
+            "coefficient": radiation.coefficient,
+            "absolute_zero": radiation.absolute_zero,
+            "table": table(&radiation.table),
+        })
+    });
+    let friction = law.friction.as_ref().map(|friction| {
+        json!({
+            "shear": friction.shear.to_string(),
+            "slip_rate": match friction.slip_rate {
+                SlipRateSource::Column => json!("slip_rate"),
+                SlipRateSource::Given(speed) => json!(speed),
+            },
+        })
+    });
+    json!({
+        "conduction": conduction,
+        "radiation": radiation,
+        "friction": friction,
+        "heat_of_current": law.current == CurrentHeat::Generated,
+        "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
     })
 }
 

@@ -13,7 +13,7 @@ use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, surv
 use inpact_evaluation::results::Output;
 use inpact_evaluation::table::Tail;
 use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::grammar::Grammar;
+use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity, check};
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub(crate) struct SceneArguments {
     /// The outputs that are wanted, by the names of their columns; all that deck and node table give where there is none.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = output_named)]
     outputs: Option<Vec<Output>>,
-    /// Give the slopes of conductance and permeability as well.
+    /// Give the slopes of conductances and permeability as well.
     #[arg(long)]
     derivatives: bool,
     #[command(flatten)]
@@ -137,7 +137,7 @@ impl SceneArguments {
         if model.interactions.is_empty() {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
-        let choices = self.choices();
+        let choices = self.choices(grammar.dialect());
         let nodes_name = self.nodes.display().to_string();
         let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
@@ -161,7 +161,7 @@ impl SceneArguments {
         Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
 
-    fn choices(&self) -> Choices {
+    fn choices(&self, dialect: Dialect) -> Choices {
         Choices {
             interaction: self.interaction.as_deref().map(Name::new),
             regime: self.procedure.map(|procedure| match procedure {
@@ -177,6 +177,7 @@ impl SceneArguments {
                 Boundary::Inclusive => CutoffBoundary::Inclusive,
                 Boundary::Exclusive => CutoffBoundary::Exclusive,
             },
+            dialect,
             derivatives: self.derivatives(),
             accuracy: match self.accuracy {
                 AccuracyChoice::Reference => Accuracy::Reference,
