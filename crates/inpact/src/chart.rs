@@ -111,11 +111,14 @@ impl Chart {
             taken.push(Area::of_text(if is_right { at } else { at - width }, base, meaning));
             taken.push(Area { left: x - 2.0, right: x + 2.0, top: TOP, bottom: BOTTOM });
         }
+        // Beside the vertical lines, where these stand on the left as a roofline does.
+        let places = self.vertical.iter().map(|(x, _)| x_axis.place(*x)).filter(|x| *x < f64::midpoint(LEFT, RIGHT));
+        let left = places.fold(LEFT, f64::max) + 8.0;
         for (at, meaning) in &self.horizontal {
             let y = y_axis.place(*at);
             drawing.line((LEFT, y), (RIGHT, y), "level");
-            drawing.text((LEFT + 8.0, y - 6.0), meaning, "level-label", "start");
-            taken.push(Area::of_text(LEFT + 8.0, y - 6.0, meaning));
+            drawing.text((left, y - 6.0), meaning, "level-label", "start");
+            taken.push(Area::of_text(left, y - 6.0, meaning));
         }
         let mut front: Vec<&Point> = self.points.iter().filter(|point| point.on_front).collect();
         front.sort_by(|a, b| a.x.total_cmp(&b.x));

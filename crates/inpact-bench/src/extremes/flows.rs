@@ -156,7 +156,7 @@ impl History {
                 plain += CONDUCTANCE * jump * (time - last_time);
                 of_block += scaled(jump, 53) * (scaled(time, 62) - scaled(last_time, 62));
             }
-            if row % ROWS_OF_A_BLOCK == 0 || row == steps {
+            if row.is_multiple_of(ROWS_OF_A_BLOCK) || row == steps {
                 sum += std::mem::take(&mut of_block);
             }
             last_time = time;

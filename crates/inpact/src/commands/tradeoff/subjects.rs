@@ -110,6 +110,8 @@ fn gatherings<'a>(model: &Model, plan: &Plan, planned: &'a InteractionPlan) -> V
                 let sides = [Part::Slave, Part::Master].map(Column::PorePressure).map(place);
                 Some(Coordinate::Variable(Source::Sides(sides[0], sides[1])))
             }
+            // Of no table that is measured.
+            Along::MassFlow => None,
             Along::Temperature | Along::FieldVariable(_) => {
                 let source = variables.get(axis.checked_sub(if is_pore { 2 } else { 1 })?)?.as_ref()?;
                 Some(Coordinate::Variable(source.map(place)))
