@@ -23,6 +23,9 @@ pub(super) struct Tick {
 /// The most decades of which each has a label.
 const MOST_LABELS: i32 = 9;
 
+/// The most decades between which 2 and 5 have labels as well.
+const MOST_DECADES_WITH_DIGITS: f64 = 2.5;
+
 impl Axis {
     /// An axis that holds these numbers above zero with some room at its ends.
     pub(super) fn around(numbers: impl Iterator<Item = f64>, start: f64, end: f64) -> Self {
@@ -51,6 +54,7 @@ impl Axis {
         let (first, last) = (self.least.floor() as i32, self.greatest.ceil() as i32);
         let decades = last - first;
         let step = 1 + decades / (MOST_LABELS + 1);
+        let are_few = self.greatest - self.least <= MOST_DECADES_WITH_DIGITS;
         let mut ticks = Vec::new();
         for decade in first..=last {
             let power = 10f64.powi(decade);
@@ -59,7 +63,7 @@ impl Axis {
             if decades <= MOST_LABELS {
                 ticks.extend((2..10).map(|digit| {
                     let at = f64::from(digit) * power;
-                    let label = (decades <= 3 && (digit == 2 || digit == 5)).then(|| written(at));
+                    let label = (are_few && (digit == 2 || digit == 5)).then(|| written(at));
                     Tick { at, is_decade: false, label }
                 }));
             }
@@ -107,7 +111,7 @@ mod tests {
             axis.ticks().into_iter().filter_map(|tick| tick.label).collect()
         };
         assert_eq!(labels(1.0, 100.0), ["1", "2", "5", "10", "20", "50", "100"]);
-        assert_eq!(labels(0.2, 1.5), ["0.2", "0.5", "1"]);
+        assert_eq!(labels(0.2, 1.5), ["0.2", "0.5", "1", "2"]);
         assert!(labels(1e-17, 1e-2).len() < 11);
         assert!(labels(1e-300, 1e300).len() < 11);
     }
