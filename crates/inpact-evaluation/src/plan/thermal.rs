@@ -347,8 +347,10 @@ fn plan_friction(planner: Planner<'_>, heat: Option<HeatGeneration>, left_out: &
     }
     let given_speed = planner.interaction.gap_heat_generation.and_then(|heat| heat.slip_rate);
     let has_option = |keyword: &str| planner.interaction.other.iter().any(|option| option.keyword == keyword);
-    // Without friction in deck or node table there is nothing to say.
-    if !has_option("FRICTION") && !columns.iter().any(is_there) {
+    // A deck without heat has friction too, and says nothing of its heat.
+    let is_thermal = planner.interaction.gap_heat_generation.is_some()
+        || ["GAP CONDUCTANCE", "GAP RADIATION"].into_iter().any(has_option);
+    if !(is_thermal && has_option("FRICTION")) && !columns.iter().any(is_there) {
         return Planned::Absent;
     }
     if heat.is_none() {
