@@ -12,6 +12,7 @@
 //! - [`calculix`]: thermal conductance as the dialect of CalculiX has it;
 //! - [`heat`]: how generated heat is shared between the two sides (*GAP HEAT GENERATION);
 //! - [`conductance`]: the clearance and pressure branches every conductance law shares;
+//! - [`user`]: the conductance that a routine of the user's gives (*GAP ELECTRICAL CONDUCTANCE, USER, semantics 7.1);
 //! - [`contact`]: the quantities at a point of contact and whether it is closed.
 
 pub mod calculix;
@@ -23,3 +24,4 @@ pub mod heat;
 pub mod pore;
 pub mod radiation;
 pub mod thermal;
+pub mod user;

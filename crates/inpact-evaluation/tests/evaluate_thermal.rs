@@ -206,7 +206,7 @@ fn what_is_left_out_and_why() {
     let sum = "`HFL`, `HFLA`, `HTL`, `HTLA`, `total_heat_s`, `total_heat_m`";
     assert_eq!(
         reasons("*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE, USER\n")[0],
-        "heat conduction: needs user subroutine GAPCON"
+        "heat conduction: needs user subroutine GAPCON, which is not evaluated"
     );
     assert_eq!(
         reasons("*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE\n")[0],

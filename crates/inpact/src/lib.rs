@@ -14,6 +14,7 @@ mod page;
 mod progress;
 mod render;
 mod settings;
+mod user_library;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;

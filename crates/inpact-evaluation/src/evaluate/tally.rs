@@ -1,6 +1,6 @@
 //! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
-use crate::nodes::{BEYOND_TABLE, Findings, Place};
+use crate::nodes::{BEYOND_TABLE, Findings, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Status, push_number};
 use crate::table::{Sides, Tail};
@@ -23,6 +23,17 @@ pub struct Tally {
     pub rows: u64,
     /// The counts of each interaction of the model, in its order.
     pub interactions: Vec<InteractionTally>,
+    /// The first rows of each interaction in which a user's routine gave no conductance.
+    pub user_faults: Vec<UserFaultInRow>,
+}
+
+/// A row in which a user's routine gave what is no conductance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UserFaultInRow {
+    /// Where it is.
+    pub place: Place,
+    /// What the routine was called with and what it gave.
+    pub message: String,
 }
 
 /// Counts over the rows of one interaction.
@@ -48,6 +59,10 @@ pub struct InteractionTally {
     pub needs_length: u64,
     /// How many have a jump of potential below 1e-8 of the potentials it is the difference of.
     pub lost_digits: u64,
+    /// How many have a node label that is no number, for a user's routine that is called with one.
+    pub unnumbered_nodes: u64,
+    /// How many have no conductance because a user's routine gave none.
+    pub user_faults: u64,
     /// How many lack a number that the heat at the interface depends on.
     pub incomplete_heat: u64,
     /// How many lie outside the curves of CalculiX, or outside the pressures that two neighbouring curves share.
@@ -72,7 +87,8 @@ pub struct AxisTally {
 
 impl Tally {
     pub(super) fn new(plan: &Plan, interactions: usize) -> Self {
-        let mut tally = Self { rows: 0, interactions: vec![InteractionTally::default(); interactions] };
+        let mut tally =
+            Self { rows: 0, interactions: vec![InteractionTally::default(); interactions], user_faults: Vec::new() };
         for interaction in &plan.interactions {
             for (table, planned) in tables(interaction) {
                 tally.interactions[interaction.index].axes[table] = vec![AxisTally::default(); planned.axes.len()];
@@ -103,7 +119,19 @@ impl Tally {
             beyond_curves: self.total(|of| of.beyond_curves),
             below_absolute_zero: self.total(|of| of.below_absolute_zero),
             negative_friction: self.total(|of| of.negative_friction),
+            unnumbered_nodes: self.total(|of| of.unnumbered_nodes),
+            user_faults: self.total(|of| of.user_faults),
             axes: Default::default(),
+        }
+    }
+
+    /// Reports the rows in which a user's routine gave no conductance (D010).
+    pub fn report_user_faults(&self, findings: &mut Findings) {
+        let count = self.total(|of| of.user_faults);
+        for UserFaultInRow { place, message } in &self.user_faults {
+            let rows = if count == 1 { "in 1 row".to_owned() } else { format!("in {count} rows, all told") };
+            let help = format!("{rows}: mend the routine, and compile it again");
+            findings.report(&USER_FAULT, place.clone(), message.clone(), help);
         }
     }
 

@@ -1,6 +1,7 @@
 //! From a deck's model, a survey of a node table and the user's choices to the plan.
 
-use super::choices::Choices;
+use super::asked::keep_asked;
+use super::choices::{Choices, Derivatives};
 use super::columns::column_plans;
 use super::electrical::plan_electrical;
 use super::governing::GovernedBy;
@@ -11,7 +12,8 @@ use super::survey::{InteractionSurvey, Survey};
 use super::tables::InteractionTables;
 use super::thermal::plan_thermal;
 use super::thermal_tables::ThermalTables;
-use super::{ContactColumns, History, InteractionPlan, Plan};
+use super::{ContactColumns, InteractionPlan, Plan};
+use crate::accuracy::Accuracy;
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
 use inpact_parser::model::{Interaction, Model};
@@ -65,13 +67,13 @@ pub(super) struct LeftOuts(pub(super) Vec<LeftOut>);
 impl LeftOuts {
     /// Leaves something out that has words of its own.
     pub(super) fn push(&mut self, what: impl Into<String>, reason: Reason) {
-        self.0.push(LeftOut { what: what.into(), reason });
+        self.0.push(LeftOut { what: what.into(), outputs: Vec::new(), reason });
     }
 
     /// Leaves outputs out; those left out for one reason stand together.
     pub(super) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
         let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
-        self.push(names.join(", "), reason);
+        self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
     }
 }
 
@@ -81,7 +83,8 @@ impl Planner<'_> {
         let mut left_out = LeftOuts::default();
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let mut dropped = Vec::new();
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut notes, &mut dropped);
         let thermal_tables = ThermalTables::of(self.model, self.interaction, self.choices.dialect);
         let thermal = plan_thermal(self, &thermal_tables, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
@@ -103,25 +106,34 @@ impl Planner<'_> {
                 "{rows} from which contact cannot be told: `closed` empty, and `clearance` too or one of them NaN"
             ));
         }
-        let uses_history = |history: Option<History>| history == Some(History::ByTime);
-        let has_history = uses_history(electrical.as_ref().map(|law| law.history))
-            || uses_history(thermal.as_ref().map(|law| law.history))
-            || uses_history(pore.as_ref().map(|law| law.history));
-        InteractionPlan {
+        let mut plan = InteractionPlan {
             name: self.interaction.name.clone(),
             index: self.index,
             rows: self.of.rows,
             closed: self.of.closed,
             open: self.of.open,
-            histories: self.of.histories.filter(|_| has_history),
+            histories: None,
             contact: self.contact(),
             electrical,
             thermal,
             pore,
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
+            dropped,
             notes,
+        };
+        plan.histories = self.of.histories.filter(|_| plan.has_history());
+        keep_asked(&mut plan, self.choices);
+        plan
+    }
+
+    /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
+    pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+        if self.choices.accuracy == Accuracy::Reference {
+            return false;
         }
+        let asked = self.choices.outputs.as_ref();
+        self.choices.derivatives == Derivatives::LeftOut || asked.is_some_and(|asked| !asked.iter().any(is_slope))
     }
 
     pub(super) fn presence(self, column: Column) -> Presence {
@@ -141,6 +153,7 @@ impl Planner<'_> {
             clearance: found(Column::Clearance),
             pressure: found(Column::Pressure),
             closed: found(Column::Closed),
+            state: None,
         }
     }
 

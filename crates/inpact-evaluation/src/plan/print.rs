@@ -4,7 +4,7 @@ use super::{
     AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, GovernedBy,
     InteractionPlan, Plan, PorePlan, Rate, SlipRateSource, TablePlan, ThermalPlan,
 };
-use crate::results::push_number;
+use crate::results::number_text as number;
 use crate::table::Tail;
 use inpact_parser::grammar::Dialect;
 use std::fmt::{self, Formatter};
@@ -33,7 +33,8 @@ impl fmt::Display for Plan {
         let keys = self.keys().iter().map(ToString::to_string);
         let outputs: Vec<String> = keys.chain(self.outputs.iter().map(ToString::to_string)).collect();
         let outputs = if outputs.is_empty() { "none".to_owned() } else { outputs.join(" ") };
-        writeln!(formatter, "\ncolumns of the result\n  {outputs}")
+        writeln!(formatter, "\ncolumns of the result\n  {outputs}\n")?;
+        write!(formatter, "{}", self.outline())
     }
 }
 
@@ -69,6 +70,20 @@ fn write_electrical(law: &ElectricalPlan, formatter: &mut Formatter<'_>) -> fmt:
     writeln!(formatter, "  electrical law, {}", law.regime)?;
     for table in &law.tables {
         write_table("conductance", table, formatter)?;
+    }
+    if let Some(user) = &law.user {
+        let names = &user.names;
+        let [interaction, slave, master] =
+            [names.interaction, names.slave, names.master].map(|name| name.text().into_owned());
+        writeln!(
+            formatter,
+            "    conductance by user subroutine GAPELECTR, without contact pressure (it has no such argument)"
+        )?;
+        writeln!(
+            formatter,
+            "      NPRED = {}, CINAME = `{interaction}`, SLNAME = `{slave}`, MSNAME = `{master}`",
+            user.field_variables.len()
+        )?;
     }
     if let Some(heat) = law.heat {
         let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
@@ -148,14 +163,25 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
     };
     writeln!(formatter, "    {what} against {}: {}{tail}", table.against, count(table.rows as u64, "row"))?;
     for axis in &table.axes {
-        let AxisPlan { along, least, greatest, points, matters } = *axis;
+        let AxisPlan { along, least, greatest, points, matters, .. } = *axis;
+        let fold = match axis.fold {
+            Some(at) => format!(": folded at {}, the value of every row", number(at)),
+            None if axis.is_idle => ": makes no difference to what is left of the table".to_owned(),
+            None => match table.not_folded.iter().find(|(refused, _)| *refused == along) {
+                Some((_, refusal)) => format!(": one value in every row, yet not folded, as {refusal}"),
+                None => String::new(),
+            },
+        };
         let along = along.to_string();
         let range = match (matters, points) {
             (false, 1) => format!("{} in every row: left out", number(least)),
             (false, _) => format!("{} to {}, one value a group: left out", number(least), number(greatest)),
             (true, _) => format!("{} to {}, {points} values", number(least), number(greatest)),
         };
-        writeln!(formatter, "      {along:<10} {range}")?;
+        writeln!(formatter, "      {along:<10} {range}{fold}")?;
+    }
+    if table.axes.iter().any(|axis| axis.fold.is_some()) {
+        writeln!(formatter, "      {} left of it", count(table.folded_rows as u64, "row"))?;
     }
     Ok(())
 }
@@ -182,11 +208,4 @@ fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>
 /// `1 row`, `2 rows`.
 fn count(number: u64, word: &str) -> String {
     format!("{number} {word}{}", if number == 1 { "" } else { "s" })
-}
-
-/// A number in its shortest form.
-fn number(value: f64) -> String {
-    let mut text = Vec::new();
-    push_number(&mut text, value);
-    String::from_utf8_lossy(&text).into_owned()
 }

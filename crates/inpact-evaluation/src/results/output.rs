@@ -105,6 +105,69 @@ pub enum Along {
     FieldVariable(u32),
 }
 
+impl Output {
+    /// The outputs that are not slopes, in the order of the columns.
+    pub const NAMED: &[Self] = &[
+        Self::Ecd,
+        Self::Ecda,
+        Self::Ecdt,
+        Self::Ecdta,
+        Self::Sjd,
+        Self::Sjda,
+        Self::Sjdt,
+        Self::Sjdta,
+        Self::Hfl,
+        Self::Hfla,
+        Self::Htl,
+        Self::Htla,
+        Self::Sfdr,
+        Self::Sfdra,
+        Self::Sfdrt,
+        Self::Sfdrta,
+        Self::Weight,
+        Self::Pfl,
+        Self::Pfla,
+        Self::Ptl,
+        Self::Ptla,
+        Self::Conductance,
+        Self::HeatSlave,
+        Self::HeatMaster,
+        Self::ThermalConductance,
+        Self::HeatConduction,
+        Self::HeatRadiation,
+        Self::TotalHeatSlave,
+        Self::TotalHeatMaster,
+        Self::Permeability,
+        Self::QAcross,
+        Self::QGapSlave,
+        Self::QGapMaster,
+        Self::QSlave,
+        Self::QMaster,
+        Self::Status,
+    ];
+
+    /// The output of a name, blanks around it and case aside; `None` where there is none.
+    pub fn named(name: &str) -> Option<Self> {
+        let name = name.trim().to_ascii_lowercase();
+        let slope = |prefix, of: fn(Along) -> Self| Some(of(Along::named(name.strip_prefix(prefix)?)?));
+        let listed = Self::NAMED.iter().copied().find(|output| output.to_string().eq_ignore_ascii_case(&name));
+        listed
+            .or_else(|| slope("dconductance_d", Self::ConductanceSlope))
+            .or_else(|| slope("dthermal_conductance_d", Self::ThermalConductanceSlope))
+            .or_else(|| slope("dpermeability_d", Self::PermeabilitySlope))
+    }
+}
+
+impl Along {
+    /// The variable of a name in lower case.
+    fn named(name: &str) -> Option<Self> {
+        let plain = [Self::Clearance, Self::Pressure, Self::PorePressure, Self::Temperature, Self::MassFlow];
+        let listed = plain.into_iter().find(|along| along.to_string() == name);
+        let number = || name.strip_prefix("fv").filter(|digits| !digits.starts_with(['0', '+']))?.parse().ok();
+        listed.or_else(|| number().map(Self::FieldVariable))
+    }
+}
+
 impl fmt::Display for Output {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self {
@@ -161,6 +224,26 @@ impl fmt::Display for Along {
             Self::Temperature => formatter.write_str("temp"),
             Self::MassFlow => formatter.write_str("mass_flow"),
             Self::FieldVariable(number) => write!(formatter, "fv{number}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_output_is_found_by_its_name() {
+        let slopes = [Along::Clearance, Along::PorePressure, Along::MassFlow, Along::FieldVariable(12)];
+        let slopes = slopes.into_iter().flat_map(|along| {
+            [Output::ConductanceSlope(along), Output::ThermalConductanceSlope(along), Output::PermeabilitySlope(along)]
+        });
+        for output in Output::NAMED.iter().copied().chain(slopes) {
+            assert_eq!(Output::named(&output.to_string()), Some(output));
+        }
+        assert_eq!(Output::named(" ecd "), Some(Output::Ecd));
+        for unknown in ["", "ECDX", "dconductance_d", "dconductance_dfv0", "dconductance_dfv+1"] {
+            assert_eq!(Output::named(unknown), None, "{unknown}");
         }
     }
 }

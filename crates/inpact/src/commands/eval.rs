@@ -40,9 +40,9 @@ pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         return Err(nothing_to_evaluate(&scene, format));
     }
     let mut findings = Findings::new(&scene.nodes_name);
-    let (tally, rows_out) = evaluate(arguments, &mut scene, &mut findings)?;
-    tally.report(&scene.plan, &mut findings);
+    let evaluated = evaluate(arguments, &mut scene, &mut findings);
     say_data_findings(findings.into_list(), format);
+    let (tally, rows_out) = evaluated?;
     let summary = Summary { tally: &tally, plan: &scene.plan, rows_out, time: start.elapsed() };
     match format {
         FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
@@ -71,6 +71,11 @@ fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Finding
         let message = format!("`{nodes_name}` changed while it was read: {first} rows, then {then}");
         return Err(Failure::Data(message));
     }
+    tally.report_user_faults(findings);
+    if findings.has_errors() {
+        return Err(Failure::Data("the user subroutine fails, and no result is written".to_owned()));
+    }
+    tally.report(plan, findings);
     output.finish()?;
     Ok((tally, rows_out))
 }
@@ -167,6 +172,7 @@ impl Summary<'_> {
             beyond_curves: u64,
             below_absolute_zero: u64,
             negative_friction: u64,
+            unnumbered_nodes: u64,
         }
         #[derive(Serialize)]
         struct Line<'a> {
@@ -190,6 +196,7 @@ impl Summary<'_> {
                 beyond_curves: of.beyond_curves,
                 below_absolute_zero: of.below_absolute_zero,
                 negative_friction: of.negative_friction,
+                unnumbered_nodes: of.unnumbered_nodes,
             }
         });
         let summary = Record {
@@ -240,6 +247,7 @@ fn remarks(of: &InteractionTally) -> Vec<String> {
         ),
         (of.below_absolute_zero, "with a temperature below absolute zero"),
         (of.negative_friction, "with `shear` and `slip_rate` of opposite signs, and so a heat of friction below zero"),
+        (of.unnumbered_nodes, "whose `node` is no number: the user subroutine was given NODE = 0"),
     ];
     let remarks = remarks.into_iter().filter(|(count, _)| *count > 0);
     remarks.map(|(count, what)| format!("warning: {} {what}", rows(count))).collect()

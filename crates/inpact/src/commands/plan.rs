@@ -5,8 +5,8 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
-    CharacteristicLength, ColumnRole, CurrentHeat, ElectricalPlan, GovernedBy, InteractionPlan, Plan, PorePlan,
-    SlipRateSource, Source, TablePlan, ThermalPlan,
+    CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, GovernedBy, InteractionPlan, Node, Plan,
+    PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan, UserPlan,
 };
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::Regime;
@@ -64,6 +64,7 @@ fn as_json(scene: &Scene) -> String {
             "range": column.range.map(|(least, greatest)| [least, greatest]),
         })
     });
+    let outline = scene.plan.outline();
     let keys = scene.plan.keys().iter().map(ToString::to_string);
     let document = json!({
         "schema": "inpact/plan/1",
@@ -78,10 +79,22 @@ fn as_json(scene: &Scene) -> String {
         "interactions": interactions.iter().map(interaction).collect::<Vec<_>>(),
         "unused": unused.iter().map(inpact_parser::model::Name::written).collect::<Vec<_>>(),
         "columns": columns.collect::<Vec<_>>(),
+        "before": node(&outline.before),
+        "after": node(&outline.after),
+        "cuts": outline.cuts.iter().map(cut).collect::<Vec<_>>(),
         "outputs": keys.chain(outputs.iter().map(ToString::to_string)).collect::<Vec<_>>(),
     });
     // A document of strings and numbers has no reason to fail.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+/// A part of the evaluation with its estimated cost in nanoseconds a row, its parts included.
+fn node(part: &Node) -> Value {
+    json!({ "name": part.name, "cost": part.total(), "parts": part.parts.iter().map(node).collect::<Vec<_>>() })
+}
+
+fn cut(cut: &Cut) -> Value {
+    json!({ "interaction": cut.interaction, "what": cut.what, "reason": cut.reason, "saved": cut.saved })
 }
 
 fn interaction(plan: &InteractionPlan) -> Value {
@@ -107,6 +120,7 @@ fn electrical(law: &ElectricalPlan) -> Value {
         "regime": regime(law.regime.regime),
         "reason": law.regime.to_string(),
         "tables": law.tables.iter().map(table).collect::<Vec<_>>(),
+        "user": law.user.as_ref().map(user),
         "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
         "potential_jump": law.jump.as_ref().map(columns),
     })
@@ -147,6 +161,16 @@ fn thermal(law: &ThermalPlan) -> Value {
     })
 }
 
+fn user(user: &UserPlan) -> Value {
+    json!({
+        "subroutine": "GAPELECTR",
+        "npred": user.field_variables.len(),
+        "ciname": user.names.interaction.text(),
+        "slname": user.names.slave.text(),
+        "msname": user.names.master.text(),
+    })
+}
+
 fn pore(law: &PorePlan) -> Value {
     json!({
         "regime": regime(law.regime.regime),
@@ -170,10 +194,16 @@ fn table(table: &TablePlan) -> Value {
             "least": axis.least,
             "greatest": axis.greatest,
             "values": axis.points,
-            "used": axis.matters,
+            "used": axis.is_read(),
+            "folded_at": axis.fold,
         })
     });
-    json!({ "against": table.against.to_string(), "rows": table.rows, "axes": axes.collect::<Vec<_>>() })
+    json!({
+        "against": table.against.to_string(),
+        "rows": table.rows,
+        "rows_evaluated": table.folded_rows,
+        "axes": axes.collect::<Vec<_>>(),
+    })
 }
 
 fn regime(regime: Regime) -> &'static str {
