@@ -114,6 +114,16 @@ fn two_curves_clipped_to_the_pressures_they_share() {
     assert_eq!(conductance(T3, 4000.0, 393.0), 800.0);
 }
 
+/// The sweep over the number of rows: k = 100 + 10 i at p = 100 i gives 225 at 1250, as ccx does up to 32 rows; beyond, it reads past its own arrays.
+#[test]
+fn the_number_of_rows_changes_nothing() {
+    for rows in [14_u32, 20, 21, 25, 32, 33, 60, 199] {
+        let rows: Vec<Row> =
+            (0..rows).map(|row| [100.0 + 10.0 * f64::from(row), 100.0 * f64::from(row), 0.0]).collect();
+        assert_eq!(conductance(&rows, 1250.0, 343.0), 225.0);
+    }
+}
+
 /// heatgen2: η 0.8, a quarter into the slave, speed 3 given, τ = 500, k = 100 between two cubes of conductivity 50 whose ends are held at the same temperature.
 ///
 /// The network of the two cubes and the gap then gives what ccx printed at the two ends, 540 and 660.

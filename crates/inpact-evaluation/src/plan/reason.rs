@@ -138,7 +138,9 @@ impl fmt::Display for Reason {
             Self::NeedsUserSubroutine("GAPELECTR") => {
                 formatter.write_str("needs user subroutine GAPELECTR; give it with `--user-library FILE`")
             }
-            Self::NeedsUserSubroutine(name) => write!(formatter, "needs user subroutine {name}, which is not evaluated"),
+            Self::NeedsUserSubroutine(name) => {
+                write!(formatter, "needs user subroutine {name}, which is not evaluated")
+            }
             Self::NoKeyword(keyword) => write!(formatter, "the interaction has no *{keyword}"),
             Self::NoRows(keyword) => write!(formatter, "*{keyword} has no rows"),
             Self::BrokenTable(error) => write!(formatter, "its rows form no table: {error}"),

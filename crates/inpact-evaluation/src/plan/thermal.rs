@@ -12,6 +12,7 @@ use super::tables::matters;
 use super::thermal_tables::{ConductanceRows, RadiationFault, ThermalTables, thermal_axis};
 use super::wanted::columns_of;
 use super::{Derivatives, ElectricalPlan, History, TablePlan};
+use crate::accuracy::Accuracy;
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::{Along, Output};
@@ -196,6 +197,11 @@ pub(super) fn plan_thermal(
         }
     }
     plan_flows(planner, &mut plan, unknown, outputs, left_out);
+    if planner.choices.accuracy == Accuracy::Reference {
+        notes.push(
+            "heat but that of the current is evaluated in full accuracy, not in that of the reference".to_owned(),
+        );
+    }
     let has_current = planner.interaction.gap_electrical_conductance.is_some();
     if has_current && !generates && heat.is_some() && outputs.contains(&Output::Hfl) {
         notes.push("`HFL` and what follows from it are without the heat of the current, which is left out".to_owned());
