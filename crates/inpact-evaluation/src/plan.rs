@@ -29,6 +29,7 @@ mod source;
 mod survey;
 mod tables;
 mod thermal;
+mod thermal_parts;
 mod thermal_tables;
 mod user;
 mod wanted;

@@ -4,8 +4,10 @@ mod evaluate_support;
 
 use evaluate_support::{Run, evaluate, evaluate_with};
 use inpact_evaluation::plan::{Choices, Derivatives};
+use inpact_evaluation::results::Output;
 use inpact_evaluation::table::Tail;
 use inpact_parser::grammar::Dialect;
+use proptest::prelude::*;
 
 /// The tables of T-21.
 const BOTH: &str = "\
@@ -289,7 +291,7 @@ const CUBES: &str = "\
 fn calculix_clips_and_conducts_closed_only() {
     let nodes = "clearance,pressure,temp_s,temp_m,shear\n0,100,393,293,0\n0,1500,393,293,0\n0,4000,393,293,-500\n1e-5,0,393,293,\n";
     let run = in_calculix(CUBES, nodes);
-    let printed = [3.000000E+04, 5.708333E+04, 6.750000E+04, 0.0];
+    let printed = [30_000.0, 57_083.33, 67_500.0, 0.0];
     for (heat, printed) in run.numbers("heat_conduction").into_iter().zip(printed) {
         assert!((heat - printed).abs() <= 5e-7 * printed, "{heat} {printed}");
     }
@@ -335,4 +337,93 @@ fn the_plan_of_all_heat() {
     let nodes = "node,time,clearance,temp,temp_s,temp_m,shear,slip_rate,mass_flow\n1,0,0.05,30,40,20,0,0,1\n1,1,0,30,40,20,3,2,1\n";
     let choices = Choices { derivatives: Derivatives::Given, ..Choices::default() };
     insta::assert_snapshot!(evaluate_with(&deck, nodes, &choices, 1).plan_text());
+}
+
+/// Only what outputs need is evaluated and read; the sum needs the heat of the current although nothing of the current is asked for.
+#[test]
+fn outputs_that_are_asked_for() {
+    let deck = format!(
+        "{RADIATION}*GAP CONDUCTANCE\n2., 0.\n1., 1.\n*GAP ELECTRICAL CONDUCTANCE\n10., 0.\n5., 1.\n*FRICTION\n.3,\n"
+    );
+    let nodes = "node,time,clearance,temp_s,temp_m,epot_jump,shear,slip_rate,area\n1,0,0,40,-60,2,8,3,2\n1,2,.5,40,-60,5,8,3,2\n";
+    let all = evaluate(&deck, nodes);
+    let asked = |names: &[&str]| {
+        let outputs = names.iter().map(|name| Output::named(name).expect("an output"));
+        evaluate_with(&deck, nodes, &Choices { outputs: Some(outputs.collect()), ..Choices::default() }, 1)
+    };
+    let read = |run: &Run| -> Vec<String> {
+        run.plan.as_ref().expect("a plan").selection.numbers.iter().map(ToString::to_string).collect()
+    };
+    let run = asked(&["HFL"]);
+    assert_eq!((run.header(), run.column("HFL")), ("node,time,HFL", all.column("HFL")));
+    assert_eq!(read(&run), ["clearance", "temp_s", "temp_m", "epot_jump", "shear", "slip_rate"]);
+    let run = asked(&["SFDRT"]);
+    assert_eq!(run.column("SFDRT"), all.column("SFDRT"));
+    assert_eq!(read(&run), ["time", "clearance", "shear", "slip_rate"]);
+    let plan = run.plan.as_ref().expect("a plan");
+    assert!(plan.interactions[0].electrical.is_none());
+    let run = asked(&["thermal_conductance"]);
+    assert_eq!(
+        (run.column("thermal_conductance"), read(&run)),
+        (all.column("thermal_conductance"), vec!["clearance".to_owned()])
+    );
+    let run = asked(&["ECD"]);
+    assert_eq!(
+        (run.column("ECD"), read(&run)),
+        (all.column("ECD"), vec!["clearance".to_owned(), "epot_jump".to_owned()])
+    );
+    assert!(run.plan.is_some_and(|plan| plan.interactions[0].thermal.is_none()));
+    let run = asked(&["heat_radiation", "HTLA"]);
+    assert_eq!((run.column("heat_radiation"), run.column("HTLA")), (all.column("heat_radiation"), all.column("HTLA")));
+}
+
+/// A cell: a number, now and then nothing or something that is not finite.
+fn cell() -> impl Strategy<Value = String> {
+    prop_oneof![
+        9 => (-300..300_i32).prop_map(|number| (f64::from(number) / 100.0).to_string()),
+        2 => Just("0".to_owned()),
+        1 => Just(String::new()),
+        1 => prop_oneof![Just("nan"), Just("inf"), Just("-inf"), Just("1e-310"), Just("1e300")].prop_map(str::to_owned),
+    ]
+}
+
+proptest! {
+    /// However rows are cut into batches; and in every row with a sum both sides take in what current and friction generate.
+    #[test]
+    fn batches_change_nothing_and_heat_is_conserved(
+        rows in prop::collection::vec((0..3_u8, prop::collection::vec(cell(), 8)), 1..30), size in 1..9_usize,
+    ) {
+        let deck = format!(
+            "{RADIATION}*GAP CONDUCTANCE\n2., 0., 0.\n1., 1., 0.\n3., 0., 2.\n2., 2., 2.\n*GAP CONDUCTANCE, PRESSURE\n5., -1.\n7., 1.\n\
+             *GAP ELECTRICAL CONDUCTANCE\n10., 0.\n5., 1.\n*FRICTION\n.3,\n*GAP HEAT GENERATION\n.75, .25\n"
+        );
+        let lines = rows.iter().enumerate().map(|(time, (node, cells))| format!("{node},{time},{}\n", cells.join(",")));
+        let header = "node,time,clearance,pressure,temp_s,temp_m,epot_jump,shear,slip_rate,mass_flow_s\n".to_owned();
+        let nodes = header + &lines.collect::<String>();
+        let choices = Choices { derivatives: Derivatives::Given, ..Choices::default() };
+        let whole = evaluate_with(&deck, &nodes, &choices, usize::MAX);
+        let pieces = evaluate_with(&deck, &nodes, &choices, size);
+        prop_assert_eq!(&whole.csv, &pieces.csv);
+        prop_assert_eq!(&whole.findings, &pieces.findings);
+        if !whole.header().contains("HFL") || !whole.header().contains("SJD") || !whole.header().contains("SFDR") {
+            return Ok(());
+        }
+        let column = |name: &str| if whole.header().contains(name) { whole.numbers(name) } else { vec![0.0; rows.len()] };
+        let columns = ["total_heat_s", "total_heat_m", "HFL", "SJD", "SFDR", "heat_conduction", "heat_radiation"].map(column);
+        for row in 0..rows.len() {
+            let [slave, master, leaving, current, friction, conduction, radiation] = columns.each_ref().map(|column| column[row]);
+            if ![slave, master].iter().all(|heat| heat.is_finite()) {
+                continue;
+            }
+            let friction = if friction.is_nan() { 0.0 } else { friction };
+            // Below the normal range the shares are rounded to a fixed step.
+            let largest = [conduction, radiation, current, friction]
+                .into_iter()
+                .map(f64::abs)
+                .fold(f64::MIN_POSITIVE, f64::max);
+            prop_assert_eq!(slave, -leaving);
+            let generated = current + friction;
+            prop_assert!(((slave + master) - generated).abs() <= 8.0 * f64::EPSILON * largest, "{slave} {master} {generated}");
+        }
+    }
 }

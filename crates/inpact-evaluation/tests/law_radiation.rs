@@ -45,7 +45,7 @@ fn a_30_coefficients() {
         assert!((found.unwrap() / expected - 1.0).abs() < digits, "{found:?} {expected}");
     };
     near(coefficient(0.1714e-8, 0.45167, 0.45167), 5.0e-10, 2e-5);
-    near(coefficient(5.67e-8, 0.034664, 0.034664), 1.00006e-9, 1e-5);
+    near(coefficient(5.67e-8, 0.034_664, 0.034_664), 1.00006e-9, 1e-5);
     near(coefficient(1.7, 0.740_740_740_740_740_7, 0.740_740_740_740_740_7), 1.0, 1e-15);
     // K-40: symmetric. Black bodies: σ itself. A surface that does not radiate: nothing.
     assert_eq!(coefficient(5.67e-8, 0.8, 0.3), coefficient(5.67e-8, 0.3, 0.8));

@@ -143,7 +143,7 @@ pub(super) fn keep_asked(plan: &mut InteractionPlan, choices: &Choices) {
         drop_from_electrical(law, needs_current, has);
     }
     if let Some(law) = &mut plan.thermal {
-        drop_from_thermal(law, has);
+        drop_from_thermal(law, &outputs);
     }
     if let Some(law) = &mut plan.pore {
         drop_from_pore(law, has);
@@ -184,7 +184,9 @@ fn drop_from_electrical(law: &mut ElectricalPlan, needs_current: bool, has: impl
     }
 }
 
-fn drop_from_thermal(law: &mut ThermalPlan, has: impl Fn(&[Output]) -> bool) {
+fn drop_from_thermal(law: &mut ThermalPlan, outputs: &[Output]) {
+    let has = |wanted: &[Output]| outputs.iter().any(|output| wanted.contains(output));
+    let has_slope = outputs.iter().any(|output| matches!(output, Output::ThermalConductanceSlope(_)));
     let has_sum = has(&SUMS_OF_HEAT);
     if !has(&OF_AREA) {
         law.area = None;
@@ -192,9 +194,15 @@ fn drop_from_thermal(law: &mut ThermalPlan, has: impl Fn(&[Output]) -> bool) {
     if !has(&OF_TIME) {
         law.history = History::None;
     }
+    if !has_sum {
+        law.current = CurrentHeat::None;
+    }
     // The status of a row says where it lies outside any table.
     if has(&[Output::Status]) {
         return;
+    }
+    if !has_sum && !has(&[Output::ThermalConductance, Output::HeatConduction]) && !has_slope {
+        law.conduction = None;
     }
     if !has_sum && !has(&[Output::HeatConduction, Output::HeatRadiation]) {
         law.temperatures = None;
@@ -226,10 +234,11 @@ impl Dropped {
 
 /// Contact that is the same in every row needs no column; then only the tables need clearance or pressure.
 fn drop_contact_columns(plan: &mut InteractionPlan) {
-    if plan.rows == 0 || plan.pore.is_some() || plan.thermal.is_some() {
+    // Radiation sees the clearance in contact too, where one is given.
+    let radiates = plan.thermal.as_ref().is_some_and(|law| law.radiation.is_some());
+    if plan.rows == 0 || plan.pore.is_some() || radiates || (plan.electrical.is_none() && plan.thermal.is_none()) {
         return;
     }
-    let Some(law) = &plan.electrical else { return };
     let state = if plan.closed == plan.rows {
         ContactState::Closed
     } else if plan.open == plan.rows {
@@ -237,7 +246,9 @@ fn drop_contact_columns(plan: &mut InteractionPlan) {
     } else {
         return;
     };
-    let needs = |along: Along| law.tables.iter().any(|table| table.against == along && table.axes[0].is_read());
+    let conduction = plan.thermal.iter().filter_map(|law| law.conduction.as_ref()).flat_map(|law| &law.tables);
+    let tables = plan.electrical.iter().flat_map(|law| &law.tables).chain(conduction);
+    let needs = |along: Along| tables.clone().any(|table| table.against == along && table.axes[0].is_read());
     plan.contact = ContactColumns {
         clearance: plan.contact.clearance.filter(|_| needs(Along::Clearance)),
         pressure: plan.contact.pressure.filter(|_| needs(Along::Pressure)),

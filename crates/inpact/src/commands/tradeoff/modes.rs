@@ -1,7 +1,7 @@
 //! The modes that are measured: a list, each with how it evaluates a table, its bound and what it moves in memory.
 
 use super::subjects::Subject;
-use inpact_evaluation::accuracy::{Accuracy, full_bound};
+use inpact_evaluation::accuracy::{Accuracy, Wanted, full_bound};
 use inpact_evaluation::table_form::{TableForm, TableValues};
 use std::hint::black_box;
 
@@ -72,7 +72,7 @@ impl<'a> Formed<'a> {
     fn new(subject: &'a Subject, accuracy: Accuracy) -> Self {
         Self {
             columns: subject.columns.iter().map(Vec::as_slice).collect(),
-            form: TableForm::new(subject.table.clone(), accuracy),
+            form: TableForm::new(subject.table.clone(), Wanted::Mode(accuracy)),
             found: TableValues::default(),
             output: vec![0.0; subject.rows()],
         }
