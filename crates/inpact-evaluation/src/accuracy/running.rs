@@ -150,14 +150,16 @@ fn row_errors<T: Number>(table: &PiecewiseTable, flat: &Flat<T>, rows: &Range<us
         let slope = exact_slope.to_f64();
         let rate_error = (exact_slope + -Scaled::new(rate)).to_f64().abs();
         let offset_unit = if offsets_are_exact(x0, x1) { 0.0 } else { T::UNIT };
+        // Where the slope is zero the fused operation is exact.
+        let (result_unit, underflow) = if rate == 0.0 { (0.0, 0.0) } else { (T::UNIT, T::UNDERFLOW) };
         let moved = |knot: usize, rounded: f64| shift::<T>(knots[knot], rounded).min(width) * slope.abs();
-        let at_left = value_error(row) + moved(row, x0) + T::UNIT * y0.abs() + T::UNDERFLOW;
+        let at_left = value_error(row) + moved(row, x0) + result_unit * y0.abs() + underflow;
         let at_right = value_error(row + 1)
             + moved(row + 1, x1)
             + offset_unit * rise
-            + T::UNIT * y1.abs()
+            + result_unit * y1.abs()
             + rate_error * width * (1.0 + f64::EPSILON)
-            + T::UNDERFLOW;
+            + underflow;
         let (at_left, at_right) = (at_left * second_order::<T>(), at_right * second_order::<T>());
         let (start, end) = (values[row], values[row + 1]);
         let parts = (part(at_left, start.abs()), part(at_right, end.abs()));
