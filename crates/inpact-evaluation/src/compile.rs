@@ -4,7 +4,7 @@ mod user;
 
 pub(crate) use user::CompiledUser;
 
-use crate::accuracy::Accuracy;
+use crate::accuracy::Wanted;
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
@@ -48,7 +48,7 @@ pub(crate) struct InteractionLaws {
 pub(crate) struct CompiledElectrical {
     pub(crate) conductance: ConductanceSource,
     pub(crate) heat_generation: HeatGeneration,
-    pub(crate) accuracy: Accuracy,
+    pub(crate) accuracy: Wanted,
     pub(crate) regime: Regime,
     pub(crate) jump: Option<Source<usize>>,
     pub(crate) area: Option<usize>,
@@ -170,10 +170,10 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
         interactions[planned.index] = Some(InteractionLaws {
             contact: compiler.contact(),
             electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables, choices)),
-            thermal: planned
-                .thermal
-                .as_ref()
-                .map(|law| compiler.thermal(law, &ThermalTables::of(model, interaction, choices.dialect))),
+            thermal: planned.thermal.as_ref().map(|law| {
+                let tables = ThermalTables::of(model, interaction, choices.dialect);
+                compiler.thermal(law, &tables, choices.accuracy)
+            }),
             pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
         });
     }

@@ -120,7 +120,8 @@ impl<'a> Evaluation<'a> {
                 self.conductances.take(interaction, law, Row::new(batch, index, state, laws.contact, self.laws.time));
             }
         }
-        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.conductance_tables());
+        let tallies = &mut self.tally.interactions;
+        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.conductance_tables(), tallies);
     }
 
     fn evaluate_row(&mut self, batch: &Batch, index: usize, results: &mut ResultBatch) {

@@ -113,6 +113,11 @@ impl TableKernel {
         sides: &mut [Sides],
     ) {
         let sides = &mut sides[..values.len()];
+        if self.table.marks_sides() {
+            self.values_with(set, columns, values);
+            self.table.mark_sides(columns, sides);
+            return;
+        }
         sides.fill(Sides::default());
         match &self.shape {
             Shape::Constant(value) => values.fill(*value),

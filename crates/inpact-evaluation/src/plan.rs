@@ -51,6 +51,7 @@ pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
 pub(crate) use thermal_tables::ThermalTables;
 
+use crate::accuracy::{ErrorBound, Method};
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::Cutoffs;
@@ -229,6 +230,21 @@ pub struct TablePlan {
     pub folded_rows: usize,
     /// The variables that have one value and along which it could not be folded.
     pub not_folded: Vec<(Along, FoldRefusal)>,
+    /// The form in which it is evaluated; `None` for a table that no row reaches.
+    pub form: Option<FormPlan>,
+}
+
+/// The form in which a table is evaluated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormPlan {
+    /// How its values are found.
+    pub method: Method,
+    /// The bound of their error, where there is one.
+    pub bound: Option<ErrorBound>,
+    /// What a value costs, in nanoseconds, by the committed measurements.
+    pub cost: f64,
+    /// The other ways that were considered, and why they were not chosen.
+    pub refused: Vec<(String, String)>,
 }
 
 /// A variable of a table in use.

@@ -4,7 +4,7 @@ mod evaluate_support;
 mod table_judge;
 
 use evaluate_support::{evaluate, evaluate_with};
-use inpact_evaluation::accuracy::Accuracy;
+use inpact_evaluation::accuracy::{Accuracy, Wanted};
 use inpact_evaluation::plan::Choices;
 use inpact_evaluation::results::Output;
 use num_rational::BigRational;
@@ -43,7 +43,7 @@ fn largest_errors(accuracy: Accuracy) -> [f64; 3] {
     for _ in 0..60 {
         let rows = random_rows(&mut random, 2, Range::Ordinary);
         let nodes = random_nodes(&mut random, 40);
-        let choices = Choices { accuracy, ..Choices::default() };
+        let choices = Choices { accuracy: Wanted::Mode(accuracy), ..Choices::default() };
         let run = evaluate_with(&deck_of(&rows), &nodes.csv, &choices, 16);
         let columns = ["conductance", "ECD", "SJD"].map(|name| run.numbers(name));
         let eta = BigRational::new(3.into(), 4.into());

@@ -3,7 +3,7 @@
 mod evaluate_support;
 
 use evaluate_support::{Run, evaluate, evaluate_with};
-use inpact_evaluation::accuracy::Accuracy;
+use inpact_evaluation::accuracy::{Accuracy, Wanted};
 use inpact_evaluation::law::user::{
     UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserLaw, UserNames,
 };
@@ -194,7 +194,7 @@ fn outputs_by_name_and_accuracy_change_nothing_for_the_routine() {
         let calls_of_one = law.calls.clone();
         let user_conductance = Some(UserLaw::new(law));
         let outputs = Some(vec![Output::Conductance]);
-        let choices = Choices { user_conductance, outputs, accuracy, ..Choices::default() };
+        let choices = Choices { user_conductance, outputs, accuracy: Wanted::Mode(accuracy), ..Choices::default() };
         let one = evaluate_with(DECK, nodes, &choices, 1024);
         assert_eq!(one.header(), "node,time,conductance");
         assert_eq!(one.column("conductance"), all.column("conductance"));

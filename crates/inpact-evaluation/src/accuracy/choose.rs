@@ -48,6 +48,28 @@ pub enum Wanted {
     Within(Tolerance),
 }
 
+impl Default for Wanted {
+    fn default() -> Self {
+        Self::Mode(Accuracy::default())
+    }
+}
+
+impl Wanted {
+    /// Whether values are wanted in twice the precision of f64.
+    pub fn is_reference(self) -> bool {
+        self == Self::Mode(Accuracy::Reference)
+    }
+
+    /// Whether the error of one more rounding to f64 is acceptable, as a table has that is folded before it is evaluated.
+    pub(crate) fn allows_folding(self) -> bool {
+        match self {
+            Self::Mode(accuracy) => accuracy != Accuracy::Reference,
+            // The bounds of the table's own kernel are a few ulp of 2.2e-16.
+            Self::Within(tolerance) => tolerance.value() >= 1e-14,
+        }
+    }
+}
+
 /// What [`Accuracy::Fast`] accepts where no tolerance is given: 1e-4 of the largest value of the table.
 pub const FAST_TOLERANCE: Tolerance = Tolerance::RelativeToLargest(1e-4);
 

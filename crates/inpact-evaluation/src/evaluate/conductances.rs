@@ -1,13 +1,13 @@
 //! The conductances of a batch: its rows are gathered by the table that they read, each table is evaluated over columns, and the values go back to their rows.
 
-use super::Row;
+use super::{InteractionTally, Row};
 use crate::compile::CompiledTables;
 use crate::law::conductance::{Branch, Conductance};
 use crate::law::contact::ContactState;
 use crate::numbers::mean;
 use crate::results::Along;
 use crate::table::Sides;
-use crate::table_form::TableValues;
+use crate::table_form::{SeenError, TableValues};
 
 /// The conductances of the rows of a batch.
 #[derive(Debug, Default)]
@@ -82,21 +82,26 @@ impl Conductances {
         gathered.rows.push(row.index);
     }
 
-    /// Evaluates the tables of all interactions for the rows taken.
-    pub(super) fn finish<'a>(&mut self, law_of: impl Fn(usize) -> Option<&'a CompiledTables>) {
+    /// Evaluates the tables of all interactions for the rows taken, and compares some of the values with the reference.
+    pub(super) fn finish<'a>(
+        &mut self,
+        law_of: impl Fn(usize) -> Option<&'a CompiledTables>,
+        tallies: &mut [InteractionTally],
+    ) {
         for interaction in std::mem::take(&mut self.met) {
             if let Some(law) = law_of(interaction) {
-                self.evaluate(interaction, law);
+                self.evaluate(interaction, law, &mut tallies[interaction].seen_error);
             }
         }
     }
 
-    fn evaluate(&mut self, interaction: usize, law: &CompiledTables) {
+    fn evaluate(&mut self, interaction: usize, law: &CompiledTables, seen: &mut SeenError) {
         let tables = [(Branch::Clearance, &law.clearance_form), (Branch::Pressure, &law.pressure_form)];
         for (gathered, (branch, form)) in self.gathered[interaction].iter_mut().zip(tables) {
             let Some(form) = form.as_ref().filter(|_| !gathered.rows.is_empty()) else { continue };
             let columns: Vec<&[f64]> = gathered.columns.iter().map(Vec::as_slice).collect();
             form.evaluate(&columns, gathered.rows.len(), &mut self.found);
+            form.compare(&columns, &self.found.values, seen);
             for (place, row) in gathered.rows.iter().enumerate() {
                 let (value, sides) = (self.found.values[place], self.found.sides[place]);
                 let rest = self.found.rests.get(place).copied().unwrap_or(0.0);

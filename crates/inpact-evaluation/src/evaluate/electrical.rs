@@ -2,7 +2,6 @@
 
 use super::conductances::RowConductance;
 use super::{InteractionTally, Outcome, Row, contact_status, user};
-use crate::accuracy::Accuracy;
 use crate::compile::{CompiledElectrical, CompiledTables, ConductanceSource};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
@@ -131,9 +130,10 @@ fn evaluate_flow(
         },
     };
     let generation = law.heat_generation;
-    let flow = match law.accuracy {
-        Accuracy::Reference => reference_flow((found.conductance.value, found.rest), jump, dissipation, generation),
-        Accuracy::Full | Accuracy::Fast => flow(found.conductance.value, jump, dissipation, generation),
+    let flow = if law.accuracy.is_reference() {
+        reference_flow((found.conductance.value, found.rest), jump, dissipation, generation)
+    } else {
+        flow(found.conductance.value, jump, dissipation, generation)
     };
     let slots = &law.slots;
     let mut set = |slot, value| results.set(slot, row.index, value);

@@ -4,6 +4,7 @@ use crate::nodes::{BEYOND_TABLE, Findings, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Status, push_number};
 use crate::table::{Sides, Tail};
+use crate::table_form::SeenError;
 use inpact_parser::model::Name;
 use inpact_validation::Severity;
 
@@ -61,6 +62,8 @@ pub struct InteractionTally {
     pub lost_digits: u64,
     /// How many have a node label that is no number, for a user's routine that is called with one.
     pub unnumbered_nodes: u64,
+    /// The largest error of its conductances in a sample of rows.
+    pub seen_error: SeenError,
     /// How many have no conductance because a user's routine gave none.
     pub user_faults: u64,
     /// How many lack a number that the heat at the interface depends on.
@@ -121,6 +124,10 @@ impl Tally {
             negative_friction: self.total(|of| of.negative_friction),
             unnumbered_nodes: self.total(|of| of.unnumbered_nodes),
             user_faults: self.total(|of| of.user_faults),
+            seen_error: self.interactions.iter().fold(SeenError::default(), |mut seen, of| {
+                seen.merge(&of.seen_error);
+                seen
+            }),
             axes: Default::default(),
         }
     }

@@ -10,7 +10,9 @@ use crate::law::conductance::{Branch, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, ContactState};
 use crate::law::friction::{ShearStress, SlipRate, frictional_heat};
 use crate::law::heat::GeneratedHeat;
-use crate::law::thermal::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat, mean_mass_flow};
+use crate::law::thermal::{
+    InterfaceHeat, Temperatures, ThermalConductance, conducted_heat, mean_mass_flow, reference_conducted_heat,
+};
 use crate::numbers::mean;
 use crate::plan::{CurrentHeat, MassFlow};
 use crate::results::{Along, ResultBatch, Status};
@@ -38,9 +40,12 @@ pub(super) fn evaluate(
         None => Some(0.0),
         Some(part) => {
             let conductance = evaluate_conductance(law, part, row, scratch, results, tally);
-            is_beyond |= conductance.is_some_and(|(_, sides)| !sides.is_within());
+            is_beyond |= conductance.is_some_and(|(.., sides)| !sides.is_within());
             gives_something |= conductance.is_some();
-            let heat = conductance.zip(temperatures).map(|((value, _), sides)| conducted_heat(value, sides));
+            let heat = conductance.zip(temperatures).map(|((value, rest, _), sides)| match rest {
+                Some(rest) => reference_conducted_heat(value, rest, sides),
+                None => conducted_heat(value, sides),
+            });
             results.set(law.slots.conduction, row.index, heat);
             heat
         }
@@ -72,7 +77,7 @@ pub(super) fn evaluate(
     Outcome::Evaluated(if is_beyond { Some(Status::BeyondTable) } else { contact_status(row.state) })
 }
 
-/// The conductance with its slopes, and along which axes the row lies outside its table; `None` where the row lacks a number for it.
+/// The conductance with its slopes, what rounding took away from it where that is known, and along which axes the row lies outside its table; `None` where the row lacks a number for it.
 fn evaluate_conductance(
     law: &CompiledThermal,
     part: &CompiledConduction,
@@ -80,7 +85,7 @@ fn evaluate_conductance(
     (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) -> Option<(f64, Sides)> {
+) -> Option<(f64, Option<f64>, Sides)> {
     let needs = part.needs(row.state);
     if let Some((against, needs)) = needs {
         let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
@@ -105,7 +110,7 @@ fn evaluate_conductance(
         state: row.state,
         variables,
     };
-    let conductance = part.conductance.conductance(&point);
+    let (conductance, rest) = part.conductance_at(&point);
     results.set(law.slots.conductance, row.index, Some(conductance.value));
     if !part.slopes.is_empty() {
         slopes.clear();
@@ -132,7 +137,7 @@ fn evaluate_conductance(
             }
         }
     }
-    Some((conductance.value, conductance.sides))
+    Some((conductance.value, rest, conductance.sides))
 }
 
 /// The mean of the magnitudes: as given, or from the sides that have a number (K-32).

@@ -78,6 +78,17 @@ pub fn conducted_heat(conductance: f64, temperatures: Temperatures) -> f64 {
     scaled_difference_product(conductance, temperatures.slave, temperatures.master) + 0.0
 }
 
+/// [`conducted_heat`] in twice the precision of f64, rounded once, for a conductance of `value` + `rest`.
+///
+/// Inputs that are infinite or NaN give what [`conducted_heat`] gives.
+pub fn reference_conducted_heat(value: f64, rest: f64, temperatures: Temperatures) -> f64 {
+    let Temperatures { slave, master } = temperatures;
+    if ![value, rest, slave, master].iter().all(|input| input.is_finite()) {
+        return conducted_heat(value, temperatures);
+    }
+    ((Scaled::new(value) + Scaled::new(rest)) * Scaled::difference(slave, master)).to_f64() + 0.0
+}
+
 /// Slopes of a flux along the temperatures of both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideSlopes {

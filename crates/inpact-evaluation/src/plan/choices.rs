@@ -1,6 +1,6 @@
 //! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
 
-use crate::accuracy::Accuracy;
+use crate::accuracy::Wanted;
 use crate::law::pore::CutoffBoundary;
 use crate::law::user::UserLaw;
 use crate::results::Output;
@@ -28,7 +28,7 @@ pub struct Choices {
     /// The conductance of interactions with *GAP ELECTRICAL CONDUCTANCE, USER; without it they have no electrical law (U-3).
     pub user_conductance: Option<UserLaw>,
     /// How exactly values are found.
-    pub accuracy: Accuracy,
+    pub accuracy: Wanted,
     /// The outputs that are asked for by name; `None` for all there are.
     pub outputs: Option<Vec<Output>>,
 }

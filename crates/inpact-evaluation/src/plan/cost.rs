@@ -39,6 +39,9 @@ impl TablePlan {
 
     /// The cost of a value of what is left of it.
     pub(super) fn folded_cost(&self) -> f64 {
+        if let Some(form) = &self.form {
+            return form.cost;
+        }
         of_table(self.axes.iter().filter(|axis| AxisPlan::is_read(axis)).count(), self.folded_rows)
     }
 }

@@ -1,6 +1,6 @@
 //! The plan of the electrical law of one interaction.
 
-use super::folding::fold;
+use super::folding::fold_and_choose;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
@@ -86,14 +86,14 @@ pub(super) fn plan_electrical(
     let heat = heat(planner, left_out);
     let mut tables: Vec<TablePlan> =
         used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect();
-    if planner.may_fold(|output| matches!(output, Output::ConductanceSlope(_))) {
-        for ((_, table), plan) in used.iter().zip(&mut tables) {
-            fold(table, plan, |along| match along {
-                Along::Clearance => planner.constant_clearance(),
-                Along::Pressure => planner.constant_pressure(),
-                _ => planner.constant_of(variables[variable_index(along)?]?),
-            });
-        }
+    let may_fold = planner.may_fold(|output| matches!(output, Output::ConductanceSlope(_)));
+    for ((_, table), plan) in used.iter().zip(&mut tables) {
+        fold_and_choose(planner, table, plan, |along| match along {
+            _ if !may_fold => None,
+            Along::Clearance => planner.constant_clearance(),
+            Along::Pressure => planner.constant_pressure(),
+            _ => planner.constant_of(variables[variable_index(along)?]?),
+        });
     }
     let is_read = |axis: usize| tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
     let variables = variables.into_iter().enumerate();
@@ -261,5 +261,6 @@ pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
         axes: axes.collect(),
         folded_rows: table.row_count(),
         not_folded: Vec::new(),
+        form: None,
     }
 }

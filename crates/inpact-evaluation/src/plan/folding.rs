@@ -2,19 +2,40 @@
 
 use super::make::Planner;
 use super::source::Source;
-use super::{AxisPlan, TablePlan};
+use super::{AxisPlan, FormPlan, TablePlan};
+use crate::accuracy::{Method, Wanted, choose};
 use crate::law::contact::ContactState;
 use crate::nodes::{Column, Part};
 use crate::numbers::mean;
 use crate::results::Along;
 use crate::table::PiecewiseTable;
 
-/// Folds a table along every axis that `constant` knows one value of; what came of it stands in the plan.
-pub(super) fn fold(
+/// Folds a table along every axis that `constant` knows one value of, and chooses its form; what came of it stands in the plan.
+pub(super) fn fold_and_choose(
+    planner: Planner<'_>,
     table: &PiecewiseTable,
     plan: &mut TablePlan,
     constant: impl Fn(Along) -> Option<f64>,
-) -> PiecewiseTable {
+) {
+    let folded = fold(table, plan, constant);
+    plan.form = Some(form_plan(&folded, planner.choices.accuracy));
+}
+
+/// The form that a table will have.
+fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
+    let choice = choose(table, wanted);
+    let refused = choice.candidates.iter().filter_map(|candidate| {
+        let refusal = candidate.refusal.as_ref()?;
+        Some((candidate.method.to_string(), refusal.to_string()))
+    });
+    let refused = refused.collect();
+    match choice.chosen() {
+        Some(chosen) => FormPlan { method: chosen.method.clone(), bound: chosen.bound, cost: chosen.cost, refused },
+        None => FormPlan { method: Method::Full, bound: None, cost: 0.0, refused },
+    }
+}
+
+fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -> Option<f64>) -> PiecewiseTable {
     let mut folded = table.clone();
     // The outermost first: what is left of the others is smaller then.
     for (axis, of) in plan.axes.iter_mut().enumerate().rev().filter(|(_, of)| of.matters) {

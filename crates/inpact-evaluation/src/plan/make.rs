@@ -13,7 +13,6 @@ use super::tables::InteractionTables;
 use super::thermal::plan_thermal;
 use super::thermal_tables::ThermalTables;
 use super::{ContactColumns, InteractionPlan, Plan};
-use crate::accuracy::Accuracy;
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
 use inpact_parser::model::{Interaction, Model};
@@ -129,7 +128,7 @@ impl Planner<'_> {
 
     /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
     pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
-        if self.choices.accuracy == Accuracy::Reference {
+        if !self.choices.accuracy.allows_folding() {
             return false;
         }
         let asked = self.choices.outputs.as_ref();

@@ -1,7 +1,7 @@
 //! The plan of the pore fluid law of one interaction.
 
 use super::electrical::table_plan;
-use super::folding::fold;
+use super::folding::fold_and_choose;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
@@ -68,10 +68,10 @@ pub(super) fn plan_pore(
     let has_history = history.is_ok();
     let is_transient = regime.regime == Regime::Transient;
     let mut table_plan = table.map(|table| table_plan(table, pore_axis));
-    if let (Some(table), Some(plan)) = (table, &mut table_plan)
-        && planner.may_fold(|output| matches!(output, Output::PermeabilitySlope(_)))
-    {
-        fold(table, plan, |along| match along {
+    let may_fold = planner.may_fold(|output| matches!(output, Output::PermeabilitySlope(_)));
+    if let (Some(table), Some(plan)) = (table, &mut table_plan) {
+        fold_and_choose(planner, table, plan, |along| match along {
+            _ if !may_fold => None,
             Along::Pressure => planner.constant_permeability_pressure(),
             Along::PorePressure => planner.constant_pore_pressure(),
             Along::Temperature => planner.constant_of((*variables.first()?)?),

@@ -1,7 +1,7 @@
 //! The plan as text for a person.
 
 use super::{
-    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, GovernedBy,
+    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, FormPlan, GovernedBy,
     InteractionPlan, Plan, PorePlan, Rate, SlipRateSource, TablePlan, ThermalPlan,
 };
 use crate::results::number_text as number;
@@ -183,7 +183,22 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
     if table.axes.iter().any(|axis| axis.fold.is_some()) {
         writeln!(formatter, "      {} left of it", count(table.folded_rows as u64, "row"))?;
     }
+    if let Some(form) = &table.form {
+        write_form(form, formatter)?;
+    }
     Ok(())
+}
+
+fn write_form(form: &FormPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    write!(formatter, "      accuracy: {}", form.method)?;
+    if let Some(bound) = form.bound {
+        write!(formatter, ", error at most {:.1e} of the largest value", bound.relative_to_largest)?;
+        if bound.pointwise.is_finite() {
+            write!(formatter, " and {:.1e} of the value itself", bound.pointwise)?;
+        }
+    }
+    writeln!(formatter)?;
+    form.refused.iter().try_for_each(|(method, why)| writeln!(formatter, "        not {method}: {why}"))
 }
 
 fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>) -> fmt::Result {

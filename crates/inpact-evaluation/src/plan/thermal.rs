@@ -10,7 +10,7 @@ use super::source::Source;
 use super::thermal_parts::{plan_conduction, plan_friction, plan_radiation};
 use super::thermal_tables::ThermalTables;
 use super::{Derivatives, ElectricalPlan, History, TablePlan};
-use crate::accuracy::Accuracy;
+use crate::accuracy::{Accuracy, Wanted};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::Output;
@@ -194,9 +194,10 @@ pub(super) fn plan_thermal(
         }
     }
     plan_flows(planner, &mut plan, unknown, outputs, left_out);
-    if planner.choices.accuracy == Accuracy::Reference {
+    if planner.choices.accuracy == Wanted::Mode(Accuracy::Reference) {
         notes.push(
-            "heat but that of the current is evaluated in full accuracy, not in that of the reference".to_owned(),
+            "heat but that of the current is evaluated in full accuracy, from conductances in that of the reference"
+                .to_owned(),
         );
     }
     let has_current = planner.interaction.gap_electrical_conductance.is_some();

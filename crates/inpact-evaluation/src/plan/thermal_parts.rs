@@ -1,6 +1,7 @@
 //! The parts of the thermal law of one interaction, each planned by itself: conduction, radiation, friction.
 
 use super::electrical::table_plan;
+use super::folding::fold_and_choose;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::source::{cell, whole_or_sides};
@@ -8,10 +9,10 @@ use super::tables::matters;
 use super::thermal::{Planned, tells_of_friction, temperatures};
 use super::thermal_tables::{ConductanceRows, RadiationFault, ThermalTables, thermal_axis};
 use super::wanted::columns_of;
-use super::{ConductionPlan, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource};
+use super::{AxisPlan, ConductionPlan, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::Column;
-use crate::results::Along;
+use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::grammar::Dialect;
 
@@ -84,7 +85,32 @@ fn conduction_of_tables(
         });
     }
     let tables = used.iter().map(|(against, table)| table_plan(table, |axis| thermal_axis(*against, axis)));
-    Ok(ConductionPlan { dialect: planner.choices.dialect, tables: tables.collect(), variables, mass_flow })
+    let mut plan = ConductionPlan { dialect: planner.choices.dialect, tables: tables.collect(), variables, mass_flow };
+    // The curves of CalculiX are no plain table, and are evaluated as they are.
+    if plan.dialect == Dialect::Abaqus {
+        let tables: Vec<&PiecewiseTable> = used.iter().map(|(_, table)| *table).collect();
+        fold_conduction(planner, &tables, &mut plan);
+    }
+    Ok(plan)
+}
+
+/// Folds the tables along what is the same in every row, and chooses their forms; what no table reads any more is left out.
+fn fold_conduction(planner: Planner<'_>, tables: &[&PiecewiseTable], plan: &mut ConductionPlan) {
+    let may_fold = planner.may_fold(|output| matches!(output, Output::ThermalConductanceSlope(_)));
+    let variables = &plan.variables;
+    for (table, of_table) in tables.iter().zip(&mut plan.tables) {
+        fold_and_choose(planner, table, of_table, |along| match along {
+            _ if !may_fold => None,
+            Along::Clearance => planner.constant_clearance(),
+            Along::Pressure => planner.constant_pressure(),
+            Along::Temperature => planner.constant_of((*variables.first()?)?),
+            Along::FieldVariable(number) => planner.constant_of((*variables.get(number as usize + 1)?)?),
+            Along::MassFlow | Along::PorePressure => None,
+        });
+    }
+    let is_read = |axis: usize| plan.tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    let sources = plan.variables.iter().enumerate();
+    plan.variables = sources.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
 }
 
 /// One column is enough: the mean, or the rate of one side.

@@ -64,6 +64,25 @@ impl PiecewiseTable {
         (value, sides)
     }
 
+    /// Whether it is not the rows that say which points lie outside: the table is what was left of a larger one.
+    pub(crate) fn marks_sides(&self) -> bool {
+        self.marks.is_some()
+    }
+
+    /// On which sides the points of some columns lie, for a folded table.
+    pub(crate) fn mark_sides(&self, columns: &[&[f64]], sides: &mut [Sides]) {
+        let Some(marks) = &self.marks else { return };
+        let mut others = vec![f64::NAN; columns.len().saturating_sub(1)];
+        for (row, sides) in sides.iter_mut().enumerate() {
+            let coordinate = |axis: usize| columns.get(axis).and_then(|column| column.get(row)).copied();
+            for (axis, other) in others.iter_mut().enumerate() {
+                *other = coordinate(axis + 1).unwrap_or(f64::NAN);
+            }
+            let point = Point { first: coordinate(0).unwrap_or(f64::NAN), others: &others };
+            *sides = marks.sides(point, self.is_undefined_at(point));
+        }
+    }
+
     /// Along which axes `point` lies outside the range of a group that takes part in the value there.
     pub fn sides(&self, point: &[f64]) -> Sides {
         let (first, others) = split(point);

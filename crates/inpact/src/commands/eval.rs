@@ -7,7 +7,7 @@ use clap::Args;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
-use inpact_evaluation::plan::{Plan, Reason};
+use inpact_evaluation::plan::{InteractionPlan, Plan, Reason};
 use inpact_evaluation::results::{ResultBatch, ResultWriter};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -138,6 +138,7 @@ impl Summary<'_> {
             let of = &self.tally.interactions[interaction.index];
             lines.push(format!("  {}: {}", interaction.name, counts(of)));
             lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
+            lines.extend(accuracy(interaction, of).into_iter().map(|line| format!("    {line}")));
             let laws_and_outputs =
                 interaction.left_out.iter().filter(|left_out| matches!(left_out.reason, Reason::Missing(_)));
             for left_out in laws_and_outputs {
@@ -173,6 +174,22 @@ impl Summary<'_> {
             below_absolute_zero: u64,
             negative_friction: u64,
             unnumbered_nodes: u64,
+            tables: Vec<Table>,
+            largest_error_seen: Option<SeenError>,
+        }
+        #[derive(Serialize)]
+        struct Table {
+            what: &'static str,
+            against: String,
+            method: String,
+            bound_relative_to_largest: Option<f64>,
+            bound_pointwise: Option<f64>,
+        }
+        #[derive(Serialize)]
+        struct SeenError {
+            rows: u64,
+            relative_to_largest: f64,
+            pointwise: f64,
         }
         #[derive(Serialize)]
         struct Line<'a> {
@@ -197,6 +214,24 @@ impl Summary<'_> {
                 below_absolute_zero: of.below_absolute_zero,
                 negative_friction: of.negative_friction,
                 unnumbered_nodes: of.unnumbered_nodes,
+                tables: interaction
+                    .tables()
+                    .filter_map(|(what, table)| {
+                        let form = table.form.as_ref()?;
+                        Some(Table {
+                            what,
+                            against: table.against.to_string(),
+                            method: form.method.to_string(),
+                            bound_relative_to_largest: form.bound.map(|bound| bound.relative_to_largest),
+                            bound_pointwise: form.bound.map(|bound| bound.pointwise),
+                        })
+                    })
+                    .collect(),
+                largest_error_seen: Some(of.seen_error).filter(|seen| seen.rows > 0).map(|seen| SeenError {
+                    rows: seen.rows,
+                    relative_to_largest: seen.relative_to_largest,
+                    pointwise: seen.pointwise,
+                }),
             }
         });
         let summary = Record {
@@ -225,6 +260,29 @@ fn counts(of: &InteractionTally) -> String {
     ];
     counts.extend(others.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")));
     counts.join(", ")
+}
+
+/// How exactly the tables of an interaction were evaluated: mode, bound, and the largest error seen.
+fn accuracy(plan: &InteractionPlan, of: &InteractionTally) -> Vec<String> {
+    let forms = plan.tables().filter_map(|(what, table)| Some((what, table, table.form.as_ref()?)));
+    let mut lines: Vec<String> = forms
+        .map(|(what, table, form)| {
+            let bound = form.bound.map_or_else(String::new, |bound| {
+                format!(", error at most {:.1e} of the largest value", bound.relative_to_largest)
+            });
+            format!("{what} against {}: {}{bound}", table.against, form.method)
+        })
+        .collect();
+    let seen = of.seen_error;
+    if seen.rows > 0 {
+        lines.push(format!(
+            "largest error seen in {} against the reference: {:.1e} of the largest value, {:.1e} of the value itself",
+            rows(seen.rows),
+            seen.relative_to_largest,
+            seen.pointwise
+        ));
+    }
+    lines
 }
 
 /// What a user should know of the rows.

@@ -5,8 +5,8 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
-    CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, GovernedBy, InteractionPlan, Node, Plan,
-    PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan, UserPlan,
+    CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, FormPlan, GovernedBy, InteractionPlan, Node,
+    Plan, PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan, UserPlan,
 };
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::Regime;
@@ -203,6 +203,19 @@ fn table(table: &TablePlan) -> Value {
         "rows": table.rows,
         "rows_evaluated": table.folded_rows,
         "axes": axes.collect::<Vec<_>>(),
+        "accuracy": table.form.as_ref().map(form),
+    })
+}
+
+/// How a table is evaluated, the bounds of its error, and the ways that were not chosen.
+fn form(form: &FormPlan) -> Value {
+    let refused = form.refused.iter().map(|(method, reason)| json!({ "method": method, "reason": reason }));
+    json!({
+        "method": form.method.to_string(),
+        "bound_relative_to_largest": form.bound.map(|bound| bound.relative_to_largest),
+        "bound_pointwise": form.bound.map(|bound| bound.pointwise),
+        "cost": form.cost,
+        "refused": refused.collect::<Vec<_>>(),
     })
 }
 

@@ -7,7 +7,7 @@ use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
 use crate::user_library;
 use clap::{Args, ValueEnum};
-use inpact_evaluation::accuracy::Accuracy;
+use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::law::pore::CutoffBoundary;
 use inpact_evaluation::law::user::UserLaw;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
@@ -49,9 +49,15 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
-    /// How exactly values are found.
+    /// How exactly the values of tables are found.
     #[arg(long, value_enum, default_value_t = AccuracyChoice::Full)]
     accuracy: AccuracyChoice,
+    /// The error that is acceptable, as a part of the largest value of a table: each is evaluated in the cheapest way whose bound is within it.
+    #[arg(long, value_name = "X", value_parser = tolerance, conflicts_with = "accuracy")]
+    tolerance: Option<f64>,
+    /// The same, as a part of the value at the same point.
+    #[arg(long, value_name = "X", value_parser = tolerance, conflicts_with_all = ["accuracy", "tolerance"])]
+    tolerance_relative: Option<f64>,
     /// The outputs that are wanted, by the names of their columns; all that deck and node table give where there is none.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = output_named)]
     outputs: Option<Vec<Output>>,
@@ -91,6 +97,8 @@ enum AccuracyChoice {
     Reference,
     /// In f64, within two units in the last place an axis.
     Full,
+    /// In the cheapest form whose error bound is within 1e-4 of the largest value.
+    Fast,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -190,10 +198,7 @@ impl SceneArguments {
             },
             dialect,
             derivatives: self.derivatives(),
-            accuracy: match self.accuracy {
-                AccuracyChoice::Reference => Accuracy::Reference,
-                AccuracyChoice::Full => Accuracy::Full,
-            },
+            accuracy: self.accuracy(),
             outputs: self.outputs.clone(),
             user_conductance: self.user_conductance(model)?,
         })
@@ -209,6 +214,18 @@ impl SceneArguments {
             return Ok(None);
         }
         user_library::load(path).map(Some)
+    }
+
+    fn accuracy(&self) -> Wanted {
+        match (self.tolerance, self.tolerance_relative) {
+            (Some(tolerance), _) => Wanted::Within(Tolerance::RelativeToLargest(tolerance)),
+            (None, Some(tolerance)) => Wanted::Within(Tolerance::Pointwise(tolerance)),
+            (None, None) => Wanted::Mode(match self.accuracy {
+                AccuracyChoice::Reference => Accuracy::Reference,
+                AccuracyChoice::Full => Accuracy::Full,
+                AccuracyChoice::Fast => Accuracy::Fast,
+            }),
+        }
     }
 
     /// Slopes are planned where they are asked for in general or by name.
@@ -328,6 +345,14 @@ fn output_named(text: &str) -> Result<Output, String> {
         let names: Vec<String> = Output::NAMED.iter().map(ToString::to_string).collect();
         format!("there is no such output; there are {} and slopes such as dconductance_dtemp", names.join(", "))
     })
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(tolerance) if tolerance > 0.0 && tolerance.is_finite() => Ok(tolerance),
+        Ok(_) => Err("a tolerance must be above zero and finite".to_owned()),
+        Err(_) => Err("not a number".to_owned()),
+    }
 }
 
 fn positive_length(text: &str) -> Result<f64, String> {
