@@ -15,4 +15,5 @@ mod includes;
 mod json;
 mod plan;
 mod program;
+mod tradeoff;
 mod write;

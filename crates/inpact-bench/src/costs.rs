@@ -31,7 +31,7 @@ const SHAPES: &[(usize, usize)] = &[
     (4, 8),
 ];
 
-/// Measures and writes the committed table of costs, then what f32 columns and a resampled table of one axis cost.
+/// Measures and writes the committed table of costs, then what a resampled table of one axis and a copy cost.
 ///
 /// # Errors
 /// What `out` says.
@@ -53,11 +53,12 @@ pub fn write(rows: usize, rounds: usize, out: &mut impl Write) -> io::Result<()>
         };
         let slope = of(Approximation::slope(&table).ok());
         let single = of(Approximation::single(&table).ok());
+        let of_single_columns = single_columns(&table, &columns, rounds);
         let cells = vec![if axes < 3 { 64 } else { 24 / (axes - 2) }; axes];
         let grid = of(Approximation::grid(&table, &cells).ok());
         writeln!(
             out,
-            "    Measured {{ axes: {axes}, knots: {knots}, reference: {reference:.1}, full: {full:.2}, slope: {slope:.2}, single: {single:.2}, grid: {} }},",
+            "    Measured {{ axes: {axes}, knots: {knots}, reference: {reference:.1}, full: {full:.2}, slope: {slope:.2}, single: {single:.2}, of_single_columns: {of_single_columns:.2}, grid: {} }},",
             if grid.is_finite() { format!("{grid:.2}") } else { "f64::INFINITY".to_owned() },
         )?;
         notes.push(note(&table, &columns, &mut values, rounds, axes, knots));
@@ -69,8 +70,19 @@ pub fn write(rows: usize, rounds: usize, out: &mut impl Write) -> io::Result<()>
     Ok(())
 }
 
-/// What the committed table does not hold: f32 columns, a resampled table of one axis, and the copy of a column.
+/// The f32 form from f32 columns to f32 values.
 #[expect(clippy::cast_possible_truncation, reason = "f32 columns are what is measured")]
+fn single_columns(table: &PiecewiseTable, columns: &[&[f64]], rounds: usize) -> f64 {
+    let rows = columns[0].len();
+    let singles: Vec<Vec<f32>> =
+        columns.iter().map(|column| column.iter().map(|&value| value as f32).collect()).collect();
+    let singles: Vec<&[f32]> = singles.iter().map(Vec::as_slice).collect();
+    let mut values = vec![0.0_f32; rows];
+    Approximation::single(table)
+        .map_or(f64::INFINITY, |made| fastest(rows, rounds, || made.values_single(&singles, &mut values)))
+}
+
+/// What the committed table does not hold: a resampled table of one axis, and the copy of a column.
 fn note(
     table: &PiecewiseTable,
     columns: &[&[f64]],
@@ -80,14 +92,8 @@ fn note(
     knots: usize,
 ) -> String {
     let rows = values.len();
-    let singles: Vec<Vec<f32>> =
-        columns.iter().map(|column| column.iter().map(|&value| value as f32).collect()).collect();
-    let singles: Vec<&[f32]> = singles.iter().map(Vec::as_slice).collect();
-    let mut single_values = vec![0.0_f32; rows];
-    let single = Approximation::single(table)
-        .map_or(f64::INFINITY, |made| fastest(rows, rounds, || made.values_single(&singles, &mut single_values)));
     let copy = fastest(rows, rounds, || values.copy_from_slice(columns[0]));
-    let mut note = format!("{axes} axes, {knots} knots: f32 columns {single:.2}, copy of an f64 column {copy:.2}");
+    let mut note = format!("{axes} axes, {knots} knots: copy of an f64 column {copy:.2}");
     if axes == 1 {
         for cells in [1024, 65536] {
             let resampled = Resampled::new(table, cells);

@@ -1,4 +1,4 @@
-//! The generator's command line: arguments, files, exit codes.
+//! The command line of generator and measurements: arguments, files, exit codes.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use inpact_bench::costs;
 use inpact_bench::deck::{self, Content, DeckRequest};
+use inpact_bench::extremes;
 use inpact_bench::nodes::{self, NodesRequest};
 
 /// Generates decks and node tables for measurements.
@@ -62,9 +63,11 @@ enum Command {
         #[command(flatten)]
         shared: Shared,
     },
+    /// Print the page of extremes: what the evaluation makes of numbers at the ends of f64 (docs/extremes.md).
+    Extremes,
 }
 
-/// Options that both commands must be given alike for a deck and its node table.
+/// Options that both generators must be given alike for a deck and its node table.
 #[derive(Debug, Clone, Copy, Args)]
 struct Shared {
     /// Number of interactions.
@@ -122,6 +125,7 @@ fn run(command: Command) -> io::Result<()> {
             let size = nodes::write(&request, &interfaces, open(&out)?)?;
             report(&out, size)
         }
+        Command::Extremes => io::stdout().lock().write_all(extremes::page().as_bytes()),
     }
 }
 

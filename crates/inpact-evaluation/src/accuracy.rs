@@ -7,6 +7,8 @@
 //! Rules of evaluation are those of [`crate::table`]: T-04 to T-07, constant ends, [`Tail::Zero`](crate::table::Tail), NaN in gives NaN out.
 //! Knows tables and numbers, no plan, no column names, no files.
 
+#![allow(clippy::inline_always, reason = "what is not inlined is not compiled for the processor at hand")]
+
 mod approximation;
 mod choose;
 mod cost;
@@ -21,8 +23,8 @@ mod search;
 mod spread;
 
 pub use approximation::{Approximation, Form};
-pub use choose::{Candidate, Choice, FAST_TOLERANCE, Method, Tolerance, Wanted, choose};
-pub use cost::{Shape, cost};
+pub use choose::{Candidate, Choice, FAST_TOLERANCE, Method, Tolerance, Wanted, choose, choose_for};
+pub use cost::{Columns, Shape, cost};
 pub use grid::commensurate_cells;
 pub use refusal::Refusal;
 

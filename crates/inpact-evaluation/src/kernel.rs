@@ -14,12 +14,15 @@
     reason = "what is not inlined is compiled without the instruction set that was asked for"
 )]
 
+pub mod blocks;
 mod buckets;
+pub mod electrical;
 mod instruction_set;
 mod nested;
 mod pieces;
 #[cfg(target_arch = "x86_64")]
 mod registers;
+pub mod total;
 
 pub use buckets::Search;
 pub use instruction_set::InstructionSet;
@@ -99,6 +102,22 @@ impl TableKernel {
                 }
             }
         }
+    }
+
+    /// The values of `values.len()` rows from row `first` on.
+    fn values_of_rows(&self, set: InstructionSet, columns: &[&[f64]], first: usize, values: &mut [f64]) {
+        let part = |column: &[f64]| -> std::ops::Range<usize> {
+            if column.is_empty() { 0..0 } else { first..first + values.len() }
+        };
+        let mut few: [&[f64]; FEW_AXES] = [&[]; FEW_AXES];
+        if columns.len() > FEW_AXES {
+            let columns: Vec<&[f64]> = columns.iter().map(|column| &column[part(column)]).collect();
+            return self.values_with(set, &columns, values);
+        }
+        for (few, column) in few.iter_mut().zip(columns) {
+            *few = &column[part(column)];
+        }
+        self.values_with(set, &few[..columns.len()], values);
     }
 
     /// [`Self::values_and_sides`] with the instructions of `set`.

@@ -129,7 +129,7 @@ impl Approximation {
             Kernel::Slope(_, Some(registers)) if registers.values(&columns[self.first_axis()][..rows], values) => {}
             Kernel::Single(_, Some(registers)) if registers.values(&columns[self.first_axis()][..rows], values) => {}
             Kernel::Slope(flat, _) => {
-                pulp::Arch::new().dispatch(Each { flat, columns, values, convert: |value| value })
+                pulp::Arch::new().dispatch(Each { flat, columns, values, convert: |value| value });
             }
             Kernel::Single(flat, _) => pulp::Arch::new().dispatch(Each { flat, columns, values, convert: f64::from }),
             Kernel::Grid(grid) => grid.values(columns, values),
@@ -146,7 +146,7 @@ impl Approximation {
             Kernel::Single(_, Some(registers))
                 if registers.values_single(&columns[self.first_axis()][..rows], values) => {}
             Kernel::Single(flat, _) => {
-                pulp::Arch::new().dispatch(Each { flat, columns, values, convert: |value| value })
+                pulp::Arch::new().dispatch(Each { flat, columns, values, convert: |value| value });
             }
             Kernel::Slope(..) | Kernel::Grid(_) => self.values_widened(columns, values),
         }

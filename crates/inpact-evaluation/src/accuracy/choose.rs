@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use super::cost::{Shape, cost};
+use super::cost::{Columns, Shape, cost};
 use super::{Accuracy, Approximation, ErrorBound, Form, Refusal, commensurate_cells, full_bound, reference_bound};
 use crate::table::PiecewiseTable;
 
@@ -123,24 +123,29 @@ impl Choice {
     }
 }
 
-/// Chooses how to evaluate `table`.
+/// Chooses how to evaluate `table` on f64 columns.
 pub fn choose(table: &PiecewiseTable, wanted: Wanted) -> Choice {
+    choose_for(table, wanted, Columns::Double)
+}
+
+/// Chooses how to evaluate `table` on `columns`.
+pub fn choose_for(table: &PiecewiseTable, wanted: Wanted, columns: Columns) -> Choice {
     match wanted {
-        Wanted::Mode(Accuracy::Reference) => only(table, Method::Reference, reference_bound(table)),
-        Wanted::Mode(Accuracy::Full) => only(table, Method::Full, full_bound(table)),
-        Wanted::Mode(Accuracy::Fast) => cheapest(table, FAST_TOLERANCE, &Method::Fast(Form::Slope)),
-        Wanted::Within(tolerance) => cheapest(table, tolerance, &Method::Reference),
+        Wanted::Mode(Accuracy::Reference) => only(table, Method::Reference, reference_bound(table), columns),
+        Wanted::Mode(Accuracy::Full) => only(table, Method::Full, full_bound(table), columns),
+        Wanted::Mode(Accuracy::Fast) => cheapest(table, FAST_TOLERANCE, columns, &Method::Fast(Form::Slope)),
+        Wanted::Within(tolerance) => cheapest(table, tolerance, columns, &Method::Reference),
     }
 }
 
 /// The choice where a mode leaves none.
-fn only(table: &PiecewiseTable, method: Method, bound: ErrorBound) -> Choice {
-    let cost = cost(&method, Shape::of(table));
+fn only(table: &PiecewiseTable, method: Method, bound: ErrorBound, columns: Columns) -> Choice {
+    let cost = cost(&method, Shape::of(table), columns);
     Choice { approximation: None, candidates: vec![Candidate { method, bound: Some(bound), cost, refusal: None }] }
 }
 
 /// The cheapest candidate within the tolerance; where there is none, `otherwise`, or if that cannot be made the table's own kernel.
-fn cheapest(table: &PiecewiseTable, tolerance: Tolerance, otherwise: &Method) -> Choice {
+fn cheapest(table: &PiecewiseTable, tolerance: Tolerance, columns: Columns, otherwise: &Method) -> Choice {
     let shape = Shape::of(table);
     let mut considered = vec![
         (Method::Full, Some(full_bound(table)), None, None),
@@ -160,7 +165,7 @@ fn cheapest(table: &PiecewiseTable, tolerance: Tolerance, otherwise: &Method) ->
     let mut made = Vec::new();
     for (method, bound, approximation, refusal) in considered {
         let refusal = refusal.or_else(|| tolerance.refusal(&bound?));
-        candidates.push(Candidate { cost: cost(&method, shape), method, bound, refusal });
+        candidates.push(Candidate { cost: cost(&method, shape, columns), method, bound, refusal });
         made.push(approximation);
     }
     let within = |index: &usize| candidates[*index].refusal.is_none();
@@ -170,10 +175,8 @@ fn cheapest(table: &PiecewiseTable, tolerance: Tolerance, otherwise: &Method) ->
     };
     let chosen = (0..candidates.len()).filter(within).min_by(by_cost).or_else(|| fallback(otherwise)).unwrap_or(0);
     for (index, candidate) in candidates.iter_mut().enumerate() {
-        match index == chosen {
-            true => candidate.refusal = None,
-            false => candidate.refusal = candidate.refusal.take().or(Some(Refusal::Slower)),
-        }
+        let refusal = candidate.refusal.take().or(Some(Refusal::Slower));
+        candidate.refusal = if index == chosen { None } else { refusal };
     }
     let approximation = made.swap_remove(chosen);
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -187,10 +190,10 @@ fn grid_within(
     tolerance: Tolerance,
 ) -> (Vec<usize>, Result<Approximation, Refusal>) {
     const COUNTS: [usize; 5] = [8, 16, 32, 64, 128];
-    if let Some(cells) = commensurate_cells(table) {
-        if let Ok(made) = Approximation::grid(table, &cells) {
-            return (cells, Ok(made));
-        }
+    if let Some(cells) = commensurate_cells(table)
+        && let Ok(made) = Approximation::grid(table, &cells)
+    {
+        return (cells, Ok(made));
     }
     let mut best = None;
     for count in COUNTS {

@@ -29,6 +29,16 @@ impl Shape {
     }
 }
 
+/// What the numbers of a query's columns are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Columns {
+    /// f64.
+    #[default]
+    Double,
+    /// f32, and so are the values asked for. The f32 form takes them as they are; the other forms cost what they cost with f64.
+    Single,
+}
+
 /// Measured costs of one shape, in ns a row.
 struct Measured {
     axes: usize,
@@ -37,27 +47,31 @@ struct Measured {
     reference: f64,
     full: f64,
     slope: f64,
+    /// f32 form, f64 columns.
     single: f64,
+    /// f32 form, f32 columns.
+    of_single_columns: f64,
     grid: f64,
 }
 
 /// The cost of a row in nanoseconds, by the committed measurements; 0 for a table that depends on nothing.
 ///
 /// A shape between two measured ones costs as the larger.
-pub fn cost(method: &Method, shape: Shape) -> f64 {
+pub fn cost(method: &Method, shape: Shape, columns: Columns) -> f64 {
     if shape.axes == 0 {
         return 0.0;
     }
     let last_axes = MEASURED[MEASURED.len() - 1].axes;
     let axes = shape.axes.min(last_axes);
     let of_axes = || MEASURED.iter().filter(|line| line.axes == axes);
-    let Some(line) = of_axes().find(|line| shape.knots <= line.knots).or_else(|| of_axes().last()) else {
+    let Some(line) = of_axes().find(|line| shape.knots <= line.knots).or_else(|| of_axes().next_back()) else {
         return f64::INFINITY;
     };
     match method {
         Method::Reference => line.reference,
         Method::Full => line.full,
         Method::Fast(Form::Slope) => line.slope,
+        Method::Fast(Form::Single) if columns == Columns::Single => line.of_single_columns,
         Method::Fast(Form::Single) => line.single,
         Method::Fast(Form::Grid { .. }) => line.grid,
     }

@@ -6,7 +6,7 @@
 
 use super::Refusal;
 use super::number::Number;
-use super::search::Group;
+use super::search::{Group, Key, index};
 use crate::numbers::slope;
 use crate::table::{PiecewiseTable, Tail};
 
@@ -26,6 +26,7 @@ pub(super) struct FlatLevel<T> {
     pub(super) knots: Vec<Knot<T>>,
     /// Group j belongs to knot j of the level outside.
     pub(super) groups: Vec<Group<T>>,
+    key: Key,
     buckets: Vec<u32>,
 }
 
@@ -52,21 +53,21 @@ impl<T: Number> Flat<T> {
         }
         let values = table.values.iter().map(|&value| rounded::<T>(value)).collect::<Result<Vec<_>, _>>()?;
         let mut levels: Vec<FlatLevel<T>> = Vec::new();
-        for (index, level) in table.levels.iter().enumerate() {
+        for (level_index, level) in table.levels.iter().enumerate() {
             let at = level.knots.iter().map(|&knot| rounded::<T>(knot)).collect::<Result<Vec<_>, _>>()?;
             let whole = [0, level.knots.len()];
-            let starts = table.levels.get(index + 1).map_or(&whole[..], |outer| &outer.children);
-            let mut made = FlatLevel { axis: level.axis, knots: Vec::new(), groups: Vec::new(), buckets: Vec::new() };
-            for range in starts.windows(2) {
-                let (first, last) = (range[0], range[1] - 1);
+            let starts = table.levels.get(level_index + 1).map_or(&whole[..], |outer| &outer.children);
+            let ranges: Vec<(usize, usize)> = starts.windows(2).map(|range| (range[0], range[1] - 1)).collect();
+            let mut knots = Vec::new();
+            for &(first, last) in &ranges {
                 for knot in first..=last {
-                    let value = if index == 0 { values[knot] } else { T::ZERO };
-                    let rate = if knot == last { T::ZERO } else { rate_of(index, &at, &values, knot)? };
-                    made.knots.push(Knot { at: at[knot], rate, value });
+                    let value = if level_index == 0 { values[knot] } else { T::ZERO };
+                    let rate = if knot == last { T::ZERO } else { rate_of(level_index, &at, &values, knot)? };
+                    knots.push(Knot { at: at[knot], rate, value });
                 }
-                made.groups.push(Group::new(&at, first, last, &mut made.buckets));
             }
-            levels.push(made);
+            let (key, groups, buckets) = index(&at, &ranges);
+            levels.push(FlatLevel { axis: level.axis, knots, groups, key, buckets });
         }
         let zero_beyond = zero_beyond(table, &levels[0].groups);
         Ok(Self { levels, zero_beyond })
@@ -150,7 +151,7 @@ impl<T: Number> FlatLevel<T> {
     fn place(&self, group: usize, x: f64) -> (T, usize) {
         let group = &self.groups[group];
         let x = T::nearest(x).bounded(group.least, group.greatest);
-        (x, group.find(|knot| self.knots[knot].at, &self.buckets, x))
+        (x, group.find(self.key, |knot| self.knots[knot].at, &self.buckets, x))
     }
 
     /// The two knots around `x`, and how far it is from the first to the second; twice the last knot at its end.

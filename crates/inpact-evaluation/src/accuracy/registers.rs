@@ -100,7 +100,7 @@ impl Registers<f32, 32> {
 /// The kernels, for x86-64 alone.
 #[cfg(target_arch = "x86_64")]
 mod kernels {
-    use std::arch::x86_64::{__m512, __m512d, __m512i, _CMP_GT_OQ};
+    use std::arch::x86_64::{__m256, __m512, __m512d, __m512i, _CMP_GT_OQ};
 
     use pulp::NullaryFnOnce;
     use pulp::x86::V4;
@@ -231,14 +231,21 @@ mod kernels {
 
     impl Lanes<f64, 16> for SingleOfDouble<'_> {
         #[inline(always)]
-        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
         fn values(&self, xs: [f64; 16]) -> [f64; 16] {
-            let singles: [f32; 16] = pulp::cast(sixteen(self.simd, self.table, pulp::cast(xs.map(|x| x as f32))));
-            let mut values = singles.map(f64::from);
-            for (value, x) in values.iter_mut().zip(xs) {
-                *value = if x > self.table.zero_beyond { 0.0 } else { *value };
-            }
-            values
+            let f = self.simd.avx512f;
+            let halves: [__m512d; 2] = pulp::cast(xs);
+            let singles = [f._mm512_cvtpd_ps(halves[0]), f._mm512_cvtpd_ps(halves[1])];
+            let values: [__m256; 2] = pulp::cast(sixteen(self.simd, self.table, pulp::cast(singles)));
+            let values = [f._mm512_cvtps_pd(values[0]), f._mm512_cvtps_pd(values[1])];
+            let (beyond, zero) = (pulp::cast([self.table.zero_beyond; 8]), pulp::cast([0.0_f64; 8]));
+            let are_beyond = [
+                f._mm512_cmp_pd_mask::<_CMP_GT_OQ>(halves[0], beyond),
+                f._mm512_cmp_pd_mask::<_CMP_GT_OQ>(halves[1], beyond),
+            ];
+            pulp::cast([
+                f._mm512_mask_blend_pd(are_beyond[0], values[0], zero),
+                f._mm512_mask_blend_pd(are_beyond[1], values[1], zero),
+            ])
         }
     }
 

@@ -115,9 +115,11 @@ fn place_error<T: Number>(level: &FlatLevel<T>, knots: &[f64], left: usize) -> (
     let (start, end) = (level.knots[left].at.exact(), level.knots[left + 1].at.exact());
     let width = end - start;
     let shift = shift::<T>(knots[left], start).max(shift::<T>(knots[left + 1], end));
-    let inverse = level.knots[left].rate.exact();
-    let inverse_error = (inverse * width - 1.0).abs() + 4.0 * f64::EPSILON;
-    (shift / width, inverse_error + 2.0 * T::UNIT)
+    // What the inverse of the width has lost, and the roundings of the offset and of the product.
+    let whole = Scaled::new(level.knots[left].rate.exact()) * Scaled::difference(end, start);
+    let inverse_error = (whole + -Scaled::new(1.0)).to_f64().abs() * (1.0 + f64::EPSILON);
+    let offset_unit = if offsets_are_exact(start, end) { 0.0 } else { T::UNIT };
+    (shift / width, inverse_error + offset_unit + T::UNIT)
 }
 
 /// How far a coordinate near the knot `knot`, rounded to `rounded`, can be from where it stood in its segment.
@@ -148,10 +150,16 @@ fn row_errors<T: Number>(table: &PiecewiseTable, flat: &Flat<T>, rows: &Range<us
         let slope = exact_slope.to_f64();
         let rate_error = (exact_slope + -Scaled::new(rate)).to_f64().abs();
         let offset_unit = if offsets_are_exact(x0, x1) { 0.0 } else { T::UNIT };
+        // Where the slope is zero the fused operation is exact.
+        let (result_unit, underflow) = if rate == 0.0 { (0.0, 0.0) } else { (T::UNIT, T::UNDERFLOW) };
         let moved = |knot: usize, rounded: f64| shift::<T>(knots[knot], rounded).min(width) * slope.abs();
-        let at_left = value_error(row) + moved(row, x0) + T::UNIT * y0.abs() + T::UNDERFLOW;
-        let at_right =
-            value_error(row + 1) + moved(row + 1, x1) + T::UNIT * (rise + y1.abs()) + rate_error * width + T::UNDERFLOW;
+        let at_left = value_error(row) + moved(row, x0) + result_unit * y0.abs() + underflow;
+        let at_right = value_error(row + 1)
+            + moved(row + 1, x1)
+            + offset_unit * rise
+            + result_unit * y1.abs()
+            + rate_error * width * (1.0 + f64::EPSILON)
+            + underflow;
         let (at_left, at_right) = (at_left * second_order::<T>(), at_right * second_order::<T>());
         let (start, end) = (values[row], values[row + 1]);
         let parts = (part(at_left, start.abs()), part(at_right, end.abs()));

@@ -33,7 +33,7 @@ impl Spread {
             (0..height).map(|level| abscissae(table, level, height, &[a.clone(), b.clone()])).collect();
         let count = axes.iter().map(Vec::len).try_fold(1_usize, usize::checked_mul);
         let mut spread = Self { difference: 0.0, ratio: 0.0 };
-        if !count.is_some_and(|count| count <= MOST_VERTICES) {
+        if count.is_none_or(|count| count > MOST_VERTICES) {
             let (a, b) = (extremes(table, height, a), extremes(table, height, b));
             spread.note(a.0, b.1);
             spread.note(a.1, b.0);

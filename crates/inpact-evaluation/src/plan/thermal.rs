@@ -10,7 +10,6 @@ use super::source::Source;
 use super::thermal_parts::{plan_conduction, plan_friction, plan_radiation};
 use super::thermal_tables::ThermalTables;
 use super::{Derivatives, ElectricalPlan, History, TablePlan};
-use crate::accuracy::{Accuracy, Wanted};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::Output;
@@ -194,10 +193,9 @@ pub(super) fn plan_thermal(
         }
     }
     plan_flows(planner, &mut plan, unknown, outputs, left_out);
-    if planner.choices.accuracy == Wanted::Mode(Accuracy::Reference) {
+    if planner.choices.accuracy.is_reference() {
         notes.push(
-            "heat but that of the current is evaluated in full accuracy, from conductances in that of the reference"
-                .to_owned(),
+            "conducted heat and that of the current have the accuracy of the reference; radiation, friction and the sum are rounded as in full accuracy".to_owned(),
         );
     }
     let has_current = planner.interaction.gap_electrical_conductance.is_some();
