@@ -139,7 +139,7 @@ impl Summary<'_> {
             let of = &self.tally.interactions[interaction.index];
             lines.push(format!("  {}: {}", interaction.name, counts(of)));
             lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
-            lines.extend(totals(&self.tally.summed, of).map(|line| format!("    {line}")));
+            lines.extend(totals(&self.tally.summed, interaction, of).map(|line| format!("    {line}")));
             lines.extend(accuracy(interaction, of).into_iter().map(|line| format!("    {line}")));
             let laws_and_outputs =
                 interaction.left_out.iter().filter(|left_out| matches!(left_out.reason, Reason::Missing(_)));
@@ -223,6 +223,7 @@ impl Summary<'_> {
                     .summed
                     .iter()
                     .zip(of.totals.values())
+                    .filter(|(output, _)| interaction.outputs.contains(output))
                     .map(|(output, value)| (output.to_string(), value))
                     .collect(),
                 totals_time: of.totals.time,
@@ -275,10 +276,11 @@ fn counts(of: &InteractionTally) -> String {
 }
 
 /// What the rows of the latest time add up to.
-fn totals(summed: &[Output], of: &InteractionTally) -> Option<String> {
+fn totals(summed: &[Output], plan: &InteractionPlan, of: &InteractionTally) -> Option<String> {
     let values: Vec<String> = summed
         .iter()
         .zip(of.totals.values())
+        .filter(|(output, _)| plan.outputs.contains(output))
         .map(|(output, value)| {
             let mut number = Vec::new();
             push_number(&mut number, value);
