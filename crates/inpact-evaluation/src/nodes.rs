@@ -9,9 +9,13 @@
 
 mod batch;
 mod column;
+mod csv;
+mod decode;
 mod diagnostic;
 mod header;
+mod lines;
 mod node_index;
+mod number;
 mod reader;
 
 pub use batch::{Batch, LabelColumn, NumberColumn};

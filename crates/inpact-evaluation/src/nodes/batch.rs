@@ -29,6 +29,7 @@ pub struct LabelColumn {
 pub struct NumberColumn {
     /// NaN where the number is missing.
     values: Vec<f64>,
+    /// Which of them are there; empty where all of them are.
     present: Vec<bool>,
 }
 
@@ -57,7 +58,8 @@ impl NumberColumn {
     /// The number in row `row` of the batch; `None` where it is missing.
     #[inline]
     pub fn get(&self, row: usize) -> Option<f64> {
-        self.present[row].then_some(self.values[row])
+        let value = self.values[row];
+        (self.present.is_empty() || self.present[row]).then_some(value)
     }
 
     /// The numbers, NaN where one is missing.
@@ -65,18 +67,65 @@ impl NumberColumn {
         &self.values
     }
 
+    /// The numbers, to be replaced; which of them are missing stays as it is.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Which numbers are there, one flag a row; `None` where it is known that none is missing.
+    pub fn presence(&self) -> Option<&[bool]> {
+        Some(self.present.as_slice()).filter(|present| !present.is_empty())
+    }
+
+    /// Whether no number is missing.
+    pub fn all_present(&self) -> bool {
+        self.present.iter().all(|present| *present)
+    }
+
     /// Adds a row.
     #[inline]
     pub fn push(&mut self, value: Option<f64>) {
+        if value.is_none() && self.present.is_empty() {
+            self.present.resize(self.values.len(), true);
+            self.present.push(false);
+        } else if !self.present.is_empty() {
+            self.present.push(value.is_some());
+        }
         self.values.push(value.unwrap_or(f64::NAN));
-        self.present.push(value.is_some());
+    }
+
+    /// Adds rows: their numbers, and which of them are there, as many flags as numbers; `None` where all of them are.
+    ///
+    /// A number that is not there becomes NaN.
+    ///
+    /// # Panics
+    /// When there are not as many flags as numbers.
+    pub fn extend_from_slices(&mut self, values: &[f64], present: Option<&[bool]>) {
+        let before = self.values.len();
+        self.values.extend_from_slice(values);
+        let Some(present) = present else {
+            if !self.present.is_empty() {
+                self.present.resize(self.values.len(), true);
+            }
+            return;
+        };
+        assert_eq!(values.len(), present.len(), "a flag for every number");
+        if self.present.is_empty() {
+            self.present.resize(before, true);
+        }
+        self.present.extend_from_slice(present);
+        for (value, present) in self.values[before..].iter_mut().zip(present) {
+            *value = if *present { *value } else { f64::NAN };
+        }
     }
 
     /// Sets the number of a row that is there.
     #[inline]
     pub fn set(&mut self, row: usize, value: f64) {
         self.values[row] = value;
-        self.present[row] = true;
+        if let Some(present) = self.present.get_mut(row) {
+            *present = true;
+        }
     }
 
     /// Makes it a column of so many missing numbers.
@@ -110,10 +159,14 @@ impl Batch {
         Place { row: Some(self.first_row + row as u64 + 1), line: self.lines.get(row).copied(), column }
     }
 
-    pub(super) fn clear(&mut self) {
+    /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.
+    pub(super) fn clear(&mut self, labels: usize, numbers: usize) {
         self.rows = 0;
+        self.first_row = 0;
         self.lines.clear();
         self.labels.iter_mut().for_each(LabelColumn::clear);
         self.numbers.iter_mut().for_each(NumberColumn::clear);
+        self.labels.resize_with(labels, LabelColumn::default);
+        self.numbers.resize_with(numbers, NumberColumn::default);
     }
 }

@@ -1,6 +1,6 @@
 //! `inpact eval`: a deck and a node table in, a result table out.
 
-use super::scene::{FindingFormat, Scene, SceneArguments, say_data_findings};
+use super::scene::{FindingFormat, READ_AHEAD, Scene, SceneArguments, say_data_findings};
 use crate::failure::{Failure, Outcome, say};
 use crate::files::{self, ResultFile};
 use clap::Args;
@@ -29,6 +29,10 @@ pub(crate) struct EvalArguments {
 }
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
+    arguments.scene.threads()?.install(|| run_on_threads(arguments))
+}
+
+fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::refuse_overwriting(arguments.output.as_deref(), &arguments.scene.inputs())?;
     let format = arguments.format;
@@ -59,6 +63,7 @@ fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Finding
     let laws = compile(model, plan, choices);
     let mut reader = NodeReader::open(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
+    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
     let mut output = ResultFile::create(arguments.output.as_deref())?;
     let written = write(&mut reader, Evaluation::new(model, plan, &laws), plan, &mut output, findings);
     let (tally, rows_out) = match written {

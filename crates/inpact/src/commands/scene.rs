@@ -14,6 +14,7 @@ use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity, check};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::Serialize;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -21,6 +22,9 @@ use tempfile::SpooledTempFile;
 
 /// Of a node table from standard input, what is kept in memory; the rest goes to a temporary file.
 const MOST_IN_MEMORY: usize = 64 * 1024 * 1024;
+
+/// For each thread, how many pieces of a node table are decoded ahead.
+pub(crate) const READ_AHEAD: usize = 2;
 
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
@@ -45,6 +49,9 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
+    /// Use so many threads, instead of all cores; the results are the same.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     /// Give the slopes of conductance and permeability as well.
     #[arg(long)]
     derivatives: bool,
@@ -126,7 +133,10 @@ impl SceneArguments {
         let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
         let surveyed = NodeReader::open(nodes.reader(&self.nodes)?, &mut findings)
-            .and_then(|reader| survey(reader, &model, &choices, &mut findings))
+            .and_then(|mut reader| {
+                reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
+                survey(reader, &model, &choices, &mut findings)
+            })
             .map_err(|error| Failure::read(&self.nodes, error))?;
         let has_errors = findings.has_errors();
         say_data_findings(findings.into_list(), format);
@@ -158,6 +168,14 @@ impl SceneArguments {
         }
     }
 
+    /// The threads that share the work.
+    pub(crate) fn threads(&self) -> Result<ThreadPool, Failure> {
+        // 0 is as many as there are cores.
+        let threads = self.threads.map_or(0, usize::from);
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| Failure::Usage(format!("cannot start {threads} threads: {error}")))
+    }
+
     /// Where the node table is, for a failure to read it.
     pub(crate) fn nodes_path(&self) -> &Path {
         &self.nodes
@@ -175,9 +193,9 @@ impl NodesInput {
     }
 
     /// The table from its beginning; `path` is what it was asked for by.
-    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<dyn Read + '_>, Failure> {
+    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<dyn Read + Send + '_>, Failure> {
         match self {
-            Self::File(path) => files::open(path),
+            Self::File(path) => Ok(Box::new(files::open_file(path)?)),
             Self::Spooled(spooled) => {
                 spooled.seek(SeekFrom::Start(0)).map_err(|error| Failure::read(path, error))?;
                 Ok(Box::new(spooled))
