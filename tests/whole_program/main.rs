@@ -6,6 +6,7 @@ mod decks;
 mod dialects;
 mod eval;
 mod eval_laws;
+mod eval_tables;
 mod eval_wrong;
 mod fix;
 mod fmt;

@@ -9,6 +9,8 @@
 
 mod batch;
 mod column;
+#[cfg(feature = "columnar")]
+mod columnar;
 mod csv;
 mod decode;
 mod diagnostic;
@@ -17,6 +19,7 @@ mod lines;
 mod node_index;
 mod number;
 mod reader;
+mod wait;
 
 pub use batch::{Batch, LabelColumn, NumberColumn};
 pub use column::{Column, Part};
@@ -26,5 +29,5 @@ pub(crate) use diagnostic::{
 };
 pub use diagnostic::{DATA_RULES, DataDiagnostic, DataRule, Findings, Place};
 pub use header::{Header, HeaderCell};
-pub use node_index::NodeIndex;
-pub use reader::{NodeReader, Selection};
+pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
+pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};

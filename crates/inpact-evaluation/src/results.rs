@@ -4,9 +4,13 @@
 //! Knows no law: numbers in, text out.
 
 mod batch;
+#[cfg(feature = "columnar")]
+mod columnar;
+mod format;
 mod output;
 mod writer;
 
 pub use batch::{ResultBatch, Status};
+pub use format::TableFormat;
 pub use output::{Along, Output};
 pub use writer::{ResultWriter, push_number};

@@ -20,6 +20,15 @@ pub struct Batch {
 /// A column of texts, unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct LabelColumn {
+    texts: Texts,
+    /// The column as it was stored, where it was stored as a column; its texts are made when they are asked for.
+    #[cfg(feature = "columnar")]
+    array: Option<(arrow::array::ArrayRef, std::sync::OnceLock<Texts>)>,
+}
+
+/// Texts one after the other.
+#[derive(Debug, Clone, Default)]
+struct Texts {
     bytes: Vec<u8>,
     ends: Vec<usize>,
 }
@@ -37,20 +46,80 @@ impl LabelColumn {
     /// The text in row `row` of the batch.
     #[inline]
     pub fn get(&self, row: usize) -> &[u8] {
-        let start = if row == 0 { 0 } else { self.ends[row - 1] };
-        &self.bytes[start..self.ends[row]]
+        #[cfg(feature = "columnar")]
+        if let Some((array, texts)) = &self.array {
+            return texts.get_or_init(|| Texts::of_array(array)).get(row);
+        }
+        self.texts.get(row)
     }
 
     /// Adds a row.
     #[inline]
     pub fn push(&mut self, text: &[u8]) {
+        self.texts.push(text);
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.texts.bytes.clear();
+        self.texts.ends.clear();
+        #[cfg(feature = "columnar")]
+        {
+            self.array = None;
+        }
+    }
+}
+
+#[cfg(feature = "columnar")]
+impl LabelColumn {
+    /// The column of an array of texts or numbers.
+    pub(super) fn from_array(array: arrow::array::ArrayRef) -> Self {
+        Self { texts: Texts::default(), array: Some((array, std::sync::OnceLock::new())) }
+    }
+
+    /// The array it was made from.
+    pub(crate) fn array(&self) -> Option<&arrow::array::ArrayRef> {
+        self.array.as_ref().map(|(array, _)| array)
+    }
+}
+
+impl Texts {
+    #[inline]
+    fn get(&self, row: usize) -> &[u8] {
+        let start = if row == 0 { 0 } else { self.ends[row - 1] };
+        &self.bytes[start..self.ends[row]]
+    }
+
+    #[inline]
+    fn push(&mut self, text: &[u8]) {
         self.bytes.extend_from_slice(text);
         self.ends.push(self.bytes.len());
     }
 
-    pub(super) fn clear(&mut self) {
-        self.bytes.clear();
-        self.ends.clear();
+    /// The texts of an array: floats as a result table prints them, nulls as empty texts.
+    #[cfg(feature = "columnar")]
+    fn of_array(array: &arrow::array::ArrayRef) -> Self {
+        use arrow::array::{Array, AsArray, StringArray};
+        use arrow::datatypes::{DataType, Float64Type};
+        let mut texts = Self::default();
+        let values = match array.data_type() {
+            DataType::Dictionary(_, values) => values.as_ref(),
+            kind => kind,
+        };
+        if values.is_floating() {
+            let numbers = arrow::compute::cast(array, &DataType::Float64).unwrap_or_else(|_| array.slice(0, 0));
+            for value in numbers.as_primitive::<Float64Type>() {
+                if let Some(value) = value {
+                    crate::results::push_number(&mut texts.bytes, value);
+                }
+                texts.ends.push(texts.bytes.len());
+            }
+        } else {
+            let strings = arrow::compute::cast(array, &DataType::Utf8);
+            // The reader lets no type through that has no text.
+            let strings = strings.unwrap_or_else(|_| std::sync::Arc::new(StringArray::new_null(array.len())));
+            strings.as_string::<i32>().iter().for_each(|text| texts.push(text.unwrap_or_default().as_bytes()));
+        }
+        texts
     }
 }
 

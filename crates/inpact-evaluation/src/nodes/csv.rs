@@ -5,10 +5,11 @@ use super::decode::{Decoded, Layout, Problem, ProblemKind};
 use super::diagnostic::{Findings, MALFORMED_CELL, MISSING_COLUMN, Place};
 use super::header::Header;
 use super::lines::{Cells, Piece, Pieces, end_of_row, is_blank};
+use super::wait::wait_for;
 use std::collections::VecDeque;
 use std::io::{self, Read};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, channel};
 
 /// Reads a node table of comma-separated values.
 pub(super) struct CsvReader<'a> {
@@ -216,21 +217,6 @@ impl<'a> CsvReader<'a> {
                 let help = "close the quote, or write two quotes for one in a text";
                 findings.report(&MALFORMED_CELL, place(None), message, help);
             }
-        }
-    }
-}
-
-/// Waits for a piece, and does what else is to be done on this thread until then.
-fn wait_for(receiver: &Receiver<Work>) -> io::Result<Work> {
-    loop {
-        match receiver.try_recv() {
-            Ok(work) => return Ok(work),
-            Err(TryRecvError::Empty) => {}
-            Err(TryRecvError::Disconnected) => return Err(io::Error::other("a thread that decodes rows has failed")),
-        }
-        if rayon::yield_now() != Some(rayon::Yield::Executed) {
-            // All pieces are taken: this one is being decoded elsewhere.
-            return receiver.recv().map_err(io::Error::other);
         }
     }
 }

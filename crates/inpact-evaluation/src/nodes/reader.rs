@@ -5,20 +5,47 @@
 
 use super::batch::Batch;
 use super::column::Column;
+#[cfg(feature = "columnar")]
+use super::columnar::{ColumnarReader, Storage};
 use super::csv::CsvReader;
 use super::diagnostic::Findings;
 use super::header::Header;
 use std::fmt;
-use std::io::{self, Read};
+use std::io::{self, Read, Seek, SeekFrom};
 
 /// How many rows a batch has at most, unless asked otherwise.
 const ROWS_OF_A_BATCH: usize = 8192;
 
 /// Reads a node table from a stream.
 pub struct NodeReader<'a> {
-    table: CsvReader<'a>,
+    table: Table<'a>,
     rows_of_a_batch: usize,
     selection: Selection,
+}
+
+/// How the table is stored.
+enum Table<'a> {
+    Csv(Box<CsvReader<'a>>),
+    #[cfg(feature = "columnar")]
+    Columnar(Box<ColumnarReader>),
+}
+
+/// What a table that is stored as columns can be read from.
+pub trait ReadSeek: Read + Seek + Send + 'static {}
+
+impl<T: Read + Seek + Send + 'static> ReadSeek for T {}
+
+/// What a table itself says of a column of numbers, without its rows being read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnStatistics {
+    /// The smallest number that is not NaN; infinity where there is none.
+    pub least: f64,
+    /// The largest number that is not NaN; minus infinity where there is none.
+    pub greatest: f64,
+    /// How many numbers are missing.
+    pub nulls: u64,
+    /// How many rows there are.
+    pub rows: u64,
 }
 
 /// Which columns of a node table to read.
@@ -54,13 +81,60 @@ impl<'a> NodeReader<'a> {
     /// # Errors
     /// Those of reading the input.
     pub fn open(input: Box<dyn Read + Send + 'a>, findings: &mut Findings) -> io::Result<Self> {
-        let table = CsvReader::open(input, findings)?;
-        Ok(Self { table, rows_of_a_batch: ROWS_OF_A_BATCH, selection: Selection::default() })
+        Ok(Self::new(Table::Csv(Box::new(CsvReader::open(input, findings)?))))
+    }
+
+    /// Opens a node table that tells by its first bytes how it is stored: Parquet, an Arrow file or stream, otherwise comma-separated values.
+    ///
+    /// # Errors
+    /// Those of reading the input; of kind [`io::ErrorKind::InvalidData`] where it is not what its first bytes say,
+    /// [`io::ErrorKind::Unsupported`] for Parquet and Arrow where feature `columnar` is off.
+    pub fn open_any(mut input: Box<dyn ReadSeek>, findings: &mut Findings) -> io::Result<NodeReader<'static>> {
+        let mut magic = Vec::new();
+        input.by_ref().take(6).read_to_end(&mut magic)?;
+        input.seek(SeekFrom::Start(0))?;
+        #[cfg(feature = "columnar")]
+        {
+            let storage = match magic.as_slice() {
+                [b'P', b'A', b'R', b'1', ..] => Some(Storage::Parquet),
+                b"ARROW1" => Some(Storage::ArrowFile),
+                [0xFF, 0xFF, 0xFF, 0xFF, ..] => Some(Storage::ArrowStream),
+                _ => None,
+            };
+            if let Some(storage) = storage {
+                let table = ColumnarReader::open(input, storage, findings)?;
+                return Ok(NodeReader::new(Table::Columnar(Box::new(table))));
+            }
+        }
+        #[cfg(not(feature = "columnar"))]
+        if matches!(magic.as_slice(), [b'P', b'A', b'R', b'1', ..] | b"ARROW1" | [0xFF, 0xFF, 0xFF, 0xFF, ..]) {
+            let message = "it is a Parquet or Arrow table, which this program was built without (feature `columnar`)";
+            return Err(io::Error::new(io::ErrorKind::Unsupported, message));
+        }
+        NodeReader::open(Box::new(input), findings)
+    }
+
+    fn new(table: Table<'a>) -> Self {
+        Self { table, rows_of_a_batch: ROWS_OF_A_BATCH, selection: Selection::default() }
     }
 
     /// The header.
     pub fn header(&self) -> &Header {
-        self.table.header()
+        match &self.table {
+            Table::Csv(table) => table.header(),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.header(),
+        }
+    }
+
+    /// What the table itself says of a column of numbers: Parquet files may, for all of their rows, until the first batch is read.
+    pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
+        match &self.table {
+            Table::Csv(_) => None,
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.statistics(table.header().position(column)?),
+        }
+        .filter(|_: &ColumnStatistics| self.header().has(column))
     }
 
     /// Chooses the columns of the batches to come; one the header does not have gives missing numbers and empty texts.
@@ -81,7 +155,11 @@ impl<'a> NodeReader<'a> {
     ///
     /// 0, which holds unless asked otherwise, decodes each piece when its turn comes. What comes out is the same.
     pub fn set_read_ahead(&mut self, pieces: usize) {
-        self.table.set_read_ahead(pieces);
+        match &mut self.table {
+            Table::Csv(table) => table.set_read_ahead(pieces),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.set_reads_ahead(0 < pieces),
+        }
     }
 
     /// Reads the next rows into `batch`; false when there are no more.
@@ -89,14 +167,22 @@ impl<'a> NodeReader<'a> {
     /// # Errors
     /// Those of reading the input.
     pub fn read_batch(&mut self, batch: &mut Batch, findings: &mut Findings) -> io::Result<bool> {
-        self.table.read_batch(batch, findings)
+        match &mut self.table {
+            Table::Csv(table) => table.read_batch(batch, findings),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.read_batch(batch, findings),
+        }
     }
 
     fn apply(&mut self) {
-        let header = self.table.header();
+        let header = self.header();
         let field = |column: &Column| header.position(*column).unwrap_or(usize::MAX);
         let labels: Vec<usize> = self.selection.labels.iter().map(field).collect();
         let numbers: Vec<usize> = self.selection.numbers.iter().map(field).collect();
-        self.table.select(&labels, &numbers, self.rows_of_a_batch);
+        match &mut self.table {
+            Table::Csv(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
+        }
     }
 }

@@ -4,6 +4,9 @@
 //! Numbers are printed in the shortest form that reads back to the same f64; a missing number is an empty cell.
 
 use super::batch::ResultBatch;
+#[cfg(feature = "columnar")]
+use super::columnar::ColumnarWriter;
+use super::format::TableFormat;
 use super::output::Output;
 use crate::nodes::{Batch, Column};
 use rayon::prelude::*;
@@ -11,11 +14,21 @@ use std::io::{self, Write};
 
 /// Writes a result table to a stream.
 pub struct ResultWriter<'a> {
+    table: Table<'a>,
+    rows_written: u64,
+}
+
+enum Table<'a> {
+    Csv(CsvWriter<'a>),
+    #[cfg(feature = "columnar")]
+    Columnar(Box<ColumnarWriter<'a>>),
+}
+
+struct CsvWriter<'a> {
     output: &'a mut (dyn Write + Send),
     columns: Vec<ResultColumn>,
     /// The text of the blocks of a batch.
     blocks: Vec<Vec<u8>>,
-    rows_written: u64,
 }
 
 /// How many rows are turned into text at a time; blocks of them are independent of each other.
@@ -33,16 +46,80 @@ enum ResultColumn {
 
 impl std::fmt::Debug for ResultWriter<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("ResultWriter").field("columns", &self.columns).finish_non_exhaustive()
+        formatter.debug_struct("ResultWriter").field("rows_written", &self.rows_written).finish_non_exhaustive()
     }
 }
 
 impl<'a> ResultWriter<'a> {
-    /// Writes the header: the key columns, which are those of the batches' labels, then the outputs.
+    /// Begins a table of comma-separated values: the key columns, which are those of the batches' labels, then the outputs.
     ///
     /// # Errors
     /// Those of writing.
     pub fn new(output: &'a mut (dyn Write + Send), keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
+        let table = Table::Csv(CsvWriter::new(output, keys, outputs)?);
+        Ok(Self { table, rows_written: 0 })
+    }
+
+    /// Begins a table in some format; Parquet and Arrow are complete only after [`finish`](Self::finish).
+    ///
+    /// # Errors
+    /// Those of writing; of kind [`io::ErrorKind::Unsupported`] for Parquet and Arrow where feature `columnar` is off.
+    pub fn with_format(
+        output: &'a mut (dyn Write + Send),
+        format: TableFormat,
+        keys: &[Column],
+        outputs: &[Output],
+    ) -> io::Result<Self> {
+        match format {
+            TableFormat::Csv => Self::new(output, keys, outputs),
+            #[cfg(feature = "columnar")]
+            TableFormat::Parquet | TableFormat::Arrow => {
+                let table = ColumnarWriter::new(output, format, keys, outputs);
+                Ok(Self { table: Table::Columnar(Box::new(table)), rows_written: 0 })
+            }
+            #[cfg(not(feature = "columnar"))]
+            TableFormat::Parquet | TableFormat::Arrow => {
+                let message = "this program was built without Parquet and Arrow (feature `columnar`)";
+                Err(io::Error::new(io::ErrorKind::Unsupported, message))
+            }
+        }
+    }
+
+    /// Writes the rows of a batch with their results; the threads of rayon's current pool share the work.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
+        match &mut self.table {
+            Table::Csv(table) => table.write(batch, results)?,
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.write(batch, results)?,
+        }
+        self.rows_written += batch.rows as u64;
+        Ok(())
+    }
+
+    /// Writes what the table ends with; gives how many rows were written.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn finish(self) -> io::Result<u64> {
+        match self.table {
+            Table::Csv(_) => {}
+            #[cfg(feature = "columnar")]
+            Table::Columnar(mut table) => table.finish()?,
+        }
+        Ok(self.rows_written)
+    }
+
+    /// How many rows were written.
+    pub fn rows_written(&self) -> u64 {
+        self.rows_written
+    }
+}
+
+impl<'a> CsvWriter<'a> {
+    fn new(output: &'a mut (dyn Write + Send), keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
         let names = keys.iter().map(ToString::to_string).chain(outputs.iter().map(ToString::to_string));
         let header: Vec<String> = names.collect();
         output.write_all((header.join(",") + "\n").as_bytes())?;
@@ -56,14 +133,10 @@ impl<'a> ResultWriter<'a> {
                 number += 1;
             }
         }
-        Ok(Self { output, columns, blocks: Vec::new(), rows_written: 0 })
+        Ok(Self { output, columns, blocks: Vec::new() })
     }
 
-    /// Writes the rows of a batch with their results; the threads of rayon's current pool share the work.
-    ///
-    /// # Errors
-    /// Those of writing.
-    pub fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
+    fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
         let blocks = batch.rows.div_ceil(ROWS_OF_A_BLOCK);
         if self.blocks.len() < blocks {
             self.blocks.resize_with(blocks, Vec::new);
@@ -79,13 +152,7 @@ impl<'a> ResultWriter<'a> {
         for text in &self.blocks[..blocks] {
             self.output.write_all(text)?;
         }
-        self.rows_written += batch.rows as u64;
         Ok(())
-    }
-
-    /// How many rows were written.
-    pub fn rows_written(&self) -> u64 {
-        self.rows_written
     }
 }
 

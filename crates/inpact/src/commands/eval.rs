@@ -3,12 +3,12 @@
 use super::scene::{FindingFormat, READ_AHEAD, Scene, SceneArguments, say_data_findings};
 use crate::failure::{Failure, Outcome, say};
 use crate::files::{self, ResultFile};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{Plan, Reason};
-use inpact_evaluation::results::{ResultBatch, ResultWriter};
+use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -23,9 +23,34 @@ pub(crate) struct EvalArguments {
     /// Where to write the result, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// How the result is stored, instead of what the extension of its file says (.csv, .parquet, .arrow, .ipc, .feather).
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    output_format: Option<OutputFormat>,
     /// How to print findings and summary on standard error.
     #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
     format: FindingFormat,
+}
+
+/// How a result table is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OutputFormat {
+    /// Comma-separated values.
+    Csv,
+    /// Parquet.
+    Parquet,
+    /// An Arrow IPC file.
+    Arrow,
+}
+
+impl EvalArguments {
+    fn table_format(&self) -> TableFormat {
+        match self.output_format {
+            Some(OutputFormat::Csv) => TableFormat::Csv,
+            Some(OutputFormat::Parquet) => TableFormat::Parquet,
+            Some(OutputFormat::Arrow) => TableFormat::Arrow,
+            None => self.output.as_deref().and_then(TableFormat::of_extension).unwrap_or_default(),
+        }
+    }
 }
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
@@ -61,11 +86,12 @@ fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Finding
     let unreadable = |error| Failure::read(nodes_path, error);
     let Scene { model, plan, choices, nodes_name, nodes, .. } = scene;
     let laws = compile(model, plan, choices);
-    let mut reader = NodeReader::open(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
+    let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
     reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
     let mut output = ResultFile::create(arguments.output.as_deref())?;
-    let written = write(&mut reader, Evaluation::new(model, plan, &laws), plan, &mut output, findings);
+    let evaluation = Evaluation::new(model, plan, &laws);
+    let written = write(&mut reader, evaluation, plan, (&mut output, arguments.table_format()), findings);
     let (tally, rows_out) = match written {
         Ok(counts) => counts,
         Err(Stopped::Reading(error)) => return Err(unreadable(error)),
@@ -90,16 +116,17 @@ fn write(
     reader: &mut NodeReader<'_>,
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
-    output: &mut ResultFile,
+    (output, format): (&mut ResultFile, TableFormat),
     findings: &mut Findings,
 ) -> Result<(Tally, u64), Stopped> {
-    let mut writer = ResultWriter::new(output, plan.keys(), &plan.outputs).map_err(Stopped::Writing)?;
+    let writer = ResultWriter::with_format(output, format, plan.keys(), &plan.outputs);
+    let mut writer = writer.map_err(Stopped::Writing)?;
     let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
     while reader.read_batch(&mut batch, findings).map_err(Stopped::Reading)? {
         evaluation.evaluate(&batch, &mut results);
         writer.write(&batch, &results).map_err(Stopped::Writing)?;
     }
-    Ok((evaluation.finish(), writer.rows_written()))
+    Ok((evaluation.finish(), writer.finish().map_err(Stopped::Writing)?))
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.

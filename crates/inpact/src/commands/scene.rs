@@ -16,12 +16,9 @@ use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity, check};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::Serialize;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use tempfile::SpooledTempFile;
-
-/// Of a node table from standard input, what is kept in memory; the rest goes to a temporary file.
-const MOST_IN_MEMORY: usize = 64 * 1024 * 1024;
 
 /// For each thread, how many pieces of a node table are decoded ahead.
 pub(crate) const READ_AHEAD: usize = 2;
@@ -31,7 +28,7 @@ pub(crate) struct SceneArguments {
     /// The deck or fragment; `-` reads standard input.
     #[arg(value_name = "DECK")]
     deck: PathBuf,
-    /// The node table, comma-separated values; `-` reads standard input.
+    /// The node table: comma-separated values, Parquet or Arrow, as its first bytes say; `-` reads standard input.
     #[arg(long, value_name = "FILE")]
     nodes: PathBuf,
     /// The interaction that governs every row, instead of column `interaction`.
@@ -106,7 +103,8 @@ pub(crate) struct Scene {
 /// A node table that can be read more than once.
 pub(crate) enum NodesInput {
     File(PathBuf),
-    Spooled(SpooledTempFile),
+    /// What came from a stream, in a temporary file.
+    Spooled(File),
 }
 
 impl SceneArguments {
@@ -132,7 +130,7 @@ impl SceneArguments {
         let nodes_name = self.nodes.display().to_string();
         let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
-        let surveyed = NodeReader::open(nodes.reader(&self.nodes)?, &mut findings)
+        let surveyed = NodeReader::open_any(nodes.reader(&self.nodes)?, &mut findings)
             .and_then(|mut reader| {
                 reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
                 survey(reader, &model, &choices, &mut findings)
@@ -184,21 +182,25 @@ impl SceneArguments {
 
 impl NodesInput {
     fn open(path: &Path) -> Result<Self, Failure> {
-        if path.as_os_str() != STANDARD_STREAM {
+        let is_stream = path.as_os_str() == STANDARD_STREAM
+            || path.metadata().is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
+        if !is_stream {
             return Ok(Self::File(path.to_owned()));
         }
-        let mut spooled = SpooledTempFile::new(MOST_IN_MEMORY);
+        let mut spooled = tempfile::tempfile().map_err(|error| Failure::read(path, error))?;
         io::copy(&mut files::open(path)?, &mut spooled).map_err(|error| Failure::read(path, error))?;
         Ok(Self::Spooled(spooled))
     }
 
     /// The table from its beginning; `path` is what it was asked for by.
-    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<dyn Read + Send + '_>, Failure> {
+    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<File>, Failure> {
         match self {
-            Self::File(path) => Ok(Box::new(files::open_file(path)?)),
+            Self::File(path) => files::open_file(path).map(Box::new),
             Self::Spooled(spooled) => {
-                spooled.seek(SeekFrom::Start(0)).map_err(|error| Failure::read(path, error))?;
-                Ok(Box::new(spooled))
+                let unreadable = |error| Failure::read(path, error);
+                spooled.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+                // Its place is the same for all readers, which is why only one reads at a time.
+                spooled.try_clone().map(Box::new).map_err(unreadable)
             }
         }
     }
