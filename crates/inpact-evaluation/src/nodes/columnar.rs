@@ -340,7 +340,12 @@ fn bounds(of: &Statistics) -> Option<(f64, f64)> {
 /// A file that is wrong inside.
 fn invalid(error: ArrowError) -> io::Error {
     match error {
-        ArrowError::IoError(_, error) if error.kind() != io::ErrorKind::UnexpectedEof => error,
+        // A place before its beginning, or beyond its end, is one that a sound file does not point to.
+        ArrowError::IoError(_, error)
+            if !matches!(error.kind(), io::ErrorKind::UnexpectedEof | io::ErrorKind::InvalidInput) =>
+        {
+            error
+        }
         error => io::Error::new(io::ErrorKind::InvalidData, format!("it is no sound Arrow table ({error})")),
     }
 }

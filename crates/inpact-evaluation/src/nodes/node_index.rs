@@ -183,7 +183,9 @@ mod tests {
 
     fn order(labels: &[&str]) -> HistoryOrder {
         let mut runs = NodeRuns::new();
-        labels.iter().for_each(|label| drop(runs.take(0, label.as_bytes())));
+        for label in labels {
+            runs.take(0, label.as_bytes());
+        }
         runs.order()
     }
 
@@ -201,7 +203,9 @@ mod tests {
     fn many_nodes_must_ascend() {
         let many = MOST_REMEMBERED as u64 + 10;
         let mut runs = NodeRuns::new();
-        (0..many).for_each(|node| drop(runs.take(0, node.to_string().as_bytes())));
+        for node in 0..many {
+            runs.take(0, node.to_string().as_bytes());
+        }
         assert_eq!((runs.order(), runs.runs()), (HistoryOrder::ByNode, many));
         assert!(runs.met.is_none());
         runs.take(0, b"5");
