@@ -65,6 +65,102 @@ fn the_number_of_threads_changes_no_byte() {
     assert_eq!(of("0").code, 2);
 }
 
+#[test]
+fn the_order_of_rows_changes_no_history() {
+    const NODES: u32 = 60_000;
+    let row = |node: u32, time: u32| {
+        let jump = 1.0 + f64::from(node % 11) + 0.5 * f64::from(time);
+        format!("{node},{time},{},{jump},0\n", f64::from((node + time) % 7) / 60.0)
+    };
+    let header = "node,time,clearance,epot_s,epot_m\n";
+    let pairs = |interleaved: bool| {
+        let (nodes, times): (Vec<u32>, [u32; 2]) = ((1..=NODES).collect(), [1, 2]);
+        match interleaved {
+            true => times.iter().flat_map(|time| nodes.iter().map(|node| row(*node, *time))).collect::<String>(),
+            false => nodes.iter().flat_map(|node| times.iter().map(|time| row(*node, *time))).collect::<String>(),
+        }
+    };
+    let folder = Folder::with(&[
+        ("a.inp", DECK),
+        ("by_node.csv", &(header.to_owned() + &pairs(false))),
+        ("by_time.csv", &(header.to_owned() + &pairs(true))),
+    ]);
+    let sorted = |nodes| {
+        let arguments = ["eval", "a.inp", "--nodes", nodes, "--procedure", "transient", "--outputs", "ECD,ECDT,SJDT"];
+        let run = folder.inpact(&arguments);
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let mut lines: Vec<String> = run.output.lines().map(str::to_owned).collect();
+        assert!(lines[0].contains("ECDT"), "{}", lines[0]);
+        lines.sort_unstable();
+        lines
+    };
+    let by_node = sorted("by_node.csv");
+    assert_eq!(by_node.len(), 2 * NODES as usize + 1);
+    assert!(by_node == sorted("by_time.csv"));
+    let plan = |nodes| folder.inpact(&["plan", "a.inp", "--nodes", nodes, "--procedure", "transient"]).output;
+    assert_eq!(plan("by_node.csv").replace("by_node", "by_time"), plan("by_time.csv"));
+}
+
+#[test]
+fn a_time_that_falls_back_is_found_in_both_orders() {
+    let table = |rows: &str| format!("node,time,clearance,epot_s,epot_m\n{rows}");
+    let folder = Folder::with(&[
+        ("a.inp", DECK),
+        ("by_node.csv", &table("1,1,0,1,0\n1,2,0,1,0\n2,2,0,1,0\n2,1,0,1,0\n")),
+        ("by_time.csv", &table("1,1,0,1,0\n2,2,0,1,0\n1,2,0,1,0\n2,1,0,1,0\n")),
+    ]);
+    for nodes in ["by_node.csv", "by_time.csv"] {
+        let run = folder.inpact(&["eval", "a.inp", "--nodes", nodes, "--procedure", "transient"]);
+        assert_eq!((run.code, run.output.as_str()), (1, ""));
+        let expected =
+            format!("{nodes}:5: error[D006] `time` of node `2` is 1.0 in row 4 and 2.0 in the row before it");
+        assert!(run.errors.starts_with(&expected), "{}", run.errors);
+        assert_eq!(run.errors.matches("D006").count(), 1, "{}", run.errors);
+    }
+}
+
+#[test]
+fn a_time_that_is_no_number_is_wrong_in_the_data() {
+    let folder = Folder::with(&[("a.inp", DECK), ("a.csv", "node,time,clearance\n1,0,0\n1,late,0\n")]);
+    for format in ["csv", "parquet", "arrow"] {
+        let run = folder.inpact(&["eval", "a.inp", "--nodes", "a.csv", "--output-format", format, "-o", "result"]);
+        assert_eq!((run.code, run.output.as_str()), (1, ""));
+        let expected = "a.csv:3: error[D002] `time` of row 2 is `late`, which is no number";
+        assert!(run.errors.starts_with(expected), "{}", run.errors);
+        assert!(!folder.path().join("result").exists());
+    }
+}
+
+#[test]
+fn a_label_that_is_no_text_is_written_as_it_is_or_refused() {
+    let folder = Folder::with(&[("a.inp", DECK)]);
+    std::fs::write(folder.path().join("a.csv"), b"node,clearance\n\xFF,0\n").expect("writable");
+    let of = |format| {
+        let arguments = ["eval", "a.inp", "--nodes", "a.csv", "--output-format", format, "-o", "result"];
+        folder.inpact(&arguments)
+    };
+    let run = of("parquet");
+    assert_eq!(run.code, 1);
+    assert!(run.errors.contains("`a.csv` cannot be written in this format: `node` of row 1"), "{}", run.errors);
+    assert!(!folder.path().join("result").exists());
+    assert_eq!(of("csv").code, 0);
+    let written = std::fs::read(folder.path().join("result")).expect("written");
+    assert!(written.windows(3).any(|bytes| bytes == b"\n\xFF,"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_named_pipe_is_read_like_a_file() {
+    let folder = Folder::with(&[("a.inp", DECK)]);
+    let pipe = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo is there");
+    assert!(made.success());
+    let writer = std::thread::spawn(move || std::fs::write(pipe, nodes(",")));
+    let run = folder.inpact(&["eval", "a.inp", "--nodes", "pipe"]);
+    assert_eq!((run.code, run.output.as_str()), (0, RESULT), "{}", run.errors);
+    writer.join().expect("no panic").expect("written");
+}
+
 /// Turns a result table into another format: its columns are a node table that lacks what a law needs, but for `conductance`.
 fn converted(folder: &Folder, format: &str) -> Vec<u8> {
     let arguments = ["eval", "a.inp", "--nodes", "a.csv", "--output-format", format, "-o", "-"];

@@ -1,7 +1,9 @@
 //! Evaluates the interface laws of a deck on node data: conductance and current, heat, pore fluid flow.
 //!
 //! From the inside out: [`numbers`] are floating-point building blocks, [`table`] the nested piecewise-linear functions of the manual's tables,
+//! [`accuracy`] other forms of these, more exact or faster,
 //! [`law`] the interface laws as functions of plain inputs, [`history`] their integrals over time.
+//! [`kernel`] evaluates tables and laws over whole columns, vectorised, with the bits of the functions above.
 //! None of these knows a file or the parser's model.
 //!
 //! Around them: [`nodes`] reads node tables, [`plan`] puts a deck's model and a node table together, [`compile`] turns a plan into laws,
@@ -12,7 +14,13 @@ pub mod numbers;
 
 pub mod table;
 
+pub mod table_form;
+
+pub mod accuracy;
+
 pub mod law;
+
+pub mod kernel;
 
 pub mod history;
 

@@ -100,11 +100,6 @@ impl NodeIndex {
         self.count += 1;
         number
     }
-
-    /// How many nodes interaction number `interaction` has.
-    pub fn count_of(&self, interaction: usize) -> usize {
-        self.numbers.get(interaction).map_or(0, HashMap::len)
-    }
 }
 
 impl NodeRuns {

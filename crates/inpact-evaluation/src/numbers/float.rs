@@ -42,7 +42,7 @@ pub(super) const LEAST_NORMAL: i32 = -1022;
 /// Whether the magnitude of `value` lies between 2⁻²⁵⁰ and 2²⁵¹, so that a handful of products and quotients of such numbers neither over- nor underflows.
 /// False for zero, infinities and NaN.
 #[inline]
-pub(super) fn is_ordinary(value: f64) -> bool {
+pub(crate) fn is_ordinary(value: f64) -> bool {
     let biased = (value.to_bits() >> 52) & 0x7ff;
     (1023 - 250..=1023 + 250).contains(&biased)
 }

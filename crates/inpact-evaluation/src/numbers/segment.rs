@@ -44,6 +44,11 @@ impl KernelSlope {
         if is_harmless { Self { high, low } } else { Self::UNUSED }
     }
 
+    /// The rounded slope and what rounding took from it.
+    pub(crate) fn parts(self) -> (f64, f64) {
+        (self.high, self.low)
+    }
+
     /// Whether the segment can only be interpolated the long way.
     pub fn is_missing(self) -> bool {
         self.high.is_nan()

@@ -252,6 +252,13 @@ fn push_small(text: &mut Vec<u8>, printed: &[u8]) {
     let _ = write!(text, "e-{}", zeros + 1);
 }
 
+/// A number in its shortest form, see [`push_number`].
+pub(crate) fn number_text(value: f64) -> String {
+    let mut text = Vec::new();
+    push_number(&mut text, value);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

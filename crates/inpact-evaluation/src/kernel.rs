@@ -1,0 +1,224 @@
+//! Kernels of the `full` mode: columns in, columns out, vectorised, with the bits of the scalar functions.
+//!
+//! A [`TableKernel`] evaluates a [`PiecewiseTable`] over columns; [`electrical`] makes the whole electrical output set in one pass, [`total`] adds up a column.
+//! Which instructions are used is decided when the program runs ([`InstructionSet`]); the results do not depend on it, nor on the number of threads.
+//!
+//! What the vectors hold is the same expression as in [`crate::numbers::interpolate`] and [`crate::numbers::between`], operation by operation.
+//! Where these take a longer way (a segment without kernel slope, extreme exponents), the vector gives NaN,
+//! and every row that is NaN is done again by [`PiecewiseTable::value_and_sides_at`].
+//!
+//! A kernel knows numbers and tables only; it allocates nothing per row.
+
+#![expect(
+    clippy::inline_always,
+    reason = "what is not inlined is compiled without the instruction set that was asked for"
+)]
+
+pub mod blocks;
+mod buckets;
+pub mod electrical;
+mod instruction_set;
+mod nested;
+mod pieces;
+#[cfg(target_arch = "x86_64")]
+mod registers;
+pub mod total;
+
+pub use buckets::Search;
+pub use instruction_set::InstructionSet;
+
+use crate::table::{PiecewiseTable, Sides};
+use nested::NestedKernel;
+
+/// A table made ready to be evaluated over columns.
+#[derive(Clone, Debug)]
+pub struct TableKernel {
+    /// Evaluates the rows that the vectors leave over.
+    table: PiecewiseTable,
+    shape: Shape,
+    set: InstructionSet,
+}
+
+/// How the table is evaluated.
+#[derive(Clone, Debug)]
+enum Shape {
+    Constant(f64),
+    Nested {
+        /// The table in vector registers, if it has one axis and is small, for processors that can hold it there.
+        #[cfg(target_arch = "x86_64")]
+        registers: Option<Box<registers::RegisterKernel>>,
+        nested: NestedKernel,
+    },
+}
+
+impl TableKernel {
+    /// Makes a table ready.
+    pub fn new(table: &PiecewiseTable) -> Self {
+        let shape = if table.levels().is_empty() {
+            Shape::Constant(table.values()[0])
+        } else {
+            Shape::Nested {
+                #[cfg(target_arch = "x86_64")]
+                registers: registers::RegisterKernel::new(table).map(Box::new),
+                nested: NestedKernel::new(table),
+            }
+        };
+        Self { table: table.clone(), shape, set: InstructionSet::best() }
+    }
+
+    /// The values of all rows: `columns` holds a slice an axis, axis 0 first.
+    ///
+    /// An axis that the table does not depend on may be an empty slice or left out, any other must have `values.len()` rows.
+    /// A row with NaN along an axis the table depends on gives NaN.
+    ///
+    /// # Panics
+    /// Where a column the table depends on is shorter than `values`.
+    pub fn values(&self, columns: &[&[f64]], values: &mut [f64]) {
+        self.values_with(self.set, columns, values);
+    }
+
+    /// [`Self::values`], and on which sides of the table each row lies.
+    ///
+    /// # Panics
+    /// Where a column the table depends on is shorter than `values`, or `sides` is.
+    pub fn values_and_sides(&self, columns: &[&[f64]], values: &mut [f64], sides: &mut [Sides]) {
+        self.values_and_sides_with(self.set, columns, values, sides);
+    }
+
+    /// [`Self::values`] with the instructions of `set`, for tests and measurements. A set this machine lacks is replaced by plain instructions.
+    pub fn values_with(&self, set: InstructionSet, columns: &[&[f64]], values: &mut [f64]) {
+        match &self.shape {
+            Shape::Constant(value) => values.fill(*value),
+            #[cfg(target_arch = "x86_64")]
+            Shape::Nested { registers: Some(registers), .. }
+                if set == InstructionSet::Avx512
+                    && registers.values(column_of(columns, registers.axis, values.len()), values) =>
+            {
+                self.redo(columns, values, None);
+            }
+            Shape::Nested { nested, .. } => {
+                if set.run(NestedValues { nested, set, columns, values: &mut *values, sides: None }) {
+                    self.redo(columns, values, None);
+                }
+            }
+        }
+    }
+
+    /// The values of `values.len()` rows from row `first` on.
+    fn values_of_rows(&self, set: InstructionSet, columns: &[&[f64]], first: usize, values: &mut [f64]) {
+        let part = |column: &[f64]| -> std::ops::Range<usize> {
+            if column.is_empty() { 0..0 } else { first..first + values.len() }
+        };
+        let mut few: [&[f64]; FEW_AXES] = [&[]; FEW_AXES];
+        if columns.len() > FEW_AXES {
+            let columns: Vec<&[f64]> = columns.iter().map(|column| &column[part(column)]).collect();
+            return self.values_with(set, &columns, values);
+        }
+        for (few, column) in few.iter_mut().zip(columns) {
+            *few = &column[part(column)];
+        }
+        self.values_with(set, &few[..columns.len()], values);
+    }
+
+    /// [`Self::values_and_sides`] with the instructions of `set`.
+    ///
+    /// # Panics
+    /// Where a column the table depends on is shorter than `values`, or `sides` is.
+    pub fn values_and_sides_with(
+        &self,
+        set: InstructionSet,
+        columns: &[&[f64]],
+        values: &mut [f64],
+        sides: &mut [Sides],
+    ) {
+        let sides = &mut sides[..values.len()];
+        if self.table.marks_sides() {
+            self.values_with(set, columns, values);
+            self.table.mark_sides(columns, sides);
+            return;
+        }
+        sides.fill(Sides::default());
+        match &self.shape {
+            Shape::Constant(value) => values.fill(*value),
+            #[cfg(target_arch = "x86_64")]
+            Shape::Nested { registers: Some(registers), .. } if set == InstructionSet::Avx512 => {
+                let column = column_of(columns, registers.axis, values.len());
+                let redo = registers.values(column, values);
+                registers.sides(column, sides);
+                if redo {
+                    self.redo(columns, values, Some(sides));
+                }
+            }
+            Shape::Nested { nested, .. } => {
+                if set.run(NestedValues { nested, set, columns, values: &mut *values, sides: Some(&mut *sides) }) {
+                    self.redo(columns, values, Some(sides));
+                }
+            }
+        }
+    }
+
+    /// How the rows' places in the table are found.
+    pub fn search(&self) -> Search {
+        match &self.shape {
+            Shape::Constant(_) => Search::Constant,
+            #[cfg(target_arch = "x86_64")]
+            Shape::Nested { registers: Some(_), .. } if self.set == InstructionSet::Avx512 => Search::Registers,
+            Shape::Nested { nested, .. } => nested.search(),
+        }
+    }
+
+    /// Does again, by the scalar functions, the rows whose value is NaN.
+    #[cold]
+    fn redo(&self, columns: &[&[f64]], values: &mut [f64], mut sides: Option<&mut [Sides]>) {
+        let mut others = [f64::NAN; FEW_AXES];
+        let mut many_others = Vec::new();
+        let other_count = columns.len().saturating_sub(1);
+        let others = if other_count <= FEW_AXES {
+            &mut others[..other_count]
+        } else {
+            many_others.resize(other_count, f64::NAN);
+            &mut many_others[..]
+        };
+        for row in 0..values.len() {
+            if !values[row].is_nan() {
+                continue;
+            }
+            let along = |axis: usize| columns.get(axis).and_then(|column| column.get(row)).copied().unwrap_or(f64::NAN);
+            for (index, other) in others.iter_mut().enumerate() {
+                *other = along(index + 1);
+            }
+            let (value, row_sides) = self.table.value_and_sides_at(along(0), others);
+            values[row] = value;
+            if let Some(sides) = &mut sides {
+                sides[row] = row_sides;
+            }
+        }
+    }
+}
+
+/// Coordinates beside axis 0 that need no allocation when a row is done again.
+const FEW_AXES: usize = 16;
+
+/// The column of `axis`, as long as there are rows.
+#[inline(always)]
+fn column_of<'a>(columns: &[&'a [f64]], axis: usize, rows: usize) -> &'a [f64] {
+    &columns[axis][..rows]
+}
+
+/// [`NestedKernel::values`] as a thing that can be run under an instruction set.
+struct NestedValues<'a> {
+    nested: &'a NestedKernel,
+    set: InstructionSet,
+    columns: &'a [&'a [f64]],
+    values: &'a mut [f64],
+    sides: Option<&'a mut [Sides]>,
+}
+
+impl pulp::NullaryFnOnce for NestedValues<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        self.nested.values(self.set, self.columns, self.values, self.sides)
+    }
+}

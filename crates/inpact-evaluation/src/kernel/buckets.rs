@@ -1,0 +1,214 @@
+//! Search by buckets: which piece of its group an abscissa lies in, without a loop and without a branch that could be mispredicted.
+//!
+//! The range of a group is cut into buckets, numbered by a key that rises with x: x itself, scaled, or for abscissae over many decades the order-preserving bits of the f64.
+//! A bucket tells the piece at its left end; as it holds few breaks (one, if there is room), as many comparisons tell the rest.
+//! The keys of the breaks are computed by the same expression as those of the queries, so that its rounding cannot matter: it is monotone.
+
+use super::pieces::ordered;
+
+/// How a kernel finds the rows' places in a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// There is nothing to find: the table is a constant.
+    Constant,
+    /// The table stands in vector registers and is searched there.
+    Registers,
+    /// Buckets of equal width.
+    LinearBuckets,
+    /// Buckets of equal count of f64 numbers, for abscissae over many decades.
+    BitBuckets,
+    /// Repeated halving, where buckets would be too many.
+    Bisection,
+}
+
+/// The search over all groups of one axis. Pieces are numbered through all groups.
+#[derive(Clone, Debug)]
+pub(super) struct GroupSearch {
+    kind: Search,
+    /// How many breaks a bucket holds at most.
+    steps: usize,
+    groups: Vec<Group>,
+    /// For each bucket the piece at its left end.
+    buckets: Vec<u32>,
+    /// For each piece where it ends, NaN for the last of a group.
+    ends: Vec<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Group {
+    /// The least abscissa, and the order of its bits.
+    least: f64,
+    order: i64,
+    /// Buckets per unit of x.
+    scale: f64,
+    /// How far the order of the bits is shifted to make a bucket.
+    shift: u32,
+    first_bucket: u32,
+    last_key: u32,
+    first_piece: u32,
+    piece_count: u32,
+}
+
+/// A group to be searched: the range of its queries and the rising breaks between its pieces.
+pub(super) struct Breaks {
+    pub(super) least: f64,
+    pub(super) greatest: f64,
+    pub(super) at: Vec<f64>,
+}
+
+/// 2⁵²: a number below 2³² added to it has its nearest integer in the low bits.
+const INTEGER_BITS: f64 = 4_503_599_627_370_496.0;
+
+/// More buckets than this are not worth their memory.
+const MOST_BUCKETS: usize = 1 << 22;
+
+impl GroupSearch {
+    pub(super) fn new(groups: &[Breaks]) -> Self {
+        for steps in [1, 2, 4] {
+            for kind in [Search::LinearBuckets, Search::BitBuckets] {
+                if let Some(search) = Self::with_buckets(groups, kind, steps) {
+                    return search;
+                }
+            }
+        }
+        let mut search = Self::empty(Search::Bisection, 0);
+        for breaks in groups {
+            let mut group = Group::new(breaks);
+            search.push_pieces(&mut group, &breaks.at);
+        }
+        search
+    }
+
+    pub(super) fn kind(&self) -> Search {
+        self.kind
+    }
+
+    pub(super) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The piece of `group` that holds `x`, which is within the group's range or NaN.
+    #[inline(always)]
+    pub(super) fn piece<const KIND: u8, const STEPS: usize>(&self, group: usize, x: f64) -> usize {
+        let group = &self.groups[group];
+        if KIND == BISECTION {
+            let mut piece = group.first_piece as usize;
+            let mut count = group.piece_count as usize;
+            while count > 1 {
+                let half = count / 2;
+                let right = x >= self.ends[piece + half - 1];
+                piece = std::hint::select_unpredictable(right, piece + half, piece);
+                count -= half;
+            }
+            return piece;
+        }
+        let key = group.key::<KIND>(x);
+        let mut piece = self.buckets[(group.first_bucket + key) as usize] as usize;
+        for _ in 0..STEPS {
+            piece += usize::from(x >= self.ends[piece]);
+        }
+        piece
+    }
+
+    fn with_buckets(groups: &[Breaks], kind: Search, steps: usize) -> Option<Self> {
+        let mut search = Self::empty(kind, steps);
+        for breaks in groups {
+            let mut group = Group::new(breaks);
+            group.choose_buckets(breaks, kind, steps)?;
+            if search.buckets.len() + group.last_key as usize >= MOST_BUCKETS {
+                return None;
+            }
+            group.first_bucket = u32::try_from(search.buckets.len()).ok()?;
+            search.push_pieces(&mut group, &breaks.at);
+            let mut passed = 0;
+            for key in 0..=group.last_key {
+                while breaks.at.get(passed as usize).is_some_and(|&x| group.key_of(kind, x) < key) {
+                    passed += 1;
+                }
+                search.buckets.push(group.first_piece + passed);
+            }
+        }
+        Some(search)
+    }
+
+    fn empty(kind: Search, steps: usize) -> Self {
+        Self { kind, steps, groups: Vec::new(), buckets: Vec::new(), ends: Vec::new() }
+    }
+
+    fn push_pieces(&mut self, group: &mut Group, breaks: &[f64]) {
+        let count = |count: usize| u32::try_from(count).expect("a table has fewer than 2^31 rows");
+        group.first_piece = count(self.ends.len());
+        group.piece_count = count(breaks.len() + 1);
+        self.ends.extend_from_slice(breaks);
+        self.ends.push(f64::NAN);
+        self.groups.push(*group);
+    }
+}
+
+/// [`Search`] as a constant, so that the search is compiled once for each kind.
+pub(super) const LINEAR: u8 = 0;
+pub(super) const BITS: u8 = 1;
+pub(super) const BISECTION: u8 = 2;
+
+impl Group {
+    fn new(breaks: &Breaks) -> Self {
+        Self {
+            least: breaks.least,
+            order: ordered(breaks.least + 0.0),
+            scale: 0.0,
+            shift: 63,
+            first_bucket: 0,
+            last_key: 0,
+            first_piece: 0,
+            piece_count: 0,
+        }
+    }
+
+    /// The bucket of `x`, counted from the group's first one. Rises with x.
+    #[inline(always)]
+    fn key<const KIND: u8>(&self, x: f64) -> u32 {
+        let key = if KIND == LINEAR {
+            ((x - self.least) * self.scale + INTEGER_BITS).to_bits()
+        } else {
+            // Adding 0 makes −0 the same number as 0.
+            ordered(x + 0.0).wrapping_sub(self.order).cast_unsigned() >> self.shift
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "the low bits are the number")]
+        let key = key as u32;
+        key.min(self.last_key)
+    }
+
+    fn key_of(&self, kind: Search, x: f64) -> u32 {
+        if kind == Search::LinearBuckets { self.key::<LINEAR>(x) } else { self.key::<BITS>(x) }
+    }
+
+    /// The fewest buckets that hold at most `steps` breaks each; none where there would be too many.
+    fn choose_buckets(&mut self, breaks: &Breaks, kind: Search, steps: usize) -> Option<()> {
+        let Breaks { least, greatest, at: breaks } = breaks;
+        let most = 64 + 16 * breaks.len();
+        let mut count = (breaks.len() / steps + 1).next_power_of_two();
+        if breaks.is_empty() {
+            return Some(());
+        }
+        while count <= most {
+            self.last_key = u32::try_from(count - 1).ok()?;
+            let fits = match kind {
+                Search::LinearBuckets => {
+                    self.scale = f64::from(self.last_key) / (greatest - least);
+                    self.scale.is_finite() && self.scale > 0.0
+                }
+                _ => {
+                    let span = ordered(greatest + 0.0).wrapping_sub(self.order).cast_unsigned();
+                    self.shift = (64 - span.leading_zeros()).saturating_sub(count.trailing_zeros());
+                    self.shift < 64
+                }
+            };
+            if fits && breaks.windows(steps + 1).all(|some| self.key_of(kind, some[0]) < self.key_of(kind, some[steps]))
+            {
+                return Some(());
+            }
+            count *= 2;
+        }
+        None
+    }
+}

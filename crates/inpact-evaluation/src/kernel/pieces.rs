@@ -1,0 +1,98 @@
+//! Half segments: the pieces of an axis on which interpolation starts from one and the same end.
+//!
+//! [`crate::numbers::interpolate`] starts from the left end while `x - x0 <= x1 - x` and from the right end after that.
+//! Both differences are monotone in x as computed, so that there is one last x of the left half, which is found here bit by bit:
+//! at a query one search over the halves then tells segment and end together.
+
+use crate::numbers::KernelSlope;
+
+/// What interpolation needs on one half segment.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(super) struct Piece {
+    /// The abscissa of the end it starts from.
+    pub(super) near: f64,
+    /// The value there.
+    pub(super) base: f64,
+    /// The slope and what its rounding took away; NaN where the segment has no kernel slope.
+    pub(super) high: f64,
+    pub(super) low: f64,
+}
+
+impl Piece {
+    /// A piece on which the value is `base`.
+    pub(super) fn constant(near: f64, base: f64) -> Self {
+        Self { near, base, high: 0.0, low: 0.0 }
+    }
+
+    /// The value at `x`: [`crate::numbers::interpolate`], operation by operation; NaN where there is no kernel slope.
+    #[inline(always)]
+    pub(super) fn value(&self, x: f64) -> f64 {
+        let (offset, offset_error) = crate::numbers::two_difference(x, self.near);
+        let value = offset.mul_add(self.high, self.base);
+        let value = value + (offset * self.low + offset_error * self.high);
+        if x == self.near { self.base } else { value }
+    }
+}
+
+/// The last x of the segment that is interpolated from its left end.
+pub(super) fn last_of_left_half(x0: f64, x1: f64) -> f64 {
+    let (mut left, mut right) = (ordered(x0), ordered(x1));
+    while i128::from(right) - i128::from(left) > 1 {
+        // Halfway without overflow; rounding towards minus infinity keeps it from reaching `right`.
+        let middle = (left & right) + ((left ^ right) >> 1);
+        let x = from_ordered(middle);
+        if x - x0 <= x1 - x {
+            left = middle;
+        } else {
+            right = middle;
+        }
+    }
+    from_ordered(left)
+}
+
+/// The half segments of a group and where each but the first begins; `beyond` is the value past the last knot, if it is not that of the knot.
+pub(super) fn half_segments(
+    knots: &[f64],
+    values: &[f64],
+    slopes: &[KernelSlope],
+    beyond: Option<f64>,
+) -> (Vec<Piece>, Vec<f64>) {
+    let mut pieces = Vec::with_capacity(2 * knots.len());
+    let mut breaks = Vec::with_capacity(2 * knots.len());
+    let last = knots.len() - 1;
+    for left in 0..last {
+        let (x0, x1) = (knots[left], knots[left + 1]);
+        let (high, low) = slopes[left].parts();
+        if left > 0 {
+            breaks.push(x0);
+        }
+        pieces.push(Piece { near: x0, base: values[left], high, low });
+        let right_half = last_of_left_half(x0, x1).next_up();
+        // The right half of an inner segment may hold x1 alone, which begins the next one.
+        if right_half < x1 || left + 1 == last {
+            breaks.push(right_half);
+            pieces.push(Piece { near: x1, base: values[left + 1], high, low });
+        }
+    }
+    if last == 0 {
+        pieces.push(Piece::constant(knots[0], values[0]));
+    } else if let Some(beyond) = beyond {
+        let after = knots[last].next_up();
+        breaks.push(after);
+        pieces.push(Piece::constant(after, beyond));
+    }
+    (pieces, breaks)
+}
+
+/// Integers in the order of the numbers; −0 comes just before 0.
+#[inline(always)]
+pub(super) fn ordered(x: f64) -> i64 {
+    let bits = x.to_bits().cast_signed();
+    bits ^ ((bits >> 63).cast_unsigned() >> 1).cast_signed()
+}
+
+/// The inverse of [`ordered`].
+fn from_ordered(order: i64) -> f64 {
+    f64::from_bits((order ^ ((order >> 63).cast_unsigned() >> 1).cast_signed()).cast_unsigned())
+}
