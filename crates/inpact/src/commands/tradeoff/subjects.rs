@@ -1,6 +1,6 @@
 //! What is measured: the tables in force and, as columns, the coordinates of the rows that reach them.
 
-use crate::commands::scene::Scene;
+use crate::commands::scene::{READ_AHEAD, Scene};
 use crate::failure::Failure;
 use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState};
 use inpact_evaluation::nodes::{Batch, Column, Findings, NodeReader, Part};
@@ -77,8 +77,9 @@ pub(super) fn gather(
         plan.interactions.iter().flat_map(|interaction| gatherings(model, plan, interaction)).collect();
     let one_of = plan.rows.div_ceil(most).max(1);
     let unreadable = |error| Failure::read(nodes_path, error);
-    let mut reader = NodeReader::open(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
+    let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
+    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
     let mut interactions = RowInteractions::new(model, plan.governed_by, plan.selection.label(Column::Interaction));
     let mut batch = Batch::default();
     while reader.read_batch(&mut batch, findings).map_err(unreadable)? {
