@@ -9,12 +9,14 @@
 //! Opens no file: batches in, batches out.
 
 mod conductances;
+mod coordinates;
 mod electrical;
 mod pore;
 mod tally;
 mod thermal;
 mod user;
 
+pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
 pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
 
 use self::conductances::Conductances;
