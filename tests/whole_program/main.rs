@@ -6,6 +6,7 @@ mod decks;
 mod dialects;
 mod eval;
 mod eval_laws;
+mod eval_modes;
 mod eval_user;
 mod eval_wrong;
 mod fix;

@@ -13,9 +13,9 @@ mod thermal;
 pub use thermal::{FlowHistory, ThermalHistory};
 
 use crate::law::contact::{Clearance, ClearanceRate, PotentialJump};
-use crate::law::electrical::ElectricalFlow;
+use crate::law::electrical::{ElectricalFlow, ExactFlow};
 use crate::law::pore::{Flow, Gap, PoreFlow};
-use crate::numbers::{CompensatedSum, two_difference};
+use crate::numbers::{CompensatedSum, Scaled, two_difference};
 
 /// The integrals of current and heat at one node: ECDT, SJDT and, times the node's area, ECDTA, SJDTA.
 #[derive(Clone, Debug, Default)]
@@ -45,10 +45,20 @@ impl ElectricalHistory {
         increment
     }
 
-    /// Adds the increment's flow; `area` is the node's area at its end, if known.
-    pub fn finish(&mut self, increment: &ElectricalIncrement, flow: &ElectricalFlow, area: Option<f64>) {
+    /// Adds the increment's flow; `area` is the node's area at its end, if known, and `rest` what rounding took away from the current density.
+    pub fn finish(&mut self, increment: &ElectricalIncrement, flow: &ElectricalFlow, rest: f64, area: Option<f64>) {
         self.current.add_increment(flow.current_density, increment.duration, area);
+        // Where currents of either sign cancel, the roundings of each would be what is left.
+        if rest != 0.0 && rest.is_finite() {
+            self.current.add_increment(rest, increment.duration, area);
+        }
         self.heat.add_increment(flow.heat.total, increment.duration, area);
+    }
+
+    /// [`Self::finish`] for a flow that may exceed the range of f64 where its product with time or area does not.
+    pub fn finish_exactly(&mut self, increment: &ElectricalIncrement, flow: &ExactFlow, area: Option<f64>) {
+        self.current.add_scaled_increment(flow.current_density, increment.duration, area);
+        self.heat.add_scaled_increment(flow.heat, increment.duration, area);
     }
 
     /// The integral of the current density (ECDT).
@@ -157,6 +167,21 @@ impl Integral {
         self.per_unit.add_product(rate, duration);
         if let Some(area) = area {
             self.whole.add_product(rate * area, duration);
+        }
+    }
+
+    /// [`Self::add_increment`] with a rate of twice the precision of f64; durations and areas that are not finite count as plain numbers do.
+    fn add_scaled_increment(&mut self, rate: Scaled, duration: Option<f64>, area: Option<f64>) {
+        if ![duration, area].iter().flatten().all(|factor| factor.is_finite()) {
+            self.add_increment(rate.to_f64(), duration, area);
+            return;
+        }
+        self.lacks_area |= area.is_none();
+        let Some(duration) = duration else { return };
+        let step = rate * Scaled::new(duration);
+        self.per_unit.add_scaled(step);
+        if let Some(area) = area {
+            self.whole.add_scaled(step * Scaled::new(area));
         }
     }
 

@@ -15,7 +15,7 @@ mod scaled;
 mod segment;
 mod sum;
 
-pub(crate) use float::{is_ordinary, is_zero_or_ordinary};
+pub(crate) use float::{is_moderate, is_ordinary, is_zero_or_ordinary};
 pub use float::{two_difference, two_product, two_sum, ulp};
 pub use product::{mean, product, ratio, scaled_difference_product};
 pub use scaled::Scaled;

@@ -7,6 +7,7 @@ use evaluate_support::{evaluate, evaluate_with};
 use inpact_evaluation::accuracy::{Accuracy, Wanted};
 use inpact_evaluation::plan::Choices;
 use inpact_evaluation::results::Output;
+use inpact_parser::model::Regime;
 use num_rational::BigRational;
 use table_judge::random_tables::{Range, random_rows};
 use table_judge::{Ending, Random, Rows, exact, table_value, ulps_from};
@@ -102,4 +103,54 @@ fn outputs_by_name_are_those_of_the_whole() {
             assert_eq!(asked.column(name), whole.column(name), "{name} with {companion:?}");
         }
     }
+}
+
+/// A flow out of the range of f64 has a part of a small area, and of a short time, within it.
+#[test]
+fn products_are_finite_where_the_exact_result_is() {
+    let run = |conductance: &str, jump: &str, other: &str| {
+        let deck = format!("*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n{conductance}, 0.\n");
+        let nodes =
+            format!("node,time,closed,pressure,epot_jump,area\n1,0,1,1,{jump},{other}\n1,{other},1,1,{jump},{other}\n");
+        evaluate_with(&deck, &nodes, &Choices { regime: Some(Regime::SteadyState), ..Choices::default() }, 8)
+    };
+    for (conductance, jump, other) in
+        [("1e200", "1e150", "1e-100"), ("1e-200", "1e-150", "1e100"), ("1e-160", "1e-160", "1e20")]
+    {
+        let run = run(conductance, jump, other);
+        let [sigma, jump, other] = [conductance, jump, other].map(|text| exact(text.parse().expect("a number")));
+        let current = &sigma * &jump;
+        let heat = &current * &jump;
+        let products = [
+            ("ECDA", &current * &other),
+            ("ECDT", &current * &other),
+            ("ECDTA", &current * &other * &other),
+            ("SJDTA", &heat * &other * &other),
+        ];
+        for (name, right) in products {
+            let error = ulps_from(run.numbers(name)[1], &right);
+            assert!(error <= 0.501, "{name}: {error} ulp");
+        }
+    }
+    assert_eq!(run("1e200", "1e150", "1e-100").numbers("ECD")[1], f64::INFINITY);
+}
+
+/// Currents of either sign that all but cancel leave what the exact products leave.
+#[test]
+fn a_cancelling_history_keeps_its_digits() {
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n0.1, 0.\n";
+    let mut nodes = "node,time,closed,pressure,epot_jump\n".to_owned();
+    let mut random = Random::new(0xca9ce1);
+    let (mut sum, zero) = (exact(0.0), exact(0.0));
+    for time in 0..2_000 {
+        let jump = random.positive(-10, 10) * if time % 2 == 0 { 1.0 } else { -1.0 };
+        nodes += &format!("1,{time},1,1,{jump:e}\n");
+        if time > 0 {
+            sum += exact(0.1) * exact(jump);
+        }
+    }
+    assert_ne!(sum, zero);
+    let found = evaluate(deck, &nodes).numbers("ECDT")[1_999];
+    let error = ulps_from(found, &sum);
+    assert!(error <= 0.501, "{error} ulp");
 }

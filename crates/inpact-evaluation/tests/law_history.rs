@@ -28,7 +28,7 @@ fn run(rows: &[(f64, f64, Option<f64>)]) -> ElectricalHistory {
         let jump = PotentialJump(jump);
         let increment = history.begin(time, jump);
         let dissipation = Dissipation::Transient { jump_at_start: increment.jump_at_start };
-        history.finish(&increment, &law.flow(3.0, jump, dissipation), area);
+        history.finish(&increment, &law.flow(3.0, jump, dissipation), 0.0, area);
     }
     history
 }
@@ -70,7 +70,7 @@ fn ten_million_increments_are_exact() {
     let mut history = ElectricalHistory::default();
     for step in 0..=steps {
         let increment = history.begin(f64::from(step) * duration, PotentialJump(1.0));
-        history.finish(&increment, &flow, Some(0.3));
+        history.finish(&increment, &flow, 0.0, Some(0.3));
     }
     let time = exact(f64::from(steps) * duration);
     assert!(ulps_from(history.current(), &(exact(current_density) * &time)) <= 0.500_001);

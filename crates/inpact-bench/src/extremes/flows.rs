@@ -235,7 +235,8 @@ impl Rows {
             let jump = PotentialJump(jump);
             let increment = history.begin(time, jump);
             let flow = law.flow(CONDUCTANCE, jump, Dissipation::Steady);
-            history.finish(&increment, &flow, None);
+            let rest = CONDUCTANCE.mul_add(jump.0, -flow.current_density);
+            history.finish(&increment, &flow, rest, None);
         }
         history.current()
     }

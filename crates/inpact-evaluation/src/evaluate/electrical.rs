@@ -6,9 +6,9 @@ use crate::compile::{CompiledElectrical, CompiledTables, ConductanceSource};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
-use crate::law::electrical::{Dissipation, flow, reference_flow};
+use crate::law::electrical::{Dissipation, ExactFlow, flow};
 use crate::law::heat::GeneratedHeat;
-use crate::numbers::mean;
+use crate::numbers::{Scaled, is_moderate, mean};
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
 use crate::table::Sides;
@@ -130,23 +130,37 @@ fn evaluate_flow(
         },
     };
     let generation = law.heat_generation;
-    let flow = if law.accuracy.is_reference() {
-        reference_flow((found.conductance.value, found.rest), jump, dissipation, generation)
-    } else {
-        flow(found.conductance.value, jump, dissipation, generation)
+    let value = found.conductance.value;
+    let duration = increment.as_ref().and_then(|increment| increment.duration);
+    let needs_care = law.accuracy.is_reference() || {
+        let start = increment.as_ref().map_or(jump, |increment| increment.jump_at_start);
+        let inputs = [value, jump.0, start.0, generation.fraction, area.unwrap_or(0.0), duration.unwrap_or(0.0)];
+        !inputs.into_iter().all(is_moderate)
+    };
+    let exact = if needs_care { ExactFlow::new((value, found.rest), jump, dissipation, generation) } else { None };
+    let flow = match exact {
+        Some(exact) => exact.rounded(generation),
+        None => flow(value, jump, dissipation, generation),
+    };
+    // Of a flow out of the range of f64 the part of a small area may be within it.
+    let of_area = |rounded: f64, exact: Option<Scaled>| match (area?, exact) {
+        (area, Some(exact)) if area.is_finite() => Some((exact * Scaled::new(area)).to_f64()),
+        (area, _) => Some(rounded * area),
     };
     let slots = &law.slots;
-    let mut set = |slot, value| results.set(slot, row.index, value);
     // No current is 0, not −0.
-    let current_density = flow.current_density + 0.0;
-    set(slots.ecd, Some(current_density));
-    set(slots.ecda, area.map(|area| current_density * area));
+    let mut set = |slot, value: Option<f64>| results.set(slot, row.index, value.map(|value| value + 0.0));
+    set(slots.ecd, Some(flow.current_density));
+    set(slots.ecda, of_area(flow.current_density, exact.map(|exact| exact.current_density)));
     set(slots.sjd, Some(flow.heat.total));
-    set(slots.sjda, area.map(|area| flow.heat.total * area));
+    set(slots.sjda, of_area(flow.heat.total, exact.map(|exact| exact.heat)));
     set(slots.heat_slave, Some(flow.heat.slave));
     set(slots.heat_master, Some(flow.heat.master));
     if let (Some((history, _)), Some(increment)) = (history, increment) {
-        history.finish(&increment, &flow, area);
+        match &exact {
+            Some(exact) => history.finish_exactly(&increment, exact, area),
+            None => history.finish(&increment, &flow, value.mul_add(jump.0, -flow.current_density), area),
+        }
         set(slots.ecdt, Some(history.current()));
         set(slots.ecdta, history.current_of_area());
         set(slots.sjdt, Some(history.heat()));

@@ -1,6 +1,6 @@
 //! Totals of columns: the same bits for any number of threads and with any instruction set.
 //!
-//! A column is cut into blocks of [`BLOCK`] rows. Within a block, [`LANES`] compensated sums run side by side, row r in lane r mod [`LANES`];
+//! A column is cut into blocks of [`BLOCK`] rows. Within a block, `LANES` compensated sums run side by side, row r in lane r mod `LANES`;
 //! the lanes are merged in their order and the blocks in theirs.
 //! Both numbers are fixed, so that nothing but the column decides the order in which its rows are added.
 

@@ -88,15 +88,42 @@ pub fn reference_flow(
     dissipation: Dissipation,
     generation: HeatGeneration,
 ) -> ElectricalFlow {
-    let start = dissipation.jump_at_start(jump);
-    let HeatGeneration { fraction, slave_weight } = generation;
-    if ![value, rest, jump.0, start.0, fraction, slave_weight].iter().all(|input| input.is_finite()) {
-        return flow(value, jump, dissipation, generation);
+    ExactFlow::new((value, rest), jump, dissipation, generation)
+        .map_or_else(|| flow(value, jump, dissipation, generation), |exact| exact.rounded(generation))
+}
+
+/// Current and heat in twice the precision of f64 and without a limit to their size, for what they are multiplied with and summed up to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactFlow {
+    /// J.
+    pub current_density: Scaled,
+    /// q_g.
+    pub heat: Scaled,
+}
+
+impl ExactFlow {
+    /// The flow for a conductance of `value` + `rest`; `None` where an input is infinite or NaN.
+    pub fn new(
+        (value, rest): (f64, f64),
+        jump: PotentialJump,
+        dissipation: Dissipation,
+        generation: HeatGeneration,
+    ) -> Option<Self> {
+        let start = dissipation.jump_at_start(jump);
+        let HeatGeneration { fraction, slave_weight } = generation;
+        if ![value, rest, jump.0, start.0, fraction, slave_weight].iter().all(|input| input.is_finite()) {
+            return None;
+        }
+        let conductance = Scaled::new(value) + Scaled::new(rest);
+        Some(Self {
+            current_density: conductance * Scaled::new(jump.0),
+            heat: scaled_total(conductance, (jump.0, start.0), fraction),
+        })
     }
-    let conductance = Scaled::new(value) + Scaled::new(rest);
-    ElectricalFlow {
-        current_density: (conductance * Scaled::new(jump.0)).to_f64(),
-        heat: scaled_heat(conductance, (jump.0, start.0), generation),
+
+    /// Each result rounded once.
+    pub fn rounded(&self, generation: HeatGeneration) -> ElectricalFlow {
+        ElectricalFlow { current_density: self.current_density.to_f64(), heat: shared(self.heat, generation) }
     }
 }
 
@@ -144,10 +171,19 @@ pub fn generated_heat(
 
 /// [`generated_heat`] for finite inputs of any size, whose intermediate products may leave the range of f64; rounded once.
 #[cold]
-fn scaled_heat(conductance: Scaled, (end, start): (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
+fn scaled_heat(conductance: Scaled, jumps: (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
+    shared(scaled_total(conductance, jumps, generation.fraction), generation)
+}
+
+/// q_g for the jumps at the end and at the start of an increment.
+fn scaled_total(conductance: Scaled, (end, start): (f64, f64), fraction: f64) -> Scaled {
     let (end, start) = (Scaled::new(end), Scaled::new(start));
     let square_sum = end * end + end * start + start * start;
-    let total = Scaled::new(generation.fraction) * conductance * (square_sum / Scaled::new(3.0));
+    Scaled::new(fraction) * conductance * (square_sum / Scaled::new(3.0))
+}
+
+/// A heat and the shares of both sides, each rounded once.
+fn shared(total: Scaled, generation: HeatGeneration) -> GeneratedHeat {
     let slave_weight = Scaled::new(generation.slave_weight);
     GeneratedHeat {
         total: total.to_f64(),

@@ -53,6 +53,13 @@ pub(crate) fn is_zero_or_ordinary(value: f64) -> bool {
     value == 0.0 || is_ordinary(value)
 }
 
+/// Whether `value` is zero or its magnitude lies between 2⁻¹²⁰ and 2¹²¹, so that eight such numbers can be multiplied in any order.
+#[inline]
+pub(crate) fn is_moderate(value: f64) -> bool {
+    let biased = (value.to_bits() >> 52) & 0x7ff;
+    value == 0.0 || (1023 - 120..=1023 + 120).contains(&biased)
+}
+
 /// The exponent e of a finite `value` that is not zero: 2^e <= |value| < 2^(e+1).
 pub(super) fn exponent_of(value: f64) -> i32 {
     let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;

@@ -1,6 +1,7 @@
 //! Sums that keep what each addition rounds away.
 
 use super::float::{two_product, two_sum};
+use super::scaled::Scaled;
 
 /// A running sum in two parts, the rounded total and what rounding has taken from it (Neumaier's form).
 ///
@@ -33,6 +34,15 @@ impl CompensatedSum {
         self.add(product);
         if error.is_finite() {
             self.compensation += error;
+        }
+    }
+
+    /// Adds a term of twice the precision of f64.
+    pub fn add_scaled(&mut self, term: Scaled) {
+        let (value, rest) = term.to_pair();
+        self.add(value);
+        if value.is_finite() {
+            self.compensation += rest;
         }
     }
 

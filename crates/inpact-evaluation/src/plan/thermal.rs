@@ -4,6 +4,7 @@
 //! a conduction or a radiation that is left out takes HFL with it.
 //! Friction is another matter: most decks have *FRICTION and few node tables tell of slip, so HFL without it is given, and the plan says so.
 
+use super::asked::SUMS_OF_HEAT;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::source::Source;
@@ -199,7 +200,8 @@ pub(super) fn plan_thermal(
         );
     }
     let has_current = planner.interaction.gap_electrical_conductance.is_some();
-    if has_current && !generates && heat.is_some() && outputs.contains(&Output::Hfl) {
+    let is_asked = planner.choices.asks_for(&SUMS_OF_HEAT);
+    if has_current && !generates && heat.is_some() && is_asked && outputs.contains(&Output::Hfl) {
         notes.push("`HFL` and what follows from it are without the heat of the current, which is left out".to_owned());
     }
     Some(plan)
