@@ -229,11 +229,10 @@ impl Copied<f32> {
 }
 
 impl<T: Copy> Copied<T> {
-    /// Reads and writes each column.
+    /// Reads and writes each column, in the same blocks.
     pub(super) fn run(&mut self) {
         for column in self.columns.iter().filter(|column| !column.is_empty()) {
-            self.output.copy_from_slice(column);
-            black_box(&mut self.output);
+            each_block(&[column], &mut self.output, |columns, values| values.copy_from_slice(columns[0]));
         }
     }
 }
