@@ -5,6 +5,7 @@ mod user;
 pub(crate) use user::CompiledUser;
 
 use crate::accuracy::Wanted;
+use crate::evaluate::summed;
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
@@ -26,6 +27,8 @@ pub struct Laws {
     pub(crate) interactions: Vec<Option<InteractionLaws>>,
     /// How many columns of numbers the results have.
     pub(crate) result_columns: usize,
+    /// The outputs that are added up over an interface, with their places among the results; none where the times of the rows are not known.
+    pub(crate) summed: Vec<(Output, usize)>,
     /// Where a batch has the texts of column `node`.
     pub(crate) node: Option<usize>,
     /// Where a batch has the texts of column `interaction`.
@@ -180,10 +183,17 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
     Laws {
         interactions,
         result_columns: numbers(plan).count(),
+        summed: if has_known_times(plan) { summed(numbers(plan)) } else { Vec::new() },
         node: plan.selection.label(Column::Node),
         interaction: plan.selection.label(Column::Interaction),
         time: plan.selection.number(Column::Time),
     }
+}
+
+/// Whether the times of the rows are read, or there are none.
+fn has_known_times(plan: &Plan) -> bool {
+    let is_there = plan.columns.iter().any(|column| column.column == Some(Column::Time));
+    !is_there || plan.selection.number(Column::Time).is_some()
 }
 
 /// The outputs that are numbers.

@@ -14,10 +14,13 @@ mod electrical;
 mod pore;
 mod tally;
 mod thermal;
+mod totals;
 mod user;
 
 pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
 pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
+pub use totals::Totals;
+pub(crate) use totals::summed;
 
 use self::conductances::Conductances;
 use self::electrical::Scratch;
@@ -82,7 +85,7 @@ impl<'a> Evaluation<'a> {
             interactions: RowInteractions::new(model, plan.governed_by, laws.interaction),
             nodes: NodeIndex::default(),
             histories: Vec::new(),
-            tally: Tally::new(plan, model.interactions.len()),
+            tally: Tally::new(plan, laws, model.interactions.len()),
             governed: Vec::new(),
             conductances: Conductances::default(),
             scratch: Scratch::default(),
@@ -96,7 +99,21 @@ impl<'a> Evaluation<'a> {
         for row in 0..batch.rows {
             self.evaluate_row(batch, row, results);
         }
+        self.add_up(batch, results);
         self.tally.rows += batch.rows as u64;
+    }
+
+    /// Adds the rows to the totals of their interactions.
+    fn add_up(&mut self, batch: &Batch, results: &ResultBatch) {
+        let summed = &self.laws.summed;
+        if summed.is_empty() {
+            return;
+        }
+        for (row, governed) in self.governed.iter().enumerate() {
+            let Some((interaction, _)) = governed else { continue };
+            let time = self.laws.time.and_then(|place| batch.numbers[place].get(row));
+            self.tally.interactions[*interaction].totals.take(time, summed, results, row);
+        }
     }
 
     /// What was counted.

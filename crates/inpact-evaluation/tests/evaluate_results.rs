@@ -5,6 +5,7 @@ mod evaluate_support;
 use evaluate_support::{evaluate, evaluate_with};
 use inpact_evaluation::law::pore::CutoffBoundary;
 use inpact_evaluation::plan::{Choices, Derivatives};
+use inpact_evaluation::results::Output;
 use inpact_parser::model::Regime;
 
 const WELD: &str = "\
@@ -149,4 +150,23 @@ fn rows_that_depend_on_each_other_are_those_of_one_node() {
     let mut sorted: Vec<&str> = by_time.csv.lines().collect();
     sorted[1..].sort_unstable();
     assert_eq!(sorted, by_node.csv.lines().collect::<Vec<_>>());
+}
+
+/// Totals are those of the latest time, whatever the order of the rows and the size of the batches.
+#[test]
+fn totals_are_those_of_the_latest_time() {
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n10., 0.\n";
+    let rows = ["1,0,1,1,2,0.5", "1,1,1,1,3,0.5", "2,0,1,1,5,0.25", "2,1,1,1,7,0.25", "3,1,1,1,1,1e-17"];
+    for order in [[0, 1, 2, 3, 4], [4, 0, 2, 1, 3], [0, 2, 3, 4, 1]] {
+        let nodes: Vec<&str> = order.iter().map(|row| rows[*row]).collect();
+        let nodes = format!("node,time,closed,pressure,epot_jump,area\n{}\n", nodes.join("\n"));
+        for batch in [1, 2, 5] {
+            let run = evaluate_with(deck, &nodes, &Choices::default(), batch);
+            let tally = run.tally.as_ref().expect("rows that can be evaluated");
+            let totals = &tally.interactions[0].totals;
+            assert_eq!((totals.time, totals.rows), (Some(1.0), 3));
+            assert_eq!(tally.summed, [Output::Ecda, Output::Sjda]);
+            assert_eq!(totals.values().collect::<Vec<f64>>(), [10.0 * 3.25, 10.0 * 16.75]);
+        }
+    }
 }

@@ -1,8 +1,10 @@
 //! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
+use super::Totals;
+use crate::compile::Laws;
 use crate::nodes::{BEYOND_TABLE, Findings, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
-use crate::results::{Along, Status, push_number};
+use crate::results::{Along, Output, Status, push_number};
 use crate::table::{Sides, Tail};
 use crate::table_form::SeenError;
 use inpact_parser::model::Name;
@@ -24,6 +26,8 @@ pub struct Tally {
     pub rows: u64,
     /// The counts of each interaction of the model, in its order.
     pub interactions: Vec<InteractionTally>,
+    /// The outputs of which there are totals.
+    pub summed: Vec<Output>,
     /// The first rows of each interaction in which a user's routine gave no conductance.
     pub user_faults: Vec<UserFaultInRow>,
 }
@@ -62,6 +66,8 @@ pub struct InteractionTally {
     pub lost_digits: u64,
     /// How many have a node label that is no number, for a user's routine that is called with one.
     pub unnumbered_nodes: u64,
+    /// What its rows of the latest time add up to.
+    pub totals: Totals,
     /// The largest error of its conductances in a sample of rows.
     pub seen_error: SeenError,
     /// How many have no conductance because a user's routine gave none.
@@ -89,9 +95,13 @@ pub struct AxisTally {
 }
 
 impl Tally {
-    pub(super) fn new(plan: &Plan, interactions: usize) -> Self {
-        let mut tally =
-            Self { rows: 0, interactions: vec![InteractionTally::default(); interactions], user_faults: Vec::new() };
+    pub(super) fn new(plan: &Plan, laws: &Laws, interactions: usize) -> Self {
+        let mut tally = Self {
+            rows: 0,
+            interactions: vec![InteractionTally::default(); interactions],
+            summed: laws.summed.iter().map(|(output, _)| *output).collect(),
+            user_faults: Vec::new(),
+        };
         for interaction in &plan.interactions {
             for (table, planned) in tables(interaction) {
                 tally.interactions[interaction.index].axes[table] = vec![AxisTally::default(); planned.axes.len()];
@@ -105,7 +115,7 @@ impl Tally {
         self.interactions.iter().map(count).sum()
     }
 
-    /// The counts of all interactions together; those of single axes belong to one table and are left out.
+    /// The counts of all interactions together; those of single axes belong to one table, totals to one interface, and are left out.
     pub fn whole(&self) -> InteractionTally {
         InteractionTally {
             rows: self.total(|of| of.rows),
@@ -128,6 +138,7 @@ impl Tally {
                 seen.merge(&of.seen_error);
                 seen
             }),
+            totals: Totals::default(),
             axes: Default::default(),
         }
     }

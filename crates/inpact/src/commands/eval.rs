@@ -8,8 +8,9 @@ use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{InteractionPlan, Plan, Reason};
-use inpact_evaluation::results::{ResultBatch, ResultWriter};
+use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, push_number};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -138,6 +139,7 @@ impl Summary<'_> {
             let of = &self.tally.interactions[interaction.index];
             lines.push(format!("  {}: {}", interaction.name, counts(of)));
             lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
+            lines.extend(totals(&self.tally.summed, interaction, of).map(|line| format!("    {line}")));
             lines.extend(accuracy(interaction, of).into_iter().map(|line| format!("    {line}")));
             let laws_and_outputs =
                 interaction.left_out.iter().filter(|left_out| matches!(left_out.reason, Reason::Missing(_)));
@@ -174,6 +176,8 @@ impl Summary<'_> {
             below_absolute_zero: u64,
             negative_friction: u64,
             unnumbered_nodes: u64,
+            totals: BTreeMap<String, f64>,
+            totals_time: Option<f64>,
             tables: Vec<Table>,
             largest_error_seen: Option<SeenError>,
         }
@@ -214,6 +218,15 @@ impl Summary<'_> {
                 below_absolute_zero: of.below_absolute_zero,
                 negative_friction: of.negative_friction,
                 unnumbered_nodes: of.unnumbered_nodes,
+                totals: self
+                    .tally
+                    .summed
+                    .iter()
+                    .zip(of.totals.values())
+                    .filter(|(output, _)| interaction.outputs.contains(output))
+                    .map(|(output, value)| (output.to_string(), value))
+                    .collect(),
+                totals_time: of.totals.time,
                 tables: interaction
                     .tables()
                     .filter_map(|(what, table)| {
@@ -260,6 +273,22 @@ fn counts(of: &InteractionTally) -> String {
     ];
     counts.extend(others.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")));
     counts.join(", ")
+}
+
+/// What the rows of the latest time add up to.
+fn totals(summed: &[Output], plan: &InteractionPlan, of: &InteractionTally) -> Option<String> {
+    let values: Vec<String> = summed
+        .iter()
+        .zip(of.totals.values())
+        .filter(|(output, _)| plan.outputs.contains(output))
+        .map(|(output, value)| {
+            let mut number = Vec::new();
+            push_number(&mut number, value);
+            format!("{output} {}", String::from_utf8_lossy(&number))
+        })
+        .collect();
+    let time = of.totals.time.map_or_else(String::new, |time| format!(" at time {time:?}"));
+    (!values.is_empty()).then(|| format!("total of {}{time}: {}", rows(of.totals.rows), values.join(", ")))
 }
 
 /// How exactly the tables of an interaction were evaluated: mode, bound, and the largest error seen.

@@ -1,0 +1,52 @@
+//! Sums over the nodes of an interaction: what the whole interface conducts, generates and lets through.
+//!
+//! *CONTACT PRINT, TOTALS=YES prints such sums for each increment (semantics O-1); here they are those of the latest time, or of all rows where there is no time.
+//! Sums are compensated and taken in the order of the rows, so that they depend neither on threads nor on batches.
+
+use crate::numbers::CompensatedSum;
+use crate::results::{Output, ResultBatch};
+
+/// The sums of an interaction over the rows of its latest time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Totals {
+    /// The time of the rows; `None` where they have none.
+    pub time: Option<f64>,
+    /// How many rows were added up.
+    pub rows: u64,
+    sums: Vec<CompensatedSum>,
+}
+
+/// The outputs that are added up, those that are multiplied by the area of the node, with their places among the results.
+pub(crate) fn summed(outputs: impl Iterator<Item = Output>) -> Vec<(Output, usize)> {
+    use Output::{Ecda, Hfla, Pfla, Sfdra, Sjda};
+    let is_summed = |output: &Output| matches!(output, Ecda | Sjda | Hfla | Sfdra | Pfla);
+    outputs.enumerate().map(|(place, output)| (output, place)).filter(|(output, _)| is_summed(output)).collect()
+}
+
+impl Totals {
+    /// Adds the results of a row, if it is of the latest time so far.
+    pub(super) fn take(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, row: usize) {
+        let is_later = match (time, self.time) {
+            (Some(time), Some(latest)) => latest < time,
+            (Some(_), None) => true,
+            (None, _) => false,
+        };
+        if is_later {
+            *self = Self { time, ..Self::default() };
+        } else if time != self.time {
+            return;
+        }
+        self.rows += 1;
+        self.sums.resize_with(summed.len(), CompensatedSum::default);
+        for (sum, (_, place)) in self.sums.iter_mut().zip(summed) {
+            if let Some(value) = results.numbers[*place].get(row) {
+                sum.add(value);
+            }
+        }
+    }
+
+    /// The sums, in the order of the outputs that are added up.
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        self.sums.iter().map(CompensatedSum::total)
+    }
+}
