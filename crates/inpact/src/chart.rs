@@ -192,7 +192,7 @@ struct Area {
 impl Area {
     /// The area of a text of usual size that starts at `left`, on this base line.
     fn of_text(left: f64, base: f64, text: &str) -> Self {
-        Self { left, right: left + width(text, SIZE), top: base - SIZE, bottom: base + 4.0 }
+        Self { left, right: left + width(text, SIZE), top: base - SIZE, bottom: base + 3.0 }
     }
 
     fn meets(&self, other: &Self) -> bool {
