@@ -1,12 +1,11 @@
 //! The fast forms: their errors are maximised, against the reference, and compared with their bounds.
 
-mod accuracy_support;
 mod table_judge;
 
-use accuracy_support::{Range, compile, random_ending, random_rows};
 use inpact_evaluation::accuracy::{Approximation, ErrorBound, commensurate_cells};
 use inpact_evaluation::numbers::Scaled;
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable, Tail};
+use table_judge::random_tables::{Range, compile, random_ending, random_rows};
 use table_judge::{Ending, Random, Rows, cases, report};
 
 /// The error of an approximation at a point, absolute and as a part of the exact value.

@@ -1,12 +1,11 @@
 //! The reference mode against exact rationals: random ragged tables of one to four axes, numbers over all decades.
 
-mod accuracy_support;
 mod table_judge;
 
-use accuracy_support::{Range, compile, random_ending, random_point, random_rows};
 use inpact_evaluation::accuracy::full_bound;
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 use num_traits::Signed;
+use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Random, cases, exact, report, table_value, ulps_from};
 
 fn check_reference(axes: usize, count: usize, range: Range) {

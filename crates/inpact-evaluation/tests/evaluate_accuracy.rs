@@ -154,3 +154,40 @@ fn a_cancelling_history_keeps_its_digits() {
     let error = ulps_from(found, &sum);
     assert!(error <= 0.501, "{error} ulp");
 }
+
+/// A temperature that is the same in every row is folded away; what is left is as exact as the whole, and says the same of what lies beyond the table.
+#[test]
+fn folded_scenes_are_as_exact_as_whole_ones() {
+    let mut random = Random::new(0xf01d);
+    let (mut folded, mut worst) = (0, 0.0_f64);
+    for _ in 0..80 {
+        let rows = random_rows(&mut random, 2, Range::Ordinary);
+        let deck = deck_of(&rows);
+        let temperature = random.within(rows[0][2] - 1.0, rows[rows.len() - 1][2] + 1.0);
+        let pressures: Vec<f64> = (0..20).map(|_| random.positive(-12, 12)).collect();
+        let nodes = |last: f64| {
+            let mut nodes = "closed,pressure,temp,epot_jump\n".to_owned();
+            for pressure in &pressures {
+                nodes += &format!("1,{pressure:e},{temperature:e},1\n");
+            }
+            nodes + &format!("1,1,{last:e},1\n")
+        };
+        let run = evaluate(&deck, &nodes(temperature));
+        // One other temperature, and the table is evaluated as it is.
+        let whole = evaluate(&deck, &nodes(temperature + 1.0));
+        let is_folded = |run: &evaluate_support::Run| {
+            let plan = run.plan.as_ref().expect("a plan");
+            plan.interactions[0].tables().any(|(_, table)| table.axes.iter().any(|axis| axis.fold.is_some()))
+        };
+        assert!(!is_folded(&whole));
+        folded += usize::from(is_folded(&run));
+        let found = run.numbers("conductance");
+        for (index, pressure) in pressures.iter().enumerate() {
+            let right = table_value(&rows, &[*pressure, temperature], Ending::Constant);
+            worst = worst.max(ulps_from(found[index], &right));
+            assert_eq!(run.column("status")[index], whole.column("status")[index]);
+        }
+    }
+    assert!(folded > 40, "only {folded} of 80 tables were folded");
+    assert!(worst <= 3.0, "{worst} ulp");
+}

@@ -59,13 +59,7 @@ pub(super) fn plan_electrical(
     }
     let mut used = Vec::new();
     for (against, table) in &all {
-        // The clearance table holds for closed rows too when it is the only one (section 4.2).
-        let unreached = match against {
-            Along::Pressure if planner.never(planner.of.closed) => Some(Reason::NoRowClosed),
-            Along::Clearance if all.len() == 2 && planner.never(planner.of.open) => Some(Reason::NoRowOpen),
-            _ => None,
-        };
-        match unreached {
+        match planner.unreached(*against, all.len()) {
             Some(reason) => {
                 let what = format!("table against {against}");
                 let whole = electrical_table_plan(option, *against, table);
@@ -166,15 +160,11 @@ fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Ve
 
 /// What becomes of the heat; `None` where it is switched off (K-05).
 fn heat(planner: Planner<'_>, left_out: &mut LeftOuts) -> Option<HeatGeneration> {
-    if planner.interaction.has_parameter("USER") {
+    let heat = planner.heat_generation();
+    if heat.is_none() {
         left_out.push("heat generation", Reason::HeatSwitchedOff);
-        return None;
     }
-    let given = planner.interaction.gap_heat_generation;
-    Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
-        fraction: given.fraction,
-        slave_weight: given.slave_weight,
-    }))
+    heat
 }
 
 /// Plans current and heat, their integrals and their products with the area.

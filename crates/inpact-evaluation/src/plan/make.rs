@@ -13,8 +13,9 @@ use super::tables::InteractionTables;
 use super::thermal::plan_thermal;
 use super::thermal_tables::ThermalTables;
 use super::{ContactColumns, InteractionPlan, Plan};
+use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Selection};
-use crate::results::Output;
+use crate::results::{Along, Output};
 use inpact_parser::model::{Interaction, Model};
 use std::collections::BTreeSet;
 
@@ -170,6 +171,28 @@ impl Planner<'_> {
             return Err(Missing::absent(columns));
         }
         cell(Column::Time, |column| self.presence(column)).map(drop)
+    }
+
+    /// Why no row reads the table against clearance or pressure, one of `count` tables of a conductance.
+    pub(super) fn unreached(self, against: Along, count: usize) -> Option<Reason> {
+        match against {
+            Along::Pressure if self.never(self.of.closed) => Some(Reason::NoRowClosed),
+            // The table against clearance holds for closed rows too when it is the only one (section 4.2).
+            Along::Clearance if count == 2 && self.never(self.of.open) => Some(Reason::NoRowOpen),
+            _ => None,
+        }
+    }
+
+    /// What becomes of dissipated energy; `None` where it is switched off (K-05).
+    pub(super) fn heat_generation(self) -> Option<HeatGeneration> {
+        if self.interaction.has_parameter("USER") {
+            return None;
+        }
+        let given = self.interaction.gap_heat_generation;
+        Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
+            fraction: given.fraction,
+            slave_weight: given.slave_weight,
+        }))
     }
 
     /// Whether no row is closed, or none open; unknown for a table without rows.

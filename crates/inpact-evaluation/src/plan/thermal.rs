@@ -170,7 +170,7 @@ pub(super) fn plan_thermal(
     let mut unknown = None;
     let conduction = plan_conduction(planner, tables, left_out).part("heat conduction", left_out, &mut unknown);
     let radiation = plan_radiation(planner, tables).part("heat radiation", left_out, &mut unknown);
-    let heat = heat_generation(planner);
+    let heat = planner.heat_generation();
     let friction = plan_friction(planner, heat, left_out).part("heat of friction", left_out, &mut None);
     if conduction.is_none() && radiation.is_none() && friction.is_none() {
         return None;
@@ -216,18 +216,6 @@ pub(super) fn temperatures(planner: Planner<'_>) -> Result<[Column; 2], Missing>
         _ if lacking.iter().all(|side| planner.survey.columns.contains(side)) => Err(Missing::empty(lacking)),
         _ => Err(Missing::absent(lacking)),
     }
-}
-
-/// What becomes of dissipated energy; `None` where it is switched off (K-05).
-fn heat_generation(planner: Planner<'_>) -> Option<HeatGeneration> {
-    if planner.interaction.has_parameter("USER") {
-        return None;
-    }
-    let given = planner.interaction.gap_heat_generation;
-    Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
-        fraction: given.fraction,
-        slave_weight: given.slave_weight,
-    }))
 }
 
 /// Plans the fluxes, their sum, its integrals and products with the area.

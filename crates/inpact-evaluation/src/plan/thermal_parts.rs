@@ -51,13 +51,7 @@ fn conduction_of_tables(
     let all = tables.conductance_tables();
     let mut used: Vec<(Along, &PiecewiseTable)> = Vec::new();
     for (against, table) in &all {
-        // The clearance table holds for closed rows too when it is the only one (section 4.2).
-        let unreached = match against {
-            Along::Pressure if planner.never(planner.of.closed) => Some(Reason::NoRowClosed),
-            Along::Clearance if all.len() == 2 && planner.never(planner.of.open) => Some(Reason::NoRowOpen),
-            _ => None,
-        };
-        match unreached {
+        match planner.unreached(*against, all.len()) {
             Some(reason) => left_out.push(format!("table of thermal conductance against {against}"), reason),
             None => used.push((*against, *table)),
         }
