@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use std::time::Instant;
 
 use inpact_evaluation::accuracy::Approximation;
+use inpact_evaluation::kernel::TableKernel;
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 
 use crate::random::Random;
@@ -46,8 +47,8 @@ pub fn write(rows: usize, rounds: usize, out: &mut impl Write) -> io::Result<()>
         let reference = fastest(rows.div_ceil(10), rounds.div_ceil(3), || {
             by_row(&columns, &mut values[..rows.div_ceil(10)], |first, others| table.reference_value_at(first, others));
         });
-        let full =
-            fastest(rows, rounds, || by_row(&columns, &mut values, |first, others| table.value_at(first, others)));
+        let kernel = TableKernel::new(&table);
+        let full = fastest(rows, rounds, || kernel.values(&columns, &mut values));
         let mut of = |made: Option<Approximation>| {
             made.map_or(f64::INFINITY, |made| fastest(rows, rounds, || made.values(&columns, &mut values)))
         };

@@ -7,6 +7,7 @@ mod evaluators;
 mod flows;
 #[path = "../../inpact-evaluation/tests/table_judge/mod.rs"]
 mod judge;
+mod judged;
 mod markdown;
 mod matrix;
 mod random_tables;

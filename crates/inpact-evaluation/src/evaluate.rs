@@ -9,6 +9,7 @@
 //! Opens no file: batches in, batches out.
 
 mod conductances;
+mod coordinates;
 mod electrical;
 mod pore;
 mod tally;
@@ -16,6 +17,7 @@ mod thermal;
 mod totals;
 mod user;
 
+pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
 pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
 pub use totals::Totals;
 pub(crate) use totals::summed;

@@ -86,6 +86,9 @@ fn extremes_are_refused_with_the_reason() {
     }
     let flat = Approximation::single(&table(&[1e-20, 0.0, 2e-20, 1e20], 2)).map(|made| made.bound());
     assert!(matches!(flat, Err(Refusal::Slope(slope)) if (slope / 1e-40 - 1.0).abs() < 1e-6), "{flat:?}");
+    // The slope, 1e-500, is zero in f64: the form would stay at the first value.
+    let lost = table(&[1e-200, 0.0, 2e-200, 1e300], 2);
+    assert_eq!(Approximation::slope(&lost).map(|made| made.bound()), Err(Refusal::Slope(0.0)));
     let huge = table(&[1.0, 0.0, f64::MAX, 1.0], 2);
     assert_eq!(Approximation::slope(&huge).map(|made| made.bound()), Err(Refusal::TooLarge(f64::MAX)));
     assert_eq!(chosen(&choose(&huge, Wanted::Mode(Accuracy::Fast))), Method::Full);

@@ -70,7 +70,10 @@ impl Chart {
         let mut drawing = svg::Drawing::new(WIDTH, HEIGHT, &self.title);
         self.draw_grid(&mut drawing, &x_axis, &y_axis);
         let mut taken = Vec::new();
-        self.draw_lines(&mut drawing, &x_axis, &y_axis, &mut taken);
+        self.draw_verticals(&mut drawing, &x_axis, &mut taken);
+        self.draw_front(&mut drawing, &x_axis, &y_axis, &mut taken);
+        self.draw_bars(&mut drawing, &x_axis, &y_axis, &mut taken);
+        self.draw_horizontals(&mut drawing, &y_axis, &mut taken);
         self.draw_points(&mut drawing, &x_axis, &y_axis, &mut taken);
         drawing.finish()
     }
@@ -99,30 +102,39 @@ impl Chart {
         drawing.text((LEFT, HEIGHT - 18.0), &self.footnote, "note", "start");
     }
 
-    fn draw_lines(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
-        for (number, (at, meaning)) in self.vertical.iter().enumerate() {
+    /// Lines of one x, each with its meaning written along its left side.
+    fn draw_verticals(&self, drawing: &mut svg::Drawing, x_axis: &Axis, taken: &mut Vec<Area>) {
+        for (at, meaning) in &self.vertical {
             let x = x_axis.place(*at);
             drawing.line((x, TOP), (x, BOTTOM), "roof");
-            let base = TOP + 16.0 + 18.0 * number as f64;
-            let width = width(meaning, SIZE);
-            let is_right = x + 14.0 + width < RIGHT;
-            let (at, anchor) = if is_right { (x + 7.0, "start") } else { (x - 7.0, "end") };
-            drawing.text((at, base), meaning, "roof-label", anchor);
-            taken.push(Area::of_text(if is_right { at } else { at - width }, base, meaning));
+            let length = width(meaning, SIZE);
+            drawing.upright_text((x - 6.0, TOP + 12.0 + length / 2.0), meaning, "roof-label");
             taken.push(Area { left: x - 2.0, right: x + 2.0, top: TOP, bottom: BOTTOM });
+            taken.push(Area { left: x - SIZE - 6.0, right: x, top: TOP, bottom: TOP + 16.0 + length });
         }
-        // Beside the vertical lines, where these stand on the left as a roofline does.
-        let places = self.vertical.iter().map(|(x, _)| x_axis.place(*x)).filter(|x| *x < f64::midpoint(LEFT, RIGHT));
-        let left = places.fold(LEFT, f64::max) + 8.0;
+    }
+
+    /// Lines of one y, each with its meaning where there is room along it.
+    fn draw_horizontals(&self, drawing: &mut svg::Drawing, y_axis: &Axis, taken: &mut Vec<Area>) {
         for (at, meaning) in &self.horizontal {
             let y = y_axis.place(*at);
             drawing.line((LEFT, y), (RIGHT, y), "level");
-            drawing.text((left, y - 6.0), meaning, "level-label", "start");
-            taken.push(Area::of_text(left, y - 6.0, meaning));
+            let places = (0..40).flat_map(|step| {
+                let left = LEFT + 8.0 + 20.0 * f64::from(step);
+                [(left, y - 6.0), (left, y + SIZE + 4.0)]
+            });
+            let place = places.into_iter().find(|(left, base)| is_free(&Area::of_text(*left, *base, meaning), taken));
+            let (left, base) = place.unwrap_or((LEFT + 8.0, y - 6.0));
+            drawing.text((left, base), meaning, "level-label", "start");
+            taken.push(Area::of_text(left, base, meaning));
+            taken.push(Area { left: LEFT, right: RIGHT, top: y - 1.0, bottom: y + 1.0 });
         }
+    }
+
+    /// The front: from one point of it to the next nothing is better than the first, so that it goes in steps.
+    fn draw_front(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
         let mut front: Vec<&Point> = self.points.iter().filter(|point| point.on_front).collect();
         front.sort_by(|a, b| a.x.total_cmp(&b.x));
-        // From one point of a front to the next nothing is better than the first, so that it goes in steps.
         let mut corners = Vec::new();
         for (number, point) in front.iter().enumerate() {
             let (x, y) = (x_axis.place(point.x), y_axis.place(point.y));
@@ -132,9 +144,14 @@ impl Chart {
             corners.push((x, y));
         }
         drawing.path(&corners, "front");
+        for step in corners.windows(2) {
+            let ((x, y), (end_x, end_y)) = (step[0], step[1]);
+            let (left, right) = (x.min(end_x) - 2.0, x.max(end_x) + 2.0);
+            taken.push(Area { left, right, top: y.min(end_y) - 2.0, bottom: y.max(end_y) + 2.0 });
+        }
     }
 
-    fn draw_points(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
+    fn draw_bars(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
         for point in &self.points {
             let (x, y) = (x_axis.place(point.x), y_axis.place(point.y));
             taken.push(Area { left: x - 7.0, right: x + 7.0, top: y - 7.0, bottom: y + 7.0 });
@@ -145,6 +162,9 @@ impl Chart {
                 taken.push(Area { left: x - 5.0, right: x + 5.0, top: end, bottom: y });
             }
         }
+    }
+
+    fn draw_points(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
         for point in &self.points {
             let place = (x_axis.place(point.x), y_axis.place(point.y));
             drawing.circle(place, 5.5, if point.on_front { "best" } else { "other" });
@@ -172,7 +192,7 @@ struct Area {
 impl Area {
     /// The area of a text of usual size that starts at `left`, on this base line.
     fn of_text(left: f64, base: f64, text: &str) -> Self {
-        Self { left, right: left + width(text, SIZE), top: base - SIZE, bottom: base + 4.0 }
+        Self { left, right: left + width(text, SIZE), top: base - SIZE, bottom: base + 3.0 }
     }
 
     fn meets(&self, other: &Self) -> bool {
@@ -184,18 +204,23 @@ impl Area {
     }
 }
 
+/// Whether nothing stands there yet, and it is within the axes.
+fn is_free(area: &Area, taken: &[Area]) -> bool {
+    area.is_inside_the_axes() && !taken.iter().any(|other| area.meets(other))
+}
+
 /// Where a label goes: beside its point, on the side and at the height at which it meets nothing else.
 fn label_place((x, y): (f64, f64), label: &str, taken: &mut Vec<Area>) -> ((f64, f64), &'static str) {
     let width = width(label, SIZE);
-    let candidates = [0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0, -64.0, 64.0].into_iter().flat_map(|shift| {
-        let base = y + 4.5 + shift;
-        [((x + 11.0, base), "start", x + 11.0), ((x - 11.0, base), "end", x - 11.0 - width)]
-    });
+    let candidates = [0.0, -16.0, 16.0, -24.0, 24.0, -32.0, 32.0, -40.0, 40.0, -48.0, 48.0, -64.0, 64.0, -80.0, 80.0]
+        .into_iter()
+        .flat_map(|shift| {
+            let base = y + 4.5 + shift;
+            [((x + 11.0, base), "start", x + 11.0), ((x - 11.0, base), "end", x - 11.0 - width)]
+        });
     let candidates: Vec<_> = candidates.collect();
-    let is_free = |candidate: &&((f64, f64), &str, f64)| {
-        let area = Area::of_text(candidate.2, candidate.0.1, label);
-        area.is_inside_the_axes() && !taken.iter().any(|other| area.meets(other))
-    };
+    let is_free =
+        |candidate: &&((f64, f64), &str, f64)| is_free(&Area::of_text(candidate.2, candidate.0.1, label), taken);
     let fits = |candidate: &&((f64, f64), &str, f64)| Area::of_text(candidate.2, y, label).is_inside_the_axes();
     let chosen = candidates.iter().find(is_free).or_else(|| candidates.iter().find(fits)).unwrap_or(&candidates[0]);
     let (at, anchor, left) = *chosen;

@@ -1,5 +1,9 @@
 //! The ways to evaluate a table, each a line of a list: the modes and their kernels.
 
+use inpact_evaluation::accuracy::{
+    Approximation, ErrorBound, Refusal, commensurate_cells, full_bound, reference_bound,
+};
+use inpact_evaluation::kernel::{InstructionSet, TableKernel};
 use inpact_evaluation::table::PiecewiseTable;
 
 /// The value of a table at a point.
@@ -9,17 +13,72 @@ pub(super) type Value<'a> = Box<dyn Fn(&[f64]) -> f64 + 'a>;
 pub(super) struct Evaluator {
     /// The mode and the kernel.
     pub(super) name: &'static str,
-    /// Makes it ready for a table; `None` where it does not serve that table.
-    pub(super) of: for<'a> fn(&'a PiecewiseTable) -> Option<Value<'a>>,
+    /// Makes it ready for a table, or says why it does not serve that table.
+    pub(super) of: for<'a> fn(&'a PiecewiseTable) -> Result<Ready<'a>, String>,
+}
+
+/// A way made ready for a table.
+pub(super) struct Ready<'a> {
+    pub(super) value: Value<'a>,
+    /// How far a value can be from the table's.
+    pub(super) bound: ErrorBound,
 }
 
 /// All of them.
 pub(super) const EVALUATORS: &[Evaluator] = &[
-    Evaluator { name: "`reference`", of: |table| Some(Box::new(|point| reference(table, point))) },
-    Evaluator { name: "`full`, scalar", of: |table| Some(Box::new(|point| table.value(point))) },
+    Evaluator {
+        name: "`reference`",
+        of: |table| Ok(Ready { value: Box::new(|point| reference(table, point)), bound: reference_bound(table) }),
+    },
+    Evaluator {
+        name: "`full`, scalar",
+        of: |table| Ok(Ready { value: Box::new(|point| table.value(point)), bound: full_bound(table) }),
+    },
+    Evaluator { name: "`full`, every instruction set", of: |table| Ok(of_every_set(table)) },
+    Evaluator { name: "`slope`", of: |table| approximation(Approximation::slope(table)) },
+    Evaluator { name: "`single`", of: |table| approximation(Approximation::single(table)) },
+    Evaluator { name: "`grid`, commensurate", of: grid },
 ];
 
 fn reference(table: &PiecewiseTable, point: &[f64]) -> f64 {
     let (first, others) = point.split_first().map_or((f64::NAN, &[][..]), |(first, others)| (*first, others));
     table.reference_value_at(first, others)
+}
+
+/// The kernel with each set of instructions of this machine; where they do not agree to the bit, the value is NaN, which no judge accepts.
+fn of_every_set(table: &PiecewiseTable) -> Ready<'_> {
+    /// A whole vector of the widest set, and a part of one.
+    const ROWS: usize = 11;
+    let kernel = TableKernel::new(table);
+    let sets = InstructionSet::available();
+    let value = move |point: &[f64]| {
+        let columns: Vec<[f64; ROWS]> = point.iter().map(|&coordinate| [coordinate; ROWS]).collect();
+        let columns: Vec<&[f64]> = columns.iter().map(<[f64; ROWS]>::as_slice).collect();
+        let mut found = None;
+        for set in &sets {
+            let mut values = [f64::NAN; ROWS];
+            kernel.values_with(*set, &columns, &mut values);
+            let first = *found.get_or_insert(values[0]);
+            if values.iter().any(|value| value.to_bits() != first.to_bits()) {
+                return f64::NAN;
+            }
+        }
+        found.unwrap_or(f64::NAN)
+    };
+    Ready { value: Box::new(value), bound: full_bound(table) }
+}
+
+fn approximation<'a>(made: Result<Approximation, Refusal>) -> Result<Ready<'a>, String> {
+    let made = made.map_err(|refusal| refusal.to_string())?;
+    let bound = made.bound();
+    Ok(Ready { value: Box::new(move |point| made.value(point)), bound })
+}
+
+/// The grid whose lines meet all abscissae.
+fn grid(table: &PiecewiseTable) -> Result<Ready<'_>, String> {
+    if table.axes().iter().filter(|axis| axis.matters()).count() < 2 {
+        return Err(Refusal::OneAxis.to_string());
+    }
+    let cells = commensurate_cells(table).ok_or("no regular grid that stays in cache meets all abscissae")?;
+    approximation(Approximation::grid(table, &cells))
 }

@@ -60,7 +60,7 @@ const PRODUCTS: &str = "\
 
 ECD = σ Δφ, SJD = σ Δφ², ECDA and SJDA are these times the area, ECDT is ECD times the time step.
 Whatever Δφ² or σ Δφ would be, ECD and SJD are finite where their exact values are.
-ECDA, SJDA and ECDT are products of ECD and SJD as these stand in the results: where ECD is above or below the range of f64, they cannot be better.
+ECDA, SJDA and ECDT are made from what ECD and SJD are before these are rounded: where ECD is infinite or zero in the results, its product with an area or a time step is still right.
 *Error* is the largest of those outputs against the exact results, those above the range of f64 left out.
 ";
 
@@ -113,7 +113,7 @@ const HISTORIES: &str = "\
 
 One node, σ = 0.1, steps of 0.001 (times rounded to f64), Δφ random from 0 to 1 or from −0.5 to 0.5; the exact ECDT is that of the stored times and potentials.
 Up to 100 000 steps are evaluated row by row; ten million go through the same law and the same history without a node table around them.
-Where Δφ changes its sign, the sum cancels: the roundings of ECD itself, half an ulp each, are then large against what is left.
+Where Δφ changes its sign, the sum cancels; what rounding took from ECD in each step is added up as well, as it would be large against what is left.
 *A plain sum* adds the same terms σ Δφ Δt in f64 without compensation.
 ";
 

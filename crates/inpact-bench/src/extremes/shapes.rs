@@ -1,7 +1,8 @@
 //! Tables of extreme shape: at knots and beside them, two points and a million, segments one ulp wide, values across 600 decades.
 
-use super::evaluators::{EVALUATORS, Value};
-use super::judge::{Ending, Random, table_value, ulps_from};
+use super::evaluators::{EVALUATORS, Ready};
+use super::judge::{Ending, Random, table_value};
+use super::judged::{Errors, judged};
 use super::markdown::{count, table, ulps};
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 
@@ -29,23 +30,29 @@ pub(super) fn section() -> String {
         let built = PiecewiseTable::from_rows(&cells, 2, Tail::Constant).expect("abscissae that ascend");
         let queries = queries(&shape.points);
         for evaluator in EVALUATORS {
-            let Some(value) = (evaluator.of)(&built) else { continue };
-            let errors = queries.each_ref().map(|queries| largest_error(&value, queries, &shape.points));
-            let [at, beside, between] = errors.map(ulps);
-            let asked = count(queries.iter().map(Vec::len).sum());
-            rows.push(vec![
-                shape.name.to_owned(),
-                count(shape.points.len()),
-                evaluator.name.to_owned(),
-                asked,
-                at,
-                beside,
-                between,
-            ]);
+            let mut row = vec![shape.name.to_owned(), count(shape.points.len()), evaluator.name.to_owned()];
+            match (evaluator.of)(&built) {
+                Ok(ready) => {
+                    let errors = queries.each_ref().map(|queries| errors(&ready, queries, &shape.points));
+                    row.push(count(queries.iter().map(Vec::len).sum()));
+                    row.extend(errors.each_ref().map(|errors| ulps(errors.largest)));
+                    row.push(count(errors.iter().map(|errors| errors.outside).sum()));
+                }
+                Err(reason) => row.extend(["—", "—", "—", "—", &format!("refused: {reason}")].map(str::to_owned)),
+            }
+            rows.push(row);
         }
     }
-    let header =
-        ["table", "points", "mode and kernel", "queries", "at knots, ulp", "one ulp beside, ulp", "between, ulp"];
+    let header = [
+        "table",
+        "points",
+        "mode and kernel",
+        "queries",
+        "at knots, ulp",
+        "one ulp beside, ulp",
+        "between, ulp",
+        "outside the bound",
+    ];
     format!("{TEXT}\n{}", table(&header, rows))
 }
 
@@ -97,13 +104,15 @@ fn queries(points: &[(f64, f64)]) -> [Vec<f64>; 3] {
     [at, beside, between]
 }
 
-fn largest_error(value: &Value<'_>, queries: &[f64], points: &[(f64, f64)]) -> f64 {
-    let errors = queries.iter().map(|x| {
+fn errors(ready: &Ready<'_>, queries: &[f64], points: &[(f64, f64)]) -> Errors {
+    let mut errors = Errors::default();
+    for x in queries {
         let above = points.partition_point(|(knot, _)| knot <= x);
         let left = above.saturating_sub(1).min(points.len() - 2);
         // The segment alone has the same values as the table, beyond whose ends it is constant, too.
         let segment: Vec<Vec<f64>> = points[left..left + 2].iter().map(|(x, y)| vec![*y, *x]).collect();
-        ulps_from(value(&[*x]), &table_value(&segment, &[*x], Ending::Constant))
-    });
-    errors.fold(0.0, f64::max)
+        let exact = table_value(&segment, &[*x], Ending::Constant);
+        errors.add(judged((ready.value)(&[*x]), &exact, &ready.bound));
+    }
+    errors
 }

@@ -18,8 +18,11 @@ pub struct Shape {
 impl Shape {
     /// The shape of a table.
     pub fn of(table: &PiecewiseTable) -> Self {
-        let axes = table.axes().iter().filter(|axis| axis.matters()).count();
-        let rows = table.row_count();
+        Self::of_rows(table.axes().iter().filter(|axis| axis.matters()).count(), table.row_count())
+    }
+
+    /// The shape of a table of so many rows whose value depends on so many axes.
+    pub(crate) fn of_rows(axes: usize, rows: usize) -> Self {
         let power = |knots: usize| (0..axes).fold(1_usize, |power, _| power.saturating_mul(knots));
         let mut knots = 1;
         while axes > 0 && power(knots + 1) <= rows {

@@ -183,7 +183,9 @@ fn rate_of<T: Number>(level: usize, at: &[T], values: &[T], left: usize) -> Resu
     }
     let rate =
         if level == 0 { slope((x0, values[left].exact()), (x1, values[left + 1].exact())) } else { 1.0 / (x1 - x0) };
-    rounded(rate).map_err(|_| Refusal::Slope(rate))
+    // A rise that is not zero over a width so large that the slope underflows would be lost, and its loss too small to be seen in the bound.
+    let is_lost = rate == 0.0 && values[left].exact() != values[left + 1].exact();
+    if is_lost { Err(Refusal::Slope(rate)) } else { rounded(rate).map_err(|_| Refusal::Slope(rate)) }
 }
 
 /// For each group of the innermost level what it is zero beyond. A group of one row has no end (T-07).

@@ -174,6 +174,11 @@ impl CompiledConduction {
         (Conductance { value: found.value, branch, sides: found.sides }, found.rest)
     }
 
+    /// The table against this variable as it is evaluated; the curves of CalculiX have none.
+    pub(crate) fn form(&self, against: Along) -> Option<&TableForm> {
+        if against == Along::Pressure { self.pressure_form.as_ref() } else { self.clearance_form.as_ref() }
+    }
+
     /// What a row in this state needs; `None` where no table is in force.
     pub(crate) fn needs(&self, state: ContactState) -> Option<(Along, &Needs)> {
         let tables = match &self.conductance {

@@ -141,7 +141,7 @@ fn evaluate_conductance(
 }
 
 /// The mean of the magnitudes: as given, or from the sides that have a number (K-32).
-fn mass_flow(source: MassFlow<usize>, row: Row<'_>) -> Option<f64> {
+pub(super) fn mass_flow(source: MassFlow<usize>, row: Row<'_>) -> Option<f64> {
     let number = |place: Option<usize>| row.number(place?);
     if let Some(mean) = number(source.mean) {
         return Some(mean.abs());

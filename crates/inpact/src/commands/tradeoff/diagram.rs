@@ -1,6 +1,7 @@
 //! The work–precision diagram: error against time, the Pareto front, the copy of the same columns.
 
 use super::measure::Measured;
+use super::modes::Numbers;
 use super::report::{Names, how};
 use crate::chart::{Chart, Point};
 
@@ -10,10 +11,13 @@ const LEAST_ERROR: f64 = f64::EPSILON / 4.0;
 /// The diagram of all tables together.
 pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
     let Some(group) = measured.groups.last() else { return Chart::default() };
+    let has_singles = group.entries.iter().any(|entry| entry.numbers == Numbers::Single);
+    let roof = |of: &str, copy: f64| (copy, format!("roofline: copy of the {of} columns, {} ns", short(copy)));
+    let singles = has_singles.then(|| roof("f32", group.copy_of_singles));
     let points = group.entries.iter().map(|entry| Point {
         x: entry.time,
         y: entry.errors.largest.max(LEAST_ERROR),
-        bar_to: Some(entry.bound.max(LEAST_ERROR)).filter(|bound| bound.is_finite()),
+        bar_to: Some(entry.bound.of_largest.max(LEAST_ERROR)).filter(|bound| bound.is_finite()),
         label: format!("{}, {} ns, {:.0} B/row", entry.mode, short(entry.time), entry.bytes),
         on_front: entry.on_front,
     });
@@ -23,7 +27,7 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
         x_title: "time of a row, ns".to_owned(),
         y_title: "largest error / largest value of the table".to_owned(),
         points: points.collect(),
-        vertical: vec![(group.copy, format!("memory roofline: copy of the same columns, {} ns", short(group.copy)))],
+        vertical: singles.into_iter().chain([roof("f64", group.copy)]).collect(),
         horizontal: vec![(f64::EPSILON / 2.0, "½ ulp of the largest value".to_owned())],
         front_title: "Pareto front".to_owned(),
         footnote: format!("{}; bars go up to the error bound computed from the table", how(measured)),

@@ -1,7 +1,8 @@
 //! Times and errors of every mode.
 
-use super::modes::{Copied, MODES, Prepared};
+use super::modes::{Copied, MODES, Mode, Numbers, Prepared, share_of_copy};
 use super::subjects::{Sample, Subject};
+use inpact_evaluation::accuracy::ErrorBound;
 use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
 use std::time::Instant;
 
@@ -27,32 +28,49 @@ pub(super) struct Group {
     pub(super) rows_of_a_run: usize,
     /// Rows of the table itself; of all tables together.
     pub(super) table_rows: usize,
-    /// The time that a copy takes to move what `full` moves for a row, in ns.
+    /// The time that a copy takes to move the coordinates and the value of a row, in ns: of f64 columns, of f32 columns.
     pub(super) copy: f64,
+    pub(super) copy_of_singles: f64,
     pub(super) entries: Vec<Entry>,
+    /// The modes that do not serve the table, and why.
+    pub(super) refused: Vec<(&'static str, String)>,
 }
 
 /// One mode on one table, or on all.
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) mode: &'static str,
+    /// The form of the table; of all tables together, nothing.
+    pub(super) form: String,
+    pub(super) numbers: Numbers,
     /// The least time of a row, in ns.
     pub(super) time: f64,
     pub(super) errors: Errors,
-    /// The largest error there can be, as a part of the largest value of its table.
-    pub(super) bound: f64,
+    /// The largest error there can be.
+    pub(super) bound: Bound,
     /// Read and written for a row.
     pub(super) bytes: f64,
     /// No other mode is as fast and as exact, and better in one of the two.
     pub(super) on_front: bool,
 }
 
-/// Differences from the exact value.
+/// The largest error there can be on any row.
+#[derive(Clone, Copy)]
+pub(super) struct Bound {
+    /// As a part of the largest value of the table.
+    pub(super) of_largest: f64,
+    /// As a part of the exact value of the row; infinite where that can be zero.
+    pub(super) pointwise: f64,
+}
+
+/// Differences from the exact value at the coordinates that the mode was given: f32 columns have coordinates of their own.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Errors {
     /// As a part of the largest value of the table.
     pub(super) largest: f64,
     pub(super) rms: f64,
+    /// The largest as a part of the exact value of its row.
+    pub(super) pointwise: f64,
     /// In units in the last place of the exact value.
     pub(super) largest_ulp: f64,
     pub(super) rms_ulp: f64,
@@ -80,10 +98,16 @@ fn repeated(subject: &Subject) -> Subject {
 }
 
 fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
-    let mut modes: Vec<(&'static str, Prepared<'_>, f64)> =
-        MODES.iter().filter_map(|mode| Some((mode.name, (mode.of)(repeated)?, f64::INFINITY))).collect();
-    let mut copied = Copied::new(repeated);
-    let mut copy = f64::INFINITY;
+    let mut modes: Vec<(&Mode, Prepared<'_>, f64)> = Vec::new();
+    let mut refused = Vec::new();
+    for mode in MODES {
+        match (mode.of)(repeated) {
+            Ok(prepared) => modes.push((mode, prepared, f64::INFINITY)),
+            Err(reason) => refused.push((mode.name, reason)),
+        }
+    }
+    let (mut doubles, mut singles) = (Copied::doubles(repeated), Copied::singles(repeated));
+    let (mut copy, mut copy_of_singles) = (f64::INFINITY, f64::INFINITY);
     let rows = repeated.rows();
     // One round more: the first fills caches and is not counted.
     for round in 0..=rounds {
@@ -96,18 +120,20 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
                 *least = least.min(taken);
             }
         };
-        time(&mut || copied.run(), &mut copy);
+        time(&mut || doubles.run(), &mut copy);
+        time(&mut || singles.run(), &mut copy_of_singles);
         for (_, prepared, least) in &mut modes {
             time(&mut || prepared.run.run(), least);
         }
     }
-    let moved = 8 * (repeated.axes() + 1);
     let entries = modes.into_iter().map(|(mode, prepared, time)| Entry {
-        mode,
+        mode: mode.name,
         time,
         errors: errors(subject, &prepared),
-        bound: prepared.bound,
-        bytes: prepared.bytes as f64,
+        form: prepared.form,
+        numbers: mode.numbers,
+        bound: Bound::of(&prepared.bound),
+        bytes: (mode.numbers.size() * (repeated.axes() + 1)) as f64,
         on_front: false,
     });
     Group {
@@ -115,8 +141,10 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
         rows: subject.rows(),
         rows_of_a_run: rows,
         table_rows: subject.table.row_count(),
-        copy: copy * moved as f64 / copied.bytes() as f64,
+        copy: copy * share_of_copy(repeated),
+        copy_of_singles: copy_of_singles * share_of_copy(repeated),
         entries: entries.collect(),
+        refused,
     }
 }
 
@@ -128,14 +156,18 @@ fn errors(subject: &Subject, prepared: &Prepared<'_>) -> Errors {
     let mut point = vec![f64::NAN; subject.columns.len()];
     let mut rows = 0;
     for row in 0..subject.rows() {
-        for (coordinate, column) in point.iter_mut().zip(&subject.columns) {
-            *coordinate = column.get(row).copied().unwrap_or(f64::NAN);
+        for (axis, coordinate) in point.iter_mut().enumerate() {
+            *coordinate = prepared.run.coordinate(axis, row);
         }
         let value = prepared.run.value(row);
         let Some(exact) = subject.table.reference_at(point[0], &point[1..]) else { continue };
         let error = if value.is_finite() { (Scaled::new(value) + -exact).to_f64().abs() } else { f64::INFINITY };
         let part = if error == 0.0 { 0.0 } else { error / greatest };
-        let ulps = error / ulp(exact.to_f64());
+        let rounded = exact.to_f64();
+        let ulps = error / ulp(rounded);
+        if error > 0.0 {
+            errors.pointwise = errors.pointwise.max(error / rounded.abs().max(f64::MIN_POSITIVE));
+        }
         errors.largest = errors.largest.max(part);
         errors.largest_ulp = errors.largest_ulp.max(ulps);
         squares.add(part * part);
@@ -147,6 +179,12 @@ fn errors(subject: &Subject, prepared: &Prepared<'_>) -> Errors {
         errors.rms_ulp = (ulp_squares.total() / f64::from(rows)).sqrt();
     }
     errors
+}
+
+impl Bound {
+    fn of(bound: &ErrorBound) -> Self {
+        Self { of_largest: bound.relative_to_largest, pointwise: bound.pointwise }
+    }
 }
 
 /// The modes over all tables, each row in its own; a table that a mode does not serve is evaluated in `full`.
@@ -164,14 +202,20 @@ fn all_of(groups: &[Group]) -> Group {
         let largest = |of: fn(&Entry) -> f64| of_groups.iter().map(|(_, entry)| of(entry)).fold(0.0, f64::max);
         serves_any.then(|| Entry {
             mode: mode.name,
+            form: String::new(),
+            numbers: mode.numbers,
             time: mean(|entry| entry.time),
             errors: Errors {
                 largest: largest(|entry| entry.errors.largest),
                 rms: mean(|entry| entry.errors.rms.powi(2)).sqrt(),
+                pointwise: largest(|entry| entry.errors.pointwise),
                 largest_ulp: largest(|entry| entry.errors.largest_ulp),
                 rms_ulp: mean(|entry| entry.errors.rms_ulp.powi(2)).sqrt(),
             },
-            bound: largest(|entry| entry.bound),
+            bound: Bound {
+                of_largest: largest(|entry| entry.bound.of_largest),
+                pointwise: largest(|entry| entry.bound.pointwise),
+            },
             bytes: mean(|entry| entry.bytes),
             on_front: false,
         })
@@ -182,7 +226,9 @@ fn all_of(groups: &[Group]) -> Group {
         rows_of_a_run: groups.iter().map(|group| group.rows_of_a_run).sum(),
         table_rows: groups.iter().map(|group| group.table_rows).sum(),
         copy: groups.iter().map(|group| share(group) * group.copy).sum(),
+        copy_of_singles: groups.iter().map(|group| share(group) * group.copy_of_singles).sum(),
         entries: entries.collect(),
+        refused: Vec::new(),
     }
 }
 

@@ -1,24 +1,36 @@
 //! The modes that are measured: a list, each with how it evaluates a table, its bound and what it moves in memory.
+//!
+//! Values alone are computed, columns in, columns out, in blocks of the size that an evaluation has.
 
 use super::subjects::Subject;
-use inpact_evaluation::accuracy::{Accuracy, Wanted, full_bound};
-use inpact_evaluation::table_form::{TableForm, TableValues};
+use inpact_evaluation::accuracy::{
+    Approximation, ErrorBound, Refusal, commensurate_cells, full_bound, reference_bound,
+};
+use inpact_evaluation::kernel::TableKernel;
 use std::hint::black_box;
 
 /// A mode of evaluation.
 pub(super) struct Mode {
     pub(super) name: &'static str,
-    /// Makes it ready for a table; `None` where it does not serve that table.
-    pub(super) of: for<'a> fn(&'a Subject) -> Option<Prepared<'a>>,
+    pub(super) numbers: Numbers,
+    /// Makes it ready for a table, or says why it does not serve that table.
+    pub(super) of: for<'a> fn(&'a Subject) -> Result<Prepared<'a>, String>,
+}
+
+/// What the numbers of the columns are, of coordinates and values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Numbers {
+    Double,
+    Single,
 }
 
 /// A mode made ready for a table and its rows.
 pub(super) struct Prepared<'a> {
     pub(super) run: Box<dyn Run + 'a>,
-    /// The largest error there can be, as a part of the largest value of the table.
-    pub(super) bound: f64,
-    /// What it reads and writes for a row, in bytes.
-    pub(super) bytes: usize,
+    /// The form of the table.
+    pub(super) form: String,
+    /// The largest error there can be.
+    pub(super) bound: ErrorBound,
 }
 
 /// Something that can be timed, over all rows of its columns.
@@ -28,95 +40,204 @@ pub(super) trait Run {
 
     /// The value of a row, from the run before.
     fn value(&self, row: usize) -> f64;
+
+    /// The coordinate of a row as its columns have it; NaN along an axis that makes no difference.
+    fn coordinate(&self, axis: usize, row: usize) -> f64;
 }
+
+impl Numbers {
+    /// The size of a number, in bytes.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::Double => 8,
+            Self::Single => 4,
+        }
+    }
+}
+
+/// The least exact that are timed beside [`MODES`] have these cells along each axis, by how many axes there are; the finest that stay in cache first.
+const GRIDS: [[usize; 3]; 3] = [[128, 32, 8], [30, 12, 4], [12, 6, 2]];
 
 /// All modes, most exact first.
 pub(super) const MODES: &[Mode] = &[
     Mode {
         name: "reference",
+        numbers: Numbers::Double,
         of: |subject| {
-            let run = Formed::new(subject, Accuracy::Reference);
-            Some(Prepared { run: Box::new(run), bound: REFERENCE_ULPS * f64::EPSILON, bytes: bytes(subject, 8) })
+            let table = &subject.table;
+            let mut others = vec![f64::NAN; subject.columns.len().saturating_sub(1)];
+            let of_block = move |columns: &[&[f64]], values: &mut [f64]| {
+                let coordinate = |axis: usize, row: usize| columns[axis].get(row).copied().unwrap_or(f64::NAN);
+                for (row, value) in values.iter_mut().enumerate() {
+                    for (index, other) in others.iter_mut().enumerate() {
+                        *other = coordinate(index + 1, row);
+                    }
+                    *value = table.reference_value_at(coordinate(0, row), &others);
+                }
+            };
+            Ok(prepared(Doubles::new(subject, of_block), "double-double", reference_bound(table)))
         },
     },
     Mode {
         name: "full",
+        numbers: Numbers::Double,
         of: |subject| {
-            let bound = full_bound(&subject.table).relative_to_largest;
-            let run = Formed::new(subject, Accuracy::Full);
-            Some(Prepared { run: Box::new(run), bound, bytes: bytes(subject, 8) })
+            let kernel = TableKernel::new(&subject.table);
+            let of_block = move |columns: &[&[f64]], values: &mut [f64]| kernel.values(columns, values);
+            Ok(prepared(Doubles::new(subject, of_block), "kernel", full_bound(&subject.table)))
         },
     },
+    Mode {
+        name: "slope",
+        numbers: Numbers::Double,
+        of: |subject| doubles(subject, Approximation::slope(&subject.table)),
+    },
+    Mode { name: "grid exact", numbers: Numbers::Double, of: exact_grid },
+    Mode {
+        name: "single",
+        numbers: Numbers::Double,
+        of: |subject| doubles(subject, Approximation::single(&subject.table)),
+    },
+    Mode { name: "single f32", numbers: Numbers::Single, of: singles },
+    Mode { name: "grid fine", numbers: Numbers::Double, of: |subject| grid(subject, 0) },
+    Mode { name: "grid medium", numbers: Numbers::Double, of: |subject| grid(subject, 1) },
+    Mode { name: "grid coarse", numbers: Numbers::Double, of: |subject| grid(subject, 2) },
 ];
-
-/// The bound of `reference`, in ulp.
-const REFERENCE_ULPS: f64 = 0.501;
 
 /// Rows are evaluated in blocks of so many, as the batches of an evaluation have.
 const ROWS_OF_A_BLOCK: usize = 1024;
 
-/// What a mode reads and writes for a row with numbers of that size.
-fn bytes(subject: &Subject, size: usize) -> usize {
-    (subject.axes() + 1) * size
+fn prepared<'a>(run: impl Run + 'a, form: &str, bound: ErrorBound) -> Prepared<'a> {
+    Prepared { run: Box::new(run), form: form.to_owned(), bound }
 }
 
-/// A table in the form in which an evaluation of that accuracy has it.
-struct Formed<'a> {
+/// A fast form from f64 columns to f64 values.
+fn doubles(subject: &Subject, made: Result<Approximation, Refusal>) -> Result<Prepared<'_>, String> {
+    let made = made.map_err(|refusal| refusal.to_string())?;
+    let (form, bound) = (made.form().to_string(), made.bound());
+    let of_block = move |columns: &[&[f64]], values: &mut [f64]| made.values(columns, values);
+    Ok(prepared(Doubles::new(subject, of_block), &form, bound))
+}
+
+/// The grid that is the table itself up to rounding.
+fn exact_grid(subject: &Subject) -> Result<Prepared<'_>, String> {
+    if subject.axes() < 2 {
+        return Err(Refusal::OneAxis.to_string());
+    }
+    let cells = commensurate_cells(&subject.table)
+        .ok_or_else(|| "no regular grid that stays in cache meets all abscissae".to_owned())?;
+    doubles(subject, Approximation::grid(&subject.table, &cells))
+}
+
+/// The grid of one of the usual sizes.
+fn grid(subject: &Subject, size: usize) -> Result<Prepared<'_>, String> {
+    let axes = subject.axes();
+    let cells = GRIDS.get(axes.saturating_sub(2)).map_or(1, |sizes| sizes[size]);
+    doubles(subject, Approximation::grid(&subject.table, &vec![cells; axes]))
+}
+
+/// The f32 form from f32 columns to f32 values.
+fn singles(subject: &Subject) -> Result<Prepared<'_>, String> {
+    let made = Approximation::single(&subject.table).map_err(|refusal| refusal.to_string())?;
+    let bound = made.bound();
+    Ok(prepared(Singles { columns: rounded(subject), made, output: vec![0.0; subject.rows()] }, "single", bound))
+}
+
+/// The columns in f32.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
+fn rounded(subject: &Subject) -> Vec<Vec<f32>> {
+    subject.columns.iter().map(|column| column.iter().map(|&x| x as f32).collect()).collect()
+}
+
+/// f64 columns through a function of blocks.
+struct Doubles<'a, F> {
     columns: Vec<&'a [f64]>,
-    form: TableForm,
-    found: TableValues,
+    of_block: F,
     output: Vec<f64>,
 }
 
-impl<'a> Formed<'a> {
-    fn new(subject: &'a Subject, accuracy: Accuracy) -> Self {
-        Self {
-            columns: subject.columns.iter().map(Vec::as_slice).collect(),
-            form: TableForm::new(subject.table.clone(), Wanted::Mode(accuracy)),
-            found: TableValues::default(),
-            output: vec![0.0; subject.rows()],
-        }
+impl<'a, F: FnMut(&[&[f64]], &mut [f64])> Doubles<'a, F> {
+    fn new(subject: &'a Subject, of_block: F) -> Self {
+        let columns = subject.columns.iter().map(Vec::as_slice).collect();
+        Self { columns, of_block, output: vec![0.0; subject.rows()] }
     }
 }
 
-impl Run for Formed<'_> {
+impl<F: FnMut(&[&[f64]], &mut [f64])> Run for Doubles<'_, F> {
     fn run(&mut self) {
-        let mut block: Vec<&[f64]> = Vec::with_capacity(self.columns.len());
-        for (number, output) in self.output.chunks_mut(ROWS_OF_A_BLOCK).enumerate() {
-            let start = number * ROWS_OF_A_BLOCK;
-            block.clear();
-            block.extend(self.columns.iter().map(|column| column.get(start..start + output.len()).unwrap_or_default()));
-            self.form.evaluate(&block, output.len(), &mut self.found);
-            output.copy_from_slice(&self.found.values);
-        }
-        black_box(&mut self.output);
+        each_block(&self.columns, &mut self.output, &mut self.of_block);
     }
 
     fn value(&self, row: usize) -> f64 {
         self.output[row]
     }
+
+    fn coordinate(&self, axis: usize, row: usize) -> f64 {
+        self.columns[axis].get(row).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// f32 columns through the f32 form.
+struct Singles {
+    columns: Vec<Vec<f32>>,
+    made: Approximation,
+    output: Vec<f32>,
+}
+
+impl Run for Singles {
+    fn run(&mut self) {
+        let columns: Vec<&[f32]> = self.columns.iter().map(Vec::as_slice).collect();
+        each_block(&columns, &mut self.output, |columns, values| self.made.values_single(columns, values));
+    }
+
+    fn value(&self, row: usize) -> f64 {
+        f64::from(self.output[row])
+    }
+
+    fn coordinate(&self, axis: usize, row: usize) -> f64 {
+        self.columns[axis].get(row).copied().map_or(f64::NAN, f64::from)
+    }
+}
+
+fn each_block<T>(columns: &[&[T]], output: &mut [T], mut of_block: impl FnMut(&[&[T]], &mut [T])) {
+    let mut block: Vec<&[T]> = Vec::with_capacity(columns.len());
+    for (number, output) in output.chunks_mut(ROWS_OF_A_BLOCK).enumerate() {
+        let start = number * ROWS_OF_A_BLOCK;
+        block.clear();
+        block.extend(columns.iter().map(|column| column.get(start..start + output.len()).unwrap_or_default()));
+        of_block(&block, output);
+    }
+    black_box(output);
 }
 
 /// A copy of the same columns: what any mode must move at least.
-pub(super) struct Copied<'a> {
-    subject: &'a Subject,
-    output: Vec<f64>,
+pub(super) struct Copied<T> {
+    columns: Vec<Vec<T>>,
+    output: Vec<T>,
 }
 
-impl<'a> Copied<'a> {
-    pub(super) fn new(subject: &'a Subject) -> Self {
-        Self { subject, output: vec![0.0; subject.rows()] }
+impl Copied<f64> {
+    pub(super) fn doubles(subject: &Subject) -> Self {
+        Self { columns: subject.columns.clone(), output: vec![0.0; subject.rows()] }
     }
+}
 
-    /// What it moves for a row: each column is read and written.
-    pub(super) fn bytes(&self) -> usize {
-        16 * self.subject.axes()
+impl Copied<f32> {
+    pub(super) fn singles(subject: &Subject) -> Self {
+        Self { columns: rounded(subject), output: vec![0.0; subject.rows()] }
     }
+}
 
+impl<T: Copy> Copied<T> {
+    /// Reads and writes each column, in the same blocks.
     pub(super) fn run(&mut self) {
-        for column in self.subject.columns.iter().filter(|column| !column.is_empty()) {
-            self.output.copy_from_slice(column);
-            black_box(&mut self.output);
+        for column in self.columns.iter().filter(|column| !column.is_empty()) {
+            each_block(&[column], &mut self.output, |columns, values| values.copy_from_slice(columns[0]));
         }
     }
+}
+
+/// What of the time of a copy it takes to move what a row of a mode moves: its coordinates and its value, where the copy reads and writes each coordinate.
+pub(super) fn share_of_copy(subject: &Subject) -> f64 {
+    (subject.axes() + 1) as f64 / (2 * subject.axes()) as f64
 }

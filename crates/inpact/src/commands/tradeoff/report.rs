@@ -1,6 +1,7 @@
 //! What was measured, as text, comma-separated values and JSON.
 
 use super::measure::{Entry, Group, Measured};
+use super::modes::Numbers;
 use serde_json::{Value, json};
 
 /// What the deck and the node table are called.
@@ -13,44 +14,81 @@ pub(super) struct Names<'a> {
 /// A table for a person.
 pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
     let mut text = format!("{} on {}: {}\n", names.deck, names.nodes, how(measured));
-    text += "errors are differences from the value in 106 bits, as a part of the largest value of the table and in ulp; \
+    text += "errors are differences from the value in 106 bits: of the largest value of the table, of the value itself, in ulp of it; \
              * marks the Pareto front\n";
     for group in &measured.groups {
         text += &format!("\n{} ({})\n", group.name, size(group));
-        text += &line(
-            &["", "mode", "ns/row", "rows/s", "largest error", "rms", "largest ulp", "rms ulp", "bound", "bytes/row"]
-                .map(str::to_owned),
-        );
+        text += &line(&HEADER.map(str::to_owned));
         for entry in &group.entries {
+            let Entry { time, errors, bound, bytes, .. } = entry;
             text += &line(&[
                 if entry.on_front { "*" } else { "" }.to_owned(),
                 entry.mode.to_owned(),
-                format!("{:.2}", entry.time),
-                format!("{:.3e}", 1e9 / entry.time),
-                error(entry.errors.largest),
-                error(entry.errors.rms),
-                ulps(entry.errors.largest_ulp),
-                ulps(entry.errors.rms_ulp),
-                error(entry.bound),
-                format!("{:.0}", entry.bytes),
+                entry.form.clone(),
+                format!("{time:.2}"),
+                format!("{:.3e}", 1e9 / time),
+                error(errors.largest),
+                error(bound.of_largest),
+                error(errors.rms),
+                error(errors.pointwise),
+                error(bound.pointwise),
+                ulps(errors.largest_ulp),
+                ulps(errors.rms_ulp),
+                format!("{bytes:.0}"),
             ]);
         }
-        let rate = format!("{:.3e}", 1e9 / group.copy);
-        let empty = String::new;
-        text += &line(&[
-            empty(),
-            "copy".to_owned(),
-            format!("{:.2}", group.copy),
-            rate,
-            empty(),
-            empty(),
-            empty(),
-            empty(),
-            empty(),
-            empty(),
-        ]);
+        for (mode, form, time) in copies(group) {
+            let mut cells = [const { String::new() }; 13];
+            cells[1..5].clone_from_slice(&[
+                mode.to_owned(),
+                form.to_owned(),
+                format!("{time:.2}"),
+                format!("{:.3e}", 1e9 / time),
+            ]);
+            text += &line(&cells);
+        }
+        for (modes, reason) in refusals(group) {
+            text += &format!("  refused: {}: {reason}\n", modes.join(", "));
+        }
     }
     text
+}
+
+const HEADER: [&str; 13] = [
+    "",
+    "mode",
+    "form",
+    "ns/row",
+    "rows/s",
+    "of largest",
+    "bound",
+    "rms",
+    "of value",
+    "bound",
+    "ulp",
+    "rms ulp",
+    "bytes/row",
+];
+
+/// The rooflines of a group: their names, what is copied, the time of a row.
+fn copies(group: &Group) -> Vec<(&'static str, &'static str, f64)> {
+    let mut copies = vec![("copy", "f64 columns", group.copy)];
+    if group.entries.iter().any(|entry| entry.numbers == Numbers::Single) {
+        copies.push(("copy f32", "f32 columns", group.copy_of_singles));
+    }
+    copies
+}
+
+/// The modes that were refused, by the reason.
+fn refusals(group: &Group) -> Vec<(Vec<&'static str>, &str)> {
+    let mut refusals: Vec<(Vec<&'static str>, &str)> = Vec::new();
+    for (mode, reason) in &group.refused {
+        match refusals.iter_mut().find(|(_, of)| of == reason) {
+            Some((modes, _)) => modes.push(mode),
+            None => refusals.push((vec![mode], reason)),
+        }
+    }
+    refusals
 }
 
 /// How it was measured.
@@ -72,11 +110,11 @@ fn size(group: &Group) -> String {
     if group.rows_of_a_run == group.rows { rows } else { format!("{rows}, repeated to {}", group.rows_of_a_run) }
 }
 
-fn line(cells: &[String; 10]) -> String {
-    const WIDTHS: [usize; 10] = [1, 12, 9, 11, 14, 9, 12, 9, 9, 10];
+fn line(cells: &[String; 13]) -> String {
+    const WIDTHS: [usize; 13] = [1, 11, 13, 8, 9, 10, 8, 8, 8, 8, 8, 8, 9];
     let mut line = String::new();
     for (number, (cell, width)) in cells.iter().zip(WIDTHS).enumerate() {
-        line += &if number < 2 { format!("{cell:<width$} ") } else { format!("{cell:>width$} ") };
+        line += &if number < 3 { format!("{cell:<width$} ") } else { format!("{cell:>width$} ") };
     }
     format!("{}\n", line.trim_end())
 }
@@ -95,20 +133,36 @@ fn ulps(error: f64) -> String {
     }
 }
 
-/// A table for a spreadsheet; the copy has no errors.
+/// A table for a spreadsheet; the copies have no errors, what is refused has nothing but its reason.
 pub(super) fn csv(measured: &Measured) -> String {
-    let mut text = "table,mode,ns_per_row,rows_per_second,largest_error,rms_error,largest_ulp,rms_ulp,bound,\
-                    bytes_per_row,pareto\n"
-        .to_owned();
+    let mut text =
+        "table,mode,form,ns_per_row,rows_per_second,largest_error,rms_error,pointwise_error,largest_ulp,rms_ulp,\
+                    bound,pointwise_bound,bytes_per_row,pareto,refused\n"
+            .to_owned();
     for group in &measured.groups {
         let table = quoted(&group.name);
-        for Entry { mode, time, errors, bound, bytes, on_front } in &group.entries {
-            let numbers =
-                [*time, 1e9 / time, errors.largest, errors.rms, errors.largest_ulp, errors.rms_ulp, *bound, *bytes];
+        for Entry { mode, form, time, errors, bound, bytes, on_front, .. } in &group.entries {
+            let numbers = [
+                *time,
+                1e9 / time,
+                errors.largest,
+                errors.rms,
+                errors.pointwise,
+                errors.largest_ulp,
+                errors.rms_ulp,
+                bound.of_largest,
+                bound.pointwise,
+                *bytes,
+            ];
             let numbers = numbers.map(|number| format!("{number:?}")).join(",");
-            text += &format!("{table},{mode},{numbers},{}\n", u8::from(*on_front));
+            text += &format!("{table},{mode},{form},{numbers},{},\n", u8::from(*on_front));
         }
-        text += &format!("{table},copy,{:?},{:?},,,,,,,\n", group.copy, 1e9 / group.copy);
+        for (mode, form, time) in copies(group) {
+            text += &format!("{table},{mode},{form},{time:?},{:?},,,,,,,,,,\n", 1e9 / time);
+        }
+        for (mode, reason) in &group.refused {
+            text += &format!("{table},{mode},,,,,,,,,,,,,{}\n", quoted(reason));
+        }
     }
     text
 }
@@ -121,27 +175,34 @@ fn quoted(text: &str) -> String {
 /// For another program; a number that is not finite is null.
 pub(super) fn json(measured: &Measured, names: Names<'_>) -> String {
     let groups = measured.groups.iter().map(|group| {
-        let modes = group.entries.iter().map(|Entry { mode, time, errors, bound, bytes, on_front }| {
+        let modes = group.entries.iter().map(|Entry { mode, form, numbers, time, errors, bound, bytes, on_front }| {
             json!({
                 "mode": mode,
+                "form": form,
+                "columns": if *numbers == Numbers::Single { "f32" } else { "f64" },
                 "ns_per_row": time,
                 "rows_per_second": 1e9 / time,
                 "largest_error": errors.largest,
                 "rms_error": errors.rms,
+                "pointwise_error": errors.pointwise,
                 "largest_ulp": errors.largest_ulp,
                 "rms_ulp": errors.rms_ulp,
-                "bound": bound,
+                "bound": bound.of_largest,
+                "pointwise_bound": bound.pointwise,
                 "bytes_per_row": bytes,
                 "pareto": on_front,
             })
         });
+        let refused = group.refused.iter().map(|(mode, reason)| json!({ "mode": mode, "reason": reason }));
         json!({
             "table": group.name,
             "points": group.table_rows,
             "rows": group.rows,
             "rows_of_a_run": group.rows_of_a_run,
             "copy_ns_per_row": group.copy,
+            "copy_f32_ns_per_row": group.copy_of_singles,
             "modes": modes.collect::<Vec<Value>>(),
+            "refused": refused.collect::<Vec<Value>>(),
         })
     });
     let document = json!({
