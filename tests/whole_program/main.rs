@@ -7,6 +7,7 @@ mod dialects;
 mod eval;
 mod eval_laws;
 mod eval_modes;
+mod eval_tables;
 mod eval_user;
 mod eval_wrong;
 mod fix;

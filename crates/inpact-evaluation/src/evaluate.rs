@@ -27,7 +27,7 @@ use self::electrical::Scratch;
 use crate::compile::{CompiledTables, ConductanceSource, InteractionLaws, Laws};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::contact::ContactState;
-use crate::nodes::{Batch, NodeIndex};
+use crate::nodes::{Batch, HistoryOrder, NodeIndex};
 use crate::plan::{ContactPlaces, History, Plan, RowInteractions, Source};
 use crate::results::{ResultBatch, Status};
 use inpact_parser::model::Model;
@@ -83,7 +83,10 @@ impl<'a> Evaluation<'a> {
         Self {
             laws,
             interactions: RowInteractions::new(model, plan.governed_by, laws.interaction),
-            nodes: NodeIndex::default(),
+            nodes: match plan.order {
+                HistoryOrder::ByNode => NodeIndex::by_node(),
+                HistoryOrder::Interleaved => NodeIndex::default(),
+            },
             histories: Vec::new(),
             tally: Tally::new(plan, laws, model.interactions.len()),
             governed: Vec::new(),
@@ -160,11 +163,13 @@ impl<'a> Evaluation<'a> {
             || laws.pore.as_ref().is_some_and(|law| law.history == History::ByTime);
         let mut history = match self.laws.node.filter(|_| keeps_history && row.time.is_some()) {
             Some(node) => {
-                let number = self.nodes.number(interaction, batch.labels[node].get(index));
-                if number == self.histories.len() {
+                let slot = self.nodes.enter(interaction, batch.labels[node].get(index));
+                if slot.number == self.histories.len() {
                     self.histories.push(NodeHistory::default());
+                } else if slot.is_first {
+                    self.histories[slot.number] = NodeHistory::default();
                 }
-                Some(&mut self.histories[number])
+                Some(&mut self.histories[slot.number])
             }
             None => None,
         };

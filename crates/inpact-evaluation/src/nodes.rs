@@ -9,10 +9,17 @@
 
 mod batch;
 mod column;
+#[cfg(feature = "columnar")]
+mod columnar;
+mod csv;
+mod decode;
 mod diagnostic;
 mod header;
+mod lines;
 mod node_index;
+mod number;
 mod reader;
+mod wait;
 
 pub use batch::{Batch, LabelColumn, NumberColumn};
 pub(crate) use column::coordinates;
@@ -23,5 +30,5 @@ pub(crate) use diagnostic::{
 };
 pub use diagnostic::{DATA_RULES, DataDiagnostic, DataRule, Findings, Place};
 pub use header::{Header, HeaderCell};
-pub use node_index::NodeIndex;
-pub use reader::{NodeReader, Selection};
+pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
+pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};

@@ -42,7 +42,7 @@ pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
-pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
+pub use survey::{ColumnSurvey, InteractionSurvey, Survey, SurveyByNode, survey, survey_by_node};
 pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
 pub use user::UserPlan;
 
@@ -55,7 +55,7 @@ use crate::accuracy::{ErrorBound, Method};
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::Cutoffs;
-use crate::nodes::{Column, Findings, MISSING_COLUMN, Place, Selection};
+use crate::nodes::{Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Selection};
 use crate::results::{Along, Output};
 use crate::table::{FoldRefusal, Tail};
 use inpact_parser::model::Name;
@@ -73,6 +73,8 @@ pub struct Plan {
     pub unused: Vec<Name>,
     /// What becomes of each column of the node table, in the order of its header.
     pub columns: Vec<ColumnPlan>,
+    /// In which order the rows of the nodes come, where they have histories.
+    pub order: HistoryOrder,
     /// The columns an evaluation reads.
     pub selection: Selection,
     /// The columns of the result besides the key columns, in their order.

@@ -4,10 +4,14 @@
 //! Knows no law: numbers in, text out.
 
 mod batch;
+#[cfg(feature = "columnar")]
+mod columnar;
+mod format;
 mod output;
 mod writer;
 
 pub use batch::{ResultBatch, Status};
+pub use format::TableFormat;
 pub use output::{Along, Output};
 pub(crate) use writer::number_text;
 pub use writer::{ResultWriter, push_number};

@@ -31,12 +31,17 @@ pub(crate) fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
     if path.as_os_str() == STANDARD_STREAM {
         return Ok(Box::new(io::stdin().lock()));
     }
+    Ok(Box::new(open_file(path)?))
+}
+
+/// Opens a file for reading.
+pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     let file = File::open(path).map_err(|error| Failure::read(path, error))?;
     let is_folder = file.metadata().is_ok_and(|metadata| metadata.is_dir());
     if is_folder {
         return Err(Failure::read(path, io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")));
     }
-    Ok(Box::new(file))
+    Ok(file)
 }
 
 /// Reads all of a text file, or of standard input for `-`.
@@ -91,7 +96,7 @@ pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// The file is written beside its target and renamed, so a stopped run never leaves half a result under the name that was asked for.
 /// A file that is there already keeps its permissions, and a link to it stays a link; a write-protected one is left alone.
 pub(crate) enum ResultFile {
-    Standard(io::BufWriter<io::StdoutLock<'static>>),
+    Standard(io::BufWriter<io::Stdout>),
     /// A device or a named pipe, which nothing must be renamed to.
     Stream {
         stream: io::BufWriter<File>,
@@ -106,7 +111,7 @@ pub(crate) enum ResultFile {
 impl ResultFile {
     pub(crate) fn create(target: Option<&Path>) -> Result<Self, Failure> {
         let Some(target) = target.filter(|target| target.as_os_str() != STANDARD_STREAM) else {
-            return Ok(Self::Standard(io::BufWriter::with_capacity(PIECE, io::stdout().lock())));
+            return Ok(Self::Standard(io::BufWriter::with_capacity(PIECE, io::stdout())));
         };
         let present = std::fs::metadata(target).ok();
         if present.as_ref().is_some_and(|present| !present.is_file() && !present.is_dir()) {

@@ -20,6 +20,15 @@ pub struct Batch {
 /// A column of texts, unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct LabelColumn {
+    texts: Texts,
+    /// The column as it was stored, where it was stored as a column; its texts are made when they are asked for.
+    #[cfg(feature = "columnar")]
+    array: Option<(arrow::array::ArrayRef, std::sync::OnceLock<Texts>)>,
+}
+
+/// Texts one after the other.
+#[derive(Debug, Clone, Default)]
+struct Texts {
     bytes: Vec<u8>,
     ends: Vec<usize>,
 }
@@ -29,6 +38,7 @@ pub struct LabelColumn {
 pub struct NumberColumn {
     /// NaN where the number is missing.
     values: Vec<f64>,
+    /// Which of them are there; empty where all of them are.
     present: Vec<bool>,
 }
 
@@ -36,20 +46,80 @@ impl LabelColumn {
     /// The text in row `row` of the batch.
     #[inline]
     pub fn get(&self, row: usize) -> &[u8] {
-        let start = if row == 0 { 0 } else { self.ends[row - 1] };
-        &self.bytes[start..self.ends[row]]
+        #[cfg(feature = "columnar")]
+        if let Some((array, texts)) = &self.array {
+            return texts.get_or_init(|| Texts::of_array(array)).get(row);
+        }
+        self.texts.get(row)
     }
 
     /// Adds a row.
     #[inline]
     pub fn push(&mut self, text: &[u8]) {
+        self.texts.push(text);
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.texts.bytes.clear();
+        self.texts.ends.clear();
+        #[cfg(feature = "columnar")]
+        {
+            self.array = None;
+        }
+    }
+}
+
+#[cfg(feature = "columnar")]
+impl LabelColumn {
+    /// The column of an array of texts or numbers.
+    pub(super) fn from_array(array: arrow::array::ArrayRef) -> Self {
+        Self { texts: Texts::default(), array: Some((array, std::sync::OnceLock::new())) }
+    }
+
+    /// The array it was made from.
+    pub(crate) fn array(&self) -> Option<&arrow::array::ArrayRef> {
+        self.array.as_ref().map(|(array, _)| array)
+    }
+}
+
+impl Texts {
+    #[inline]
+    fn get(&self, row: usize) -> &[u8] {
+        let start = if row == 0 { 0 } else { self.ends[row - 1] };
+        &self.bytes[start..self.ends[row]]
+    }
+
+    #[inline]
+    fn push(&mut self, text: &[u8]) {
         self.bytes.extend_from_slice(text);
         self.ends.push(self.bytes.len());
     }
 
-    pub(super) fn clear(&mut self) {
-        self.bytes.clear();
-        self.ends.clear();
+    /// The texts of an array: floats as a result table prints them, nulls as empty texts.
+    #[cfg(feature = "columnar")]
+    fn of_array(array: &arrow::array::ArrayRef) -> Self {
+        use arrow::array::{Array, AsArray, StringArray};
+        use arrow::datatypes::{DataType, Float64Type};
+        let mut texts = Self::default();
+        let values = match array.data_type() {
+            DataType::Dictionary(_, values) => values.as_ref(),
+            kind => kind,
+        };
+        if values.is_floating() {
+            let numbers = arrow::compute::cast(array, &DataType::Float64).unwrap_or_else(|_| array.slice(0, 0));
+            for value in numbers.as_primitive::<Float64Type>() {
+                if let Some(value) = value {
+                    crate::results::push_number(&mut texts.bytes, value);
+                }
+                texts.ends.push(texts.bytes.len());
+            }
+        } else {
+            let strings = arrow::compute::cast(array, &DataType::Utf8);
+            // The reader lets no type through that has no text.
+            let strings = strings.unwrap_or_else(|_| std::sync::Arc::new(StringArray::new_null(array.len())));
+            strings.as_string::<i32>().iter().for_each(|text| texts.push(text.unwrap_or_default().as_bytes()));
+        }
+        texts
     }
 }
 
@@ -57,7 +127,8 @@ impl NumberColumn {
     /// The number in row `row` of the batch; `None` where it is missing.
     #[inline]
     pub fn get(&self, row: usize) -> Option<f64> {
-        self.present[row].then_some(self.values[row])
+        let value = self.values[row];
+        (self.present.is_empty() || self.present[row]).then_some(value)
     }
 
     /// The numbers, NaN where one is missing.
@@ -65,18 +136,65 @@ impl NumberColumn {
         &self.values
     }
 
+    /// The numbers, to be replaced; which of them are missing stays as it is.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Which numbers are there, one flag a row; `None` where it is known that none is missing.
+    pub fn presence(&self) -> Option<&[bool]> {
+        Some(self.present.as_slice()).filter(|present| !present.is_empty())
+    }
+
+    /// Whether no number is missing.
+    pub fn all_present(&self) -> bool {
+        self.present.iter().all(|present| *present)
+    }
+
     /// Adds a row.
     #[inline]
     pub fn push(&mut self, value: Option<f64>) {
+        if value.is_none() && self.present.is_empty() {
+            self.present.resize(self.values.len(), true);
+            self.present.push(false);
+        } else if !self.present.is_empty() {
+            self.present.push(value.is_some());
+        }
         self.values.push(value.unwrap_or(f64::NAN));
-        self.present.push(value.is_some());
+    }
+
+    /// Adds rows: their numbers, and which of them are there, as many flags as numbers; `None` where all of them are.
+    ///
+    /// A number that is not there becomes NaN.
+    ///
+    /// # Panics
+    /// When there are not as many flags as numbers.
+    pub fn extend_from_slices(&mut self, values: &[f64], present: Option<&[bool]>) {
+        let before = self.values.len();
+        self.values.extend_from_slice(values);
+        let Some(present) = present else {
+            if !self.present.is_empty() {
+                self.present.resize(self.values.len(), true);
+            }
+            return;
+        };
+        assert_eq!(values.len(), present.len(), "a flag for every number");
+        if self.present.is_empty() {
+            self.present.resize(before, true);
+        }
+        self.present.extend_from_slice(present);
+        for (value, present) in self.values[before..].iter_mut().zip(present) {
+            *value = if *present { *value } else { f64::NAN };
+        }
     }
 
     /// Sets the number of a row that is there.
     #[inline]
     pub fn set(&mut self, row: usize, value: f64) {
         self.values[row] = value;
-        self.present[row] = true;
+        if let Some(present) = self.present.get_mut(row) {
+            *present = true;
+        }
     }
 
     /// Makes it a column of so many missing numbers.
@@ -110,10 +228,14 @@ impl Batch {
         Place { row: Some(self.first_row + row as u64 + 1), line: self.lines.get(row).copied(), column }
     }
 
-    pub(super) fn clear(&mut self) {
+    /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.
+    pub(super) fn clear(&mut self, labels: usize, numbers: usize) {
         self.rows = 0;
+        self.first_row = 0;
         self.lines.clear();
         self.labels.iter_mut().for_each(LabelColumn::clear);
         self.numbers.iter_mut().for_each(NumberColumn::clear);
+        self.labels.resize_with(labels, LabelColumn::default);
+        self.numbers.resize_with(numbers, NumberColumn::default);
     }
 }

@@ -43,7 +43,7 @@ impl Header {
     }
 
     /// Reports cells that mean the same column (D005).
-    pub(super) fn report_duplicates(&self, line: u64, findings: &mut Findings) {
+    pub(super) fn report_duplicates(&self, line: Option<u64>, findings: &mut Findings) {
         for (index, cell) in self.cells.iter().enumerate() {
             let Some(column) = cell.column else { continue };
             let Some(first) = self.cells[..index].iter().find(|before| before.column == cell.column) else { continue };
@@ -52,7 +52,7 @@ impl Header {
             } else {
                 format!("columns `{}` and `{}` both mean `{column}`", first.text, cell.text)
             };
-            let place = Place { row: None, line: Some(line), column: Some(cell.text.clone()) };
+            let place = Place { row: None, line, column: Some(cell.text.clone()) };
             findings.report(&DUPLICATE_COLUMN, place, message, "keep one of the two");
         }
     }

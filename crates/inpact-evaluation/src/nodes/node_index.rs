@@ -1,17 +1,89 @@
 //! Which rows belong to one history: the rows of one node under one interaction.
+//!
+//! Where all rows of a node stand together, one history at a time is enough, and memory does not grow with the number of nodes:
+//! [`NodeRuns`] finds out in a first reading, [`NodeIndex::by_node`] makes use of it.
 
-use std::collections::HashMap;
+use std::collections::hash_map::RandomState;
+use std::collections::{HashMap, HashSet};
+use std::hash::BuildHasher;
+
+/// Of so many nodes it is remembered that they were met; a table of more nodes must have ascending numbers for labels.
+const MOST_REMEMBERED: usize = 1 << 20;
+
+/// In which order the rows of the nodes come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HistoryOrder {
+    /// All rows of a node under one interaction stand together.
+    ByNode,
+    /// They may stand anywhere: sorted by time, for example.
+    #[default]
+    Interleaved,
+}
 
 /// Numbers the nodes of each interaction in the order they are first met.
 ///
-/// Blanks around a label do not count. Memory grows with the number of nodes, not of rows.
+/// Blanks around a label do not count. Memory grows with the number of nodes, not of rows; by node it does not grow.
 #[derive(Debug, Clone, Default)]
 pub struct NodeIndex {
+    order: HistoryOrder,
     numbers: Vec<HashMap<Box<[u8]>, usize>>,
     count: usize,
+    current: Option<(usize, Vec<u8>)>,
+}
+
+/// Where the history of a row's node is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HistorySlot {
+    /// The number of the slot; no greater than the number of slots that were given before.
+    pub number: usize,
+    /// Whether the row is its node's first, so that what the slot holds is of another node or nothing.
+    pub is_first: bool,
+}
+
+/// Finds out whether all rows of a node stand together.
+///
+/// A table is said to be [`ByNode`](HistoryOrder::ByNode) only if it is; one with very many nodes whose labels are not ascending numbers may be
+/// said to be interleaved although it is not. Memory is bounded.
+#[derive(Debug, Default)]
+pub struct NodeRuns {
+    current: Option<(usize, Vec<u8>)>,
+    /// Whether every run so far had a label that is a greater number than that of the run before.
+    ascends: Ascent,
+    /// The hashes of the nodes so far; `None` once they were too many.
+    met: Option<HashSet<u64>>,
+    hasher: RandomState,
+    has_met_again: bool,
+    runs: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Ascent {
+    #[default]
+    NotBegun,
+    To(u64),
+    No,
 }
 
 impl NodeIndex {
+    /// An index for a table in which all rows of a node stand together.
+    pub fn by_node() -> Self {
+        Self { order: HistoryOrder::ByNode, ..Self::default() }
+    }
+
+    /// The slot for the history of a row's node under interaction number `interaction`.
+    ///
+    /// By node there is one slot only.
+    #[inline]
+    pub fn enter(&mut self, interaction: usize, label: &[u8]) -> HistorySlot {
+        if self.order == HistoryOrder::ByNode {
+            let is_first = begins_run(&mut self.current, interaction, label);
+            return HistorySlot { number: 0, is_first };
+        }
+        let before = self.count;
+        let number = self.number(interaction, label);
+        HistorySlot { number, is_first: before < self.count }
+    }
+
     /// The number of a node under interaction number `interaction`; a new node gets the next number.
     #[inline]
     pub fn number(&mut self, interaction: usize, label: &[u8]) -> usize {
@@ -28,9 +100,139 @@ impl NodeIndex {
         self.count += 1;
         number
     }
+}
 
-    /// How many nodes interaction number `interaction` has.
-    pub fn count_of(&self, interaction: usize) -> usize {
-        self.numbers.get(interaction).map_or(0, HashMap::len)
+impl NodeRuns {
+    /// No rows yet.
+    pub fn new() -> Self {
+        Self { met: Some(HashSet::new()), ..Self::default() }
+    }
+
+    /// Takes the next row; true when it begins a run of rows of one node.
+    #[inline]
+    pub fn take(&mut self, interaction: usize, label: &[u8]) -> bool {
+        let begins = begins_run(&mut self.current, interaction, label);
+        if begins {
+            self.begin(interaction, label.trim_ascii());
+        }
+        begins
+    }
+
+    /// The order of the rows so far.
+    pub fn order(&self) -> HistoryOrder {
+        let is_by_node = self.ascends != Ascent::No || self.met.is_some() && !self.has_met_again;
+        if is_by_node { HistoryOrder::ByNode } else { HistoryOrder::Interleaved }
+    }
+
+    /// How many runs there are; by node they are as many as the nodes of all interactions.
+    pub fn runs(&self) -> u64 {
+        self.runs
+    }
+
+    fn begin(&mut self, interaction: usize, label: &[u8]) {
+        self.runs += 1;
+        self.ascends = match (self.ascends, whole_number(label)) {
+            (Ascent::NotBegun, Some(number)) => Ascent::To(number),
+            (Ascent::To(last), Some(number)) if last < number => Ascent::To(number),
+            _ => Ascent::No,
+        };
+        if let Some(met) = &mut self.met {
+            // Two nodes of one hash are taken for one that comes again, which is the safe mistake.
+            self.has_met_again |= !met.insert(self.hasher.hash_one((interaction, label)));
+            if self.has_met_again || MOST_REMEMBERED < met.len() {
+                self.met = None;
+            }
+        }
+    }
+}
+
+/// Whether a row is of another node than the row before.
+#[inline]
+fn begins_run(current: &mut Option<(usize, Vec<u8>)>, interaction: usize, label: &[u8]) -> bool {
+    let label = label.trim_ascii();
+    match current {
+        Some((of, text)) if *of == interaction && text == label => false,
+        Some((of, text)) => {
+            *of = interaction;
+            text.clear();
+            text.extend_from_slice(label);
+            true
+        }
+        None => {
+            *current = Some((interaction, label.to_vec()));
+            true
+        }
+    }
+}
+
+/// A label that is a number without leading zeros, so that equal numbers are equal labels.
+fn whole_number(label: &[u8]) -> Option<u64> {
+    let is_number = label.iter().all(u8::is_ascii_digit) && (label.len() == 1 || label.first() != Some(&b'0'));
+    std::str::from_utf8(label).ok().filter(|_| is_number)?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn order(labels: &[&str]) -> HistoryOrder {
+        let mut runs = NodeRuns::new();
+        for label in labels {
+            runs.take(0, label.as_bytes());
+        }
+        runs.order()
+    }
+
+    #[test]
+    fn rows_of_a_node_stand_together_or_not() {
+        assert_eq!(order(&[]), HistoryOrder::ByNode);
+        assert_eq!(order(&["1", "1", " 1 ", "2", "10"]), HistoryOrder::ByNode);
+        assert_eq!(order(&["b", "b", "a", "c"]), HistoryOrder::ByNode);
+        assert_eq!(order(&["2", "1", "01"]), HistoryOrder::ByNode);
+        assert_eq!(order(&["1", "2", "1"]), HistoryOrder::Interleaved);
+        assert_eq!(order(&["a", "b", "b", "a"]), HistoryOrder::Interleaved);
+    }
+
+    #[test]
+    fn many_nodes_must_ascend() {
+        let many = MOST_REMEMBERED as u64 + 10;
+        let mut runs = NodeRuns::new();
+        for node in 0..many {
+            runs.take(0, node.to_string().as_bytes());
+        }
+        assert_eq!((runs.order(), runs.runs()), (HistoryOrder::ByNode, many));
+        assert!(runs.met.is_none());
+        runs.take(0, b"5");
+        assert_eq!(runs.order(), HistoryOrder::Interleaved);
+    }
+
+    proptest! {
+        #[test]
+        fn a_table_is_by_node_when_no_node_comes_again(rows in prop::collection::vec((0..2_usize, 0..5_u8), 0..12)) {
+            let mut runs = NodeRuns::new();
+            let mut changes = rows.clone();
+            changes.dedup();
+            let nodes: HashSet<(usize, u8)> = rows.iter().copied().collect();
+            for (interaction, node) in &rows {
+                runs.take(*interaction, node.to_string().as_bytes());
+            }
+            let expected = if nodes.len() == changes.len() { HistoryOrder::ByNode } else { HistoryOrder::Interleaved };
+            prop_assert_eq!(runs.order(), expected);
+        }
+
+        #[test]
+        fn slots_by_node_begin_where_slots_of_all_nodes_do(lengths in prop::collection::vec(1..4_usize, 0..9)) {
+            let (mut all, mut by_node) = (NodeIndex::default(), NodeIndex::by_node());
+            for (node, length) in lengths.iter().enumerate() {
+                for _ in 0..*length {
+                    let label = node.to_string();
+                    let slot = by_node.enter(1, label.as_bytes());
+                    prop_assert_eq!(slot.number, 0);
+                    let of_all = all.enter(1, label.as_bytes());
+                    prop_assert_eq!(of_all, HistorySlot { number: node, is_first: slot.is_first });
+                }
+            }
+        }
     }
 }

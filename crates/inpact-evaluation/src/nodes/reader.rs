@@ -1,31 +1,51 @@
-//! A node table of comma-separated values, read in batches of rows.
+//! A node table, read in batches of rows.
 //!
-//! RFC 4180: cells between commas, quoted where they hold commas, quotes or line ends; blank lines are passed over.
-//! A cell that is empty or blank is a missing number. A row is never left out: what cannot be read is reported and stands there as missing.
+//! A row is never left out: what cannot be read is reported and stands there as missing.
+//! A cell that is empty or blank is a missing number.
 
 use super::batch::Batch;
 use super::column::Column;
-use super::diagnostic::{Findings, MALFORMED_CELL, MISSING_COLUMN, Place};
+#[cfg(feature = "columnar")]
+use super::columnar::{ColumnarReader, Storage};
+use super::csv::CsvReader;
+use super::diagnostic::Findings;
 use super::header::Header;
-use csv::{ByteRecord, ReaderBuilder, Terminator};
 use std::fmt;
-use std::io::{self, Read};
+use std::io::{self, Read, Seek, SeekFrom};
 
-/// How much is read from the input at a time.
-const PIECE: usize = 256 * 1024;
-
-/// How many rows a batch has, unless asked otherwise: its columns stay in cache.
-const ROWS_OF_A_BATCH: usize = 1024;
+/// How many rows a batch has at most, unless asked otherwise.
+const ROWS_OF_A_BATCH: usize = 8192;
 
 /// Reads a node table from a stream.
 pub struct NodeReader<'a> {
-    csv: csv::Reader<Box<dyn Read + 'a>>,
-    header: Header,
-    record: ByteRecord,
-    rows_read: u64,
+    table: Table<'a>,
     rows_of_a_batch: usize,
-    label_fields: Vec<usize>,
-    number_fields: Vec<usize>,
+    selection: Selection,
+}
+
+/// How the table is stored.
+enum Table<'a> {
+    Csv(Box<CsvReader<'a>>),
+    #[cfg(feature = "columnar")]
+    Columnar(Box<ColumnarReader>),
+}
+
+/// What a table that is stored as columns can be read from.
+pub trait ReadSeek: Read + Seek + Send + 'static {}
+
+impl<T: Read + Seek + Send + 'static> ReadSeek for T {}
+
+/// What a table itself says of a column of numbers, without its rows being read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnStatistics {
+    /// The smallest number that is not NaN; infinity where there is none.
+    pub least: f64,
+    /// The largest number that is not NaN; minus infinity where there is none.
+    pub greatest: f64,
+    /// How many numbers are missing.
+    pub nulls: u64,
+    /// How many rows there are.
+    pub rows: u64,
 }
 
 /// Which columns of a node table to read.
@@ -51,56 +71,95 @@ impl Selection {
 
 impl fmt::Debug for NodeReader<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("NodeReader").field("header", &self.header).finish_non_exhaustive()
+        formatter.debug_struct("NodeReader").field("header", self.header()).finish_non_exhaustive()
     }
 }
 
 impl<'a> NodeReader<'a> {
-    /// Opens a node table and reads its header.
+    /// Opens a node table of comma-separated values and reads its header.
     ///
     /// # Errors
     /// Those of reading the input.
-    pub fn open(input: Box<dyn Read + 'a>, findings: &mut Findings) -> io::Result<Self> {
-        let mut builder = ReaderBuilder::new();
-        // The end of a line is LF for the csv crate, so that it counts lines right; a CR before it is taken off here.
-        builder.has_headers(false).flexible(true).terminator(Terminator::Any(b'\n')).buffer_capacity(PIECE);
-        let mut reader = Self {
-            // A file may end without a line end; one more blank line is no row, so that every row has its own.
-            csv: builder.from_reader(Box::new(input.chain(&b"\n"[..]))),
-            header: Header::default(),
-            record: ByteRecord::new(),
-            rows_read: 0,
-            rows_of_a_batch: ROWS_OF_A_BATCH,
-            label_fields: Vec::new(),
-            number_fields: Vec::new(),
-        };
-        if reader.read_record()? {
-            let cells = reader.record.iter().map(|cell| String::from_utf8_lossy(without_mark(cell)).into_owned());
-            let cells: Vec<String> = cells.collect();
-            reader.header = Header::new(cells.iter().map(String::as_str));
-            reader.header.report_duplicates(reader.line(), findings);
-        } else {
-            let message = "the node table is empty: it has no header line";
-            findings.report(&MISSING_COLUMN, Place::default(), message, "name the columns in the first line");
+    pub fn open(input: Box<dyn Read + Send + 'a>, findings: &mut Findings) -> io::Result<Self> {
+        Ok(Self::new(Table::Csv(Box::new(CsvReader::open(input, findings)?))))
+    }
+
+    /// Opens a node table that tells by its first bytes how it is stored: Parquet, an Arrow file or stream, otherwise comma-separated values.
+    ///
+    /// # Errors
+    /// Those of reading the input; of kind [`io::ErrorKind::InvalidData`] where it is not what its first bytes say,
+    /// [`io::ErrorKind::Unsupported`] for Parquet and Arrow where feature `columnar` is off.
+    pub fn open_any(mut input: Box<dyn ReadSeek>, findings: &mut Findings) -> io::Result<NodeReader<'static>> {
+        let mut magic = Vec::new();
+        input.by_ref().take(6).read_to_end(&mut magic)?;
+        input.seek(SeekFrom::Start(0))?;
+        #[cfg(feature = "columnar")]
+        {
+            let storage = match magic.as_slice() {
+                [b'P', b'A', b'R', b'1', ..] => Some(Storage::Parquet),
+                b"ARROW1" => Some(Storage::ArrowFile),
+                [0xFF, 0xFF, 0xFF, 0xFF, ..] => Some(Storage::ArrowStream),
+                _ => None,
+            };
+            if let Some(storage) = storage {
+                let table = ColumnarReader::open(input, storage, findings)?;
+                return Ok(NodeReader::new(Table::Columnar(Box::new(table))));
+            }
         }
-        Ok(reader)
+        #[cfg(not(feature = "columnar"))]
+        if matches!(magic.as_slice(), [b'P', b'A', b'R', b'1', ..] | b"ARROW1" | [0xFF, 0xFF, 0xFF, 0xFF, ..]) {
+            let message = "it is a Parquet or Arrow table, which this program was built without (feature `columnar`)";
+            return Err(io::Error::new(io::ErrorKind::Unsupported, message));
+        }
+        NodeReader::open(Box::new(input), findings)
+    }
+
+    fn new(table: Table<'a>) -> Self {
+        Self { table, rows_of_a_batch: ROWS_OF_A_BATCH, selection: Selection::default() }
     }
 
     /// The header.
     pub fn header(&self) -> &Header {
-        &self.header
+        match &self.table {
+            Table::Csv(table) => table.header(),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.header(),
+        }
+    }
+
+    /// What the table itself says of a column of numbers: Parquet files may, for all of their rows, until the first batch is read.
+    pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
+        match &self.table {
+            Table::Csv(_) => None,
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.statistics(table.header().position(column)?),
+        }
+        .filter(|_: &ColumnStatistics| self.header().has(column))
     }
 
     /// Chooses the columns of the batches to come; one the header does not have gives missing numbers and empty texts.
+    ///
+    /// To be called before the first batch is read.
     pub fn select(&mut self, selection: &Selection) {
-        let field = |column: &Column| self.header.position(*column).unwrap_or(usize::MAX);
-        self.label_fields = selection.labels.iter().map(field).collect();
-        self.number_fields = selection.numbers.iter().map(field).collect();
+        selection.clone_into(&mut self.selection);
+        self.apply();
     }
 
-    /// Sets how many rows a batch has at most, 1 at least.
+    /// Sets how many rows a batch has at most, 1 at least; to be called before the first batch is read.
     pub fn set_rows_of_a_batch(&mut self, rows: usize) {
         self.rows_of_a_batch = rows.max(1);
+        self.apply();
+    }
+
+    /// Reads and decodes up to so many pieces of the table on the threads of rayon's current pool while others are evaluated.
+    ///
+    /// 0, which holds unless asked otherwise, decodes each piece when its turn comes. What comes out is the same.
+    pub fn set_read_ahead(&mut self, pieces: usize) {
+        match &mut self.table {
+            Table::Csv(table) => table.set_read_ahead(pieces),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.set_reads_ahead(0 < pieces),
+        }
     }
 
     /// Reads the next rows into `batch`; false when there are no more.
@@ -108,93 +167,22 @@ impl<'a> NodeReader<'a> {
     /// # Errors
     /// Those of reading the input.
     pub fn read_batch(&mut self, batch: &mut Batch, findings: &mut Findings) -> io::Result<bool> {
-        batch.clear();
-        batch.labels.resize_with(self.label_fields.len(), Default::default);
-        batch.numbers.resize_with(self.number_fields.len(), Default::default);
-        batch.first_row = self.rows_read;
-        while batch.rows < self.rows_of_a_batch && self.read_record()? {
-            self.rows_read += 1;
-            batch.rows += 1;
-            batch.lines.push(self.line());
-            if self.record.len() != self.header.cells.len() {
-                self.report_count(findings);
-            }
-            for (field, column) in self.label_fields.iter().zip(&mut batch.labels) {
-                column.push(self.record.get(*field).unwrap_or_default());
-            }
-            for (index, column) in batch.numbers.iter_mut().enumerate() {
-                let cell = self.record.get(self.number_fields[index]).unwrap_or_default().trim_ascii();
-                let value = number(cell);
-                if value.is_none() && !cell.is_empty() {
-                    self.report_cell(self.number_fields[index], findings);
-                }
-                column.push(value);
-            }
+        match &mut self.table {
+            Table::Csv(table) => table.read_batch(batch, findings),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.read_batch(batch, findings),
         }
-        Ok(batch.rows > 0)
     }
 
-    /// Where the row read last stands.
-    fn place(&self, column: Option<String>) -> Place {
-        Place { row: Some(self.rows_read), line: Some(self.line()), column }
-    }
-
-    /// Reads the next row that is not blank; false at the end.
-    fn read_record(&mut self) -> io::Result<bool> {
-        while self.csv.read_byte_record(&mut self.record)? {
-            self.take_off_carriage_return();
-            if self.record.len() > 1 || !self.record[0].trim_ascii().is_empty() {
-                return Ok(true);
-            }
+    fn apply(&mut self) {
+        let header = self.header();
+        let field = |column: &Column| header.position(*column).unwrap_or(usize::MAX);
+        let labels: Vec<usize> = self.selection.labels.iter().map(field).collect();
+        let numbers: Vec<usize> = self.selection.numbers.iter().map(field).collect();
+        match &mut self.table {
+            Table::Csv(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
         }
-        Ok(false)
     }
-
-    fn take_off_carriage_return(&mut self) {
-        if self.record.as_slice().last() != Some(&b'\r') {
-            return;
-        }
-        let last = self.record.len() - 1;
-        let text = self.record[last].to_vec();
-        self.record.truncate(last);
-        self.record.push_field(text.strip_suffix(b"\r").unwrap_or(&text));
-    }
-
-    /// The line on which the row read last ends.
-    fn line(&self) -> u64 {
-        // Its line end has been counted already.
-        self.csv.position().line() - 1
-    }
-
-    fn report_count(&self, findings: &mut Findings) {
-        let (found, expected) = (self.record.len(), self.header.cells.len());
-        let message = format!("row {} has {found} cells, the header {expected}", self.rows_read);
-        let help = "write a comma for every cell that is empty, and quotes around a text that holds commas";
-        findings.report(&MALFORMED_CELL, self.place(None), message, help);
-    }
-
-    #[cold]
-    fn report_cell(&self, field: usize, findings: &mut Findings) {
-        let column = self.header.cells[field].text.clone();
-        let cell = String::from_utf8_lossy(self.record[field].trim_ascii()).into_owned();
-        let shown: String = cell.chars().take(40).collect();
-        let message = format!("`{column}` of row {} is `{shown}`, which is no number", self.rows_read);
-        let help = if cell.contains(',') {
-            "write numbers with a decimal point, as in 1.5e-3"
-        } else {
-            "write a number such as 1.5e-3, or leave the cell empty where there is none"
-        };
-        findings.report(&MALFORMED_CELL, self.place(Some(column)), message, help);
-    }
-}
-
-/// The number a cell holds: what Rust reads as f64, `nan` and `inf` among it.
-#[inline]
-fn number(cell: &[u8]) -> Option<f64> {
-    std::str::from_utf8(cell).ok()?.parse().ok()
-}
-
-/// The cell without the byte order mark it may begin with.
-fn without_mark(cell: &[u8]) -> &[u8] {
-    cell.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(cell)
 }

@@ -41,6 +41,7 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
     Plan {
         rows: survey.rows,
         governed_by: survey.governed_by,
+        order: survey.order,
         columns: column_plans(survey, choices, &selection, &interactions),
         interactions,
         unused,

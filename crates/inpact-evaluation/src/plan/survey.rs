@@ -1,7 +1,8 @@
 //! The first reading of a node table: what its columns hold in the rows of each interaction, and whether it can be evaluated at all.
 //!
 //! Everything that is wrong with cells is found here (D002 to D006, D008, D009), so that an evaluation begins only when it can end.
-//! Memory: bounds of each column for each interaction, and the last time of each node where there are histories.
+//! Memory: bounds of each column for each interaction, and where there are histories the last time of the node the rows are at;
+//! of every node only where the rows of the nodes do not stand together.
 
 use super::choices::Choices;
 use super::governing::{GovernedBy, RowInteractions, names_help};
@@ -9,11 +10,12 @@ use super::source::Presence;
 use super::wanted::wanted_columns;
 use crate::law::contact::{Clearance, ContactPressure, ContactState};
 use crate::nodes::{
-    Batch, Column, Findings, Header, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, NodeIndex,
-    NodeReader, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
+    Batch, Column, Findings, Header, HistoryOrder, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE,
+    NodeIndex, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
 };
 use inpact_parser::model::Model;
 use std::io;
+use std::ops::Range;
 
 /// What a first reading of a node table found.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,10 +26,21 @@ pub struct Survey {
     pub rows: u64,
     /// What says which interaction governs a row.
     pub governed_by: GovernedBy,
+    /// In which order the rows of the nodes come, as far as it was looked at.
+    pub order: HistoryOrder,
     /// The columns of numbers that were read: all that some law of the deck could use.
     pub columns: Vec<Column>,
     /// What the rows of each interaction hold, in the order of the model.
     pub interactions: Vec<InteractionSurvey>,
+}
+
+/// What came of a first reading that remembers one node at a time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SurveyByNode {
+    /// All that [`survey`] gives.
+    Complete(Option<Survey>),
+    /// The rows of the nodes do not stand together, or nobody can say: what was found until then does not count.
+    Interleaved,
 }
 
 /// What the rows of one interaction hold.
@@ -58,6 +71,19 @@ pub struct ColumnSurvey {
     pub least: f64,
     /// The largest of the finite ones; minus infinity where there is none.
     pub greatest: f64,
+}
+
+impl ColumnSurvey {
+    #[inline]
+    fn take(&mut self, value: f64) {
+        self.present += 1;
+        if value.is_finite() {
+            self.least = self.least.min(value);
+            self.greatest = self.greatest.max(value);
+        } else {
+            self.non_finite += 1;
+        }
+    }
 }
 
 impl Default for ColumnSurvey {
@@ -96,29 +122,63 @@ impl Survey {
 
 /// Reads a node table to its end and says what it holds; `None` when nothing says which interaction governs a row.
 ///
+/// Takes the rows of the nodes for interleaved: memory grows with the number of nodes that have a history.
+///
 /// # Errors
 /// Those of reading the table.
 pub fn survey(
-    mut reader: NodeReader<'_>,
+    reader: NodeReader<'_>,
     model: &Model,
     choices: &Choices,
     findings: &mut Findings,
 ) -> io::Result<Option<Survey>> {
+    match survey_in_order(reader, model, choices, findings, HistoryOrder::Interleaved)? {
+        SurveyByNode::Complete(survey) => Ok(survey),
+        SurveyByNode::Interleaved => Ok(None),
+    }
+}
+
+/// The same in bounded memory, if all rows of a node stand together or nodes have no histories; otherwise it ends as soon as that shows.
+///
+/// # Errors
+/// Those of reading the table.
+pub fn survey_by_node(
+    reader: NodeReader<'_>,
+    model: &Model,
+    choices: &Choices,
+    findings: &mut Findings,
+) -> io::Result<SurveyByNode> {
+    survey_in_order(reader, model, choices, findings, HistoryOrder::ByNode)
+}
+
+fn survey_in_order(
+    mut reader: NodeReader<'_>,
+    model: &Model,
+    choices: &Choices,
+    findings: &mut Findings,
+    order: HistoryOrder,
+) -> io::Result<SurveyByNode> {
     let header = reader.header().clone();
     let governed_by = GovernedBy::decide(model, &header, choices.interaction.as_ref(), findings);
-    let Some(governed_by) = governed_by else { return Ok(None) };
+    let Some(governed_by) = governed_by else { return Ok(SurveyByNode::Complete(None)) };
     let columns = wanted_columns(model, governed_by, choices, &header);
     let histories = header.has(Column::Node) && columns.contains(&Column::Time);
+    // Without histories nobody looks at the order, and nothing must rely on it.
+    let order = if histories { order } else { HistoryOrder::Interleaved };
     let selection = Selection { labels: label_columns(governed_by, histories), numbers: columns.clone() };
     reader.select(&selection);
     let empty = InteractionSurvey { columns: vec![ColumnSurvey::default(); columns.len()], ..Default::default() };
-    let survey = Survey { header, rows: 0, governed_by, columns, interactions: vec![empty; model.interactions.len()] };
+    let interactions = vec![empty; model.interactions.len()];
+    let survey = Survey { header, rows: 0, governed_by, order, columns, interactions };
     let mut surveyor = Surveyor::new(survey, &selection, model, histories);
     let mut batch = Batch::default();
     while reader.read_batch(&mut batch, findings)? {
         surveyor.take(&batch, findings);
+        if surveyor.runs.as_ref().is_some_and(|runs| runs.order() == HistoryOrder::Interleaved) {
+            return Ok(SurveyByNode::Interleaved);
+        }
     }
-    Ok(Some(surveyor.finish(findings)))
+    Ok(SurveyByNode::Complete(Some(surveyor.finish(findings))))
 }
 
 /// The labels that a first reading needs.
@@ -141,8 +201,12 @@ struct Surveyor<'a> {
     counters: Vec<(usize, Column)>,
     time: Option<usize>,
     node: Option<usize>,
+    /// Whether the rows of a node stand together, where that is relied on.
+    runs: Option<NodeRuns>,
     nodes: NodeIndex,
     last_times: Vec<f64>,
+    /// How many nodes each interaction has.
+    histories: Vec<u64>,
     first_non_finite: Vec<Option<Place>>,
 }
 
@@ -208,8 +272,13 @@ impl<'a> Surveyor<'a> {
             time: selection.number(Column::Time).filter(|_| histories),
             node: selection.label(Column::Node),
             rows: RowInteractions::new(model, survey.governed_by, selection.label(Column::Interaction)),
-            nodes: NodeIndex::default(),
+            runs: (survey.order == HistoryOrder::ByNode && histories).then(NodeRuns::new),
+            nodes: match survey.order {
+                HistoryOrder::ByNode => NodeIndex::by_node(),
+                HistoryOrder::Interleaved => NodeIndex::default(),
+            },
             last_times: Vec::new(),
+            histories: vec![0; survey.interactions.len()],
             first_non_finite: vec![None; survey.columns.len()],
             model,
             survey,
@@ -217,6 +286,12 @@ impl<'a> Surveyor<'a> {
     }
 
     fn take(&mut self, batch: &Batch, findings: &mut Findings) {
+        // Where one interaction governs all rows, columns are looked at as a whole.
+        let only = match self.survey.governed_by {
+            GovernedBy::Chosen(only) | GovernedBy::TheOnlyOne(only) => Some(only),
+            GovernedBy::Column => None,
+        };
+        let is_of_one = only.is_some();
         for row in 0..batch.rows {
             self.survey.rows += 1;
             self.check_cells(batch, row, findings);
@@ -231,20 +306,35 @@ impl<'a> Surveyor<'a> {
             of.open += u64::from(state == Some(ContactState::Open));
             let clearance = self.contact.clearance.and_then(|place| batch.numbers[place].get(row));
             of.above_zero += u64::from(clearance.is_some_and(|clearance| clearance > 0.0));
-            for (place, (column, of)) in batch.numbers.iter().zip(&mut of.columns).enumerate() {
-                let Some(value) = column.get(row) else { continue };
-                of.present += 1;
-                if value.is_finite() {
-                    of.least = of.least.min(value);
-                    of.greatest = of.greatest.max(value);
-                } else {
-                    of.non_finite += 1;
-                    let header = &self.survey.header;
-                    let column = self.survey.columns[place];
-                    self.first_non_finite[place].get_or_insert_with(|| batch.place(row, Some(header.name_of(column))));
-                }
+            if !is_of_one {
+                self.take_cells(interaction, batch, row..row + 1);
             }
             self.check_time(interaction, batch, row, findings);
+        }
+        if let Some(interaction) = only {
+            self.take_cells(interaction, batch, 0..batch.rows);
+        }
+    }
+
+    /// What the cells of some rows of one interaction hold, column by column.
+    #[inline]
+    fn take_cells(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
+        let columns = &mut self.survey.interactions[interaction].columns;
+        for (place, (column, of)) in batch.numbers.iter().zip(columns).enumerate() {
+            let before = of.non_finite;
+            let values = &column.values()[rows.clone()];
+            match column.presence() {
+                None => values.iter().for_each(|value| of.take(*value)),
+                Some(present) => {
+                    let present = &present[rows.clone()];
+                    values.iter().zip(present).filter(|cell| *cell.1).for_each(|(value, _)| of.take(*value));
+                }
+            }
+            if before < of.non_finite && self.first_non_finite[place].is_none() {
+                let row = rows.clone().find(|row| column.get(*row).is_some_and(|value| !value.is_finite()));
+                let name = self.survey.header.name_of(self.survey.columns[place]);
+                self.first_non_finite[place] = row.map(|row| batch.place(row, Some(name)));
+            }
         }
     }
 
@@ -287,14 +377,20 @@ impl<'a> Surveyor<'a> {
     /// The times of a node must rise from row to row (D006).
     fn check_time(&mut self, interaction: usize, batch: &Batch, row: usize, findings: &mut Findings) {
         let (Some(node), Some(time)) = (self.node, self.time) else { return };
-        let Some(time) = batch.numbers[time].get(row) else { return };
         let label = batch.labels[node].get(row);
-        let number = self.nodes.number(interaction, label);
-        let Some(last) = self.last_times.get_mut(number) else {
+        if let Some(runs) = &mut self.runs {
+            runs.take(interaction, label);
+        }
+        let Some(time) = batch.numbers[time].get(row) else { return };
+        let slot = self.nodes.enter(interaction, label);
+        if slot.number == self.last_times.len() {
             self.last_times.push(time);
+        }
+        let before = std::mem::replace(&mut self.last_times[slot.number], time);
+        if slot.is_first {
+            self.histories[interaction] += 1;
             return;
-        };
-        let before = std::mem::replace(last, time);
+        }
         if time > before {
             return;
         }
@@ -324,7 +420,7 @@ impl<'a> Surveyor<'a> {
     fn finish(mut self, findings: &mut Findings) -> Survey {
         if self.time.is_some() {
             for (index, of) in self.survey.interactions.iter_mut().enumerate() {
-                of.histories = Some(self.nodes.count_of(index) as u64);
+                of.histories = Some(self.histories[index]);
             }
         }
         for (place, first) in self.first_non_finite.into_iter().enumerate() {

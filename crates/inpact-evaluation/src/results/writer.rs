@@ -4,17 +4,35 @@
 //! Numbers are printed in the shortest form that reads back to the same f64; a missing number is an empty cell.
 
 use super::batch::ResultBatch;
+#[cfg(feature = "columnar")]
+use super::columnar::ColumnarWriter;
+use super::format::TableFormat;
 use super::output::Output;
 use crate::nodes::{Batch, Column};
+use rayon::prelude::*;
 use std::io::{self, Write};
 
 /// Writes a result table to a stream.
 pub struct ResultWriter<'a> {
-    output: &'a mut dyn Write,
-    columns: Vec<ResultColumn>,
-    line: Vec<u8>,
+    table: Table<'a>,
     rows_written: u64,
 }
+
+enum Table<'a> {
+    Csv(CsvWriter<'a>),
+    #[cfg(feature = "columnar")]
+    Columnar(Box<ColumnarWriter<'a>>),
+}
+
+struct CsvWriter<'a> {
+    output: &'a mut (dyn Write + Send),
+    columns: Vec<ResultColumn>,
+    /// The text of the blocks of a batch.
+    blocks: Vec<Vec<u8>>,
+}
+
+/// How many rows are turned into text at a time; blocks of them are independent of each other.
+const ROWS_OF_A_BLOCK: usize = 1024;
 
 /// Where the cells of a column come from.
 #[derive(Debug, Clone, Copy)]
@@ -28,16 +46,80 @@ enum ResultColumn {
 
 impl std::fmt::Debug for ResultWriter<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("ResultWriter").field("columns", &self.columns).finish_non_exhaustive()
+        formatter.debug_struct("ResultWriter").field("rows_written", &self.rows_written).finish_non_exhaustive()
     }
 }
 
 impl<'a> ResultWriter<'a> {
-    /// Writes the header: the key columns, which are those of the batches' labels, then the outputs.
+    /// Begins a table of comma-separated values: the key columns, which are those of the batches' labels, then the outputs.
     ///
     /// # Errors
     /// Those of writing.
-    pub fn new(output: &'a mut dyn Write, keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
+    pub fn new(output: &'a mut (dyn Write + Send), keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
+        let table = Table::Csv(CsvWriter::new(output, keys, outputs)?);
+        Ok(Self { table, rows_written: 0 })
+    }
+
+    /// Begins a table in some format; Parquet and Arrow are complete only after [`finish`](Self::finish).
+    ///
+    /// # Errors
+    /// Those of writing; of kind [`io::ErrorKind::Unsupported`] for Parquet and Arrow where feature `columnar` is off.
+    pub fn with_format(
+        output: &'a mut (dyn Write + Send),
+        format: TableFormat,
+        keys: &[Column],
+        outputs: &[Output],
+    ) -> io::Result<Self> {
+        match format {
+            TableFormat::Csv => Self::new(output, keys, outputs),
+            #[cfg(feature = "columnar")]
+            TableFormat::Parquet | TableFormat::Arrow => {
+                let table = ColumnarWriter::new(output, format, keys, outputs);
+                Ok(Self { table: Table::Columnar(Box::new(table)), rows_written: 0 })
+            }
+            #[cfg(not(feature = "columnar"))]
+            TableFormat::Parquet | TableFormat::Arrow => {
+                let message = "this program was built without Parquet and Arrow (feature `columnar`)";
+                Err(io::Error::new(io::ErrorKind::Unsupported, message))
+            }
+        }
+    }
+
+    /// Writes the rows of a batch with their results; the threads of rayon's current pool share the work.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
+        match &mut self.table {
+            Table::Csv(table) => table.write(batch, results)?,
+            #[cfg(feature = "columnar")]
+            Table::Columnar(table) => table.write(batch, results)?,
+        }
+        self.rows_written += batch.rows as u64;
+        Ok(())
+    }
+
+    /// Writes what the table ends with; gives how many rows were written.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn finish(self) -> io::Result<u64> {
+        match self.table {
+            Table::Csv(_) => {}
+            #[cfg(feature = "columnar")]
+            Table::Columnar(mut table) => table.finish()?,
+        }
+        Ok(self.rows_written)
+    }
+
+    /// How many rows were written.
+    pub fn rows_written(&self) -> u64 {
+        self.rows_written
+    }
+}
+
+impl<'a> CsvWriter<'a> {
+    fn new(output: &'a mut (dyn Write + Send), keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
         let names = keys.iter().map(ToString::to_string).chain(outputs.iter().map(ToString::to_string));
         let header: Vec<String> = names.collect();
         output.write_all((header.join(",") + "\n").as_bytes())?;
@@ -51,48 +133,57 @@ impl<'a> ResultWriter<'a> {
                 number += 1;
             }
         }
-        Ok(Self { output, columns, line: Vec::new(), rows_written: 0 })
+        Ok(Self { output, columns, blocks: Vec::new() })
     }
 
-    /// Writes the rows of a batch with their results.
-    ///
-    /// # Errors
-    /// Those of writing.
-    pub fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
-        self.line.clear();
-        for row in 0..batch.rows {
-            for (index, column) in self.columns.iter().enumerate() {
-                if index > 0 {
-                    self.line.push(b',');
-                }
-                match column {
-                    ResultColumn::Label(label) => push_text(&mut self.line, batch.labels[*label].get(row)),
-                    ResultColumn::Number(number) => {
-                        if let Some(value) = results.numbers[*number].get(row) {
-                            push_number(&mut self.line, value);
-                        }
-                    }
-                    ResultColumn::Status => {
-                        let word = results.status[row].map_or("", super::Status::word);
-                        self.line.extend_from_slice(word.as_bytes());
-                    }
-                }
-            }
-            // A line of one empty cell would be a blank line, which is no row.
-            if self.line.last().is_none_or(|byte| *byte == b'\n') {
-                self.line.extend_from_slice(b"\"\"");
-            }
-            self.line.push(b'\n');
+    fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
+        let blocks = batch.rows.div_ceil(ROWS_OF_A_BLOCK);
+        if self.blocks.len() < blocks {
+            self.blocks.resize_with(blocks, Vec::new);
         }
-        self.output.write_all(&self.line)?;
-        self.rows_written += batch.rows as u64;
+        let columns = &self.columns;
+        self.blocks[..blocks].par_iter_mut().enumerate().for_each(|(block, text)| {
+            let first = block * ROWS_OF_A_BLOCK;
+            text.clear();
+            for row in first..batch.rows.min(first + ROWS_OF_A_BLOCK) {
+                push_row(text, columns, batch, results, row);
+            }
+        });
+        for text in &self.blocks[..blocks] {
+            self.output.write_all(text)?;
+        }
         Ok(())
     }
+}
 
-    /// How many rows were written.
-    pub fn rows_written(&self) -> u64 {
-        self.rows_written
+/// From 2^50 to 2^51 a number may end in .25 or .75, halfway between two shortest forms: here the standard library chooses.
+const HALFWAY: std::ops::Range<f64> = 1_125_899_906_842_624.0..2_251_799_813_685_248.0;
+
+/// Adds a row.
+fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, results: &ResultBatch, row: usize) {
+    let start = text.len();
+    for (index, column) in columns.iter().enumerate() {
+        if index > 0 {
+            text.push(b',');
+        }
+        match column {
+            ResultColumn::Label(label) => push_text(text, batch.labels[*label].get(row)),
+            ResultColumn::Number(number) => {
+                if let Some(value) = results.numbers[*number].get(row) {
+                    push_number(text, value);
+                }
+            }
+            ResultColumn::Status => {
+                let word = results.status[row].map_or("", super::Status::word);
+                text.extend_from_slice(word.as_bytes());
+            }
+        }
     }
+    // A line of one empty cell would be a blank line, which is no row.
+    if text.len() == start {
+        text.extend_from_slice(b"\"\"");
+    }
+    text.push(b'\n');
 }
 
 /// Adds a text, in quotes where commas, quotes or line ends in it would be taken for the table's.
@@ -112,18 +203,53 @@ fn push_text(line: &mut Vec<u8>, text: &[u8]) {
 }
 
 /// Adds a number in the shortest form that reads back to the same f64: `20`, `0.05`, `1e-7`, `-0`, `inf`, `NaN`.
+///
+/// It turns to an exponent below 1e-4 and from 1e16 on, where digits would be many.
 #[inline]
-pub fn push_number(line: &mut Vec<u8>, value: f64) {
-    if value == 0.0 && value.is_sign_positive() {
-        line.push(b'0');
+pub fn push_number(text: &mut Vec<u8>, value: f64) {
+    if !value.is_finite() {
+        let word: &[u8] = if value.is_nan() { b"NaN" } else { b"inf" };
+        if value == f64::NEG_INFINITY {
+            text.push(b'-');
+        }
+        text.extend_from_slice(word);
         return;
     }
-    // The debug form turns to an exponent where digits would be many; only its `.0` of whole numbers says nothing.
-    // Writing into a vector cannot fail.
-    let _ = write!(line, "{value:?}");
-    if line.ends_with(b".0") {
-        line.truncate(line.len() - 2);
+    let size = value.abs();
+    if HALFWAY.contains(&size) {
+        // Writing into a vector cannot fail.
+        let _ = write!(text, "{value}");
+        return;
     }
+    let mut buffer = zmij::Buffer::new();
+    let printed = buffer.format_finite(value).as_bytes();
+    if size != 0.0 && size < 1e-4 {
+        push_small(text, printed);
+    } else if size < 1e16 {
+        text.extend_from_slice(printed.strip_suffix(b".0").unwrap_or(printed));
+    } else {
+        // An exponent needs no sign.
+        text.extend(printed.iter().filter(|byte| **byte != b'+'));
+    }
+}
+
+/// Adds a number below 1e-4, which may have been printed without an exponent: `0.000012` is `1.2e-5`.
+fn push_small(text: &mut Vec<u8>, printed: &[u8]) {
+    let (sign, size) = printed.split_at(usize::from(printed[0] == b'-'));
+    let Some(digits) = size.strip_prefix(b"0.").filter(|digits| !digits.contains(&b'e')) else {
+        text.extend_from_slice(printed);
+        return;
+    };
+    let zeros = digits.iter().take_while(|digit| **digit == b'0').count();
+    let digits = &digits[zeros..];
+    text.extend_from_slice(sign);
+    text.push(digits[0]);
+    if digits.len() > 1 {
+        text.push(b'.');
+        text.extend_from_slice(&digits[1..]);
+    }
+    // Writing into a vector cannot fail.
+    let _ = write!(text, "e-{}", zeros + 1);
 }
 
 /// A number in its shortest form, see [`push_number`].
@@ -136,6 +262,7 @@ pub(crate) fn number_text(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn numbers_are_short_and_read_back() {
@@ -151,8 +278,31 @@ mod tests {
         assert_eq!(text(2.5e-7), "2.5e-7");
         assert_eq!(text(1e300), "1e300");
         assert_eq!(text(f64::INFINITY), "inf");
+        assert_eq!(text(-f64::INFINITY), "-inf");
+        assert_eq!(text(f64::NAN), "NaN");
+        assert_eq!(text(-f64::NAN), "NaN");
+        assert_eq!(text(-9.999_999e-5), "-9.999999e-5");
         for value in [f64::MIN_POSITIVE, 5e-324, 1.0 / 3.0, 1e15, 1e16, 123_456_789.0, f64::MAX, -2.0f64.powi(60)] {
             assert_eq!(text(value).parse(), Ok(value));
+        }
+    }
+
+    /// The debug form of the standard library but for the `.0` of whole numbers.
+    fn judge(value: f64) -> String {
+        let text = format!("{value:?}");
+        text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_are_printed_as_the_standard_library_prints_them(bits in any::<u64>(), digits in -99_999..99_999_i32, power in -25..25_i32) {
+            let short = f64::from(digits) * 10.0f64.powi(power);
+            let halfway = (2.0f64.powi(50) + f64::from(digits.unsigned_abs()) + 0.25) * f64::from(digits.signum());
+            for value in [f64::from_bits(bits), halfway, short, short.next_up(), short.next_down()] {
+                let mut text = Vec::new();
+                push_number(&mut text, value);
+                prop_assert_eq!(String::from_utf8_lossy(&text).into_owned(), judge(value));
+            }
         }
     }
 

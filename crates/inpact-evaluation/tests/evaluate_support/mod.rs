@@ -69,7 +69,7 @@ pub(crate) fn evaluate_with(deck: &str, nodes: &str, choices: &Choices, rows_of_
         evaluation.evaluate(&batch, &mut results);
         writer.write(&batch, &results).expect("a vector takes all");
     }
-    assert_eq!(writer.rows_written(), plan.rows, "rows out are rows in");
+    assert_eq!(writer.finish().expect("a vector takes all"), plan.rows, "rows out are rows in");
     let tally = evaluation.finish();
     tally.report(&plan, &mut findings);
     let csv = String::from_utf8_lossy(&output).into_owned();

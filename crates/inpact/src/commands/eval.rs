@@ -1,16 +1,17 @@
 //! `inpact eval`: a deck and a node table in, a result table out.
 
-use super::scene::{FindingFormat, Scene, SceneArguments, say_data_findings};
+use super::scene::{FindingFormat, READ_AHEAD, Scene, SceneArguments, say_data_findings};
 use crate::failure::{Failure, Outcome, say};
 use crate::files::{self, ResultFile};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{InteractionPlan, Plan, Reason};
-use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, push_number};
+use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, TableFormat, push_number};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -24,12 +25,41 @@ pub(crate) struct EvalArguments {
     /// Where to write the result, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// How the result is stored, instead of what the extension of its file says (.csv, .parquet, .arrow, .ipc, .feather).
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    output_format: Option<OutputFormat>,
     /// How to print findings and summary on standard error.
     #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
     format: FindingFormat,
 }
 
+/// How a result table is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OutputFormat {
+    /// Comma-separated values.
+    Csv,
+    /// Parquet.
+    Parquet,
+    /// An Arrow IPC file.
+    Arrow,
+}
+
+impl EvalArguments {
+    fn table_format(&self) -> TableFormat {
+        match self.output_format {
+            Some(OutputFormat::Csv) => TableFormat::Csv,
+            Some(OutputFormat::Parquet) => TableFormat::Parquet,
+            Some(OutputFormat::Arrow) => TableFormat::Arrow,
+            None => self.output.as_deref().and_then(TableFormat::of_extension).unwrap_or_default(),
+        }
+    }
+}
+
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
+    arguments.scene.threads()?.install(|| run_on_threads(arguments))
+}
+
+fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::refuse_overwriting(arguments.output.as_deref(), &arguments.scene.inputs())?;
     let format = arguments.format;
@@ -58,13 +88,19 @@ fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Finding
     let unreadable = |error| Failure::read(nodes_path, error);
     let Scene { model, plan, choices, nodes_name, nodes, .. } = scene;
     let laws = compile(model, plan, choices);
-    let mut reader = NodeReader::open(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
+    let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
+    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
     let mut output = ResultFile::create(arguments.output.as_deref())?;
-    let written = write(&mut reader, Evaluation::new(model, plan, &laws), plan, &mut output, findings);
+    let evaluation = Evaluation::new(model, plan, &laws);
+    let written = write(&mut reader, evaluation, plan, (&mut output, arguments.table_format()), findings);
     let (tally, rows_out) = match written {
         Ok(counts) => counts,
         Err(Stopped::Reading(error)) => return Err(unreadable(error)),
+        // What a column of the format cannot hold is wrong in the data, not in the place it is written to.
+        Err(Stopped::Writing(error)) if error.kind() == ErrorKind::InvalidData => {
+            return Err(Failure::Data(format!("`{nodes_name}` cannot be written in this format: {error}")));
+        }
         Err(Stopped::Writing(error)) => return Err(output.failure(error)),
     };
     if tally.rows != plan.rows || rows_out != plan.rows || findings.has_errors() {
@@ -91,16 +127,17 @@ fn write(
     reader: &mut NodeReader<'_>,
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
-    output: &mut ResultFile,
+    (output, format): (&mut ResultFile, TableFormat),
     findings: &mut Findings,
 ) -> Result<(Tally, u64), Stopped> {
-    let mut writer = ResultWriter::new(output, plan.keys(), &plan.outputs).map_err(Stopped::Writing)?;
+    let writer = ResultWriter::with_format(output, format, plan.keys(), &plan.outputs);
+    let mut writer = writer.map_err(Stopped::Writing)?;
     let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
     while reader.read_batch(&mut batch, findings).map_err(Stopped::Reading)? {
         evaluation.evaluate(&batch, &mut results);
         writer.write(&batch, &results).map_err(Stopped::Writing)?;
     }
-    Ok((evaluation.finish(), writer.rows_written()))
+    Ok((evaluation.finish(), writer.finish().map_err(Stopped::Writing)?))
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.

@@ -38,7 +38,8 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Text => FindingFormat::Concise,
         PlanFormat::Json => FindingFormat::Json,
     };
-    let Some(scene) = arguments.scene.prepare(findings)? else { return Ok(Outcome::HasErrors) };
+    let prepared = arguments.scene.threads()?.install(|| arguments.scene.prepare(findings))?;
+    let Some(scene) = prepared else { return Ok(Outcome::HasErrors) };
     let text = match arguments.format {
         PlanFormat::Text => format!("plan for {} on {}: {}", scene.deck_name, scene.nodes_name, scene.plan),
         PlanFormat::Json => as_json(&scene),

@@ -11,27 +11,30 @@ use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::law::pore::CutoffBoundary;
 use inpact_evaluation::law::user::UserLaw;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
-use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey};
+use inpact_evaluation::plan::{
+    Choices, Derivatives, Plan, Survey, SurveyByNode, concerning, make, survey, survey_by_node,
+};
 use inpact_evaluation::results::Output;
 use inpact_evaluation::table::Tail;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity, check};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::Serialize;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use tempfile::SpooledTempFile;
 
-/// Of a node table from standard input, what is kept in memory; the rest goes to a temporary file.
-const MOST_IN_MEMORY: usize = 64 * 1024 * 1024;
+/// For each thread, how many pieces of a node table are decoded ahead.
+pub(crate) const READ_AHEAD: usize = 2;
 
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
     /// The deck or fragment; `-` reads standard input.
     #[arg(value_name = "DECK")]
     deck: PathBuf,
-    /// The node table, comma-separated values; `-` reads standard input.
+    /// The node table: comma-separated values, Parquet or Arrow, as its first bytes say; `-` reads standard input.
     #[arg(long, value_name = "FILE")]
     nodes: PathBuf,
     /// The interaction that governs every row, instead of column `interaction`.
@@ -49,6 +52,9 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
+    /// Use so many threads, instead of all cores; the results are the same.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     /// How exactly the values of tables are found.
     #[arg(long, value_enum, default_value_t = AccuracyChoice::Full)]
     accuracy: AccuracyChoice,
@@ -134,7 +140,8 @@ pub(crate) struct Scene {
 /// A node table that can be read more than once.
 pub(crate) enum NodesInput {
     File(PathBuf),
-    Spooled(SpooledTempFile),
+    /// What came from a stream, in a temporary file.
+    Spooled(File),
 }
 
 impl SceneArguments {
@@ -158,11 +165,8 @@ impl SceneArguments {
         }
         let choices = self.choices(&model, grammar.dialect())?;
         let nodes_name = self.nodes.display().to_string();
-        let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
-        let surveyed = NodeReader::open(nodes.reader(&self.nodes)?, &mut findings)
-            .and_then(|reader| survey(reader, &model, &choices, &mut findings))
-            .map_err(|error| Failure::read(&self.nodes, error))?;
+        let (surveyed, findings) = self.survey(&mut nodes, &model, &choices)?;
         let has_errors = findings.has_errors();
         say_data_findings(findings.into_list(), format);
         let Some(surveyed) = surveyed.filter(|_| !has_errors) else { return Ok(None) };
@@ -178,6 +182,33 @@ impl SceneArguments {
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &plan, format);
         let deck_name = self.deck.display().to_string();
         Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
+    }
+
+    /// Reads the node table for the first time; a second time only if the rows of its nodes do not stand together.
+    fn survey(
+        &self,
+        nodes: &mut NodesInput,
+        model: &Model,
+        choices: &Choices,
+    ) -> Result<(Option<Survey>, Findings), Failure> {
+        let name = self.nodes.display().to_string();
+        let unreadable = |error| Failure::read(&self.nodes, error);
+        let mut open = |findings: &mut Findings| {
+            let mut reader = NodeReader::open_any(nodes.reader(&self.nodes)?, findings).map_err(unreadable)?;
+            reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
+            Ok(reader)
+        };
+        let mut findings = Findings::new(&name);
+        let reader = open(&mut findings)?;
+        match survey_by_node(reader, model, choices, &mut findings).map_err(unreadable)? {
+            SurveyByNode::Complete(surveyed) => Ok((surveyed, findings)),
+            SurveyByNode::Interleaved => {
+                let mut findings = Findings::new(&name);
+                let reader = open(&mut findings)?;
+                let surveyed = survey(reader, model, choices, &mut findings).map_err(unreadable)?;
+                Ok((surveyed, findings))
+            }
+        }
     }
 
     fn choices(&self, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
@@ -235,6 +266,14 @@ impl SceneArguments {
         if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
 
+    /// The threads that share the work.
+    pub(crate) fn threads(&self) -> Result<ThreadPool, Failure> {
+        // 0 is as many as there are cores.
+        let threads = self.threads.map_or(0, usize::from);
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| Failure::Usage(format!("cannot start {threads} threads: {error}")))
+    }
+
     /// Where the node table is, for a failure to read it.
     pub(crate) fn nodes_path(&self) -> &Path {
         &self.nodes
@@ -243,21 +282,25 @@ impl SceneArguments {
 
 impl NodesInput {
     fn open(path: &Path) -> Result<Self, Failure> {
-        if path.as_os_str() != STANDARD_STREAM {
+        let is_stream = path.as_os_str() == STANDARD_STREAM
+            || path.metadata().is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
+        if !is_stream {
             return Ok(Self::File(path.to_owned()));
         }
-        let mut spooled = SpooledTempFile::new(MOST_IN_MEMORY);
+        let mut spooled = tempfile::tempfile().map_err(|error| Failure::read(path, error))?;
         io::copy(&mut files::open(path)?, &mut spooled).map_err(|error| Failure::read(path, error))?;
         Ok(Self::Spooled(spooled))
     }
 
     /// The table from its beginning; `path` is what it was asked for by.
-    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<dyn Read + '_>, Failure> {
+    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<File>, Failure> {
         match self {
-            Self::File(path) => files::open(path),
+            Self::File(path) => files::open_file(path).map(Box::new),
             Self::Spooled(spooled) => {
-                spooled.seek(SeekFrom::Start(0)).map_err(|error| Failure::read(path, error))?;
-                Ok(Box::new(spooled))
+                let unreadable = |error| Failure::read(path, error);
+                spooled.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+                // Its place is the same for all readers, which is why only one reads at a time.
+                spooled.try_clone().map(Box::new).map_err(unreadable)
             }
         }
     }

@@ -70,12 +70,14 @@ pub(crate) fn run(arguments: &TradeoffArguments) -> Result<Outcome, Failure> {
         TradeoffFormat::Json => FindingFormat::Json,
         TradeoffFormat::Text | TradeoffFormat::Csv => FindingFormat::Concise,
     };
-    let Some(mut scene) = arguments.scene.prepare(format)? else { return Ok(Outcome::HasErrors) };
+    let threads = arguments.scene.threads()?;
+    let Some(mut scene) = threads.install(|| arguments.scene.prepare(format))? else { return Ok(Outcome::HasErrors) };
     if scene.deck_has_errors {
         return Ok(Outcome::HasErrors);
     }
     let mut findings = Findings::new(&scene.nodes_name);
-    let sample = subjects::gather(&mut scene, arguments.scene.nodes_path(), arguments.sample, &mut findings)?;
+    let nodes_path = arguments.scene.nodes_path();
+    let sample = threads.install(|| subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings))?;
     let has_errors = findings.has_errors();
     say_data_findings(findings.into_list(), format);
     if has_errors {

@@ -1,6 +1,6 @@
 //! What is measured: the tables in force and, as columns, the coordinates of the rows that reach them.
 
-use crate::commands::scene::Scene;
+use crate::commands::scene::{READ_AHEAD, Scene};
 use crate::failure::Failure;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Coordinates, TableReads, TabulatedQuantity};
@@ -54,8 +54,9 @@ pub(super) fn gather(
     let mut coordinates = Coordinates::new(model, plan, &laws);
     let one_of = plan.rows.div_ceil(most).max(1);
     let unreadable = |error| Failure::read(nodes_path, error);
-    let mut reader = NodeReader::open(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
+    let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
+    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
     let mut batch = Batch::default();
     while reader.read_batch(&mut batch, findings).map_err(unreadable)? {
         for row in (0..batch.rows).filter(|row| (batch.first_row + *row as u64).is_multiple_of(one_of)) {

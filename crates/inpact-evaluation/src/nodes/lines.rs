@@ -1,0 +1,271 @@
+//! The text of a node table cut into pieces of whole rows, and rows into cells (RFC 4180).
+//!
+//! Cells stand between commas, or between semicolons or tabs where the header does.
+//! A quote that begins a cell opens a quoted one, in which separators and line ends are text and two quotes are one; any other quote is a character.
+
+use super::column::Column;
+use memchr::{memchr, memchr2, memrchr};
+use std::io::{self, Read};
+
+/// About how much text a piece has.
+const PIECE: usize = 512 * 1024;
+
+/// The longest row: a quote that is never closed must not take the whole table for a cell.
+const LONGEST_ROW: usize = 64 * 1024 * 1024;
+
+/// The mark that some programs begin a text with.
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// What may stand between cells; where a header leaves it open, the first of them does.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
+/// A text that is read in pieces which end where rows end.
+pub(super) struct Pieces<'a> {
+    input: Box<dyn Read + Send + 'a>,
+    /// What was read beyond the last piece.
+    rest: Vec<u8>,
+    separator: u8,
+    state: State,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Reading,
+    /// All of it was read.
+    Ended,
+    /// A row was longer than any row may be; what follows is not read.
+    GaveUp,
+}
+
+/// Some rows as text.
+#[derive(Debug, Default)]
+pub(super) struct Piece {
+    pub(super) text: Vec<u8>,
+    /// Whether there is a quote in it.
+    pub(super) has_quotes: bool,
+}
+
+/// The cells of a row, quotes taken off.
+#[derive(Debug, Default)]
+pub(super) struct Cells {
+    text: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl<'a> Pieces<'a> {
+    /// Begins to read a text and finds out what stands between its cells.
+    pub(super) fn open(input: Box<dyn Read + Send + 'a>) -> io::Result<Self> {
+        let mut pieces = Self { input, rest: Vec::new(), separator: SEPARATORS[0], state: State::Reading };
+        let mut start = Vec::new();
+        pieces.fill(&mut start, PIECE)?;
+        if start.starts_with(BYTE_ORDER_MARK) {
+            start.drain(..BYTE_ORDER_MARK.len());
+        }
+        let first = start.split(|byte| *byte == b'\n').find(|line| !line.trim_ascii().is_empty());
+        pieces.separator = first.map_or(SEPARATORS[0], separator_of);
+        pieces.rest = start;
+        Ok(pieces)
+    }
+
+    /// What stands between cells.
+    pub(super) fn separator(&self) -> u8 {
+        self.separator
+    }
+
+    /// Whether it ended too early, in a row that is longer than any row may be.
+    pub(super) fn gave_up(&self) -> bool {
+        self.state == State::GaveUp
+    }
+
+    /// Reads the next rows; false when there are no more.
+    pub(super) fn next(&mut self, piece: &mut Piece) -> io::Result<bool> {
+        piece.text.clear();
+        piece.text.append(&mut self.rest);
+        let mut wanted = PIECE;
+        loop {
+            self.fill(&mut piece.text, wanted)?;
+            piece.has_quotes = memchr(b'"', &piece.text).is_some();
+            let end = match self.state {
+                State::Reading => end_of_rows(piece, self.separator),
+                State::Ended | State::GaveUp => piece.text.len(),
+            };
+            if end > 0 || self.state != State::Reading {
+                self.rest.extend_from_slice(&piece.text[end..]);
+                piece.text.truncate(end);
+                return Ok(end > 0);
+            }
+            if piece.text.len() >= LONGEST_ROW {
+                piece.text.clear();
+                self.state = State::GaveUp;
+                return Ok(false);
+            }
+            wanted = 2 * piece.text.len();
+        }
+    }
+
+    /// Reads until there are `wanted` bytes, or no more.
+    fn fill(&mut self, text: &mut Vec<u8>, wanted: usize) -> io::Result<()> {
+        if self.state == State::Reading && text.len() < wanted {
+            let missing = wanted - text.len();
+            if self.input.by_ref().take(missing as u64).read_to_end(text)? < missing {
+                self.state = State::Ended;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Cells {
+    /// Cuts a row, without its line end, into cells; false where a quote in it is not closed.
+    pub(super) fn cut(&mut self, row: &[u8], separator: u8) -> bool {
+        self.text.clear();
+        self.ends.clear();
+        let mut at = 0;
+        let mut is_closed = true;
+        loop {
+            if row.get(at) == Some(&b'"') {
+                at += 1;
+                loop {
+                    let Some(text) = memchr(b'"', &row[at..]) else {
+                        self.text.extend_from_slice(&row[at..]);
+                        at = row.len();
+                        is_closed = false;
+                        break;
+                    };
+                    self.text.extend_from_slice(&row[at..at + text]);
+                    at += text + 1;
+                    if row.get(at) != Some(&b'"') {
+                        break;
+                    }
+                    self.text.push(b'"');
+                    at += 1;
+                }
+            }
+            // What stands behind a closing quote belongs to the cell.
+            let end = memchr(separator, &row[at..]).map_or(row.len(), |length| at + length);
+            self.text.extend_from_slice(&row[at..end]);
+            self.ends.push(self.text.len());
+            at = end + 1;
+            if at > row.len() {
+                return is_closed;
+            }
+        }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// A cell; `None` where the row has too few.
+    pub(super) fn get(&self, index: usize) -> Option<&[u8]> {
+        let end = *self.ends.get(index)?;
+        let start = index.checked_sub(1).map_or(0, |before| self.ends[before]);
+        Some(&self.text[start..end])
+    }
+}
+
+/// Whether a line is no row: blanks, and no separator among them.
+#[inline]
+pub(super) fn is_blank(line: &[u8], separator: u8) -> bool {
+    line.trim_ascii().is_empty() && !line.contains(&separator)
+}
+
+/// Where the row that begins a text ends: behind its line end; `None` where the text has not all of it.
+pub(super) fn end_of_row(text: &[u8], separator: u8) -> Option<usize> {
+    let mut at = 0;
+    loop {
+        let found = at + memchr2(b'\n', b'"', &text[at..])?;
+        at = found + 1;
+        if text[found] == b'\n' {
+            return Some(at);
+        }
+        if found == 0 || text[found - 1] == separator {
+            loop {
+                at += memchr(b'"', &text[at..])? + 1;
+                if *text.get(at)? != b'"' {
+                    break;
+                }
+                at += 1;
+            }
+        }
+    }
+}
+
+/// Where the last whole row of a piece ends.
+fn end_of_rows(piece: &Piece, separator: u8) -> usize {
+    if !piece.has_quotes {
+        return memrchr(b'\n', &piece.text).map_or(0, |end| end + 1);
+    }
+    let mut end = 0;
+    while let Some(length) = end_of_row(&piece.text[end..], separator) {
+        end += length;
+    }
+    end
+}
+
+/// What stands between the cells of a header: what gives the most columns of the contract, then the most cells.
+fn separator_of(header: &[u8]) -> u8 {
+    let mut cells = Cells::default();
+    let mut score = |separator: u8| {
+        cells.cut(header.strip_suffix(b"\r").unwrap_or(header), separator);
+        let texts = (0..cells.len()).filter_map(|index| cells.get(index));
+        let known = texts.filter(|text| Column::named(&String::from_utf8_lossy(text)).is_some()).count();
+        (known, cells.len())
+    };
+    let first = score(SEPARATORS[0]);
+    let better = |(best, of_best), separator| {
+        let of = score(separator);
+        if of_best < of { (separator, of) } else { (best, of_best) }
+    };
+    SEPARATORS[1..].iter().copied().fold((SEPARATORS[0], first), better).0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cut(row: &str) -> (Vec<String>, bool) {
+        let mut cells = Cells::default();
+        let is_closed = cells.cut(row.as_bytes(), b',');
+        let texts = (0..cells.len()).map(|index| cells.get(index).expect("there are so many"));
+        (texts.map(|text| String::from_utf8_lossy(text).into_owned()).collect(), is_closed)
+    }
+
+    #[test]
+    fn rows_are_cut_into_cells() {
+        for (row, cells) in [
+            ("", vec![""]),
+            ("a,b", vec!["a", "b"]),
+            (",", vec!["", ""]),
+            ("\"a,b\",\"c\"\"d\"", vec!["a,b", "c\"d"]),
+            ("\"\",\"\"\"\"", vec!["", "\""]),
+            ("\"a\"b,c\"d\"", vec!["ab", "c\"d\""]),
+            ("\"a\nb\",1", vec!["a\nb", "1"]),
+        ] {
+            let expected: Vec<String> = cells.into_iter().map(str::to_owned).collect();
+            assert_eq!(cut(row), (expected, true), "{row:?}");
+        }
+        assert_eq!(cut("1,\"a,b"), (vec!["1".to_owned(), "a,b".to_owned()], false));
+    }
+
+    #[test]
+    fn rows_end_outside_of_quotes() {
+        assert_eq!(end_of_row(b"a,\"b\nc\"\nd\n", b','), Some(8));
+        assert_eq!(end_of_row(b"a\"b\nc\n", b','), Some(4));
+        assert_eq!(end_of_row(b"\"a\"\"\n\"\n", b','), Some(7));
+        assert_eq!(end_of_row(b"\"a\n", b','), None);
+        assert_eq!(end_of_row(b"\"a\"", b','), None);
+        assert_eq!(end_of_row(b"a,b", b','), None);
+    }
+
+    #[test]
+    fn the_header_tells_the_separator() {
+        assert_eq!(separator_of(b"node,clearance"), b',');
+        assert_eq!(separator_of(b"node;clearance\r"), b';');
+        assert_eq!(separator_of(b"node\tclearance"), b'\t');
+        assert_eq!(separator_of(b"clearance"), b',');
+        assert_eq!(separator_of(b"clearance,\"a;b;c;d\""), b',');
+        assert_eq!(separator_of(b"node;clearance;x,y,z,w"), b';');
+    }
+}
