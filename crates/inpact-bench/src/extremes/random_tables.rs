@@ -15,6 +15,7 @@ Queries lie at, beside, between and beyond the abscissae.
 The line of every instruction set evaluates each query with all sets of the machine, in whole vectors and in parts of one; a difference of one bit between them would count as an infinite error.
 *Made for* says how many of the tables a form can be made for: the others are refused, since a slope, a width or a value would leave the range of its arithmetic, or since no regular grid meets their abscissae.
 *Outside the bound* counts the values that are farther from the exact one than the form's bound says.
+An infinite error within the bound is one of more than 1.8e308 ulp: of a value near zero between very large ones, in a form whose error is a part of the largest.
 ";
 
 /// Queries of a table of so many axes.
