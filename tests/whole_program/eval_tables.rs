@@ -75,9 +75,10 @@ fn the_order_of_rows_changes_no_history() {
     let header = "node,time,clearance,epot_s,epot_m\n";
     let pairs = |interleaved: bool| {
         let (nodes, times): (Vec<u32>, [u32; 2]) = ((1..=NODES).collect(), [1, 2]);
-        match interleaved {
-            true => times.iter().flat_map(|time| nodes.iter().map(|node| row(*node, *time))).collect::<String>(),
-            false => nodes.iter().flat_map(|node| times.iter().map(|time| row(*node, *time))).collect::<String>(),
+        if interleaved {
+            times.iter().flat_map(|time| nodes.iter().map(|node| row(*node, *time))).collect::<String>()
+        } else {
+            nodes.iter().flat_map(|node| times.iter().map(|time| row(*node, *time))).collect::<String>()
         }
     };
     let folder = Folder::with(&[

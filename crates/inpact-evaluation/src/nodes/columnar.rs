@@ -84,7 +84,7 @@ impl ColumnarReader {
             Storage::Parquet => {
                 let shared = Shared::new(input)?;
                 let options = ArrowReaderOptions::new();
-                let metadata = ArrowReaderMetadata::load(&shared, options).map_err(invalid_parquet)?;
+                let metadata = ArrowReaderMetadata::load(&shared, options).map_err(|error| invalid_parquet(&error))?;
                 (Arc::clone(metadata.schema()), Rows::Parquet(shared, metadata))
             }
             Storage::ArrowFile => {
@@ -214,7 +214,11 @@ impl ColumnarReader {
                 let mask = ProjectionMask::roots(metadata.parquet_schema(), read.iter().copied());
                 let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(shared, metadata);
                 let rows = self.rows_of_a_batch.min(MOST_ROWS_AT_ONCE);
-                let reader = builder.with_projection(mask).with_batch_size(rows).build().map_err(invalid_parquet)?;
+                let reader = builder
+                    .with_projection(mask)
+                    .with_batch_size(rows)
+                    .build()
+                    .map_err(|error| invalid_parquet(&error))?;
                 Box::new(reader)
             }
             Rows::Arrow(storage, mut input) => {
@@ -350,7 +354,7 @@ fn invalid(error: ArrowError) -> io::Error {
     }
 }
 
-fn invalid_parquet(error: ParquetError) -> io::Error {
+fn invalid_parquet(error: &ParquetError) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, format!("it is no sound Parquet table ({error})"))
 }
 

@@ -186,7 +186,7 @@ impl Layout {
             }
         }
         let end = end.unwrap_or_else(|| end_of(start));
-        field + 1 + row[end..].iter().filter(|byte| **byte == separator).count()
+        field + 1 + memchr::memchr_iter(separator, &row[end..]).count()
     }
 
     /// Adds a row with quotes; gives how many cells it has.
