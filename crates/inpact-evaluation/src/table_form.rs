@@ -13,6 +13,8 @@ pub struct TableForm {
     table: PiecewiseTable,
     means: Means,
     kernel: TableKernel,
+    /// The table with marks, if its axes have one range each: in a fast form it says which rows lie outside without another search.
+    marked: Option<PiecewiseTable>,
 }
 
 /// How the values are found.
@@ -71,7 +73,8 @@ impl TableForm {
             _ => Means::Full,
         };
         let kernel = TableKernel::new(&table);
-        Self { table, means, kernel }
+        let marked = table.with_marks();
+        Self { table, means, kernel, marked }
     }
 
     /// The table itself.
@@ -84,12 +87,18 @@ impl TableForm {
         found.values.resize(rows, f64::NAN);
         found.sides.resize(rows, Sides::default());
         found.rests.clear();
-        self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides);
         match &self.means {
-            Means::Full => {}
-            // Where a row lies outside the table, the kernel has found; the values are those of the form.
-            Means::Fast(approximation) => approximation.values(columns, &mut found.values),
+            Means::Full => self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides),
+            Means::Fast(approximation) => {
+                match &self.marked {
+                    Some(marked) => marked.mark_sides(columns, &mut found.sides),
+                    // Which rows lie outside only the table itself can tell; the values are those of the form.
+                    None => self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides),
+                }
+                approximation.values(columns, &mut found.values);
+            }
             Means::Reference => {
+                self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides);
                 for row in 0..rows {
                     let (value, rest) = self.reference_in(columns, row);
                     found.values[row] = value;

@@ -69,18 +69,54 @@ impl PiecewiseTable {
         self.marks.is_some()
     }
 
-    /// On which sides the points of some columns lie, for a folded table.
+    /// On which sides the points of some columns lie, for a table with marks.
     pub(crate) fn mark_sides(&self, columns: &[&[f64]], sides: &mut [Sides]) {
         let Some(marks) = &self.marks else { return };
-        let mut others = vec![f64::NAN; columns.len().saturating_sub(1)];
-        for (row, sides) in sides.iter_mut().enumerate() {
-            let coordinate = |axis: usize| columns.get(axis).and_then(|column| column.get(row)).copied();
-            for (axis, other) in others.iter_mut().enumerate() {
-                *other = coordinate(axis + 1).unwrap_or(f64::NAN);
+        sides.fill(marks.always);
+        for (axis, (least, greatest)) in &marks.ranges {
+            for (x, sides) in columns[*axis].iter().zip(sides.iter_mut()) {
+                if x < least {
+                    sides.mark_below(*axis);
+                }
+                if greatest < x {
+                    sides.mark_above(*axis);
+                }
             }
-            let point = Point { first: coordinate(0).unwrap_or(f64::NAN), others: &others };
-            *sides = marks.sides(point, self.is_undefined_at(point));
         }
+        // Where the value is undefined, so is the place.
+        for level in &self.levels {
+            for (x, sides) in columns[level.axis].iter().zip(sides.iter_mut()) {
+                if x.is_nan() {
+                    *sides = Sides::default();
+                }
+            }
+        }
+    }
+
+    /// The same table with marks, where the groups of each axis have one range; then no search is needed to tell which points lie outside.
+    pub(crate) fn with_marks(&self) -> Option<Self> {
+        if self.marks_sides() {
+            return Some(self.clone());
+        }
+        let mut groups = 0..1;
+        let mut ranges = Vec::new();
+        for level in self.levels.iter().rev() {
+            let mut bounds = groups.clone().map(|group| {
+                // The groups of the outermost level are one, those of another the children of the knots outside it.
+                let outside = self.levels.iter().rev().take_while(|other| other.axis != level.axis).last();
+                let knots = outside.map_or(0..level.knots.len(), |outside| outside.children_of(group));
+                (level.knots[knots.start], level.knots[knots.end - 1], knots.len())
+            });
+            let (least, greatest, first_count) = bounds.next()?;
+            let is_one_range =
+                first_count > 1 && bounds.all(|(first, last, count)| count > 1 && first == least && last == greatest);
+            if !is_one_range {
+                return None;
+            }
+            ranges.push((level.axis, (least, greatest)));
+            groups = 0..level.knots.len();
+        }
+        Some(Self { marks: Some(Marks { always: Sides::default(), ranges }), ..self.clone() })
     }
 
     /// Along which axes `point` lies outside the range of a group that takes part in the value there.
