@@ -59,6 +59,19 @@ impl ErrorBound {
     /// No error at all.
     pub const EXACT: Self = Self { absolute: 0.0, relative_to_largest: 0.0, pointwise: 0.0 };
 
+    /// The bound of a table whose values were rounded before.
+    pub(crate) fn and_half_an_ulp(self, table: &PiecewiseTable) -> Self {
+        let largest = largest_magnitude(table.values());
+        if largest == 0.0 {
+            return self;
+        }
+        Self::of_magnitudes(
+            self.absolute + 0.5 * crate::numbers::ulp(largest),
+            self.pointwise + 0.5 * f64::EPSILON,
+            largest,
+        )
+    }
+
     /// The bound of a table whose values have the magnitude `largest` at most.
     pub(crate) fn of_magnitudes(absolute: f64, pointwise: f64, largest: f64) -> Self {
         let relative_to_largest = if absolute == 0.0 { 0.0 } else { absolute / largest };
@@ -88,6 +101,10 @@ fn bound_in_ulps(table: &PiecewiseTable, ulps: f64) -> ErrorBound {
     let has_one_sign =
         table.values().iter().all(|&value| value >= 0.0) || table.values().iter().all(|&value| value <= 0.0);
     let largest = largest_magnitude(table.values());
+    if largest == 0.0 {
+        // Nothing is rounded where all values are zero.
+        return ErrorBound::EXACT;
+    }
     ErrorBound::of_magnitudes(
         ulps * crate::numbers::ulp(largest),
         if has_one_sign { relative } else { f64::INFINITY },

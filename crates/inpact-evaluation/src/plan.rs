@@ -243,8 +243,12 @@ pub struct FormPlan {
     pub method: Method,
     /// The bound of their error, where there is one.
     pub bound: Option<ErrorBound>,
+    /// A tolerance that the bound is above, as no form keeps it.
+    pub missed: Option<f64>,
     /// What a value costs, in nanoseconds, by the committed measurements.
     pub cost: f64,
+    /// What it costs by the table's own kernel.
+    pub full_cost: f64,
     /// The other ways that were considered, and why they were not chosen.
     pub refused: Vec<(String, String)>,
 }

@@ -14,4 +14,4 @@ pub use batch::{ResultBatch, Status};
 pub use format::TableFormat;
 pub use output::{Along, Output};
 pub(crate) use writer::number_text;
-pub use writer::{ResultWriter, push_number};
+pub use writer::{ResultWriter, push_number, rounded_up};

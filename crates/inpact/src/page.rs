@@ -1,5 +1,6 @@
 //! The pages of rules and keywords as Markdown: what `explain` prints, and what the documentation is made of.
 
+use inpact_evaluation::nodes::DataRule;
 use inpact_parser::grammar::{Column, Data, Definition, Level, ParameterDefinition, ParameterKind, Product, RowShape};
 use inpact_validation::Rule;
 use inpact_validation::rule::FixKind;
@@ -20,6 +21,14 @@ pub(crate) fn of_rule(rule: &Rule) -> String {
     }
     // What the harness of the tests is told is nothing to a reader.
     page.replace("```inp,expect", "```inp").replace("```inp,fixed", "```inp")
+}
+
+/// The page of a rule about node tables.
+pub(crate) fn of_data_rule(rule: &DataRule) -> String {
+    let DataRule { code, name, severity, summary } = rule;
+    format!(
+        "# {code} {name}\n\nSeverity: {severity}. Found in node tables, by `eval`, `plan` and `tradeoff`.\n\n{summary}.\n"
+    )
 }
 
 /// The page of a keyword.

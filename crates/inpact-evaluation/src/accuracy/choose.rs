@@ -60,6 +60,14 @@ impl Wanted {
         self == Self::Mode(Accuracy::Reference)
     }
 
+    /// The tolerance, if a bound is above it.
+    pub(crate) fn missed_by(self, bound: &ErrorBound) -> Option<f64> {
+        match self {
+            Self::Within(tolerance) if tolerance.refusal(bound).is_some() => Some(tolerance.value()),
+            _ => None,
+        }
+    }
+
     /// Whether the error of one more rounding to f64 is acceptable, as a table has that is folded before it is evaluated.
     pub(crate) fn allows_folding(self) -> bool {
         match self {

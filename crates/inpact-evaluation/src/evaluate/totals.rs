@@ -11,7 +11,7 @@ use crate::results::{Output, ResultBatch};
 pub struct Totals {
     /// The time of the rows; `None` where they have none.
     pub time: Option<f64>,
-    /// How many rows were added up.
+    /// How many rows were added up: those that have one of the outputs.
     pub rows: u64,
     sums: Vec<CompensatedSum>,
 }
@@ -36,13 +36,15 @@ impl Totals {
         } else if time != self.time {
             return;
         }
-        self.rows += 1;
         self.sums.resize_with(summed.len(), CompensatedSum::default);
+        let mut has_number = false;
         for (sum, (_, place)) in self.sums.iter_mut().zip(summed) {
             if let Some(value) = results.numbers[*place].get(row) {
                 sum.add(value);
+                has_number = true;
             }
         }
+        self.rows += u64::from(has_number);
     }
 
     /// The sums, in the order of the outputs that are added up.

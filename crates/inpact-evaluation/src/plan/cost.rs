@@ -25,7 +25,15 @@ fn of_table(axes: usize, rows: usize) -> f64 {
 impl TablePlan {
     /// The cost of a value of the whole table.
     pub(super) fn whole_cost(&self) -> f64 {
-        of_table(self.axes.iter().filter(|axis| axis.matters).count(), self.rows)
+        match &self.form {
+            Some(form) if self.axes.iter().all(|axis| axis.fold.is_none()) => form.full_cost,
+            _ => of_table(self.axes.iter().filter(|axis| axis.matters).count(), self.rows),
+        }
+    }
+
+    /// The cost of a value of what is left of it, by its own kernel.
+    pub(super) fn folded_full_cost(&self) -> f64 {
+        self.form.as_ref().map_or_else(|| self.folded_cost(), |form| form.full_cost)
     }
 
     /// The cost of a value of what is left of it.

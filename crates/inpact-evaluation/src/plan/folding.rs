@@ -3,7 +3,7 @@
 use super::make::Planner;
 use super::source::Source;
 use super::{AxisPlan, FormPlan, TablePlan};
-use crate::accuracy::{Method, Wanted, choose};
+use crate::accuracy::{Columns, Method, Shape, Wanted, choose, cost};
 use crate::law::contact::ContactState;
 use crate::nodes::{Column, Part};
 use crate::numbers::mean;
@@ -18,7 +18,12 @@ pub(super) fn fold_and_choose(
     constant: impl Fn(Along) -> Option<f64>,
 ) {
     let folded = fold(table, plan, constant);
-    plan.form = Some(form_plan(&folded, planner.choices.accuracy));
+    let mut form = form_plan(&folded, planner.choices.accuracy);
+    if plan.axes.iter().any(|axis| axis.fold.is_some()) {
+        // The values of a folded table are rounded once.
+        form.bound = form.bound.map(|bound| bound.and_half_an_ulp(&folded));
+    }
+    plan.form = Some(form);
 }
 
 /// The form that a table will have.
@@ -29,10 +34,13 @@ fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
         Some((candidate.method.to_string(), refusal.to_string()))
     });
     let refused = refused.collect();
-    match choice.chosen() {
-        Some(chosen) => FormPlan { method: chosen.method.clone(), bound: chosen.bound, cost: chosen.cost, refused },
-        None => FormPlan { method: Method::Full, bound: None, cost: 0.0, refused },
-    }
+    let full_cost = cost(&Method::Full, Shape::of(table), Columns::Double);
+    let (method, bound, cost) = match choice.chosen() {
+        Some(chosen) => (chosen.method.clone(), chosen.bound, chosen.cost),
+        None => (Method::Full, None, full_cost),
+    };
+    let missed = bound.and_then(|bound| wanted.missed_by(&bound));
+    FormPlan { method, bound, missed, cost, full_cost, refused }
 }
 
 fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -> Option<f64>) -> PiecewiseTable {

@@ -134,7 +134,16 @@ impl InteractionPlan {
                     interaction: interaction.clone(),
                     what: format!("axes of the table of {what} against {}", table.against),
                     reason: format!("{} in every row", folds.join(", ")),
-                    saved: share * (table.whole_cost() - table.folded_cost()),
+                    saved: share * (table.whole_cost() - table.folded_full_cost()),
+                });
+            }
+            let by_form = table.folded_full_cost() - table.folded_cost();
+            if let Some(form) = table.form.as_ref().filter(|_| by_form != 0.0) {
+                outline.cuts.push(Cut {
+                    interaction: interaction.clone(),
+                    what: format!("form of the table of {what} against {}", table.against),
+                    reason: format!("{} instead of full, as the accuracy asked for has it", form.method),
+                    saved: share * by_form,
                 });
             }
         }

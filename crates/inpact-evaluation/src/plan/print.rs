@@ -4,7 +4,7 @@ use super::{
     AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, FormPlan, GovernedBy,
     InteractionPlan, Plan, PorePlan, Rate, SlipRateSource, TablePlan, ThermalPlan,
 };
-use crate::results::number_text as number;
+use crate::results::{number_text as number, rounded_up};
 use crate::table::Tail;
 use inpact_parser::grammar::Dialect;
 use std::fmt::{self, Formatter};
@@ -192,10 +192,13 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
 fn write_form(form: &FormPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
     write!(formatter, "      accuracy: {}", form.method)?;
     if let Some(bound) = form.bound {
-        write!(formatter, ", error at most {:.1e} of the largest value", bound.relative_to_largest)?;
+        write!(formatter, ", error at most {} of the largest value", rounded_up(bound.relative_to_largest))?;
         if bound.pointwise.is_finite() {
-            write!(formatter, " and {:.1e} of the value itself", bound.pointwise)?;
+            write!(formatter, " and {} of the value itself", rounded_up(bound.pointwise))?;
         }
+    }
+    if let Some(missed) = form.missed {
+        write!(formatter, ": above the tolerance of {missed:e}, which no form keeps")?;
     }
     writeln!(formatter)?;
     form.refused.iter().try_for_each(|(method, why)| writeln!(formatter, "        not {method}: {why}"))

@@ -252,6 +252,12 @@ fn push_small(text: &mut Vec<u8>, printed: &[u8]) {
     let _ = write!(text, "e-{}", zeros + 1);
 }
 
+/// A bound in two digits, never below it: `6.7e-16`.
+pub fn rounded_up(bound: f64) -> String {
+    let text = format!("{bound:.1e}");
+    if text.parse().is_ok_and(|shown: f64| shown < bound) { format!("{:.1e}", bound * 1.05) } else { text }
+}
+
 /// A number in its shortest form, see [`push_number`].
 pub(crate) fn number_text(value: f64) -> String {
     let mut text = Vec::new();

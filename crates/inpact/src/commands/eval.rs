@@ -8,7 +8,7 @@ use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{InteractionPlan, Plan, Reason};
-use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, TableFormat, push_number};
+use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, TableFormat, push_number, rounded_up};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -176,6 +176,9 @@ impl Summary<'_> {
             let of = &self.tally.interactions[interaction.index];
             lines.push(format!("  {}: {}", interaction.name, counts(of)));
             lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
+            if interaction.electrical.as_ref().is_some_and(|law| law.user.is_some()) {
+                lines.extend(interaction.notes.iter().map(|note| format!("    note: {note}")));
+            }
             lines.extend(totals(&self.tally.summed, interaction, of).map(|line| format!("    {line}")));
             lines.extend(accuracy(interaction, of).into_iter().map(|line| format!("    {line}")));
             let laws_and_outputs =
@@ -325,7 +328,8 @@ fn totals(summed: &[Output], plan: &InteractionPlan, of: &InteractionTally) -> O
         })
         .collect();
     let time = of.totals.time.map_or_else(String::new, |time| format!(" at time {time:?}"));
-    (!values.is_empty()).then(|| format!("total of {}{time}: {}", rows(of.totals.rows), values.join(", ")))
+    (!values.is_empty() && of.totals.rows > 0)
+        .then(|| format!("total of {}{time}: {}", rows(of.totals.rows), values.join(", ")))
 }
 
 /// How exactly the tables of an interaction were evaluated: mode, bound, and the largest error seen.
@@ -334,15 +338,18 @@ fn accuracy(plan: &InteractionPlan, of: &InteractionTally) -> Vec<String> {
     let mut lines: Vec<String> = forms
         .map(|(what, table, form)| {
             let bound = form.bound.map_or_else(String::new, |bound| {
-                format!(", error at most {:.1e} of the largest value", bound.relative_to_largest)
+                format!(", error at most {} of the largest value", rounded_up(bound.relative_to_largest))
             });
-            format!("{what} against {}: {}{bound}", table.against, form.method)
+            let missed = form
+                .missed
+                .map_or_else(String::new, |missed| format!(": above the tolerance of {missed:e}, which no form keeps"));
+            format!("{what} against {}: {}{bound}{missed}", table.against, form.method)
         })
         .collect();
     let seen = of.seen_error;
     if seen.rows > 0 {
         lines.push(format!(
-            "largest error seen in {} against the reference: {:.1e} of the largest value, {:.1e} of the value itself",
+            "largest error of the electrical conductance seen in {} against the reference: {:.1e} of the largest value, {:.1e} of the value itself",
             rows(seen.rows),
             seen.relative_to_largest,
             seen.pointwise

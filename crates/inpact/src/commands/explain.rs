@@ -4,6 +4,7 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::page;
 use clap::{Args, ValueEnum};
+use inpact_evaluation::nodes::DATA_RULES;
 use inpact_parser::grammar::{Grammar, nearest_names};
 use inpact_validation::rules::RULES;
 use std::path::PathBuf;
@@ -45,6 +46,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Outcome, Failure> {
 fn all_pages() -> String {
     let grammar = Grammar::builtin();
     let rules = RULES.iter().map(|rule| page::of_rule(rule));
+    let rules = rules.chain(DATA_RULES.iter().map(|rule| page::of_data_rule(rule)));
     let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
     rules.chain(keywords).collect::<Vec<_>>().join("\n")
 }
@@ -53,6 +55,9 @@ fn page_of(what: &str) -> Result<String, Failure> {
     let is_meant = |code: &str, name: &str| code.eq_ignore_ascii_case(what) || name.eq_ignore_ascii_case(what);
     if let Some(rule) = RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
         return Ok(page::of_rule(rule));
+    }
+    if let Some(rule) = DATA_RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
+        return Ok(page::of_data_rule(rule));
     }
     let grammar = Grammar::builtin();
     let words = what.trim_start_matches('*');
@@ -66,6 +71,7 @@ fn page_of(what: &str) -> Result<String, Failure> {
         }
         None => {
             let rules = RULES.iter().flat_map(|rule| [rule.code, rule.name]);
+            let rules = rules.chain(DATA_RULES.iter().flat_map(|rule| [rule.code, rule.name]));
             let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));
             let keywords = grammar.nearest_keywords(words, 3).into_iter().map(|keyword| format!("*{keyword}"));
             let near: Vec<String> = rules.chain(keywords).collect();

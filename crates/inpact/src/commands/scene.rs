@@ -67,8 +67,8 @@ pub(crate) struct SceneArguments {
     /// The outputs that are wanted, by the names of their columns; all that deck and node table give where there is none.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = output_named)]
     outputs: Option<Vec<Output>>,
-    /// Give the slopes of conductances and permeability as well.
-    #[arg(long)]
+    /// Give the slopes of conductances and permeability as well; with `--outputs` name those that are wanted there.
+    #[arg(long, conflicts_with = "outputs")]
     derivatives: bool,
     /// A shared library with the user subroutine GAPELECTR, compiled with
     /// `gfortran -shared -fPIC -o gapelectr.so gapelectr.f`, for *GAP ELECTRICAL CONDUCTANCE, USER.
@@ -261,7 +261,12 @@ impl SceneArguments {
 
     /// Slopes are planned where they are asked for in general or by name.
     fn derivatives(&self) -> Derivatives {
-        let is_slope = |output: &Output| matches!(output, Output::ConductanceSlope(_) | Output::PermeabilitySlope(_));
+        let is_slope = |output: &Output| {
+            matches!(
+                output,
+                Output::ConductanceSlope(_) | Output::ThermalConductanceSlope(_) | Output::PermeabilitySlope(_)
+            )
+        };
         let by_name = self.outputs.as_ref().is_some_and(|outputs| outputs.iter().any(is_slope));
         if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
