@@ -1,6 +1,6 @@
 //! One deck that means two things: `--dialect` and `--release`.
 
-use crate::program::Folder;
+use crate::program::{Folder, inpact};
 
 const CONDUCTANCE: &str = "*SURFACE INTERACTION, NAME=A\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n*GAP CONDUCTANCE\n100., 0., 273.\n120., 1., 273.\n";
 
@@ -115,4 +115,60 @@ fn every_command_reads_by_the_dialect_it_is_given() {
     }
     let abaqus = folder.inpact(&["json", "d.inp"]).output;
     assert_ne!(abaqus, folder.inpact(&["json", "--dialect", "calculix", "d.inp"]).output);
+}
+
+/// The sample deck by both: what a user sees when one deck means two things.
+#[test]
+fn one_deck_evaluated_as_abaqus_and_as_calculix_have_it() {
+    let eval = |dialect| {
+        let (deck, nodes) = ("decks/dialects/two-meanings.inp", "decks/dialects/two-meanings-nodes.csv");
+        let run = inpact(&["eval", deck, "--nodes", nodes, "--dialect", dialect]);
+        assert_eq!(run.code, 0, "{}", run.errors);
+        run.output
+    };
+    let both = format!("--- abaqus\n{}--- calculix\n{}", eval("abaqus"), eval("calculix"));
+    insta::assert_snapshot!(both);
+}
+
+/// Tables that ccx takes without a word and reads wrongly are refused with codes of our own, and not evaluated.
+#[test]
+fn what_calculix_reads_wrongly_is_refused() {
+    let row = |rows: &str| {
+        format!("*SURFACE INTERACTION,NAME=SI\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n*GAP CONDUCTANCE\n{rows}")
+    };
+    let cases = [
+        ("100.,0.,293.\n400.,1000.,293.\n200.,500.,293.\n1000.,5000.,293.\n", "error[T001]"),
+        ("1000.,5000.,293.\n400.,1000.,293.\n200.,500.,293.\n100.,0.,293.\n", "error[T001]"),
+        ("100.,0.,293.\n200.,500.,293.\n300.,500.,293.\n1000.,5000.,293.\n", "error[T002]"),
+        ("-100.,0.,293.\n200.,500.,293.\n", "error[P001]"),
+        ("100.,0.,393.\n200.,500.,393.\n100.,0.,293.\n", "error[T003]"),
+    ];
+    for (rows, code) in cases {
+        let folder =
+            Folder::with(&[("d.inp", &row(rows)), ("n.csv", "clearance,pressure,temp_s,temp_m\n0,750,393,293\n")]);
+        let (found, exit) = check(&folder, &["--dialect", "calculix"]);
+        assert!(found.contains(&code.to_owned()) && exit == 1, "{rows}: {found:?}");
+        let run = folder.inpact(&["eval", "d.inp", "--nodes", "n.csv", "--dialect", "calculix"]);
+        assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
+    }
+}
+
+/// The dialect may stand in the configuration; with the third item of *GAP HEAT GENERATION as the speed.
+#[test]
+fn the_dialect_of_the_configuration_counts_for_eval() {
+    let deck = "*SURFACE INTERACTION,NAME=SI\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n*GAP CONDUCTANCE\n100.,0.,0.\n\
+                *FRICTION\n0.5,1.E7\n*GAP HEAT GENERATION\n0.8,0.25,3.\n";
+    let nodes = "closed,pressure,temp_s,temp_m,shear\n1,1000,303.8,306.2,500\n";
+    let folder = Folder::with(&[("d.inp", deck), ("n.csv", nodes), ("inpact.toml", "dialect = \"calculix\"\n")]);
+    let run = folder.inpact(&["eval", "d.inp", "--nodes", "n.csv"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let mut lines = run.output.lines();
+    assert_eq!(
+        lines.next(),
+        Some("HFL,SFDR,WEIGHT,thermal_conductance,heat_conduction,total_heat_s,total_heat_m,status")
+    );
+    // The faces that the network of the reference run settles at: 540 into the one side, 660 into the other.
+    let numbers: Vec<f64> = lines.next().expect("a row").split(',').filter_map(|cell| cell.parse().ok()).collect();
+    let expected = [-540.0, 1200.0, 0.25, 100.0, -240.0, 540.0, 660.0];
+    assert!(numbers.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9), "{numbers:?}");
 }

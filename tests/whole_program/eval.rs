@@ -67,6 +67,11 @@ fn busbar_joint() {
 }
 
 #[test]
+fn brake_disc() {
+    insta::assert_snapshot!(sample("brake-disc"));
+}
+
+#[test]
 fn retaining_wall() {
     insta::assert_snapshot!(sample("retaining-wall"));
 }

@@ -22,6 +22,12 @@ fn busbar_joint() {
 }
 
 #[test]
+fn brake_disc() {
+    insta::assert_snapshot!("brake_disc_text", plan("brake-disc", "text"));
+    insta::assert_snapshot!("brake_disc_json", plan("brake-disc", "json"));
+}
+
+#[test]
 fn retaining_wall() {
     insta::assert_snapshot!("retaining_wall_text", plan("retaining-wall", "text"));
     insta::assert_snapshot!("retaining_wall_json", plan("retaining-wall", "json"));
@@ -29,7 +35,7 @@ fn retaining_wall() {
 
 #[test]
 fn the_plan_names_the_columns_that_eval_writes() {
-    for name in ["spot-weld", "busbar-joint", "retaining-wall"] {
+    for name in ["spot-weld", "busbar-joint", "brake-disc", "retaining-wall"] {
         let plan: serde_json::Value = serde_json::from_str(&plan(name, "json")).expect("JSON");
         let outputs: Vec<&str> =
             plan["outputs"].as_array().expect("outputs").iter().filter_map(serde_json::Value::as_str).collect();

@@ -1,11 +1,15 @@
 //! Deck generator and benchmarks of inpact.
 //!
 //! The generator writes decks and node tables of any size for measurements and tests.
-//! It knows the layout of decks and node tables, and none of the other crates: what they read is
+//! It knows the layout of decks and node tables, and uses none of the other crates: what they read is
 //! generated from the spec alone, so a mistake of theirs cannot hide in it.
-//! It holds no more in memory than the interfaces of a node table, whatever the size of the output.
+//! The benchmarks measure the other crates.
+//! The generator holds no more in memory than the interfaces of a node table, whatever the size of the output.
+//! [`extremes`] runs the other crates and writes the page of what they make of extreme numbers.
 
+pub mod costs;
 pub mod deck;
+pub mod extremes;
 pub mod interface;
 pub mod nodes;
 pub mod plate;

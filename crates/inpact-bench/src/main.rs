@@ -1,4 +1,4 @@
-//! The generator's command line: arguments, files, exit codes.
+//! The command line of generator and measurements: arguments, files, exit codes.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -7,7 +7,9 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use inpact_bench::costs;
 use inpact_bench::deck::{self, Content, DeckRequest};
+use inpact_bench::extremes;
 use inpact_bench::nodes::{self, NodesRequest};
 
 /// Generates decks and node tables for measurements.
@@ -36,6 +38,15 @@ enum Command {
         #[command(flatten)]
         shared: Shared,
     },
+    /// Measure what a row costs in each form of a table, and print the table of costs that choices are made by.
+    Costs {
+        /// Rows of each measurement.
+        #[arg(long, default_value_t = 1_000_000, value_parser = at_least::<1>)]
+        rows: usize,
+        /// Rounds of each measurement, the fastest of which counts.
+        #[arg(long, default_value_t = 11, value_parser = at_least::<1>)]
+        rounds: usize,
+    },
     /// Write a node table for the deck generated with the same --interactions and --seed.
     GenerateNodes {
         /// The node table to write (CSV), or `-` for standard output.
@@ -52,9 +63,11 @@ enum Command {
         #[command(flatten)]
         shared: Shared,
     },
+    /// Print the page of extremes: what the evaluation makes of numbers at the ends of f64 (docs/extremes.md).
+    Extremes,
 }
 
-/// Options that both commands must be given alike for a deck and its node table.
+/// Options that both generators must be given alike for a deck and its node table.
 #[derive(Debug, Clone, Copy, Args)]
 struct Shared {
     /// Number of interactions.
@@ -103,6 +116,7 @@ fn run(command: Command) -> io::Result<()> {
             let size = deck::write(&request, open(&out)?)?;
             report(&out, size)
         }
+        Command::Costs { rows, rounds } => costs::write(rows, rounds, &mut io::stdout().lock()),
         Command::GenerateNodes { out, rows, nodes, table_rows, shared } => {
             let deck = deck_request(Content::Tables, table_rows, shared);
             let interfaces: Vec<_> = deck.interfaces().collect();
@@ -111,6 +125,7 @@ fn run(command: Command) -> io::Result<()> {
             let size = nodes::write(&request, &interfaces, open(&out)?)?;
             report(&out, size)
         }
+        Command::Extremes => io::stdout().lock().write_all(extremes::page().as_bytes()),
     }
 }
 

@@ -1,17 +1,22 @@
 //! From a plan to laws that can be evaluated: tables compiled, columns turned into places of a batch.
 
+mod user;
+
+pub(crate) use user::CompiledUser;
+
+use crate::accuracy::Wanted;
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
-use crate::law::electrical::ElectricalLaw;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
 use crate::plan::{
     Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
-    Plan, PorePlan, Rate, Source,
+    Plan, PorePlan, Rate, Source, ThermalTables, folded_as_planned,
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
+use crate::table_form::TableForm;
 use inpact_parser::model::{Model, Regime};
 
 /// The laws of a plan.
@@ -34,19 +39,17 @@ pub struct Laws {
 pub(crate) struct InteractionLaws {
     pub(crate) contact: ContactPlaces,
     pub(crate) electrical: Option<CompiledElectrical>,
+    pub(crate) thermal: Option<CompiledThermal>,
     pub(crate) pore: Option<CompiledPore>,
 }
 
 /// The electrical law with its places.
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledElectrical {
-    pub(crate) law: ElectricalLaw,
+    pub(crate) conductance: ConductanceSource,
+    pub(crate) heat_generation: HeatGeneration,
+    pub(crate) accuracy: Wanted,
     pub(crate) regime: Regime,
-    /// What the table against clearance needs.
-    pub(crate) clearance: Needs,
-    /// What the table against contact pressure needs.
-    pub(crate) pressure: Needs,
-    pub(crate) variables: Vec<Option<Source<usize>>>,
     pub(crate) jump: Option<Source<usize>>,
     pub(crate) area: Option<usize>,
     pub(crate) history: History,
@@ -54,10 +57,36 @@ pub(crate) struct CompiledElectrical {
     pub(crate) slopes: Vec<(usize, Along)>,
 }
 
+/// What gives the electrical conductance.
+#[derive(Debug, Clone)]
+pub(crate) enum ConductanceSource {
+    /// Tables of the deck.
+    Tables(Box<CompiledTables>),
+    /// A routine of the user's.
+    User(Box<CompiledUser>),
+}
+
+/// The tables of the electrical conductance with their places.
+#[derive(Debug, Clone)]
+pub(crate) struct CompiledTables {
+    pub(crate) tables: ConductanceTables,
+    /// The table against clearance as it is evaluated.
+    pub(crate) clearance_form: Option<TableForm>,
+    /// The table against contact pressure as it is evaluated.
+    pub(crate) pressure_form: Option<TableForm>,
+    /// What the table against clearance needs.
+    clearance: Needs,
+    /// What the table against contact pressure needs.
+    pressure: Needs,
+    pub(crate) variables: Vec<Option<Source<usize>>>,
+}
+
 /// The pore fluid law with its places.
 #[derive(Debug, Clone)]
 pub(crate) struct CompiledPore {
     pub(crate) law: PoreLaw,
+    /// The table of permeabilities as it is evaluated.
+    pub(crate) form: Option<TableForm>,
     pub(crate) regime: Regime,
     /// What the permeability needs; variable 0 is the mean pore pressure, which is always there.
     pub(crate) needs: Needs,
@@ -124,6 +153,10 @@ slots! {
     }
 }
 
+mod thermal;
+
+pub(crate) use thermal::{CompiledConduction, CompiledFriction, CompiledRadiation, CompiledThermal, MASS_FLOW, Speed};
+
 /// Compiles the laws of a plan that was made from this model and these choices.
 pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
     let mut interactions: Vec<Option<InteractionLaws>> = Vec::new();
@@ -136,7 +169,11 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
         let compiler = Compiler { plan, of: planned };
         interactions[planned.index] = Some(InteractionLaws {
             contact: compiler.contact(),
-            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables)),
+            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables, choices)),
+            thermal: planned.thermal.as_ref().map(|law| {
+                let tables = ThermalTables::of(model, interaction, choices.dialect);
+                compiler.thermal(law, &tables, choices.accuracy)
+            }),
             pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
         });
     }
@@ -169,6 +206,7 @@ impl Compiler<'_> {
             clearance: place(columns.clearance),
             pressure: place(columns.pressure),
             closed: place(columns.closed),
+            state: columns.state,
         }
     }
 
@@ -191,30 +229,27 @@ impl Compiler<'_> {
         sources.iter().map(|source| self.source(*source)).collect()
     }
 
-    fn electrical(self, plan: &ElectricalPlan, tables: &InteractionTables) -> Option<CompiledElectrical> {
-        let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table);
-        let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
-        let conductance = match (clearance, pressure) {
-            (Some(clearance), None) => ConductanceTables::Clearance(clearance.clone()),
-            (None, Some(pressure)) => ConductanceTables::Pressure(pressure.clone()),
-            (Some(clearance), Some(pressure)) => {
-                ConductanceTables::Both { clearance: clearance.clone(), pressure: pressure.clone() }
+    fn electrical(
+        self,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<CompiledElectrical> {
+        let conductance = match (&plan.user, &choices.user_conductance) {
+            (Some(user), Some(law)) => {
+                ConductanceSource::User(Box::new(CompiledUser::new(user, &self.plan.selection, law)?))
             }
-            (None, None) => return None,
+            _ => ConductanceSource::Tables(Box::new(self.electrical_tables(plan, tables, choices)?)),
         };
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::ConductanceSlope(along) => Some((self.slot(*output)?, *along)),
             _ => None,
         });
         Some(CompiledElectrical {
-            law: ElectricalLaw {
-                conductance,
-                heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
-            },
+            conductance,
+            heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
+            accuracy: choices.accuracy,
             regime: plan.regime.regime,
-            clearance: clearance.map(Needs::of).unwrap_or_default(),
-            pressure: pressure.map(Needs::of).unwrap_or_default(),
-            variables: self.sources(&plan.variables),
             jump: self.source(plan.jump),
             area: plan.area.and_then(|column| self.place(column)),
             history: plan.history,
@@ -223,9 +258,45 @@ impl Compiler<'_> {
         })
     }
 
+    fn electrical_tables(
+        self,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<CompiledTables> {
+        let table = |against| {
+            let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
+            let planned = plan.tables.iter().find(|planned| planned.against == against);
+            // A table that no row reaches stays as it is: it says what kind of conductance this is.
+            Some(planned.map_or_else(|| table.clone(), |planned| folded_as_planned(table, planned)))
+        };
+        let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
+        let needs = [&clearance, &pressure].map(|table| table.as_ref().map(Needs::of).unwrap_or_default());
+        let [clearance_needs, pressure_needs] = needs;
+        let forms = [&clearance, &pressure].map(|table| Some(TableForm::new(table.clone()?, choices.accuracy)));
+        let [clearance_form, pressure_form] = forms;
+        let tables = match (clearance, pressure) {
+            (Some(clearance), None) => ConductanceTables::Clearance(clearance),
+            (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
+            (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
+            (None, None) => return None,
+        };
+        Some(CompiledTables {
+            tables,
+            clearance_form,
+            pressure_form,
+            clearance: clearance_needs,
+            pressure: pressure_needs,
+            variables: self.sources(&plan.variables),
+        })
+    }
+
     fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> Option<CompiledPore> {
-        let table = tables.permeability();
-        let permeability = table.map_or(Permeability::Infinite, |table| Permeability::Finite(table.clone()));
+        let table = tables.permeability().zip(plan.table.as_ref());
+        let table = table.map(|(table, planned)| folded_as_planned(table, planned));
+        let needs = table.as_ref().map(Needs::of).unwrap_or_default();
+        let form = table.clone().map(|table| TableForm::new(table, choices.accuracy));
+        let permeability = table.map_or(Permeability::Infinite, Permeability::Finite);
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),
             _ => None,
@@ -234,9 +305,10 @@ impl Compiler<'_> {
         let (slave, master) = sides(Column::PorePressure)?;
         let length = self.place(Column::CharacteristicLength);
         Some(CompiledPore {
+            form,
             law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
             regime: plan.regime.regime,
-            needs: table.map(Needs::of).unwrap_or_default(),
+            needs,
             variables: self.sources(&plan.variables),
             slave,
             master,
@@ -266,11 +338,11 @@ impl Needs {
     }
 }
 
-impl CompiledElectrical {
+impl CompiledTables {
     /// What a row in this state needs; `None` where no table is in force.
     #[inline]
     pub(crate) fn needs(&self, state: ContactState) -> Option<(Along, &Needs)> {
-        match (&self.law.conductance, state) {
+        match (&self.tables, state) {
             (ConductanceTables::Clearance(_), _) | (ConductanceTables::Both { .. }, ContactState::Open) => {
                 Some((Along::Clearance, &self.clearance))
             }

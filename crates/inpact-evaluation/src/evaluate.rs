@@ -8,17 +8,22 @@
 //! the next increment then begins at the last row that had them all.
 //! Opens no file: batches in, batches out.
 
+mod conductances;
 mod electrical;
 mod pore;
 mod tally;
+mod thermal;
+mod user;
 
-pub use tally::{AxisTally, InteractionTally, Tally};
+pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
 
-use crate::compile::Laws;
-use crate::history::{ElectricalHistory, PoreHistory};
+use self::conductances::Conductances;
+use self::electrical::Scratch;
+use crate::compile::{CompiledTables, ConductanceSource, InteractionLaws, Laws};
+use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::contact::ContactState;
 use crate::nodes::{Batch, NodeIndex};
-use crate::plan::{History, Plan, RowInteractions, Source};
+use crate::plan::{ContactPlaces, History, Plan, RowInteractions, Source};
 use crate::results::{ResultBatch, Status};
 use inpact_parser::model::Model;
 
@@ -30,16 +35,17 @@ pub struct Evaluation<'a> {
     nodes: NodeIndex,
     histories: Vec<NodeHistory>,
     tally: Tally,
-    /// Temperatures and field variables of a row.
-    variables: Vec<f64>,
-    /// Slopes along them.
-    slopes: Vec<f64>,
+    /// The interaction and the state of each row of a batch; `None` where there is no interaction with a law.
+    governed: Vec<Option<(usize, Option<ContactState>)>>,
+    conductances: Conductances,
+    scratch: Scratch,
 }
 
 /// What a node's rows so far add up to.
 #[derive(Debug, Clone, Default)]
 struct NodeHistory {
     electrical: ElectricalHistory,
+    thermal: ThermalHistory,
     pore: PoreHistory,
 }
 
@@ -56,12 +62,14 @@ struct Row<'a> {
 }
 
 /// What came of a law in a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Outcome {
     /// The row lacks a number that the law needs.
     Incomplete,
     /// It was evaluated, and this is the row's status as far as it goes.
     Evaluated(Option<Status>),
+    /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
+    Faulty(Option<UserFaultInRow>),
 }
 
 impl<'a> Evaluation<'a> {
@@ -73,14 +81,16 @@ impl<'a> Evaluation<'a> {
             nodes: NodeIndex::default(),
             histories: Vec::new(),
             tally: Tally::new(plan, model.interactions.len()),
-            variables: Vec::new(),
-            slopes: Vec::new(),
+            governed: Vec::new(),
+            conductances: Conductances::default(),
+            scratch: Scratch::default(),
         }
     }
 
     /// Evaluates the rows of a batch, which go on where the batch before ended.
     pub fn evaluate(&mut self, batch: &Batch, results: &mut ResultBatch) {
         results.reset(batch.rows, self.laws.result_columns);
+        self.find_conductances(batch);
         for row in 0..batch.rows {
             self.evaluate_row(batch, row, results);
         }
@@ -92,28 +102,42 @@ impl<'a> Evaluation<'a> {
         self.tally
     }
 
+    /// Finds interaction, contact and conductance of every row: the tables are evaluated over columns.
+    fn find_conductances(&mut self, batch: &Batch) {
+        let interactions = &self.laws.interactions;
+        self.conductances.begin(batch.rows, interactions.len());
+        self.governed.clear();
+        for index in 0..batch.rows {
+            let interaction = self.interactions.of_row(batch, index);
+            let laws = interaction.and_then(|interaction| Some((interaction, interactions[interaction].as_ref()?)));
+            let Some((interaction, laws)) = laws else {
+                self.governed.push(None);
+                continue;
+            };
+            let state = laws.contact.state(batch, index);
+            self.governed.push(Some((interaction, state)));
+            if let (Some(law), Some(state)) = (laws.conductance_tables(), state) {
+                self.conductances.take(interaction, law, Row::new(batch, index, state, laws.contact, self.laws.time));
+            }
+        }
+        let tallies = &mut self.tally.interactions;
+        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.conductance_tables(), tallies);
+    }
+
     fn evaluate_row(&mut self, batch: &Batch, index: usize, results: &mut ResultBatch) {
-        let Some(interaction) = self.interactions.of_row(batch, index) else { return };
+        let Some((interaction, state)) = self.governed[index] else { return };
         let Some(laws) = &self.laws.interactions[interaction] else { return };
         let tally = &mut self.tally.interactions[interaction];
         tally.rows += 1;
-        let state = laws.contact.state(batch, index);
         tally.closed += u64::from(state == Some(ContactState::Closed));
         tally.open += u64::from(state == Some(ContactState::Open));
         let Some(state) = state else {
             tally.incomplete += 1;
             return;
         };
-        let number = |place: Option<usize>| batch.numbers[place?].get(index);
-        let row = Row {
-            batch,
-            index,
-            state,
-            clearance: number(laws.contact.clearance),
-            pressure: number(laws.contact.pressure),
-            time: number(self.laws.time),
-        };
+        let row = Row::new(batch, index, state, laws.contact, self.laws.time);
         let keeps_history = laws.electrical.as_ref().is_some_and(|law| law.history == History::ByTime)
+            || laws.thermal.as_ref().is_some_and(|law| law.history == History::ByTime)
             || laws.pore.as_ref().is_some_and(|law| law.history == History::ByTime);
         let mut history = match self.laws.node.filter(|_| keeps_history && row.time.is_some()) {
             Some(node) => {
@@ -125,33 +149,62 @@ impl<'a> Evaluation<'a> {
             }
             None => None,
         };
-        let scratch = (&mut self.variables, &mut self.slopes);
-        let mut outcomes = [None; 2];
+        let scratch = &mut self.scratch;
+        let mut outcomes = [None, None, None];
+        let mut heat_of_current = None;
         if let Some(law) = &laws.electrical {
             let history = history.as_mut().map(|history| &mut history.electrical);
-            outcomes[0] = Some(electrical::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+            let conductance = self.conductances.of_row(index);
+            let evaluated = electrical::evaluate(law, row, conductance, history, scratch, results, tally);
+            heat_of_current = evaluated.1;
+            outcomes[0] = Some(evaluated.0);
+        }
+        if let Some(law) = &laws.thermal {
+            let history = history.as_mut().map(|history| &mut history.thermal);
+            let scratch = (&mut scratch.variables, &mut scratch.slopes);
+            outcomes[2] = Some(thermal::evaluate(law, row, heat_of_current, history, scratch, results, tally));
         }
         if let Some(law) = &laws.pore {
             let history = history.as_mut().map(|history| &mut history.pore);
-            outcomes[1] = Some(pore::evaluate(law, row, history, (scratch.0, scratch.1), results, tally));
+            outcomes[1] =
+                Some(pore::evaluate(law, row, history, (&mut scratch.variables, &mut scratch.slopes), results, tally));
+        }
+        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
+        if let Some(Outcome::Faulty(Some(told))) = &outcomes[0] {
+            self.tally.user_faults.push(told.clone());
         }
         let status = outcomes.into_iter().flatten().filter_map(Outcome::status).max();
-        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
         tally.count_status(status);
         results.status[index] = status;
+    }
+}
+
+impl InteractionLaws {
+    /// The tables of the electrical conductance, where tables give it.
+    fn conductance_tables(&self) -> Option<&CompiledTables> {
+        match &self.electrical.as_ref()?.conductance {
+            ConductanceSource::Tables(tables) => Some(tables),
+            ConductanceSource::User(_) => None,
+        }
     }
 }
 
 impl Outcome {
     fn status(self) -> Option<Status> {
         match self {
-            Self::Incomplete => None,
+            Self::Incomplete | Self::Faulty(_) => None,
             Self::Evaluated(status) => status,
         }
     }
 }
 
-impl Row<'_> {
+impl<'a> Row<'a> {
+    fn new(batch: &'a Batch, index: usize, state: ContactState, contact: ContactPlaces, time: Option<usize>) -> Self {
+        let number = |place: Option<usize>| batch.numbers[place?].get(index);
+        let (clearance, pressure) = (number(contact.clearance), number(contact.pressure));
+        Self { batch, index, state, clearance, pressure, time: number(time) }
+    }
+
     fn number(&self, place: usize) -> Option<f64> {
         self.batch.numbers[place].get(self.index)
     }

@@ -1,12 +1,16 @@
 //! Integrals of a node's flows over its history.
 //!
-//! The manuals do not say how ECDT, SJDT and PTL are integrated; the decision is backward Euler (semantics O-5, Q-26): flow at the end of an increment times its duration,
+//! The manuals do not say how ECDT, SJDT, HTL, SFDRT and PTL are integrated; the decision is backward Euler (semantics O-5, Q-26): flow at the end of an increment times its duration,
 //! with SJDT from the increment's mean heat (H-08) and the gap-filling part of PTL as −w Δd exactly.
 //! A history starts at its first row: the integrals are 0 there, the jump at its start is its own (C-25), the rate of its clearance is 0 unless given.
 //! Sums are compensated, so that ten million increments cost no digits.
 //!
 //! One row takes two calls: `begin` gives what the law needs from the row before, `finish` adds what the law answered.
 //! The caller refuses times that do not ascend.
+
+mod thermal;
+
+pub use thermal::{FlowHistory, ThermalHistory};
 
 use crate::law::contact::{Clearance, ClearanceRate, PotentialJump};
 use crate::law::electrical::ElectricalFlow;

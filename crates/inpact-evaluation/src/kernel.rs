@@ -90,11 +90,10 @@ impl TableKernel {
         match &self.shape {
             Shape::Constant(value) => values.fill(*value),
             #[cfg(target_arch = "x86_64")]
-            Shape::Nested { registers: Some(registers), .. }
-                if set == InstructionSet::Avx512
-                    && registers.values(column_of(columns, registers.axis, values.len()), values) =>
-            {
-                self.redo(columns, values, None);
+            Shape::Nested { registers: Some(registers), .. } if set == InstructionSet::Avx512 => {
+                if registers.values(column_of(columns, registers.axis, values.len()), values) {
+                    self.redo(columns, values, None);
+                }
             }
             Shape::Nested { nested, .. } => {
                 if set.run(NestedValues { nested, set, columns, values: &mut *values, sides: None }) {
@@ -132,6 +131,11 @@ impl TableKernel {
         sides: &mut [Sides],
     ) {
         let sides = &mut sides[..values.len()];
+        if self.table.marks_sides() {
+            self.values_with(set, columns, values);
+            self.table.mark_sides(columns, sides);
+            return;
+        }
         sides.fill(Sides::default());
         match &self.shape {
             Shape::Constant(value) => values.fill(*value),

@@ -1,6 +1,7 @@
 //! Evaluates the interface laws of a deck on node data: conductance and current, heat, pore fluid flow.
 //!
 //! From the inside out: [`numbers`] are floating-point building blocks, [`table`] the nested piecewise-linear functions of the manual's tables,
+//! [`accuracy`] other forms of these, more exact or faster,
 //! [`law`] the interface laws as functions of plain inputs, [`history`] their integrals over time.
 //! [`kernel`] evaluates tables and laws over whole columns, vectorised, with the bits of the functions above.
 //! None of these knows a file or the parser's model.
@@ -12,6 +13,10 @@
 pub mod numbers;
 
 pub mod table;
+
+pub mod table_form;
+
+pub mod accuracy;
 
 pub mod law;
 

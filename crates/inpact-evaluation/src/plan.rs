@@ -7,15 +7,20 @@
 //!
 //! - steady state or transient by the last procedure of the deck that solves the law's field, steady state where there is none, and as [`Choices::regime`] says above all;
 //! - an interaction has the electrical law when it has *GAP ELECTRICAL CONDUCTANCE, whatever the procedures;
+//! - it has the thermal law when it has *GAP CONDUCTANCE or *GAP RADIATION, or its rows tell of friction;
 //! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
 //! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
 
+mod asked;
 mod choices;
 mod columns;
 mod concern;
+mod cost;
 mod electrical;
+mod folding;
 mod governing;
 mod make;
+mod outline;
 mod pore;
 mod print;
 mod reason;
@@ -23,25 +28,36 @@ mod regime;
 mod source;
 mod survey;
 mod tables;
+mod thermal;
+mod thermal_parts;
+mod thermal_tables;
+mod user;
 mod wanted;
 
 pub use choices::{Choices, Derivatives};
 pub use concern::concerning;
 pub use governing::{GovernedBy, RowInteractions};
 pub use make::make;
+pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
 pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey};
+pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
+pub use user::UserPlan;
 
+pub(crate) use folding::folded_as_planned;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
+pub(crate) use thermal_tables::ThermalTables;
 
+use crate::accuracy::{ErrorBound, Method};
+use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::Cutoffs;
 use crate::nodes::{Column, Findings, MISSING_COLUMN, Place, Selection};
 use crate::results::{Along, Output};
-use crate::table::Tail;
+use crate::table::{FoldRefusal, Tail};
 use inpact_parser::model::Name;
 
 /// What an evaluation does.
@@ -82,12 +98,16 @@ pub struct InteractionPlan {
     pub contact: ContactColumns,
     /// The electrical law.
     pub electrical: Option<ElectricalPlan>,
+    /// The thermal law.
+    pub thermal: Option<ThermalPlan>,
     /// The pore fluid law.
     pub pore: Option<PorePlan>,
     /// What comes out, in the order of the result's columns.
     pub outputs: Vec<Output>,
     /// What does not, and why.
     pub left_out: Vec<LeftOut>,
+    /// What of its laws was cut, with its cost.
+    pub dropped: Vec<Dropped>,
     /// What else there is to know.
     pub notes: Vec<String>,
 }
@@ -101,6 +121,8 @@ pub struct ContactColumns {
     pub pressure: Option<Column>,
     /// `closed`.
     pub closed: Option<Column>,
+    /// The state of every row, where there is only one: then the columns are read for the tables alone.
+    pub state: Option<ContactState>,
 }
 
 /// What the electrical law of an interaction works with.
@@ -108,8 +130,10 @@ pub struct ContactColumns {
 pub struct ElectricalPlan {
     /// Steady state or transient, and why.
     pub regime: RegimeInForce,
-    /// The tables that rows reach.
+    /// The tables that rows reach; none where a user's routine gives the conductance.
     pub tables: Vec<TablePlan>,
+    /// What a user's routine is called with, where it gives the conductance.
+    pub user: Option<UserPlan>,
     /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat: Option<HeatGeneration>,
     /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.
@@ -202,6 +226,25 @@ pub struct TablePlan {
     pub ends_in_zero: bool,
     /// Its variables.
     pub axes: Vec<AxisPlan>,
+    /// How many rows are left of it once it is folded.
+    pub folded_rows: usize,
+    /// The variables that have one value and along which it could not be folded.
+    pub not_folded: Vec<(Along, FoldRefusal)>,
+    /// The form in which it is evaluated; `None` for a table that no row reaches.
+    pub form: Option<FormPlan>,
+}
+
+/// The form in which a table is evaluated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormPlan {
+    /// How its values are found.
+    pub method: Method,
+    /// The bound of their error, where there is one.
+    pub bound: Option<ErrorBound>,
+    /// What a value costs, in nanoseconds, by the committed measurements.
+    pub cost: f64,
+    /// The other ways that were considered, and why they were not chosen.
+    pub refused: Vec<(String, String)>,
 }
 
 /// A variable of a table in use.
@@ -217,6 +260,10 @@ pub struct AxisPlan {
     pub points: usize,
     /// Whether the table's value depends on it; otherwise nothing of the node table is read for it.
     pub matters: bool,
+    /// Its value in every row, along which the table is folded.
+    pub fold: Option<f64>,
+    /// Whether the table no longer depends on it once others are folded.
+    pub is_idle: bool,
 }
 
 /// What becomes of a column of the node table.
@@ -254,7 +301,7 @@ impl Plan {
     /// Reports each column that something is left out for (D001): for a plan that leaves nothing to evaluate.
     pub fn report_missing(&self, findings: &mut Findings) {
         for interaction in &self.interactions {
-            for LeftOut { what, reason } in &interaction.left_out {
+            for LeftOut { what, reason, .. } in &interaction.left_out {
                 let Reason::Missing(missing) = reason else { continue };
                 let message = format!("{missing}, which the {what} of `{}` needs", interaction.name);
                 let place = Place { column: missing.columns.first().map(ToString::to_string), ..Place::default() };

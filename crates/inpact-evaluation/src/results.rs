@@ -9,4 +9,5 @@ mod writer;
 
 pub use batch::{ResultBatch, Status};
 pub use output::{Along, Output};
+pub(crate) use writer::number_text;
 pub use writer::{ResultWriter, push_number};

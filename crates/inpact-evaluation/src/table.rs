@@ -8,9 +8,12 @@
 
 mod build;
 mod evaluate;
+mod fold;
 mod sides;
 
 pub use build::{TableError, TableFault};
+pub(crate) use evaluate::Place;
+pub use fold::FoldRefusal;
 pub use sides::Sides;
 
 use crate::numbers::KernelSlope;
@@ -27,15 +30,34 @@ pub struct PiecewiseTable {
     /// How many axes the rows have.
     axis_count: usize,
     /// What follows the last row of a group of axis 0.
-    tail: Tail,
+    pub(crate) tail: Tail,
     /// The axes the value depends on, fastest first. An axis every group of which has one row is left out.
-    levels: Vec<Level>,
+    pub(crate) levels: Vec<Level>,
     /// One value a row.
-    values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// For each row the slope towards the next; of no meaning in the last row of a group.
     slopes: Vec<KernelSlope>,
     /// What the rows say of each axis, left out or not.
     axes: Vec<AxisSummary>,
+    /// Which points count as outside, where the rows of a folded table no longer tell.
+    marks: Option<Marks>,
+}
+
+/// Which points lie outside a table that was folded from a larger one.
+#[derive(Clone, Debug, PartialEq)]
+struct Marks {
+    /// Outside at every point: the coordinate that was folded away lies there.
+    always: Sides,
+    /// For an axis the coordinates below and above which a point lies outside.
+    ranges: Vec<(usize, (f64, f64))>,
+}
+
+impl Marks {
+    /// The range of an axis.
+    fn range(&self, axis: usize) -> (f64, f64) {
+        let found = self.ranges.iter().find(|(marked, _)| *marked == axis);
+        found.map_or((f64::NEG_INFINITY, f64::INFINITY), |(_, range)| *range)
+    }
 }
 
 /// What a table is beyond the last abscissa of axis 0 within each group.
@@ -99,6 +121,7 @@ impl PiecewiseTable {
             values: vec![value],
             slopes: vec![KernelSlope::UNUSED],
             axes: Vec::new(),
+            marks: None,
         }
     }
 

@@ -2,7 +2,7 @@
 
 mod table_judge;
 
-use inpact_evaluation::history::{ElectricalHistory, PoreHistory};
+use inpact_evaluation::history::{ElectricalHistory, FlowHistory, PoreHistory, ThermalHistory};
 use inpact_evaluation::law::conductance::ConductanceTables;
 use inpact_evaluation::law::contact::{
     Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure, PotentialJump,
@@ -161,4 +161,35 @@ fn an_unknown_flow_has_no_integral() {
     assert_eq!(run_pore(&law, &[(0.0, 0.5)], 1.0, None).volume(), Some(0.0));
     let history = run_pore(&law, &[(0.0, 0.5), (1.0, 0.5)], 1.0, None);
     assert_eq!((history.volume(), history.volume_of_area()), (None, None));
+}
+
+/// HTL and SFDRT by backward Euler, each with increments of its own; the area of a row counts for the increment it ends.
+#[test]
+fn o_5_heat() {
+    let mut history = ThermalHistory::default();
+    for (time, leaving, friction) in [(1.0, 7.0, Some(3.0)), (2.0, 5.0, None), (4.0, -2.0, Some(8.0))] {
+        history.leaving.add(time, leaving, Some(0.5));
+        if let Some(friction) = friction {
+            history.friction.add(time, friction, None);
+        }
+    }
+    assert_eq!((history.leaving.per_area(), history.leaving.of_area()), (5.0 - 4.0, Some(0.5)));
+    assert_eq!((history.friction.per_area(), history.friction.of_area()), (24.0, None));
+}
+
+/// Fifty thousand increments cost no digits.
+#[test]
+fn heat_over_many_increments() {
+    let flow = |step: u32| 1e6 * (f64::from(step) * 0.37).sin() + 0.1;
+    let time = |step: u32| f64::from(step) * 0.1;
+    let mut history = FlowHistory::default();
+    let mut sum = exact(0.0);
+    for step in 0..=50_000_u32 {
+        history.add(time(step), flow(step), None);
+        if step > 0 {
+            // The duration is rounded once; what it is multiplied by, and the sum, are exact here.
+            sum += exact(flow(step)) * exact(time(step) - time(step - 1));
+        }
+    }
+    assert!(ulps_from(history.per_area(), &sum) <= 0.500_001);
 }

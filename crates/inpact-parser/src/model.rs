@@ -35,8 +35,19 @@ pub struct Model {
     pub surfaces: Vec<Surface>,
     /// The procedures of the steps (section 9.2).
     pub procedures: Vec<Procedure>,
+    /// What *PHYSICAL CONSTANTS gives (2.6); it is no part of the JSON view.
+    pub constants: PhysicalConstants,
     /// What the deck holds beside that: misplaced sub-options and definitions that a later one replaced.
     pub set_aside: Vec<SetAside>,
+}
+
+/// The constants that radiation needs, in the units of the deck; neither has a default (T-42).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PhysicalConstants {
+    /// ABSOLUTE ZERO, dimension θ.
+    pub absolute_zero: Option<f64>,
+    /// STEFAN BOLTZMANN, dimension M T⁻³ θ⁻⁴.
+    pub stefan_boltzmann: Option<f64>,
 }
 
 /// A *SURFACE INTERACTION with its sub-options (2.1).
@@ -110,6 +121,8 @@ pub struct HeatGeneration {
     pub fraction: f64,
     /// f, the fraction of that heat that goes into the slave surface.
     pub slave_weight: f64,
+    /// The relative speed of the surfaces, dimension L T⁻¹, where a row of CalculiX gives one (K-38); it is no part of the JSON view.
+    pub slip_rate: Option<f64>,
 }
 
 /// A keyword with its parameters and rows, not interpreted further.

@@ -105,6 +105,7 @@ fn interaction() -> impl Strategy<Value = Interaction> {
             row: None,
             fraction,
             slave_weight,
+            slip_rate: None,
         });
         interaction.other = other;
         interaction

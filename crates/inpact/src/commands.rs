@@ -8,5 +8,6 @@ pub(crate) mod inp;
 pub(crate) mod json;
 pub(crate) mod plan;
 pub(crate) mod shell;
+pub(crate) mod tradeoff;
 
 mod scene;

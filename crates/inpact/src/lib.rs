@@ -4,6 +4,7 @@
 //! Exit codes: 0 done, no errors found; 1 the deck or the data has errors; 2 wrong usage, or a file that cannot be read or written.
 //! A closed pipe (`inpact check … | head`) ends quietly with 0.
 
+mod chart;
 mod commands;
 mod difference;
 mod failure;
@@ -14,6 +15,7 @@ mod page;
 mod progress;
 mod render;
 mod settings;
+mod user_library;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
@@ -41,6 +43,8 @@ enum Command {
     Eval(commands::eval::EvalArguments),
     /// Show what an evaluation would do: which laws, tables, columns and outputs, and what is left out and why.
     Plan(commands::plan::PlanArguments),
+    /// Measure what accuracy costs on a deck and its node data: time and error of every mode.
+    Tradeoff(commands::tradeoff::TradeoffArguments),
     /// Explain a rule or a keyword.
     Explain(commands::explain::ExplainArguments),
     /// Print the completions of a shell.
@@ -62,6 +66,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Inp(arguments) => commands::inp::run(&arguments),
         Command::Eval(arguments) => commands::eval::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),
+        Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Completions(arguments) => commands::shell::completions(&arguments, Arguments::command()),
         Command::Man => commands::shell::manual(&Arguments::command()),

@@ -1,85 +1,122 @@
 //! The electrical law in one row.
 
-use super::{InteractionTally, Outcome, Row, contact_status};
-use crate::compile::CompiledElectrical;
+use super::conductances::RowConductance;
+use super::{InteractionTally, Outcome, Row, contact_status, user};
+use crate::compile::{CompiledElectrical, CompiledTables, ConductanceSource};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
-use crate::law::electrical::Dissipation;
+use crate::law::electrical::{Dissipation, flow, reference_flow};
+use crate::law::heat::GeneratedHeat;
 use crate::numbers::mean;
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
+use crate::table::Sides;
 use inpact_parser::model::Regime;
 
 /// Below this share of the potentials their difference has lost its digits.
 const LOST_DIGITS: f64 = 1e-8;
 
-/// Evaluates the law; gives its status.
+/// Room that one row leaves to the next.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    /// Temperatures and field variables of a row, for tables.
+    pub(super) variables: Vec<f64>,
+    /// Slopes along them.
+    pub(super) slopes: Vec<f64>,
+    /// The field variables of a row on either side, for a user's routine.
+    fields: Vec<[f64; 2]>,
+}
+
+/// Evaluates the law; gives its status and the heat of the current, where the row has a jump of potential.
+///
+/// `found` is the conductance by tables; a user's routine is asked here, row by row.
 pub(super) fn evaluate(
     law: &CompiledElectrical,
     row: Row<'_>,
+    found: Option<RowConductance>,
     history: Option<&mut ElectricalHistory>,
-    (variables, slopes): (&mut Vec<f64>, &mut Vec<f64>),
+    scratch: &mut Scratch,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) -> Outcome {
-    let needs = law.needs(row.state);
-    if let Some((against, needs)) = needs {
-        let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
-        if needs.abscissa && abscissa.is_none() {
-            return Outcome::Incomplete;
-        }
+) -> (Outcome, Option<GeneratedHeat>) {
+    let found = match &law.conductance {
+        ConductanceSource::Tables(_) => found,
+        ConductanceSource::User(routine) => match user::conductance(routine, row, &mut scratch.fields, tally) {
+            Some(Ok(value)) => {
+                // The plan asks for no other slope.
+                for (slot, _) in &law.slopes {
+                    results.set(Some(*slot), row.index, Some(value.slope_along_mean_temperature()));
+                }
+                let (value, branch, sides) = (value.conductance, Branch::Neither, Sides::default());
+                Some(RowConductance { conductance: Conductance { value, branch, sides }, rest: 0.0 })
+            }
+            Some(Err(fault)) => {
+                return (Outcome::Faulty(tally.count_fault().then(|| user::told(routine, row, &fault))), None);
+            }
+            None => None,
+        },
+    };
+    let Some(found) = found else { return (Outcome::Incomplete, None) };
+    let conductance = found.conductance;
+    results.set(law.slots.conductance, row.index, Some(conductance.value));
+    results.set(law.slots.weight, row.index, Some(law.heat_generation.slave_weight));
+    if let ConductanceSource::Tables(tables) = &law.conductance
+        && !law.slopes.is_empty()
+    {
+        set_slopes(tables, &law.slopes, row, scratch, results);
     }
+    let heat = evaluate_flow(law, row, &found, history, results, tally);
+    (Outcome::Evaluated(status(&conductance, row, tally)), heat)
+}
+
+/// The slopes of the conductance, one column each.
+fn set_slopes(
+    tables: &CompiledTables,
+    slots: &[(usize, Along)],
+    row: Row<'_>,
+    Scratch { variables, slopes, .. }: &mut Scratch,
+    results: &mut ResultBatch,
+) {
     variables.clear();
-    for (index, source) in law.variables.iter().enumerate() {
+    variables.extend(tables.variables.iter().map(|source| {
         let value = source.as_ref().and_then(|source| row.fetch(source, mean));
-        if value.is_none() && needs.is_some_and(|(_, needs)| needs.variables.contains(&index)) {
-            return Outcome::Incomplete;
-        }
-        variables.push(value.unwrap_or(f64::NAN));
-    }
+        value.unwrap_or(f64::NAN)
+    }));
+    slopes.clear();
+    slopes.resize(variables.len(), 0.0);
     let point = ContactPoint {
         clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
         pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
         state: row.state,
         variables,
     };
-    let conductance = law.law.conductance.conductance(&point);
-    results.set(law.slots.conductance, row.index, Some(conductance.value));
-    results.set(law.slots.weight, row.index, Some(law.law.heat_generation.slave_weight));
-    if !law.slopes.is_empty() {
-        slopes.clear();
-        slopes.resize(variables.len(), 0.0);
-        let point = ContactPoint { variables, ..point };
-        let along_contact = law.law.conductance.slopes(&point, slopes);
-        for (slot, along) in &law.slopes {
-            let slope = match along {
-                Along::Clearance => Some(along_contact.clearance),
-                Along::Pressure => Some(along_contact.pressure),
-                Along::Temperature => slopes.first().copied(),
-                Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
-                Along::PorePressure => None,
-            };
-            results.set(Some(*slot), row.index, slope);
-        }
+    let along_contact = tables.tables.slopes(&point, slopes);
+    for (slot, along) in slots {
+        let slope = match along {
+            Along::Clearance => Some(along_contact.clearance),
+            Along::Pressure => Some(along_contact.pressure),
+            Along::Temperature => slopes.first().copied(),
+            Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
+            Along::PorePressure | Along::MassFlow => None,
+        };
+        results.set(Some(*slot), row.index, slope);
     }
-    evaluate_flow(law, row, conductance, history, results, tally);
-    Outcome::Evaluated(status(&conductance, row, tally))
 }
 
 /// Current and heat, where the row has a jump of potential.
 fn evaluate_flow(
     law: &CompiledElectrical,
     row: Row<'_>,
-    conductance: Conductance,
+    found: &RowConductance,
     history: Option<&mut ElectricalHistory>,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) {
-    let Some(source) = &law.jump else { return };
+) -> Option<GeneratedHeat> {
+    let source = law.jump.as_ref()?;
     let Some(jump) = row.fetch(source, |slave, master| PotentialJump::between(slave, master).0) else {
         tally.incomplete_flows += 1;
-        return;
+        return None;
     };
     tally.lost_digits += u64::from(has_lost_digits(source, row, jump));
     let jump = PotentialJump(jump);
@@ -92,7 +129,12 @@ fn evaluate_flow(
             jump_at_start: increment.as_ref().map_or(jump, |increment| increment.jump_at_start),
         },
     };
-    let flow = law.law.flow(conductance.value, jump, dissipation);
+    let generation = law.heat_generation;
+    let flow = if law.accuracy.is_reference() {
+        reference_flow((found.conductance.value, found.rest), jump, dissipation, generation)
+    } else {
+        flow(found.conductance.value, jump, dissipation, generation)
+    };
     let slots = &law.slots;
     let mut set = |slot, value| results.set(slot, row.index, value);
     // No current is 0, not −0.
@@ -110,6 +152,7 @@ fn evaluate_flow(
         set(slots.sjdt, Some(history.heat()));
         set(slots.sjdta, history.heat_of_area());
     }
+    Some(flow.heat)
 }
 
 /// Whether the jump is the difference of potentials so much larger that few of its digits are left.

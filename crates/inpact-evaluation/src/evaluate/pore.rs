@@ -8,6 +8,7 @@ use crate::law::contact::{Clearance, ClearanceRate, ContactPressure, ContactStat
 use crate::law::pore::{BulkPermeabilities, Flow, Gap, PoreFlow, PorePoint};
 use crate::numbers::mean;
 use crate::results::{Along, ResultBatch, Status};
+use crate::table_form::FoundValue;
 use inpact_parser::model::Regime;
 
 /// Evaluates the law; gives its status.
@@ -64,7 +65,13 @@ pub(super) fn evaluate(
         gap,
         multiplier: None,
     };
-    let flow = law.law.flow(&point);
+    let flow = law.law.flow_with(&point, |table, first, others| match &law.form {
+        Some(form) => form.value_at(first, others),
+        None => {
+            let (value, sides) = table.value_and_sides_at(first, others);
+            FoundValue { value, rest: None, sides }
+        }
+    });
     if !law.slopes.is_empty() {
         slopes.clear();
         slopes.resize(variables.len(), 0.0);
@@ -75,7 +82,7 @@ pub(super) fn evaluate(
                 Along::PorePressure => slopes.first().copied(),
                 Along::Temperature => slopes.get(1).copied(),
                 Along::FieldVariable(number) => slopes.get(*number as usize + 1).copied(),
-                Along::Clearance => None,
+                Along::Clearance | Along::MassFlow => None,
             };
             // Without a permeability there is no slope of it either.
             results.set(Some(*slot), row.index, slope.filter(|_| flow.permeability.is_some()));

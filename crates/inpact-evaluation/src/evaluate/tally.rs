@@ -1,14 +1,21 @@
 //! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
-use crate::nodes::{BEYOND_TABLE, Findings, Place};
+use crate::nodes::{BEYOND_TABLE, Findings, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Status, push_number};
 use crate::table::{Sides, Tail};
+use crate::table_form::SeenError;
 use inpact_parser::model::Name;
 use inpact_validation::Severity;
 
 /// The place of the permeability table among the tables of an interaction; 0 is conductance against clearance, 1 against pressure.
 pub(super) const PERMEABILITY: usize = 2;
+
+/// The place of the table of thermal conductance against clearance; that against pressure follows.
+pub(super) const THERMAL_CONDUCTANCE: usize = 3;
+
+/// The place of the table of view factors.
+pub(super) const VIEW_FACTOR: usize = 5;
 
 /// Counts over all rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +24,17 @@ pub struct Tally {
     pub rows: u64,
     /// The counts of each interaction of the model, in its order.
     pub interactions: Vec<InteractionTally>,
+    /// The first rows of each interaction in which a user's routine gave no conductance.
+    pub user_faults: Vec<UserFaultInRow>,
+}
+
+/// A row in which a user's routine gave what is no conductance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UserFaultInRow {
+    /// Where it is.
+    pub place: Place,
+    /// What the routine was called with and what it gave.
+    pub message: String,
 }
 
 /// Counts over the rows of one interaction.
@@ -42,8 +60,23 @@ pub struct InteractionTally {
     pub needs_length: u64,
     /// How many have a jump of potential below 1e-8 of the potentials it is the difference of.
     pub lost_digits: u64,
-    /// For each table the rows outside its range along each axis: conductance against clearance, against pressure, permeability.
-    pub axes: [Vec<AxisTally>; 3],
+    /// How many have a node label that is no number, for a user's routine that is called with one.
+    pub unnumbered_nodes: u64,
+    /// The largest error of its conductances in a sample of rows.
+    pub seen_error: SeenError,
+    /// How many have no conductance because a user's routine gave none.
+    pub user_faults: u64,
+    /// How many lack a number that the heat at the interface depends on.
+    pub incomplete_heat: u64,
+    /// How many lie outside the curves of CalculiX, or outside the pressures that two neighbouring curves share.
+    pub beyond_curves: u64,
+    /// How many have a temperature below absolute zero.
+    pub below_absolute_zero: u64,
+    /// How many have shear and slip rate of opposite signs, and so a heat of friction below zero.
+    pub negative_friction: u64,
+    /// For each table the rows outside its range along each axis: conductance against clearance, against pressure, permeability,
+    /// thermal conductance against clearance, against pressure, view factor.
+    pub axes: [Vec<AxisTally>; 6],
 }
 
 /// Rows outside a table along one axis.
@@ -57,7 +90,8 @@ pub struct AxisTally {
 
 impl Tally {
     pub(super) fn new(plan: &Plan, interactions: usize) -> Self {
-        let mut tally = Self { rows: 0, interactions: vec![InteractionTally::default(); interactions] };
+        let mut tally =
+            Self { rows: 0, interactions: vec![InteractionTally::default(); interactions], user_faults: Vec::new() };
         for interaction in &plan.interactions {
             for (table, planned) in tables(interaction) {
                 tally.interactions[interaction.index].axes[table] = vec![AxisTally::default(); planned.axes.len()];
@@ -84,7 +118,27 @@ impl Tally {
             incomplete_flows: self.total(|of| of.incomplete_flows),
             needs_length: self.total(|of| of.needs_length),
             lost_digits: self.total(|of| of.lost_digits),
+            incomplete_heat: self.total(|of| of.incomplete_heat),
+            beyond_curves: self.total(|of| of.beyond_curves),
+            below_absolute_zero: self.total(|of| of.below_absolute_zero),
+            negative_friction: self.total(|of| of.negative_friction),
+            unnumbered_nodes: self.total(|of| of.unnumbered_nodes),
+            user_faults: self.total(|of| of.user_faults),
+            seen_error: self.interactions.iter().fold(SeenError::default(), |mut seen, of| {
+                seen.merge(&of.seen_error);
+                seen
+            }),
             axes: Default::default(),
+        }
+    }
+
+    /// Reports the rows in which a user's routine gave no conductance (D010).
+    pub fn report_user_faults(&self, findings: &mut Findings) {
+        let count = self.total(|of| of.user_faults);
+        for UserFaultInRow { place, message } in &self.user_faults {
+            let rows = if count == 1 { "in 1 row".to_owned() } else { format!("in {count} rows, all told") };
+            let help = format!("{rows}: mend the routine, and compile it again");
+            findings.report(&USER_FAULT, place.clone(), message.clone(), help);
         }
     }
 
@@ -93,7 +147,12 @@ impl Tally {
         for interaction in &plan.interactions {
             for (table, planned) in tables(interaction) {
                 let counts = &self.interactions[interaction.index].axes[table];
-                let what = if table == PERMEABILITY { "permeability" } else { "conductance" };
+                let what = match table {
+                    PERMEABILITY => "permeability",
+                    VIEW_FACTOR => "view factor",
+                    THERMAL_CONDUCTANCE.. => "thermal conductance",
+                    _ => "conductance",
+                };
                 for (axis, count) in planned.axes.iter().zip(counts) {
                     let ends = [(count.below, axis.least, "below"), (count.above, axis.greatest, "above")];
                     for (rows, end, side) in ends.into_iter().filter(|(rows, ..)| *rows > 0) {
@@ -116,6 +175,10 @@ struct Beyond {
 }
 
 fn beyond(planned: &TablePlan, table: usize, along: Along, side: &str) -> Beyond {
+    if table >= THERMAL_CONDUCTANCE && along == Along::Clearance && side == "above" {
+        // No choice is made here: it is zero by the words of the manual (K-31, T-27).
+        return Beyond { severity: Severity::Note, help: "it is zero there" };
+    }
     if table != PERMEABILITY && along == Along::Clearance && side == "above" {
         if planned.ends_in_zero {
             return Beyond { severity: Severity::Note, help: "the conductance is zero there" };
@@ -155,7 +218,12 @@ fn tables(interaction: &InteractionPlan) -> impl Iterator<Item = (usize, &TableP
     let electrical = interaction.electrical.iter().flat_map(|law| &law.tables);
     let electrical = electrical.map(|table| (usize::from(table.against == Along::Pressure), table));
     let pore = interaction.pore.iter().filter_map(|law| law.table.as_ref());
-    electrical.chain(pore.map(|table| (PERMEABILITY, table)))
+    let thermal = interaction.thermal.iter();
+    let conductance = thermal.clone().filter_map(|law| law.conduction.as_ref()).flat_map(|law| &law.tables);
+    let conductance =
+        conductance.map(|table| (THERMAL_CONDUCTANCE + usize::from(table.against == Along::Pressure), table));
+    let view_factor = thermal.filter_map(|law| Some((VIEW_FACTOR, &law.radiation.as_ref()?.table)));
+    electrical.chain(pore.map(|table| (PERMEABILITY, table))).chain(conductance).chain(view_factor)
 }
 
 impl InteractionTally {

@@ -13,6 +13,7 @@
 
 use super::contact::{Clearance, ContactPressure, ContactState};
 use crate::table::{PiecewiseTable, Sides};
+use crate::table_form::FoundValue;
 
 /// The tables of a conductance: axis 0 clearance or pressure, axis 1 average temperature, then the field variables.
 #[derive(Clone, Debug)]
@@ -71,13 +72,48 @@ impl ConductanceTables {
     /// NaN where the state is undetermined or an input the branch depends on is NaN.
     #[inline]
     pub fn conductance(&self, point: &ContactPoint<'_>) -> Conductance {
+        let (branch, found) = self.found_with(point, |_, table, first, others| {
+            let (value, sides) = table.value_and_sides_at(first, others);
+            FoundValue { value, rest: None, sides }
+        });
+        Conductance { value: found.value, branch, sides: found.sides }
+    }
+
+    /// [`Self::conductance`] with the tables' values as `find` gives them.
+    pub fn found_with(
+        &self,
+        point: &ContactPoint<'_>,
+        find: impl Fn(Branch, &PiecewiseTable, f64, &[f64]) -> FoundValue,
+    ) -> (Branch, FoundValue) {
         let (branch, table) = self.branch(point.state);
         match table {
-            Some(table) => {
-                let (value, sides) = table.value_and_sides_at(abscissa(branch, point), point.variables);
-                Conductance { value, branch, sides }
+            Some(table) => (branch, find(branch, table, abscissa(branch, point), point.variables)),
+            None => {
+                let value = value_without_table(point.state);
+                (branch, FoundValue { value, rest: None, sides: Sides::default() })
             }
-            None => Conductance { value: value_without_table(point.state), branch, sides: Sides::default() },
+        }
+    }
+
+    /// The table of a branch.
+    pub fn table(&self, branch: Branch) -> Option<&PiecewiseTable> {
+        match (self, branch) {
+            (Self::Clearance(table) | Self::Both { clearance: table, .. }, Branch::Clearance)
+            | (Self::Pressure(table) | Self::Both { pressure: table, .. }, Branch::Pressure) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The same branches with other tables.
+    #[must_use]
+    pub fn map(self, other: impl Fn(Branch, PiecewiseTable) -> PiecewiseTable) -> Self {
+        match self {
+            Self::Clearance(table) => Self::Clearance(other(Branch::Clearance, table)),
+            Self::Pressure(table) => Self::Pressure(other(Branch::Pressure, table)),
+            Self::Both { clearance, pressure } => Self::Both {
+                clearance: other(Branch::Clearance, clearance),
+                pressure: other(Branch::Pressure, pressure),
+            },
         }
     }
 

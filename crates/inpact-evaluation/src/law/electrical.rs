@@ -50,9 +50,62 @@ impl ElectricalLaw {
     /// Current and heat for a conductance found with [`ConductanceTables::conductance`].
     #[inline]
     pub fn flow(&self, conductance: f64, jump: PotentialJump, dissipation: Dissipation) -> ElectricalFlow {
-        ElectricalFlow {
-            current_density: conductance * jump.0,
-            heat: generated_heat(conductance, jump, dissipation, self.heat_generation),
+        flow(conductance, jump, dissipation, self.heat_generation)
+    }
+
+    /// [`reference_flow`] with the heat generation of this law.
+    pub fn reference_flow(
+        &self,
+        value: f64,
+        rest: f64,
+        jump: PotentialJump,
+        dissipation: Dissipation,
+    ) -> ElectricalFlow {
+        reference_flow((value, rest), jump, dissipation, self.heat_generation)
+    }
+}
+
+/// Current and heat for a conductance, whatever gives it.
+#[inline]
+pub fn flow(
+    conductance: f64,
+    jump: PotentialJump,
+    dissipation: Dissipation,
+    generation: HeatGeneration,
+) -> ElectricalFlow {
+    ElectricalFlow {
+        current_density: conductance * jump.0,
+        heat: generated_heat(conductance, jump, dissipation, generation),
+    }
+}
+
+/// [`flow`] in twice the precision of f64, each result rounded once, for a conductance of `value` + `rest` from the reference kernel.
+///
+/// Inputs that are infinite or NaN give what [`flow`] gives.
+pub fn reference_flow(
+    (value, rest): (f64, f64),
+    jump: PotentialJump,
+    dissipation: Dissipation,
+    generation: HeatGeneration,
+) -> ElectricalFlow {
+    let start = dissipation.jump_at_start(jump);
+    let HeatGeneration { fraction, slave_weight } = generation;
+    if ![value, rest, jump.0, start.0, fraction, slave_weight].iter().all(|input| input.is_finite()) {
+        return flow(value, jump, dissipation, generation);
+    }
+    let conductance = Scaled::new(value) + Scaled::new(rest);
+    ElectricalFlow {
+        current_density: (conductance * Scaled::new(jump.0)).to_f64(),
+        heat: scaled_heat(conductance, (jump.0, start.0), generation),
+    }
+}
+
+impl Dissipation {
+    /// Δφ₀ for an increment that ends with `jump`.
+    fn jump_at_start(self, jump: PotentialJump) -> PotentialJump {
+        match self {
+            Self::Steady => jump,
+            Self::Transient { jump_at_start } => jump_at_start,
         }
     }
 }
@@ -75,14 +128,11 @@ pub fn generated_heat(
     generation: HeatGeneration,
 ) -> GeneratedHeat {
     let end = jump.0;
-    let start = match dissipation {
-        Dissipation::Steady => end,
-        Dissipation::Transient { jump_at_start } => jump_at_start.0,
-    };
+    let start = dissipation.jump_at_start(jump).0;
     let HeatGeneration { fraction, slave_weight } = generation;
     let inputs = [conductance, end, start, fraction, slave_weight];
     if !inputs.iter().all(|&input| is_zero_or_ordinary(input)) && inputs.iter().all(|input| input.is_finite()) {
-        return generated_heat_of_extremes(conductance, (end, start), generation);
+        return scaled_heat(Scaled::new(conductance), (end, start), generation);
     }
     let mean_square = match dissipation {
         Dissipation::Steady => end * end,
@@ -92,12 +142,12 @@ pub fn generated_heat(
     GeneratedHeat { total, slave: slave_weight * total, master: (1.0 - slave_weight) * total }
 }
 
-/// [`generated_heat`] for finite inputs of extreme size, whose intermediate products may leave the range of f64.
+/// [`generated_heat`] for finite inputs of any size, whose intermediate products may leave the range of f64; rounded once.
 #[cold]
-fn generated_heat_of_extremes(conductance: f64, (end, start): (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
+fn scaled_heat(conductance: Scaled, (end, start): (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
     let (end, start) = (Scaled::new(end), Scaled::new(start));
     let square_sum = end * end + end * start + start * start;
-    let total = Scaled::new(generation.fraction) * Scaled::new(conductance) * (square_sum / Scaled::new(3.0));
+    let total = Scaled::new(generation.fraction) * conductance * (square_sum / Scaled::new(3.0));
     let slave_weight = Scaled::new(generation.slave_weight);
     GeneratedHeat {
         total: total.to_f64(),

@@ -23,8 +23,9 @@
 //! Source: semantics P-10 to P-42; Analysis User's Guide 37.4.1, Theory Guide 5.2.2 (6.14).
 
 use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
-use crate::numbers::{ratio, scaled_difference_product};
+use crate::numbers::{Scaled, ratio, scaled_difference_product};
 use crate::table::{PiecewiseTable, Sides};
+use crate::table_form::FoundValue;
 
 /// The pore fluid law of one surface interaction.
 #[derive(Clone, Debug)]
@@ -163,14 +164,24 @@ impl PoreFlow {
 impl PoreLaw {
     /// The flow at a point.
     pub fn flow(&self, point: &PorePoint<'_>) -> PoreFlow {
+        self.flow_with(point, |table, first, others| {
+            let (value, sides) = table.value_and_sides_at(first, others);
+            FoundValue { value, rest: None, sides }
+        })
+    }
+
+    /// [`Self::flow`] with the table's values as `find` gives them.
+    pub fn flow_with(
+        &self,
+        point: &PorePoint<'_>,
+        find: impl Fn(&PiecewiseTable, f64, &[f64]) -> FoundValue,
+    ) -> PoreFlow {
         let across = self.flow_across(point);
         let gap_fill = self.gap_fill(point);
-        let (permeability, sides) = self.permeability_in_force(across, point);
+        let (permeability, rest, sides) = self.permeability_in_force(across, point, find);
         let is_constrained = across == Flow::Active && matches!(self.permeability, Permeability::Infinite);
         let q_across = match permeability {
-            Some(permeability) if across == Flow::Active => {
-                Some(scaled_difference_product(permeability, point.master.0, point.slave.0))
-            }
+            Some(permeability) if across == Flow::Active => Some(flow_of(permeability, rest, point)),
             _ if is_constrained => point.multiplier,
             _ if across == Flow::CutOff => Some(0.0),
             _ => None,
@@ -241,15 +252,20 @@ impl PoreLaw {
         if is_beyond { Flow::CutOff } else { Flow::Active }
     }
 
-    fn permeability_in_force(&self, across: Flow, point: &PorePoint<'_>) -> (Option<f64>, Sides) {
+    fn permeability_in_force(
+        &self,
+        across: Flow,
+        point: &PorePoint<'_>,
+        find: impl Fn(&PiecewiseTable, f64, &[f64]) -> FoundValue,
+    ) -> (Option<f64>, Option<f64>, Sides) {
         let nowhere = Sides::default();
         match (across, &self.permeability) {
-            (Flow::CutOff, _) => (Some(0.0), nowhere),
-            (Flow::NeedsCharacteristicLength, _) | (Flow::Active, Permeability::Infinite) => (None, nowhere),
-            (Flow::Active, Permeability::Finite(_)) if point.clearance.0.is_nan() => (Some(f64::NAN), nowhere),
+            (Flow::CutOff, _) => (Some(0.0), None, nowhere),
+            (Flow::NeedsCharacteristicLength, _) | (Flow::Active, Permeability::Infinite) => (None, None, nowhere),
+            (Flow::Active, Permeability::Finite(_)) if point.clearance.0.is_nan() => (Some(f64::NAN), None, nowhere),
             (Flow::Active, Permeability::Finite(table)) => {
-                let (permeability, sides) = table.value_and_sides_at(effective_pressure(point), point.variables);
-                (Some(permeability), sides)
+                let found = find(table, effective_pressure(point), point.variables);
+                (Some(found.value), found.rest, found.sides)
             }
         }
     }
@@ -262,6 +278,17 @@ impl PoreLaw {
             }
             _ => (0.5, 0.5),
         }
+    }
+}
+
+/// k (p_master − p_slave); with what rounding took away from k in twice the precision, rounded once.
+fn flow_of(permeability: f64, rest: Option<f64>, point: &PorePoint<'_>) -> f64 {
+    let (slave, master) = (point.slave.0, point.master.0);
+    match rest {
+        Some(rest) if [permeability, rest, slave, master].iter().all(|input| input.is_finite()) => {
+            ((Scaled::new(permeability) + Scaled::new(rest)) * Scaled::difference(master, slave)).to_f64()
+        }
+        _ => scaled_difference_product(permeability, master, slave),
     }
 }
 

@@ -35,6 +35,31 @@ pub enum Column {
     CharacteristicLength,
     /// `perm_s`; `perm_m`: bulk permeability, for the shares of gap filling.
     BulkPermeability(Part),
+    /// `x_s`, `y_s`, `z_s`, `x_m`, …, and `coor1_s` …: coordinates of the slave node and of the point opposite to it, for user subroutines, L.
+    Coordinate(Direction, Part),
+    /// `step`, `kstep`: the number of the step, for user subroutines.
+    Step,
+    /// `increment`, `kinc`: the number of the increment in its step, for user subroutines.
+    Increment,
+    /// `step_time`: time since the step began, for user subroutines, T.
+    StepTime,
+    /// `mass_flow_s`; `mass_flow_m`; `mass_flow`, the mean of their magnitudes: mass flow rate per area, M L⁻² T⁻¹.
+    MassFlow(Part),
+    /// `shear`: frictional shear stress τ, F L⁻².
+    Shear,
+    /// `slip_rate`: rate of relative slip γ̇ along the shear stress, L T⁻¹.
+    SlipRate,
+}
+
+/// Along which axis of the global system a coordinate is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Direction {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
 }
 
 /// Of which side of the interface a quantity is.
@@ -69,7 +94,26 @@ const NAMES: &[(Column, &[&str])] = &[
     (Column::CharacteristicLength, &["char_length"]),
     (Column::BulkPermeability(Part::Slave), &["perm_s"]),
     (Column::BulkPermeability(Part::Master), &["perm_m"]),
+    (Column::MassFlow(Part::Slave), &["mass_flow_s"]),
+    (Column::MassFlow(Part::Master), &["mass_flow_m"]),
+    (Column::MassFlow(Part::Both), &["mass_flow"]),
+    (Column::Shear, &["shear"]),
+    (Column::SlipRate, &["slip_rate"]),
+    (Column::Coordinate(Direction::X, Part::Slave), &["x_s", "coor1_s"]),
+    (Column::Coordinate(Direction::Y, Part::Slave), &["y_s", "coor2_s"]),
+    (Column::Coordinate(Direction::Z, Part::Slave), &["z_s", "coor3_s"]),
+    (Column::Coordinate(Direction::X, Part::Master), &["x_m", "coor1_m"]),
+    (Column::Coordinate(Direction::Y, Part::Master), &["y_m", "coor2_m"]),
+    (Column::Coordinate(Direction::Z, Part::Master), &["z_m", "coor3_m"]),
+    (Column::Step, &["step", "kstep"]),
+    (Column::Increment, &["increment", "kinc"]),
+    (Column::StepTime, &["step_time"]),
 ];
+
+/// The three coordinates of a side that has them.
+pub(crate) fn coordinates(part: Part) -> [Column; 3] {
+    [Direction::X, Direction::Y, Direction::Z].map(|direction| Column::Coordinate(direction, part))
+}
 
 impl Column {
     /// The column that a header names, blanks around it and case aside; `None` for a name the contract does not have.

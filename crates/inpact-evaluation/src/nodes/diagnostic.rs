@@ -1,4 +1,4 @@
-//! What is wrong with a node table: rules D001 to D009 and their findings.
+//! What is wrong with a node table: rules D001 to D010 and their findings.
 //!
 //! A finding has a row and a column where a finding of the deck has a span. Knows no colours and no terminals; the command line renders it.
 
@@ -41,6 +41,7 @@ data_rules! {
     BEYOND_TABLE = "D007" "beyond-table" Note "rows lie outside the range of a table";
     NEGATIVE_AREA = "D008" "negative-area" Error "an area is below zero";
     NEGATIVE_PROPERTY = "D009" "negative-property" Error "a characteristic length or a bulk permeability is below zero";
+    USER_FAULT = "D010" "user-subroutine-fault" Error "a user subroutine gives what is no conductance";
 }
 
 /// One finding in a node table.

@@ -56,7 +56,7 @@ impl Scaled {
     }
 
     /// The nearest f64 and the rest, as far as that is within the range of f64.
-    pub(super) fn to_pair(self) -> (f64, f64) {
+    pub(crate) fn to_pair(self) -> (f64, f64) {
         (self.to_f64(), scale_by_power(self.low, self.exponent))
     }
 

@@ -1,7 +1,11 @@
 //! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
 
+use crate::accuracy::Wanted;
 use crate::law::pore::CutoffBoundary;
+use crate::law::user::UserLaw;
+use crate::results::Output;
 use crate::table::Tail;
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Name, Regime};
 
 /// The choices of an evaluation; the default is what deck and semantics say.
@@ -17,8 +21,23 @@ pub struct Choices {
     pub characteristic_length: Option<f64>,
     /// Whether pore fluid flows at the very cutoff.
     pub cutoff_boundary: CutoffBoundary,
+    /// Whose meaning the keywords have: *GAP CONDUCTANCE and the heat of friction differ in CalculiX.
+    pub dialect: Dialect,
     /// Whether slopes come out as well.
     pub derivatives: Derivatives,
+    /// The conductance of interactions with *GAP ELECTRICAL CONDUCTANCE, USER; without it they have no electrical law (U-3).
+    pub user_conductance: Option<UserLaw>,
+    /// How exactly values are found.
+    pub accuracy: Wanted,
+    /// The outputs that are asked for by name; `None` for all there are.
+    pub outputs: Option<Vec<Output>>,
+}
+
+impl Choices {
+    /// Whether one of these outputs is asked for, by name or because all are.
+    pub(super) fn asks_for(&self, outputs: &[Output]) -> bool {
+        self.outputs.as_ref().is_none_or(|asked| asked.iter().any(|output| outputs.contains(output)))
+    }
 }
 
 /// Whether the slopes of conductance and permeability come out (semantics 4.4).

@@ -1,12 +1,14 @@
 //! The plan of the electrical law of one interaction.
 
+use super::folding::fold_and_choose;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
 use super::source::{Source, whole_or_sides};
 use super::tables::{InteractionTables, electrical_axis, matters};
+use super::user::{UserPlan, plan_user};
 use super::wanted::columns_of;
-use super::{AxisPlan, Derivatives, ElectricalPlan, History, TablePlan};
+use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::{Along, Output};
@@ -22,6 +24,8 @@ pub(super) fn plan_electrical(
     tables: &InteractionTables,
     outputs: &mut BTreeSet<Output>,
     left_out: &mut LeftOuts,
+    notes: &mut Vec<String>,
+    dropped: &mut Vec<Dropped>,
 ) -> Option<ElectricalPlan> {
     const LAW: &str = "electrical law";
     let Some(option) = &planner.interaction.gap_electrical_conductance else {
@@ -32,8 +36,17 @@ pub(super) fn plan_electrical(
         return None;
     };
     if option.user.is_some() {
-        left_out.push(LAW, Reason::NeedsUserSubroutine("GAPELECTR"));
-        return None;
+        if planner.choices.user_conductance.is_none() {
+            left_out.push(LAW, Reason::NeedsUserSubroutine("GAPELECTR"));
+            return None;
+        }
+        return match plan_user(planner, notes) {
+            Ok(user) => Some(plan_with_user(planner, user, outputs, left_out)),
+            Err(missing) => {
+                left_out.push(LAW, Reason::Missing(missing));
+                None
+            }
+        };
     }
     if let Some(error) = tables.electrical_error() {
         left_out.push(LAW, Reason::BrokenTable(error));
@@ -53,7 +66,13 @@ pub(super) fn plan_electrical(
             _ => None,
         };
         match unreached {
-            Some(reason) => left_out.push(format!("table against {against}"), reason),
+            Some(reason) => {
+                let what = format!("table against {against}");
+                let whole = electrical_table_plan(option, *against, table);
+                // No row reads it, so evaluating by branches it would cost nothing; without them every row reads both.
+                dropped.push(Dropped { what: what.clone(), cost: whole.whole_cost(), reason: reason.clone() });
+                left_out.push(what, reason);
+            }
             None => used.push((*against, *table)),
         }
     }
@@ -65,9 +84,24 @@ pub(super) fn plan_electrical(
         }
     };
     let heat = heat(planner, left_out);
+    let mut tables: Vec<TablePlan> =
+        used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect();
+    let may_fold = planner.may_fold(|output| matches!(output, Output::ConductanceSlope(_)));
+    for ((_, table), plan) in used.iter().zip(&mut tables) {
+        fold_and_choose(planner, table, plan, |along| match along {
+            _ if !may_fold => None,
+            Along::Clearance => planner.constant_clearance(),
+            Along::Pressure => planner.constant_pressure(),
+            _ => planner.constant_of(variables[variable_index(along)?]?),
+        });
+    }
+    let is_read = |axis: usize| tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    let variables = variables.into_iter().enumerate();
+    let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
     let mut plan = ElectricalPlan {
         regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
-        tables: used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect(),
+        tables,
+        user: None,
         heat,
         variables,
         jump: None,
@@ -81,6 +115,31 @@ pub(super) fn plan_electrical(
     }
     plan_flows(planner, &mut plan, outputs, left_out);
     Some(plan)
+}
+
+/// Plans the law with the conductance of a user's routine, which stands in the place of all tables (K-08).
+fn plan_with_user(
+    planner: Planner<'_>,
+    user: UserPlan,
+    outputs: &mut BTreeSet<Output>,
+    left_out: &mut LeftOuts,
+) -> ElectricalPlan {
+    let mut plan = ElectricalPlan {
+        regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
+        tables: Vec::new(),
+        user: Some(user),
+        heat: heat(planner, left_out),
+        variables: Vec::new(),
+        jump: None,
+        area: None,
+        history: History::None,
+    };
+    outputs.insert(Output::Conductance);
+    if planner.choices.derivatives == Derivatives::Given {
+        outputs.insert(Output::ConductanceSlope(Along::Temperature));
+    }
+    plan_flows(planner, &mut plan, outputs, left_out);
+    plan
 }
 
 /// Where the variables of the tables in use come from, or what is missing.
@@ -168,6 +227,15 @@ fn plan_flows(
     }
 }
 
+/// The place of a temperature or a field variable among the variables of the law.
+fn variable_index(along: Along) -> Option<usize> {
+    match along {
+        Along::Temperature => Some(0),
+        Along::FieldVariable(number) => Some(number as usize),
+        Along::Clearance | Along::Pressure | Along::PorePressure | Along::MassFlow => None,
+    }
+}
+
 fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: &PiecewiseTable) -> TablePlan {
     let rows = if against == Along::Clearance { &option.clearance } else { &option.pressure };
     let ends_in_zero = rows.as_ref().is_some_and(|rows| rows.groups().all(|group| rows.row(group.end - 1)[0] == 0.0));
@@ -182,6 +250,8 @@ pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
         greatest: summary.greatest,
         points: summary.distinct_count,
         matters: summary.matters(),
+        fold: None,
+        is_idle: false,
     });
     TablePlan {
         against: along(0),
@@ -189,5 +259,8 @@ pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
         tail: table.tail(),
         ends_in_zero: false,
         axes: axes.collect(),
+        folded_rows: table.row_count(),
+        not_folded: Vec::new(),
+        form: None,
     }
 }

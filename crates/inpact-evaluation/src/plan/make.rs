@@ -1,6 +1,7 @@
 //! From a deck's model, a survey of a node table and the user's choices to the plan.
 
-use super::choices::Choices;
+use super::asked::keep_asked;
+use super::choices::{Choices, Derivatives};
 use super::columns::column_plans;
 use super::electrical::plan_electrical;
 use super::governing::GovernedBy;
@@ -9,7 +10,9 @@ use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
 use super::tables::InteractionTables;
-use super::{ContactColumns, History, InteractionPlan, Plan};
+use super::thermal::plan_thermal;
+use super::thermal_tables::ThermalTables;
+use super::{ContactColumns, InteractionPlan, Plan};
 use crate::nodes::{Column, Selection};
 use crate::results::Output;
 use inpact_parser::model::{Interaction, Model};
@@ -63,13 +66,13 @@ pub(super) struct LeftOuts(pub(super) Vec<LeftOut>);
 impl LeftOuts {
     /// Leaves something out that has words of its own.
     pub(super) fn push(&mut self, what: impl Into<String>, reason: Reason) {
-        self.0.push(LeftOut { what: what.into(), reason });
+        self.0.push(LeftOut { what: what.into(), outputs: Vec::new(), reason });
     }
 
     /// Leaves outputs out; those left out for one reason stand together.
     pub(super) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
         let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
-        self.push(names.join(", "), reason);
+        self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
     }
 }
 
@@ -79,16 +82,16 @@ impl Planner<'_> {
         let mut left_out = LeftOuts::default();
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out);
+        let mut dropped = Vec::new();
+        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut notes, &mut dropped);
+        let thermal_tables = ThermalTables::of(self.model, self.interaction, self.choices.dialect);
+        let thermal = plan_thermal(self, &thermal_tables, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
         }
         for option in &self.interaction.other {
-            if matches!(
-                option.keyword.as_str(),
-                "GAP CONDUCTANCE" | "GAP RADIATION" | "GAP DIFFUSIVITY" | "GAP CONVECTION"
-            ) {
+            if matches!(option.keyword.as_str(), "GAP DIFFUSIVITY" | "GAP CONVECTION") {
                 let what = format!("*{}", option.keyword);
                 if !left_out.0.iter().any(|left_out| left_out.what == what) {
                     left_out.push(what, Reason::NotEvaluated);
@@ -96,29 +99,40 @@ impl Planner<'_> {
             }
         }
         let untold = self.of.rows - self.of.closed - self.of.open;
-        if untold > 0 && (electrical.is_some() || pore.is_some()) {
+        if untold > 0 && (electrical.is_some() || thermal.is_some() || pore.is_some()) {
             let rows = if untold == 1 { "1 row".to_owned() } else { format!("{untold} rows") };
             notes.push(format!(
                 "{rows} from which contact cannot be told: `closed` empty, and `clearance` too or one of them NaN"
             ));
         }
-        let uses_history = |history: Option<History>| history == Some(History::ByTime);
-        let has_history = uses_history(electrical.as_ref().map(|law| law.history))
-            || uses_history(pore.as_ref().map(|law| law.history));
-        InteractionPlan {
+        let mut plan = InteractionPlan {
             name: self.interaction.name.clone(),
             index: self.index,
             rows: self.of.rows,
             closed: self.of.closed,
             open: self.of.open,
-            histories: self.of.histories.filter(|_| has_history),
+            histories: None,
             contact: self.contact(),
             electrical,
+            thermal,
             pore,
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
+            dropped,
             notes,
+        };
+        plan.histories = self.of.histories.filter(|_| plan.has_history());
+        keep_asked(&mut plan, self.choices);
+        plan
+    }
+
+    /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
+    pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+        if !self.choices.accuracy.allows_folding() {
+            return false;
         }
+        let asked = self.choices.outputs.as_ref();
+        self.choices.derivatives == Derivatives::LeftOut || asked.is_some_and(|asked| !asked.iter().any(is_slope))
     }
 
     pub(super) fn presence(self, column: Column) -> Presence {
@@ -138,6 +152,7 @@ impl Planner<'_> {
             clearance: found(Column::Clearance),
             pressure: found(Column::Pressure),
             closed: found(Column::Closed),
+            state: None,
         }
     }
 

@@ -1,16 +1,17 @@
 //! The plan of the pore fluid law of one interaction.
 
 use super::electrical::table_plan;
+use super::folding::fold_and_choose;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
 use super::source::{Source, cell, whole_or_sides};
 use super::tables::{InteractionTables, matters, pore_axis};
 use super::wanted::columns_of;
-use super::{Bulk, CharacteristicLength, Derivatives, History, PorePlan, Rate};
+use super::{AxisPlan, Bulk, CharacteristicLength, Derivatives, History, PorePlan, Rate};
 use crate::law::pore::Cutoffs;
 use crate::nodes::{Column, Part};
-use crate::results::Output;
+use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::{Procedure, Regime};
 use std::collections::BTreeSet;
@@ -66,8 +67,24 @@ pub(super) fn plan_pore(
     let history = planner.history();
     let has_history = history.is_ok();
     let is_transient = regime.regime == Regime::Transient;
+    let mut table_plan = table.map(|table| table_plan(table, pore_axis));
+    let may_fold = planner.may_fold(|output| matches!(output, Output::PermeabilitySlope(_)));
+    if let (Some(table), Some(plan)) = (table, &mut table_plan) {
+        fold_and_choose(planner, table, plan, |along| match along {
+            _ if !may_fold => None,
+            Along::Pressure => planner.constant_permeability_pressure(),
+            Along::PorePressure => planner.constant_pore_pressure(),
+            Along::Temperature => planner.constant_of((*variables.first()?)?),
+            Along::FieldVariable(number) => planner.constant_of((*variables.get(number as usize)?)?),
+            Along::Clearance | Along::MassFlow => None,
+        });
+    }
+    let is_read =
+        |axis: usize| table_plan.as_ref().is_some_and(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    let variables = variables.into_iter().enumerate();
+    let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 2))).collect();
     let mut plan = PorePlan {
-        table: table.map(|table| table_plan(table, pore_axis)),
+        table: table_plan,
         cutoffs,
         variables,
         characteristic_length: characteristic_length(planner, cutoffs, is_transient),

@@ -1,11 +1,12 @@
 //! The plan as text for a person.
 
 use super::{
-    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan,
-    PorePlan, Rate, TablePlan,
+    AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, FormPlan, GovernedBy,
+    InteractionPlan, Plan, PorePlan, Rate, SlipRateSource, TablePlan, ThermalPlan,
 };
-use crate::results::push_number;
+use crate::results::number_text as number;
 use crate::table::Tail;
+use inpact_parser::grammar::Dialect;
 use std::fmt::{self, Formatter};
 
 impl fmt::Display for Plan {
@@ -32,7 +33,8 @@ impl fmt::Display for Plan {
         let keys = self.keys().iter().map(ToString::to_string);
         let outputs: Vec<String> = keys.chain(self.outputs.iter().map(ToString::to_string)).collect();
         let outputs = if outputs.is_empty() { "none".to_owned() } else { outputs.join(" ") };
-        writeln!(formatter, "\ncolumns of the result\n  {outputs}")
+        writeln!(formatter, "\ncolumns of the result\n  {outputs}\n")?;
+        write!(formatter, "{}", self.outline())
     }
 }
 
@@ -44,6 +46,9 @@ fn write_interaction(plan: &InteractionPlan, formatter: &mut Formatter<'_>) -> f
     writeln!(formatter)?;
     if let Some(law) = &plan.electrical {
         write_electrical(law, formatter)?;
+    }
+    if let Some(law) = &plan.thermal {
+        write_thermal(law, formatter)?;
     }
     if let Some(law) = &plan.pore {
         write_pore(law, formatter)?;
@@ -66,7 +71,55 @@ fn write_electrical(law: &ElectricalPlan, formatter: &mut Formatter<'_>) -> fmt:
     for table in &law.tables {
         write_table("conductance", table, formatter)?;
     }
+    if let Some(user) = &law.user {
+        let names = &user.names;
+        let [interaction, slave, master] =
+            [names.interaction, names.slave, names.master].map(|name| name.text().into_owned());
+        writeln!(
+            formatter,
+            "    conductance by user subroutine GAPELECTR, without contact pressure (it has no such argument)"
+        )?;
+        writeln!(
+            formatter,
+            "      NPRED = {}, CINAME = `{interaction}`, SLNAME = `{slave}`, MSNAME = `{master}`",
+            user.field_variables.len()
+        )?;
+    }
     if let Some(heat) = law.heat {
+        let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
+        writeln!(formatter, "    heat: fraction {fraction}, slave weight {weight}")?;
+    }
+    Ok(())
+}
+
+fn write_thermal(law: &ThermalPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(formatter, "  thermal law")?;
+    if let Some(conduction) = &law.conduction {
+        let is_calculix = conduction.dialect == Dialect::Calculix;
+        if is_calculix {
+            writeln!(
+                formatter,
+                "    conduction as in CalculiX: closed only, between two curves over the pressures both have"
+            )?;
+        }
+        for table in &conduction.tables {
+            write_table("thermal conductance", table, formatter)?;
+        }
+    }
+    if let Some(radiation) = &law.radiation {
+        let (coefficient, zero) = (number(radiation.coefficient), number(radiation.absolute_zero));
+        writeln!(formatter, "    radiation: {coefficient} per fourth power of temperature above {zero}")?;
+        write_table("view factor", &radiation.table, formatter)?;
+    }
+    match law.friction.map(|friction| friction.slip_rate) {
+        Some(SlipRateSource::Column) => writeln!(formatter, "    friction: `shear` × `slip_rate`")?,
+        Some(SlipRateSource::Given(speed)) => {
+            writeln!(formatter, "    friction: `shear` × {}, the speed of the deck", number(speed))?;
+        }
+        None => {}
+    }
+    let generates = law.friction.is_some() || law.current == CurrentHeat::Generated;
+    if let Some(heat) = law.heat.filter(|_| generates) {
         let (fraction, weight) = (number(heat.fraction), number(heat.slave_weight));
         writeln!(formatter, "    heat: fraction {fraction}, slave weight {weight}")?;
     }
@@ -110,16 +163,42 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
     };
     writeln!(formatter, "    {what} against {}: {}{tail}", table.against, count(table.rows as u64, "row"))?;
     for axis in &table.axes {
-        let AxisPlan { along, least, greatest, points, matters } = *axis;
+        let AxisPlan { along, least, greatest, points, matters, .. } = *axis;
+        let fold = match axis.fold {
+            Some(at) => format!(": folded at {}, the value of every row", number(at)),
+            None if axis.is_idle => ": makes no difference to what is left of the table".to_owned(),
+            None => match table.not_folded.iter().find(|(refused, _)| *refused == along) {
+                Some((_, refusal)) => format!(": one value in every row, yet not folded, as {refusal}"),
+                None => String::new(),
+            },
+        };
         let along = along.to_string();
         let range = match (matters, points) {
             (false, 1) => format!("{} in every row: left out", number(least)),
             (false, _) => format!("{} to {}, one value a group: left out", number(least), number(greatest)),
             (true, _) => format!("{} to {}, {points} values", number(least), number(greatest)),
         };
-        writeln!(formatter, "      {along:<10} {range}")?;
+        writeln!(formatter, "      {along:<10} {range}{fold}")?;
+    }
+    if table.axes.iter().any(|axis| axis.fold.is_some()) {
+        writeln!(formatter, "      {} left of it", count(table.folded_rows as u64, "row"))?;
+    }
+    if let Some(form) = &table.form {
+        write_form(form, formatter)?;
     }
     Ok(())
+}
+
+fn write_form(form: &FormPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
+    write!(formatter, "      accuracy: {}", form.method)?;
+    if let Some(bound) = form.bound {
+        write!(formatter, ", error at most {:.1e} of the largest value", bound.relative_to_largest)?;
+        if bound.pointwise.is_finite() {
+            write!(formatter, " and {:.1e} of the value itself", bound.pointwise)?;
+        }
+    }
+    writeln!(formatter)?;
+    form.refused.iter().try_for_each(|(method, why)| writeln!(formatter, "        not {method}: {why}"))
 }
 
 fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>) -> fmt::Result {
@@ -144,11 +223,4 @@ fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>
 /// `1 row`, `2 rows`.
 fn count(number: u64, word: &str) -> String {
     format!("{number} {word}{}", if number == 1 { "" } else { "s" })
-}
-
-/// A number in its shortest form.
-fn number(value: f64) -> String {
-    let mut text = Vec::new();
-    push_number(&mut text, value);
-    String::from_utf8_lossy(&text).into_owned()
 }

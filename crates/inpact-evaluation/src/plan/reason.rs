@@ -1,6 +1,8 @@
 //! Why something is left out of an evaluation.
 
+use crate::law::calculix::CalculixError;
 use crate::nodes::Column;
+use crate::results::{Output, number_text};
 use crate::table::TableError;
 use std::fmt;
 
@@ -9,8 +11,17 @@ use std::fmt;
 pub struct LeftOut {
     /// What, in words: a law, a table, outputs.
     pub what: String,
+    /// The outputs that go with it, where it is outputs.
+    pub outputs: Vec<Output>,
     /// Why.
     pub reason: Reason,
+}
+
+impl LeftOut {
+    /// A law, or another thing that has words of its own.
+    pub(super) fn law(what: &str, reason: Reason) -> Self {
+        Self { what: what.to_owned(), outputs: Vec::new(), reason }
+    }
 }
 
 /// Why something is left out.
@@ -26,6 +37,14 @@ pub enum Reason {
     NoRows(&'static str),
     /// The rows of a table do not form one.
     BrokenTable(TableError),
+    /// The curves of CalculiX do not form a conductance.
+    BrokenCurves(CalculixError),
+    /// *PHYSICAL CONSTANTS does not give a constant that radiation needs (T-42).
+    NoConstant(&'static str),
+    /// *GAP RADIATION has no two emissivities from 0 to 1.
+    BadEmissivities,
+    /// CalculiX has no such keyword, or asks for another beside it.
+    NotInCalculix(&'static str),
     /// Pore pressure on one side only: the interface is impermeable (P-01).
     OneSided {
         /// The side that has none.
@@ -57,6 +76,10 @@ pub enum Reason {
     SteadyState,
     /// It has no number in any row that could use it.
     Empty,
+    /// Other outputs were asked for by name.
+    NotAsked,
+    /// It has the same value in every row, and the tables are folded along it.
+    Folded(f64),
 }
 
 /// Columns of the node table that have no numbers.
@@ -112,10 +135,19 @@ impl fmt::Display for Reason {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Missing(missing) => missing.fmt(formatter),
-            Self::NeedsUserSubroutine(name) => write!(formatter, "needs user subroutine {name}"),
+            Self::NeedsUserSubroutine("GAPELECTR") => {
+                formatter.write_str("needs user subroutine GAPELECTR; give it with `--user-library FILE`")
+            }
+            Self::NeedsUserSubroutine(name) => {
+                write!(formatter, "needs user subroutine {name}, which is not evaluated")
+            }
             Self::NoKeyword(keyword) => write!(formatter, "the interaction has no *{keyword}"),
             Self::NoRows(keyword) => write!(formatter, "*{keyword} has no rows"),
             Self::BrokenTable(error) => write!(formatter, "its rows form no table: {error}"),
+            Self::BrokenCurves(error) => write!(formatter, "its rows form no conductance: {error}"),
+            Self::NoConstant(name) => write!(formatter, "*PHYSICAL CONSTANTS does not give {name}"),
+            Self::BadEmissivities => formatter.write_str("*GAP RADIATION has no two emissivities from 0 to 1"),
+            Self::NotInCalculix(why) => write!(formatter, "CalculiX {why}"),
             Self::OneSided { missing } => {
                 write!(
                     formatter,
@@ -136,6 +168,10 @@ impl fmt::Display for Reason {
             Self::NoTableDepends => formatter.write_str("no table in use depends on it"),
             Self::NotNeeded => formatter.write_str("nothing that is evaluated needs it"),
             Self::SteadyState => formatter.write_str("steady state does not need it"),
+            Self::NotAsked => formatter.write_str("not asked for"),
+            Self::Folded(value) => {
+                write!(formatter, "{} in every row, for which the tables are folded", number_text(*value))
+            }
             Self::Empty => formatter.write_str("it has no number in the rows that could use it"),
         }
     }

@@ -137,6 +137,8 @@ struct Surveyor<'a> {
     area: Option<usize>,
     /// Lengths and permeabilities that may not be negative.
     properties: Vec<(usize, Column)>,
+    /// Steps and increments, which are whole numbers.
+    counters: Vec<(usize, Column)>,
     time: Option<usize>,
     node: Option<usize>,
     nodes: NodeIndex,
@@ -153,6 +155,8 @@ pub(crate) struct ContactPlaces {
     pub(crate) pressure: Option<usize>,
     /// `closed`.
     pub(crate) closed: Option<usize>,
+    /// The state of every row, where the plan knows it.
+    pub(crate) state: Option<ContactState>,
 }
 
 impl ContactPlaces {
@@ -161,6 +165,9 @@ impl ContactPlaces {
     /// `None` where the row has not enough to tell.
     #[inline]
     pub(crate) fn state(&self, batch: &Batch, row: usize) -> Option<ContactState> {
+        if self.state.is_some() {
+            return self.state;
+        }
         let number = |place: Option<usize>| batch.numbers[place?].get(row);
         if let Some(closed) = number(self.closed) {
             return Some(if closed == 0.0 { ContactState::Open } else { ContactState::Closed });
@@ -186,14 +193,18 @@ impl<'a> Surveyor<'a> {
             Column::BulkPermeability(Part::Master),
         ];
         let properties = properties.into_iter().filter_map(|column| Some((selection.number(column)?, column)));
+        let counters = [Column::Step, Column::Increment];
+        let counters = counters.into_iter().filter_map(|column| Some((selection.number(column)?, column)));
         Self {
             contact: ContactPlaces {
                 clearance: selection.number(Column::Clearance),
                 pressure: selection.number(Column::Pressure),
                 closed: selection.number(Column::Closed),
+                state: None,
             },
             area: selection.number(Column::Area),
             properties: properties.collect(),
+            counters: counters.collect(),
             time: selection.number(Column::Time).filter(|_| histories),
             node: selection.label(Column::Node),
             rows: RowInteractions::new(model, survey.governed_by, selection.label(Column::Interaction)),
@@ -262,6 +273,14 @@ impl<'a> Surveyor<'a> {
             let message = format!("`{name}` of row {number} is {value:?}, below zero");
             let help = "give a number of zero or above, or leave the cell empty";
             findings.report(&NEGATIVE_PROPERTY, batch.place(row, Some(name)), message, help);
+        }
+        for (place, column) in &self.counters {
+            let is_counter = |value: f64| value == value.trunc() && value.abs() <= f64::from(i32::MAX);
+            let Some(value) = batch.numbers[*place].get(row).filter(|value| !is_counter(*value)) else { continue };
+            let name = name(*column);
+            let message = format!("`{name}` of row {number} is {value:?}, which is no whole number of 32 bits");
+            let help = "number steps and increments from 1 on, or leave the cell empty";
+            findings.report(&MALFORMED_CELL, batch.place(row, Some(name)), message, help);
         }
     }
 

@@ -70,7 +70,7 @@ pub(super) fn pore_axis(axis: usize) -> Along {
     }
 }
 
-fn field_variable(index: usize) -> Along {
+pub(super) fn field_variable(index: usize) -> Along {
     // A deck has at most a thousand (`MOST_FIELD_VARIABLES`).
     Along::FieldVariable(u32::try_from(index + 1).unwrap_or(u32::MAX))
 }

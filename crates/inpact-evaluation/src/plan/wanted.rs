@@ -1,9 +1,13 @@
 //! The columns of a node table that some law of a deck could use, before its rows are known.
 
+use super::asked::{ELECTRICAL_FLOWS, OF_AREA, SUMS_OF_HEAT};
 use super::choices::Choices;
 use super::governing::GovernedBy;
 use super::regime::regime;
 use super::tables::{InteractionTables, electrical_axis, matters, pore_axis};
+use super::thermal::tells_of_friction;
+use super::thermal_tables::{ThermalTables, thermal_axis};
+use super::user::want_user;
 use crate::nodes::{Column, Header, Part};
 use crate::results::Along;
 use crate::table::PiecewiseTable;
@@ -24,7 +28,13 @@ pub(super) fn wanted_columns(
     let mut wanted = BTreeSet::new();
     for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
-        want_electrical(&tables, &mut wanted);
+        want_electrical(&tables, choices, &mut wanted);
+        want_thermal(interaction, &ThermalTables::of(model, interaction, choices.dialect), choices, &mut wanted);
+        let electrical = interaction.gap_electrical_conductance.as_ref();
+        if choices.user_conductance.is_some() && electrical.is_some_and(|option| option.user.is_some()) {
+            want_of_electrical_law(choices, &mut wanted);
+            want_user(header, &mut wanted);
+        }
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -36,14 +46,42 @@ pub(super) fn wanted_columns(
     columns
 }
 
-/// What every law could use.
-const OF_ANY_LAW: [Column; 5] = [Column::Clearance, Column::Pressure, Column::Closed, Column::Area, Column::Time];
+/// What tells contact, area and time, as far as the outputs asked for need them.
+fn want_of_any_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    wanted.extend([Column::Clearance, Column::Pressure, Column::Closed]);
+    if choices.asks_for(&OF_AREA) {
+        wanted.insert(Column::Area);
+    }
+    wanted.insert(Column::Time);
+}
 
-fn want_electrical(tables: &InteractionTables, wanted: &mut BTreeSet<Column>) {
-    for (against, table) in tables.electrical() {
-        wanted.extend(OF_ANY_LAW);
+/// What every electrical law could use, whatever gives its conductance.
+fn want_of_electrical_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    want_of_any_law(choices, wanted);
+    if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {
         wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
+    }
+}
+
+fn want_electrical(tables: &InteractionTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    for (against, table) in tables.electrical() {
+        want_of_electrical_law(choices, wanted);
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
+    }
+}
+
+fn want_thermal(interaction: &Interaction, tables: &ThermalTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    let of_conductance = tables.conductance_tables();
+    if !of_conductance.is_empty() || tables.radiation.is_some() {
+        want_of_any_law(choices, wanted);
+        wanted.extend([Part::Slave, Part::Master].map(Column::Temperature));
+    }
+    for (against, table) in of_conductance {
+        want_variables(table, |axis| thermal_axis(against, axis), wanted);
+    }
+    if tells_of_friction(interaction) {
+        want_of_any_law(choices, wanted);
+        wanted.extend([Column::Shear, Column::SlipRate]);
     }
 }
 
@@ -58,7 +96,7 @@ fn want_pore(
     if option.is_none() && !model.procedures.iter().any(Procedure::solves_pore_pressure) {
         return;
     }
-    wanted.extend(OF_ANY_LAW);
+    want_of_any_law(choices, wanted);
     wanted.extend([Part::Slave, Part::Master].map(Column::PorePressure));
     if let Some(table) = tables.permeability() {
         want_variables(table, pore_axis, wanted);
@@ -85,6 +123,7 @@ pub(super) fn columns_of(along: Along) -> Option<[Column; 3]> {
     let parts = [Part::Both, Part::Slave, Part::Master];
     match along {
         Along::Temperature => Some(parts.map(Column::Temperature)),
+        Along::MassFlow => Some(parts.map(Column::MassFlow)),
         Along::FieldVariable(number) => Some(parts.map(|part| Column::FieldVariable(number, part))),
         Along::Clearance | Along::Pressure | Along::PorePressure => None,
     }

@@ -126,6 +126,13 @@ pub fn push_number(line: &mut Vec<u8>, value: f64) {
     }
 }
 
+/// A number in its shortest form, see [`push_number`].
+pub(crate) fn number_text(value: f64) -> String {
+    let mut text = Vec::new();
+    push_number(&mut text, value);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -134,7 +134,7 @@ impl PiecewiseTable {
             .collect();
         let levels = levels_that_matter(axes, starts, &summaries);
         let slopes = row_slopes(&levels, &values);
-        Ok(Self { axis_count, tail, levels, values, slopes, axes: summaries })
+        Ok(Self { axis_count, tail, levels, values, slopes, axes: summaries, marks: None })
     }
 }
 

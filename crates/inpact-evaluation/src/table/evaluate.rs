@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::{Level, PiecewiseTable, Sides, Tail};
+use super::{Level, Marks, PiecewiseTable, Sides, Tail};
 use crate::numbers::{between, interpolate, slope};
 
 /// The coordinates of a query: axis 0, then the others.
@@ -28,7 +28,7 @@ impl Point<'_> {
 }
 
 /// Where a coordinate lies among the abscissae of a group.
-enum Place {
+pub(crate) enum Place {
     Below,
     Knot(usize),
     Segment(usize),
@@ -52,12 +52,35 @@ impl PiecewiseTable {
 
     /// The value, and along which axes the point lies outside the range of a group that took part in it.
     pub fn value_and_sides_at(&self, first: f64, others: &[f64]) -> (f64, Sides) {
+        let point = Point { first, others };
+        if let Some(marks) = &self.marks {
+            return (self.value_at(first, others), marks.sides(point, self.is_undefined_at(point)));
+        }
         let mut sides = Sides::default();
-        let value = self.descend_from_top(Point { first, others }, &mut |axis, side| match side {
+        let value = self.descend_from_top(point, &mut |axis, side| match side {
             Ordering::Less => sides.mark_below(axis),
             _ => sides.mark_above(axis),
         });
         (value, sides)
+    }
+
+    /// Whether it is not the rows that say which points lie outside: the table is what was left of a larger one.
+    pub(crate) fn marks_sides(&self) -> bool {
+        self.marks.is_some()
+    }
+
+    /// On which sides the points of some columns lie, for a folded table.
+    pub(crate) fn mark_sides(&self, columns: &[&[f64]], sides: &mut [Sides]) {
+        let Some(marks) = &self.marks else { return };
+        let mut others = vec![f64::NAN; columns.len().saturating_sub(1)];
+        for (row, sides) in sides.iter_mut().enumerate() {
+            let coordinate = |axis: usize| columns.get(axis).and_then(|column| column.get(row)).copied();
+            for (axis, other) in others.iter_mut().enumerate() {
+                *other = coordinate(axis + 1).unwrap_or(f64::NAN);
+            }
+            let point = Point { first: coordinate(0).unwrap_or(f64::NAN), others: &others };
+            *sides = marks.sides(point, self.is_undefined_at(point));
+        }
     }
 
     /// Along which axes `point` lies outside the range of a group that takes part in the value there.
@@ -204,9 +227,30 @@ impl PiecewiseTable {
     }
 }
 
+impl Marks {
+    /// On which sides a point lies; on none where the value is undefined.
+    fn sides(&self, point: Point<'_>, is_undefined: bool) -> Sides {
+        let mut sides = Sides::default();
+        if is_undefined {
+            return sides;
+        }
+        for (axis, (least, greatest)) in &self.ranges {
+            let x = point.along(*axis);
+            if x < *least {
+                sides.mark_below(*axis);
+            }
+            // Between two groups without a common range a point is below one and above the other.
+            if *greatest < x {
+                sides.mark_above(*axis);
+            }
+        }
+        sides.or(self.always)
+    }
+}
+
 impl Level {
     /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07).
-    fn place(&self, knots: &Range<usize>, x: f64) -> Place {
+    pub(crate) fn place(&self, knots: &Range<usize>, x: f64) -> Place {
         if knots.len() == 1 {
             return Place::Knot(knots.start);
         }
@@ -221,7 +265,7 @@ impl Level {
     }
 
     /// The knots of the level below that belong to `knot`.
-    fn children_of(&self, knot: usize) -> Range<usize> {
+    pub(crate) fn children_of(&self, knot: usize) -> Range<usize> {
         self.children[knot]..self.children[knot + 1]
     }
 }

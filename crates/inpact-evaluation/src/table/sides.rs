@@ -26,6 +26,12 @@ impl Sides {
         self.above & flag(axis) != 0
     }
 
+    /// The sides of either.
+    #[must_use]
+    pub(super) fn or(self, other: Self) -> Self {
+        Self { below: self.below | other.below, above: self.above | other.above }
+    }
+
     #[inline]
     pub(crate) fn mark_below(&mut self, axis: usize) {
         self.below |= flag(axis);

@@ -8,7 +8,7 @@ use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Plan, make, survey};
 use inpact_evaluation::results::{ResultBatch, ResultWriter};
 use inpact_parser::deck::scan;
-use inpact_parser::grammar::Grammar;
+use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model::{self, Model};
 
 /// What came of a deck and a node table.
@@ -25,7 +25,10 @@ pub(crate) struct Run {
 
 /// The model of a deck.
 pub(crate) fn model_of(deck: &str) -> Model {
-    let grammar = Grammar::builtin();
+    read(deck, Grammar::builtin())
+}
+
+fn read(deck: &str, grammar: &Grammar) -> Model {
     model::read(&scan("deck.inp", deck.as_bytes(), grammar), grammar).0
 }
 
@@ -36,7 +39,10 @@ pub(crate) fn evaluate(deck: &str, nodes: &str) -> Run {
 
 /// Evaluates in batches of so many rows.
 pub(crate) fn evaluate_with(deck: &str, nodes: &str, choices: &Choices, rows_of_a_batch: usize) -> Run {
-    let model = model_of(deck);
+    let model = match choices.dialect {
+        Dialect::Abaqus => model_of(deck),
+        dialect @ Dialect::Calculix => read(deck, &Grammar::new(dialect, Release::NEWEST)),
+    };
     let mut findings = Findings::new("nodes.csv");
     let reader = |findings: &mut Findings| {
         let mut reader = NodeReader::open(Box::new(nodes.as_bytes()), findings).expect("a slice can be read");

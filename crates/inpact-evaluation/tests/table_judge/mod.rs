@@ -2,6 +2,8 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
+pub mod random_tables;
+
 use std::io::Write as _;
 
 use num_bigint::{BigInt, BigUint, Sign};

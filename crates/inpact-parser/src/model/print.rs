@@ -106,7 +106,9 @@ fn print_interaction(out: &mut String, interaction: &Interaction, grammar: &Gram
     }
     if let Some(heat) = &interaction.gap_heat_generation {
         print_keyword(out, "GAP HEAT GENERATION", []);
-        let _ = writeln!(out, "{}, {}", float_text(heat.fraction), float_text(heat.slave_weight));
+        let items = [Some(heat.fraction), Some(heat.slave_weight), heat.slip_rate];
+        let items: Vec<String> = items.into_iter().flatten().map(float_text).collect();
+        let _ = writeln!(out, "{}", items.join(", "));
     }
     for option in &interaction.other {
         print_option(out, option, grammar);

@@ -98,6 +98,7 @@ impl<'a> Reader<'a> {
             "END INSTANCE" => self.end_level(Level::Instance),
             "END ASSEMBLY" => self.end_level(Level::Assembly),
             "SURFACE" => self.read_surface(option),
+            "PHYSICAL CONSTANTS" => self.read_constants(option),
             "CONTACT PAIR" => self.read_contact_pair(option),
             "CONTACT PROPERTY ASSIGNMENT" => self.read_property_assignments(option),
             _ if definition.procedure => self.read_procedure(option),

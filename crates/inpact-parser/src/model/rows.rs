@@ -2,6 +2,7 @@
 //!
 //! Knows the layout of a row, not what its numbers mean. Reads every line, whatever is wrong with the one before.
 
+use super::SubOption;
 use super::table::{CellText, Table};
 use crate::deck::{Block, DataLine, Deck, items};
 use crate::expression::{Parameters, SubstitutionError, substitute};
@@ -173,6 +174,23 @@ impl RowReader<'_> {
         let width = self.layout.columns.len();
         let missing = (width - self.table.values.len() % width) % width;
         self.table.values.extend_from_slice(&self.layout.defaults[width - missing..]);
+    }
+}
+
+impl SubOption {
+    /// The rows that are kept as texts, as numbers: 0 where nothing stands (S-32), a `<parameter>` by its value, NaN where there is no number.
+    ///
+    /// A row has as many numbers as it has items up to the last that is not empty.
+    pub fn numbers(&self, parameters: &Parameters) -> Vec<Vec<f64>> {
+        let number = |item: &String| {
+            let text = substitute(item, parameters).ok()?;
+            match text.trim() {
+                "" => Some(0.0),
+                text => read_float(text.as_bytes()).ok(),
+            }
+        };
+        let numbers = |row: &Vec<String>| row.iter().map(|item| number(item).unwrap_or(f64::NAN)).collect();
+        self.rows.iter().map(numbers).collect()
     }
 }
 

@@ -14,11 +14,11 @@ declare_rule! {
     /// Nothing is reported where something else is wrong with the law: rows or a table beside `USER`, ignored parameters.
     ///
     /// ## Why
-    /// The deck is complete without the law, but nothing can be evaluated from it: the subroutine is a program of its own.
+    /// The deck is complete without the law, but nothing can be evaluated from the deck alone: the subroutine is a program of its own.
     ///
     /// ## What to do
     /// Give the subroutine to Abaqus with the deck.
-    /// To evaluate the law by inpact, write it as a table.
+    /// To evaluate the law by inpact, compile GAPELECTR with `gfortran -shared -fPIC -o gapelectr.so gapelectr.f` and name the library, `inpact eval --user-library gapelectr.so`; the laws of other subroutines have to be written as tables.
     ///
     /// ```inp,expect
     /// *SURFACE INTERACTION, NAME=WELD
@@ -43,7 +43,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         report
             .at(span, format!("user subroutine {subroutine} gives {law}"))
             .label("not part of the deck")
-            .note("what a user subroutine gives can be checked and not evaluated");
+            .note(match subroutine {
+                "GAPELECTR" => "compiled to a shared library, it is evaluated with `--user-library FILE`",
+                _ => "what this subroutine gives can be checked and not evaluated",
+            });
     };
     for interaction in context.model.all_interactions() {
         let user = interaction.parameters.iter().find(|parameter| parameter.name == "USER");

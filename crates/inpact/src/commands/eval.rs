@@ -7,7 +7,7 @@ use clap::Args;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
-use inpact_evaluation::plan::{Plan, Reason};
+use inpact_evaluation::plan::{InteractionPlan, Plan, Reason};
 use inpact_evaluation::results::{ResultBatch, ResultWriter};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -40,9 +40,9 @@ pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         return Err(nothing_to_evaluate(&scene, format));
     }
     let mut findings = Findings::new(&scene.nodes_name);
-    let (tally, rows_out) = evaluate(arguments, &mut scene, &mut findings)?;
-    tally.report(&scene.plan, &mut findings);
+    let evaluated = evaluate(arguments, &mut scene, &mut findings);
     say_data_findings(findings.into_list(), format);
+    let (tally, rows_out) = evaluated?;
     let summary = Summary { tally: &tally, plan: &scene.plan, rows_out, time: start.elapsed() };
     match format {
         FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
@@ -71,6 +71,11 @@ fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Finding
         let message = format!("`{nodes_name}` changed while it was read: {first} rows, then {then}");
         return Err(Failure::Data(message));
     }
+    tally.report_user_faults(findings);
+    if findings.has_errors() {
+        return Err(Failure::Data("the user subroutine fails, and no result is written".to_owned()));
+    }
+    tally.report(plan, findings);
     output.finish()?;
     Ok((tally, rows_out))
 }
@@ -133,6 +138,7 @@ impl Summary<'_> {
             let of = &self.tally.interactions[interaction.index];
             lines.push(format!("  {}: {}", interaction.name, counts(of)));
             lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
+            lines.extend(accuracy(interaction, of).into_iter().map(|line| format!("    {line}")));
             let laws_and_outputs =
                 interaction.left_out.iter().filter(|left_out| matches!(left_out.reason, Reason::Missing(_)));
             for left_out in laws_and_outputs {
@@ -163,6 +169,27 @@ impl Summary<'_> {
             incomplete_flows: u64,
             needs_char_length: u64,
             lost_digits: u64,
+            incomplete_heat: u64,
+            beyond_curves: u64,
+            below_absolute_zero: u64,
+            negative_friction: u64,
+            unnumbered_nodes: u64,
+            tables: Vec<Table>,
+            largest_error_seen: Option<SeenError>,
+        }
+        #[derive(Serialize)]
+        struct Table {
+            what: &'static str,
+            against: String,
+            method: String,
+            bound_relative_to_largest: Option<f64>,
+            bound_pointwise: Option<f64>,
+        }
+        #[derive(Serialize)]
+        struct SeenError {
+            rows: u64,
+            relative_to_largest: f64,
+            pointwise: f64,
         }
         #[derive(Serialize)]
         struct Line<'a> {
@@ -182,6 +209,29 @@ impl Summary<'_> {
                 incomplete_flows: of.incomplete_flows,
                 needs_char_length: of.needs_length,
                 lost_digits: of.lost_digits,
+                incomplete_heat: of.incomplete_heat,
+                beyond_curves: of.beyond_curves,
+                below_absolute_zero: of.below_absolute_zero,
+                negative_friction: of.negative_friction,
+                unnumbered_nodes: of.unnumbered_nodes,
+                tables: interaction
+                    .tables()
+                    .filter_map(|(what, table)| {
+                        let form = table.form.as_ref()?;
+                        Some(Table {
+                            what,
+                            against: table.against.to_string(),
+                            method: form.method.to_string(),
+                            bound_relative_to_largest: form.bound.map(|bound| bound.relative_to_largest),
+                            bound_pointwise: form.bound.map(|bound| bound.pointwise),
+                        })
+                    })
+                    .collect(),
+                largest_error_seen: Some(of.seen_error).filter(|seen| seen.rows > 0).map(|seen| SeenError {
+                    rows: seen.rows,
+                    relative_to_largest: seen.relative_to_largest,
+                    pointwise: seen.pointwise,
+                }),
             }
         });
         let summary = Record {
@@ -212,6 +262,29 @@ fn counts(of: &InteractionTally) -> String {
     counts.join(", ")
 }
 
+/// How exactly the tables of an interaction were evaluated: mode, bound, and the largest error seen.
+fn accuracy(plan: &InteractionPlan, of: &InteractionTally) -> Vec<String> {
+    let forms = plan.tables().filter_map(|(what, table)| Some((what, table, table.form.as_ref()?)));
+    let mut lines: Vec<String> = forms
+        .map(|(what, table, form)| {
+            let bound = form.bound.map_or_else(String::new, |bound| {
+                format!(", error at most {:.1e} of the largest value", bound.relative_to_largest)
+            });
+            format!("{what} against {}: {}{bound}", table.against, form.method)
+        })
+        .collect();
+    let seen = of.seen_error;
+    if seen.rows > 0 {
+        lines.push(format!(
+            "largest error seen in {} against the reference: {:.1e} of the largest value, {:.1e} of the value itself",
+            rows(seen.rows),
+            seen.relative_to_largest,
+            seen.pointwise
+        ));
+    }
+    lines
+}
+
 /// What a user should know of the rows.
 fn remarks(of: &InteractionTally) -> Vec<String> {
     let remarks = [
@@ -222,6 +295,17 @@ fn remarks(of: &InteractionTally) -> Vec<String> {
             of.lost_digits,
             "with a difference of potentials below 1e-8 of the potentials, which has lost its digits: give `epot_jump`",
         ),
+        (
+            of.incomplete_heat,
+            "without a number that the heat at the interface depends on, and so without all of its parts",
+        ),
+        (
+            of.beyond_curves,
+            "outside the curves of CalculiX, or the pressures that two of them share: the value at the end is kept",
+        ),
+        (of.below_absolute_zero, "with a temperature below absolute zero"),
+        (of.negative_friction, "with `shear` and `slip_rate` of opposite signs, and so a heat of friction below zero"),
+        (of.unnumbered_nodes, "whose `node` is no number: the user subroutine was given NODE = 0"),
     ];
     let remarks = remarks.into_iter().filter(|(count, _)| *count > 0);
     remarks.map(|(count, what)| format!("warning: {} {what}", rows(count))).collect()

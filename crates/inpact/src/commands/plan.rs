@@ -5,8 +5,10 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
-    CharacteristicLength, ColumnRole, ElectricalPlan, GovernedBy, InteractionPlan, Plan, PorePlan, Source, TablePlan,
+    CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, FormPlan, GovernedBy, InteractionPlan, Node,
+    Plan, PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan, UserPlan,
 };
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::Regime;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -62,6 +64,7 @@ fn as_json(scene: &Scene) -> String {
             "range": column.range.map(|(least, greatest)| [least, greatest]),
         })
     });
+    let outline = scene.plan.outline();
     let keys = scene.plan.keys().iter().map(ToString::to_string);
     let document = json!({
         "schema": "inpact/plan/1",
@@ -76,10 +79,22 @@ fn as_json(scene: &Scene) -> String {
         "interactions": interactions.iter().map(interaction).collect::<Vec<_>>(),
         "unused": unused.iter().map(inpact_parser::model::Name::written).collect::<Vec<_>>(),
         "columns": columns.collect::<Vec<_>>(),
+        "before": node(&outline.before),
+        "after": node(&outline.after),
+        "cuts": outline.cuts.iter().map(cut).collect::<Vec<_>>(),
         "outputs": keys.chain(outputs.iter().map(ToString::to_string)).collect::<Vec<_>>(),
     });
     // A document of strings and numbers has no reason to fail.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+/// A part of the evaluation with its estimated cost in nanoseconds a row, its parts included.
+fn node(part: &Node) -> Value {
+    json!({ "name": part.name, "cost": part.total(), "parts": part.parts.iter().map(node).collect::<Vec<_>>() })
+}
+
+fn cut(cut: &Cut) -> Value {
+    json!({ "interaction": cut.interaction, "what": cut.what, "reason": cut.reason, "saved": cut.saved })
 }
 
 fn interaction(plan: &InteractionPlan) -> Value {
@@ -92,6 +107,7 @@ fn interaction(plan: &InteractionPlan) -> Value {
         "open": plan.open,
         "histories": plan.histories,
         "electrical": plan.electrical.as_ref().map(electrical),
+        "thermal": plan.thermal.as_ref().map(thermal),
         "pore": plan.pore.as_ref().map(pore),
         "outputs": plan.outputs.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "left_out": left_out.collect::<Vec<_>>(),
@@ -104,8 +120,54 @@ fn electrical(law: &ElectricalPlan) -> Value {
         "regime": regime(law.regime.regime),
         "reason": law.regime.to_string(),
         "tables": law.tables.iter().map(table).collect::<Vec<_>>(),
+        "user": law.user.as_ref().map(user),
         "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
         "potential_jump": law.jump.as_ref().map(columns),
+    })
+}
+
+fn thermal(law: &ThermalPlan) -> Value {
+    let conduction = law.conduction.as_ref().map(|conduction| {
+        json!({
+            "dialect": match conduction.dialect {
+                Dialect::Abaqus => "abaqus",
+                Dialect::Calculix => "calculix",
+            },
+            "tables": conduction.tables.iter().map(table).collect::<Vec<_>>(),
+        })
+    });
+    let radiation = law.radiation.as_ref().map(|radiation| {
+        json!({
+            "coefficient": radiation.coefficient,
+            "absolute_zero": radiation.absolute_zero,
+            "table": table(&radiation.table),
+        })
+    });
+    let friction = law.friction.as_ref().map(|friction| {
+        json!({
+            "shear": friction.shear.to_string(),
+            "slip_rate": match friction.slip_rate {
+                SlipRateSource::Column => json!("slip_rate"),
+                SlipRateSource::Given(speed) => json!(speed),
+            },
+        })
+    });
+    json!({
+        "conduction": conduction,
+        "radiation": radiation,
+        "friction": friction,
+        "heat_of_current": law.current == CurrentHeat::Generated,
+        "heat": law.heat.map(|heat| json!({ "fraction": heat.fraction, "slave_weight": heat.slave_weight })),
+    })
+}
+
+fn user(user: &UserPlan) -> Value {
+    json!({
+        "subroutine": "GAPELECTR",
+        "npred": user.field_variables.len(),
+        "ciname": user.names.interaction.text(),
+        "slname": user.names.slave.text(),
+        "msname": user.names.master.text(),
     })
 }
 
@@ -132,10 +194,29 @@ fn table(table: &TablePlan) -> Value {
             "least": axis.least,
             "greatest": axis.greatest,
             "values": axis.points,
-            "used": axis.matters,
+            "used": axis.is_read(),
+            "folded_at": axis.fold,
         })
     });
-    json!({ "against": table.against.to_string(), "rows": table.rows, "axes": axes.collect::<Vec<_>>() })
+    json!({
+        "against": table.against.to_string(),
+        "rows": table.rows,
+        "rows_evaluated": table.folded_rows,
+        "axes": axes.collect::<Vec<_>>(),
+        "accuracy": table.form.as_ref().map(form),
+    })
+}
+
+/// How a table is evaluated, the bounds of its error, and the ways that were not chosen.
+fn form(form: &FormPlan) -> Value {
+    let refused = form.refused.iter().map(|(method, reason)| json!({ "method": method, "reason": reason }));
+    json!({
+        "method": form.method.to_string(),
+        "bound_relative_to_largest": form.bound.map(|bound| bound.relative_to_largest),
+        "bound_pointwise": form.bound.map(|bound| bound.pointwise),
+        "cost": form.cost,
+        "refused": refused.collect::<Vec<_>>(),
+    })
 }
 
 fn regime(regime: Regime) -> &'static str {

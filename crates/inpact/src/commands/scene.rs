@@ -5,13 +5,17 @@ use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
+use crate::user_library;
 use clap::{Args, ValueEnum};
+use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::law::pore::CutoffBoundary;
+use inpact_evaluation::law::user::UserLaw;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey};
+use inpact_evaluation::results::Output;
 use inpact_evaluation::table::Tail;
 use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::grammar::Grammar;
+use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity, check};
 use serde::Serialize;
@@ -45,9 +49,30 @@ pub(crate) struct SceneArguments {
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
     cutoff_boundary: Boundary,
-    /// Give the slopes of conductance and permeability as well.
+    /// How exactly the values of tables are found.
+    #[arg(long, value_enum, default_value_t = AccuracyChoice::Full)]
+    accuracy: AccuracyChoice,
+    /// The error that is acceptable, as a part of the largest value of a table: each is evaluated in the cheapest way whose bound is within it.
+    #[arg(long, value_name = "X", value_parser = tolerance, conflicts_with = "accuracy")]
+    tolerance: Option<f64>,
+    /// The same, as a part of the value at the same point.
+    #[arg(long, value_name = "X", value_parser = tolerance, conflicts_with_all = ["accuracy", "tolerance"])]
+    tolerance_relative: Option<f64>,
+    /// The outputs that are wanted, by the names of their columns; all that deck and node table give where there is none.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = output_named)]
+    outputs: Option<Vec<Output>>,
+    /// Give the slopes of conductances and permeability as well.
     #[arg(long)]
     derivatives: bool,
+    /// A shared library with the user subroutine GAPELECTR, compiled with
+    /// `gfortran -shared -fPIC -o gapelectr.so gapelectr.f`, for *GAP ELECTRICAL CONDUCTANCE, USER.
+    ///
+    /// It is loaded and run only when it is named here, and when an interaction of the deck has such a conductance.
+    /// `INCLUDE 'ABA_PARAM.INC'` reads a file beside the source with one line, `      IMPLICIT REAL*8 (A-H,O-Z)`.
+    /// It is native code: inpact cannot stop it from harm, and a crash in it ends the program.
+    /// What it writes to unit 6 comes out on standard output: write the result to a file with `-o`.
+    #[arg(long, value_name = "FILE")]
+    user_library: Option<PathBuf>,
     #[command(flatten)]
     reading: DeckArguments,
 }
@@ -64,6 +89,16 @@ enum ClearanceTail {
     Constant,
     /// Zero, as its figure has it.
     Zero,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum AccuracyChoice {
+    /// In twice the precision of f64, rounded once.
+    Reference,
+    /// In f64, within two units in the last place an axis.
+    Full,
+    /// In the cheapest form whose error bound is within 1e-4 of the largest value.
+    Fast,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -121,7 +156,7 @@ impl SceneArguments {
         if model.interactions.is_empty() {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
-        let choices = self.choices();
+        let choices = self.choices(&model, grammar.dialect())?;
         let nodes_name = self.nodes.display().to_string();
         let mut findings = Findings::new(&nodes_name);
         let mut nodes = NodesInput::open(&self.nodes)?;
@@ -132,14 +167,21 @@ impl SceneArguments {
         say_data_findings(findings.into_list(), format);
         let Some(surveyed) = surveyed.filter(|_| !has_errors) else { return Ok(None) };
         let plan = make(&model, &surveyed, &choices);
+        let mut unavailable = Findings::new(&nodes_name);
+        plan.report_unavailable(&choices, &mut unavailable);
+        let is_unavailable = unavailable.has_errors();
+        say_data_findings(unavailable.into_list(), format);
+        if is_unavailable {
+            return Ok(None);
+        }
         let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &plan, format);
         let deck_name = self.deck.display().to_string();
         Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
 
-    fn choices(&self) -> Choices {
-        Choices {
+    fn choices(&self, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
+        Ok(Choices {
             interaction: self.interaction.as_deref().map(Name::new),
             regime: self.procedure.map(|procedure| match procedure {
                 Procedure::Steady => Regime::SteadyState,
@@ -154,8 +196,43 @@ impl SceneArguments {
                 Boundary::Inclusive => CutoffBoundary::Inclusive,
                 Boundary::Exclusive => CutoffBoundary::Exclusive,
             },
-            derivatives: if self.derivatives { Derivatives::Given } else { Derivatives::LeftOut },
+            dialect,
+            derivatives: self.derivatives(),
+            accuracy: self.accuracy(),
+            outputs: self.outputs.clone(),
+            user_conductance: self.user_conductance(model)?,
+        })
+    }
+
+    /// The routine of `--user-library`, loaded only if an interaction of the deck asks for one.
+    fn user_conductance(&self, model: &Model) -> Result<Option<UserLaw>, Failure> {
+        let Some(path) = &self.user_library else { return Ok(None) };
+        let electrical = model.interactions.values().filter_map(|of| of.gap_electrical_conductance.as_ref());
+        if electrical.filter(|option| option.user.is_some()).count() == 0 {
+            let path = path.display();
+            say(&format!("warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `{path}` is not loaded"));
+            return Ok(None);
         }
+        user_library::load(path).map(Some)
+    }
+
+    fn accuracy(&self) -> Wanted {
+        match (self.tolerance, self.tolerance_relative) {
+            (Some(tolerance), _) => Wanted::Within(Tolerance::RelativeToLargest(tolerance)),
+            (None, Some(tolerance)) => Wanted::Within(Tolerance::Pointwise(tolerance)),
+            (None, None) => Wanted::Mode(match self.accuracy {
+                AccuracyChoice::Reference => Accuracy::Reference,
+                AccuracyChoice::Full => Accuracy::Full,
+                AccuracyChoice::Fast => Accuracy::Fast,
+            }),
+        }
+    }
+
+    /// Slopes are planned where they are asked for in general or by name.
+    fn derivatives(&self) -> Derivatives {
+        let is_slope = |output: &Output| matches!(output, Output::ConductanceSlope(_) | Output::PermeabilitySlope(_));
+        let by_name = self.outputs.as_ref().is_some_and(|outputs| outputs.iter().any(is_slope));
+        if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
 
     /// Where the node table is, for a failure to read it.
@@ -261,6 +338,21 @@ fn json(found: &DataDiagnostic) -> String {
     };
     // A record of strings and numbers has no reason to fail.
     serde_json::to_string(&record).unwrap_or_default()
+}
+
+fn output_named(text: &str) -> Result<Output, String> {
+    Output::named(text).ok_or_else(|| {
+        let names: Vec<String> = Output::NAMED.iter().map(ToString::to_string).collect();
+        format!("there is no such output; there are {} and slopes such as dconductance_dtemp", names.join(", "))
+    })
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(tolerance) if tolerance > 0.0 && tolerance.is_finite() => Ok(tolerance),
+        Ok(_) => Err("a tolerance must be above zero and finite".to_owned()),
+        Err(_) => Err("not a number".to_owned()),
+    }
 }
 
 fn positive_length(text: &str) -> Result<f64, String> {

@@ -86,6 +86,7 @@ impl InteractionDocument {
             row: None,
             fraction: heat.fraction,
             slave_weight: heat.slave_weight,
+            slip_rate: None,
         });
         let other = self.other.into_iter().enumerate();
         interaction.other = other

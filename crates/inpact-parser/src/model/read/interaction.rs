@@ -166,7 +166,9 @@ impl Reader<'_> {
             let problem = Problem { kind: ProblemKind::SurplusRow, span: *surplus, keyword: option.keyword.span };
             self.problems.push(problem);
         }
-        let heat = HeatGeneration { span, row, fraction, slave_weight };
+        // Below zero CalculiX computes it, which is what a row without it says too.
+        let slip_rate = values.get(2).copied().filter(|speed| 0.0 <= *speed);
+        let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate };
         if let Some(earlier) = interaction.gap_heat_generation.replace(heat) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::HeatGeneration(earlier));
         }

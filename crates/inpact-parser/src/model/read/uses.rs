@@ -1,4 +1,4 @@
-//! What uses the interactions: surfaces, contact pairs, property assignments, procedures (section 9).
+//! What uses the interactions: surfaces, contact pairs, property assignments, procedures (section 9); and the physical constants of the deck.
 
 use super::Reader;
 use super::entry::{Entry, take};
@@ -39,6 +39,14 @@ impl Reader<'_> {
             let assignment = PropertyAssignment { span: line.span, first: next(), second: next(), interaction: next() };
             self.model.property_assignments.push(assignment);
         }
+    }
+
+    /// The constants of *PHYSICAL CONSTANTS; a later one keeps those it does not give (2.6).
+    pub(super) fn read_constants(&mut self, option: Entry<'_>) {
+        let given = [self.float_of(option, "ABSOLUTE ZERO"), self.float_of(option, "STEFAN BOLTZMANN")];
+        let constants = &mut self.model.constants;
+        constants.absolute_zero = given[0].or(constants.absolute_zero);
+        constants.stefan_boltzmann = given[1].or(constants.stefan_boltzmann);
     }
 
     pub(super) fn read_procedure(&mut self, option: Entry<'_>) {

@@ -1,0 +1,101 @@
+//! How exactly a table is evaluated: twice the precision of f64, f64 as exact as it goes, or faster with an error that is known beforehand.
+//!
+//! [`Accuracy::Full`] is the table's own kernel. This module holds what stands beside it:
+//! the reference in double-double ([`PiecewiseTable::reference_at`]), and the error bounds of all modes.
+//! A bound is computed from the table and holds for every finite query; it is never an estimate from a sample.
+//!
+//! Rules of evaluation are those of [`crate::table`]: T-04 to T-07, constant ends, [`Tail::Zero`](crate::table::Tail), NaN in gives NaN out.
+//! Knows tables and numbers, no plan, no column names, no files.
+
+#![allow(clippy::inline_always, reason = "what is not inlined is not compiled for the processor at hand")]
+
+mod approximation;
+mod choose;
+mod cost;
+mod flat;
+mod grid;
+mod number;
+mod reference;
+mod refusal;
+mod registers;
+mod running;
+mod search;
+mod spread;
+
+pub use approximation::{Approximation, Form};
+pub use choose::{Candidate, Choice, FAST_TOLERANCE, Method, Tolerance, Wanted, choose, choose_for};
+pub use cost::{Columns, Shape, cost};
+pub use grid::commensurate_cells;
+pub use refusal::Refusal;
+
+use crate::table::{AxisSummary, PiecewiseTable};
+
+/// The accuracy a user asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Accuracy {
+    /// Double-double throughout, rounded once: within 0.501 ulp.
+    Reference,
+    /// f64, within n + 1 ulp for n axes: the table's own kernel.
+    #[default]
+    Full,
+    /// The cheapest form whose error bound is acceptable.
+    Fast,
+}
+
+/// How far a form of a table can be from the table, over all finite queries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorBound {
+    /// The largest error, in the unit of the table's values.
+    pub absolute: f64,
+    /// [`Self::absolute`] as a part of the largest magnitude among the table's values.
+    pub relative_to_largest: f64,
+    /// The largest error as a part of the exact value at the same point.
+    /// Where that value is below the smallest normal f64, 2.2e-308, the error is taken as a part of the latter.
+    /// Infinite where the value can be zero, or arbitrarily small, and the error not.
+    pub pointwise: f64,
+}
+
+impl ErrorBound {
+    /// No error at all.
+    pub const EXACT: Self = Self { absolute: 0.0, relative_to_largest: 0.0, pointwise: 0.0 };
+
+    /// The bound of a table whose values have the magnitude `largest` at most.
+    pub(crate) fn of_magnitudes(absolute: f64, pointwise: f64, largest: f64) -> Self {
+        let relative_to_largest = if absolute == 0.0 { 0.0 } else { absolute / largest };
+        Self { absolute, relative_to_largest, pointwise }
+    }
+}
+
+/// The error bound of the table's own kernel, n + 1 ulp for n axes that matter.
+///
+/// An ulp is 2⁻⁵² of a value at most. The error of values of opposite sign is one of the larger value: where the sum is near zero, nothing is known of its relative error,
+/// so the pointwise bound of such a table is infinite.
+pub fn full_bound(table: &PiecewiseTable) -> ErrorBound {
+    let axes = table.axes().iter().filter(|axis| axis.matters()).count();
+    bound_in_ulps(table, if axes == 0 { 0.0 } else { axes as f64 + 1.0 })
+}
+
+/// The error bound of the reference: one rounding, and what 106 bits lack.
+pub fn reference_bound(table: &PiecewiseTable) -> ErrorBound {
+    bound_in_ulps(table, if table.axes().iter().any(AxisSummary::matters) { 0.501 } else { 0.0 })
+}
+
+fn bound_in_ulps(table: &PiecewiseTable, ulps: f64) -> ErrorBound {
+    if ulps == 0.0 {
+        return ErrorBound::EXACT;
+    }
+    let relative = ulps * f64::EPSILON;
+    let has_one_sign =
+        table.values().iter().all(|&value| value >= 0.0) || table.values().iter().all(|&value| value <= 0.0);
+    let largest = largest_magnitude(table.values());
+    ErrorBound::of_magnitudes(
+        ulps * crate::numbers::ulp(largest),
+        if has_one_sign { relative } else { f64::INFINITY },
+        largest,
+    )
+}
+
+/// The largest magnitude among `values`.
+pub(crate) fn largest_magnitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, value| value.abs().max(largest))
+}

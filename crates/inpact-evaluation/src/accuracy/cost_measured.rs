@@ -1,0 +1,16 @@
+const MEASURED: &[Measured] = &[
+    Measured { axes: 1, knots: 4, reference: 76.8, full: 29.61, slope: 0.55, single: 0.43, of_single_columns: 0.26, grid: f64::INFINITY },
+    Measured { axes: 1, knots: 16, reference: 78.2, full: 47.67, slope: 0.83, single: 0.61, of_single_columns: 0.41, grid: f64::INFINITY },
+    Measured { axes: 1, knots: 32, reference: 83.4, full: 50.40, slope: 4.22, single: 0.73, of_single_columns: 0.51, grid: f64::INFINITY },
+    Measured { axes: 1, knots: 100, reference: 90.6, full: 69.49, slope: 4.25, single: 3.91, of_single_columns: 4.21, grid: f64::INFINITY },
+    Measured { axes: 1, knots: 1000, reference: 101.6, full: 50.79, slope: 5.38, single: 4.37, of_single_columns: 4.32, grid: f64::INFINITY },
+    Measured { axes: 2, knots: 4, reference: 138.5, full: 108.14, slope: 16.94, single: 18.62, of_single_columns: 17.53, grid: 4.41 },
+    Measured { axes: 2, knots: 10, reference: 156.3, full: 100.18, slope: 22.15, single: 23.78, of_single_columns: 24.90, grid: 4.80 },
+    Measured { axes: 2, knots: 32, reference: 210.0, full: 111.22, slope: 17.67, single: 18.35, of_single_columns: 18.08, grid: 4.42 },
+    Measured { axes: 2, knots: 100, reference: 198.6, full: 133.66, slope: 19.38, single: 20.05, of_single_columns: 19.57, grid: 4.12 },
+    Measured { axes: 3, knots: 4, reference: 245.2, full: 171.56, slope: 51.48, single: 62.42, of_single_columns: 60.32, grid: 7.35 },
+    Measured { axes: 3, knots: 10, reference: 350.2, full: 239.64, slope: 65.27, single: 51.43, of_single_columns: 65.11, grid: 7.45 },
+    Measured { axes: 3, knots: 20, reference: 404.6, full: 319.61, slope: 60.45, single: 60.99, of_single_columns: 62.85, grid: f64::INFINITY },
+    Measured { axes: 4, knots: 4, reference: 517.2, full: 372.65, slope: 127.36, single: 137.39, of_single_columns: 139.78, grid: f64::INFINITY },
+    Measured { axes: 4, knots: 8, reference: 491.6, full: 385.80, slope: 107.06, single: 108.85, of_single_columns: 108.43, grid: f64::INFINITY },
+];

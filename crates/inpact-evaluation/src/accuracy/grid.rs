@@ -1,0 +1,355 @@
+//! Tables of two and more axes resampled on a regular grid: no search, one multiplication finds the cell.
+//!
+//! The nodes have the table's values, between them the grid is multilinear. Within a cell of the common refinement of grid and table both are linear along each axis,
+//! and so is their difference: its largest magnitude is at a vertex of the refinement, and so is its largest ratio to the table's value.
+//! The bound is the largest found there, hence the true maximum, and what rounding can add.
+//! The refinement is gone through in bands between two neighbouring groups of the outermost axis, which need only the abscissae of these two.
+//!
+//! A grid whose lines meet all abscissae is the table itself up to rounding ([`commensurate_cells`]). For one axis a grid gains nothing, see `docs/accuracy.md`.
+
+use super::flat::MOST_AXES;
+use super::number::Number as _;
+use super::spread::{abscissae, for_each_vertex, group_value};
+use super::{ErrorBound, Refusal, largest_magnitude};
+use crate::table::{PiecewiseTable, Tail};
+
+/// A regular grid over the axes the value depends on.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    axes: Vec<GridAxis>,
+    /// The values at the nodes, axis 0 running fastest.
+    nodes: Vec<f64>,
+    /// The coordinate of the innermost axis beyond which every value is zero; infinite if there is none.
+    zero_beyond: f64,
+}
+
+#[derive(Clone, Debug)]
+struct GridAxis {
+    /// Which axis of the table this is.
+    axis: usize,
+    least: f64,
+    greatest: f64,
+    /// Cells for a unit of the coordinate.
+    scale: f64,
+    cells: usize,
+    /// The distance of neighbouring nodes along this axis in `nodes`.
+    stride: usize,
+}
+
+/// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
+pub(super) const MOST_NODES: usize = 1 << 15;
+
+/// The most vertices of the refinement of table and grid.
+const MOST_VERTICES: usize = 1 << 20;
+
+/// How many rows are done at a time: places first, then values.
+const BLOCK: usize = 64;
+
+impl Grid {
+    /// The grid with `cells` along each axis that matters, and the bound of its error.
+    pub(super) fn new(table: &PiecewiseTable, cells: &[usize]) -> Result<(Self, ErrorBound), Refusal> {
+        match table.levels.len() {
+            0 => return Err(Refusal::Constant),
+            1 => return Err(Refusal::OneAxis),
+            2..=MOST_AXES => {}
+            count => return Err(Refusal::TooManyAxes(count)),
+        }
+        if cells.len() != table.levels.len() || cells.contains(&0) {
+            return Err(Refusal::Cells);
+        }
+        let node_count = cells.iter().fold(1, |count: usize, &cells| count.saturating_mul(cells.saturating_add(1)));
+        if node_count > MOST_NODES {
+            return Err(Refusal::TooManyNodes(node_count));
+        }
+        if let Some(&large) = table.values.iter().find(|value| value.abs() > f64::SAFE_TO_ADD) {
+            return Err(Refusal::TooLarge(large));
+        }
+        let mut axes = Vec::new();
+        let mut stride = 1;
+        for (level, &cells) in table.levels.iter().zip(cells) {
+            let summary = table.axes()[level.axis];
+            let scale = cells as f64 / (summary.greatest - summary.least);
+            if summary.least.abs().max(summary.greatest.abs()) > f64::SAFE_TO_ADD || !scale.is_normal() {
+                return Err(Refusal::Slope(scale));
+            }
+            let (least, greatest) = (summary.least, summary.greatest);
+            axes.push(GridAxis { axis: level.axis, least, greatest, scale, cells, stride });
+            stride *= cells + 1;
+        }
+        let lines: Vec<Vec<f64>> = axes.iter().enumerate().map(|(level, axis)| axis.lines(table, level)).collect();
+        let mut nodes = Vec::with_capacity(node_count);
+        let (height, whole) = table.whole_group();
+        let mut point = vec![0.0; axes[height - 1].axis + 1];
+        for_each_vertex(&lines, &mut |node| {
+            for (axis, &x) in axes.iter().zip(node) {
+                point[axis.axis] = x;
+            }
+            nodes.push(group_value(table, height, whole.clone(), &point));
+        });
+        let grid = Self { zero_beyond: zero_beyond(table, axes[0].greatest), axes, nodes };
+        let bound = grid.bound(table, &lines)?;
+        Ok((grid, bound))
+    }
+
+    pub(super) fn cells(&self) -> Vec<usize> {
+        self.axes.iter().map(|axis| axis.cells).collect()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.axes[..])
+    }
+
+    pub(super) fn axis_count(&self) -> usize {
+        self.axes.last().map_or(0, |axis| axis.axis + 1)
+    }
+
+    /// The values at the points of `columns`, one column an axis of the table.
+    pub(super) fn values(&self, columns: &[&[f64]], values: &mut [f64]) {
+        pulp::Arch::new().dispatch(Each { grid: self, columns, values });
+    }
+
+    /// The largest error at a vertex of the common refinement, and what rounding can add to it.
+    fn bound(&self, table: &PiecewiseTable, lines: &[Vec<f64>]) -> Result<ErrorBound, Refusal> {
+        let (height, whole) = table.whole_group();
+        let outer = &table.levels[height - 1];
+        let largest = largest_magnitude(&table.values);
+        let mut worst = (0.0_f64, 0.0_f64);
+        let mut vertices = 0;
+        let mut point = vec![0.0; self.axis_count()];
+        for knot in 0..outer.knots.len() - 1 {
+            let (start, end) = (outer.knots[knot], outer.knots[knot + 1]);
+            let groups = [outer.children_of(knot), outer.children_of(knot + 1)];
+            let mut axes: Vec<Vec<f64>> = (0..height - 1)
+                .map(|level| merged(abscissae(table, level, height - 1, &groups), &lines[level]))
+                .collect();
+            let within = lines[height - 1].iter().copied().filter(|&line| start < line && line < end);
+            axes.push([start].into_iter().chain(within).chain([end]).collect());
+            let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.len()));
+            vertices = count.saturating_add(vertices);
+            if vertices > MOST_VERTICES {
+                return Err(Refusal::TooManyVertices(vertices));
+            }
+            for_each_vertex(&axes, &mut |vertex| {
+                for (axis, &x) in self.axes.iter().zip(vertex) {
+                    point[axis.axis] = x;
+                }
+                let exact = group_value(table, height, whole.clone(), &point);
+                let error = (self.at(&point) - exact).abs();
+                worst.0 = worst.0.max(error);
+                if error > 0.0 {
+                    worst.1 = worst.1.max(error / exact.abs().max(f64::MIN_POSITIVE));
+                }
+            });
+        }
+        let rounding = self.rounding(largest);
+        let least = smallest_magnitude(table);
+        let pointwise = if least > f64::MIN_POSITIVE {
+            worst.1 * (1.0 + 16.0 * f64::EPSILON) + rounding / least
+        } else {
+            f64::INFINITY
+        };
+        let pointwise = if pointwise < 1e15 { pointwise } else { f64::INFINITY };
+        Ok(ErrorBound::of_magnitudes(worst.0 + rounding, pointwise, largest))
+    }
+
+    /// What rounding can add to the error found at the vertices.
+    ///
+    /// The place of a coordinate in units of cells is off by two roundings of itself, and a line of the grid is not exactly where its node was evaluated;
+    /// either costs as much of the largest difference of neighbouring nodes. Each axis rounds a difference and a result. All that counts twice, at the vertex and at the query,
+    /// and the table's own kernel is off by n + 1 ulp at the vertex.
+    fn rounding(&self, largest: f64) -> f64 {
+        let unit = f64::UNIT;
+        let mut of_kernel = 0.0;
+        let mut of_lines = 0.0;
+        for axis in &self.axes {
+            let difference = self.largest_step(axis);
+            let cells = axis.cells as f64;
+            let reach = axis.least.abs().max(axis.greatest.abs()) * axis.scale;
+            of_kernel += (2.0 * cells + 1.0) * unit * difference + unit * largest + f64::UNDERFLOW;
+            of_lines += 2.0 * difference * unit * (3.0 * cells + 18.0 * reach);
+        }
+        let of_table = 2.0 * (self.axes.len() as f64 + 1.0) * unit * largest + f64::UNDERFLOW;
+        (2.0 * of_kernel + of_lines + of_table) * (1.0 + 1024.0 * unit)
+    }
+
+    /// The largest difference of neighbouring nodes along an axis.
+    fn largest_step(&self, axis: &GridAxis) -> f64 {
+        let is_last = |node: usize| node / axis.stride % (axis.cells + 1) == axis.cells;
+        (0..self.nodes.len())
+            .filter(|&node| !is_last(node))
+            .map(|node| (self.nodes[node + axis.stride] - self.nodes[node]).abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// The value at one point.
+    fn at(&self, point: &[f64]) -> f64 {
+        let columns: Vec<&[f64]> = point.iter().map(std::slice::from_ref).collect();
+        let mut value = [0.0];
+        self.values(&columns, &mut value);
+        value[0]
+    }
+
+    /// Interpolates between the 2^(axes - first) nodes at and after `base`, `parts` holding the places within the cell.
+    #[inline(always)]
+    fn interpolate_2(&self, base: usize, parts: [f64; 2]) -> f64 {
+        let next = base + self.axes[1].stride;
+        let a = lerp(parts[0], self.nodes[base], self.nodes[base + 1]);
+        let b = lerp(parts[0], self.nodes[next], self.nodes[next + 1]);
+        lerp(parts[1], a, b)
+    }
+
+    #[inline(always)]
+    fn interpolate_3(&self, base: usize, [x, y, z]: [f64; 3]) -> f64 {
+        let a = self.interpolate_2(base, [x, y]);
+        let b = self.interpolate_2(base + self.axes[2].stride, [x, y]);
+        lerp(z, a, b)
+    }
+
+    #[inline(always)]
+    fn interpolate_4(&self, base: usize, [x, y, z, w]: [f64; 4]) -> f64 {
+        let a = self.interpolate_3(base, [x, y, z]);
+        let b = self.interpolate_3(base + self.axes[3].stride, [x, y, z]);
+        lerp(w, a, b)
+    }
+
+    /// The values of a block of rows beginning at row `start`.
+    #[inline(always)]
+    fn block(&self, columns: &[&[f64]], start: usize, values: &mut [f64]) {
+        let rows = values.len();
+        let mut bases = [0_u32; BLOCK];
+        let mut parts = [[0.0_f64; BLOCK]; MOST_AXES];
+        for (axis, parts) in self.axes.iter().zip(&mut parts) {
+            let column = &columns[axis.axis][start..start + rows];
+            #[expect(clippy::cast_possible_truncation, reason = "a grid has at most 2^15 nodes")]
+            let (last, stride) = (axis.cells as u32 - 1, axis.stride as u32);
+            for ((base, part), &x) in bases.iter_mut().zip(parts).zip(column) {
+                let place = (x.bounded(axis.least, axis.greatest) - axis.least) * axis.scale;
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "saturates, which is meant"
+                )]
+                let cell = (place as u32).min(last);
+                *base += cell * stride;
+                *part = place - f64::from(cell);
+            }
+        }
+        let [x, y, z, w] = &parts;
+        match self.axes.len() {
+            2 => {
+                for (row, value) in values.iter_mut().enumerate() {
+                    *value = self.interpolate_2(bases[row] as usize, [x[row], y[row]]);
+                }
+            }
+            3 => {
+                for (row, value) in values.iter_mut().enumerate() {
+                    *value = self.interpolate_3(bases[row] as usize, [x[row], y[row], z[row]]);
+                }
+            }
+            _ => {
+                for (row, value) in values.iter_mut().enumerate() {
+                    *value = self.interpolate_4(bases[row] as usize, [x[row], y[row], z[row], w[row]]);
+                }
+            }
+        }
+        if self.zero_beyond < f64::INFINITY {
+            let column = &columns[self.axes[0].axis][start..start + rows];
+            for (value, &x) in values.iter_mut().zip(column) {
+                // A NaN along another axis stays one.
+                *value = if x > self.zero_beyond && !value.is_nan() { 0.0 } else { *value };
+            }
+        }
+    }
+}
+
+impl GridAxis {
+    /// The coordinates of the grid's lines: the table's own abscissae where a line meets one to a few ulp.
+    fn lines(&self, table: &PiecewiseTable, level: usize) -> Vec<f64> {
+        let (height, whole) = table.whole_group();
+        let knots = abscissae(table, level, height, &[whole]);
+        let width = self.greatest - self.least;
+        let nearness = 4.0 * f64::EPSILON * self.least.abs().max(self.greatest.abs());
+        (0..=self.cells)
+            .map(|cell| {
+                let line = self.least + width * (cell as f64 / self.cells as f64);
+                let right = knots.partition_point(|&knot| knot < line);
+                let near = [right.saturating_sub(1), right.min(knots.len() - 1)].map(|knot| knots[knot]);
+                let nearest = if (near[0] - line).abs() <= (near[1] - line).abs() { near[0] } else { near[1] };
+                let met = if (nearest - line).abs() <= nearness { nearest } else { line };
+                met.clamp(self.least, self.greatest)
+            })
+            .collect()
+    }
+}
+
+/// Cells along each axis such that the lines of the grid meet all the table's abscissae; none if that takes too many nodes.
+pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
+    const MOST_CELLS: usize = 512;
+    let (height, whole) = table.whole_group();
+    let of_level = |level: usize| {
+        let knots = abscissae(table, level, height, std::slice::from_ref(&whole));
+        let axis = table.axes()[table.levels[level].axis];
+        let width = axis.greatest - axis.least;
+        let meets = |cells: usize, knot: f64| {
+            let place = (knot - axis.least) / width * cells as f64;
+            (place - place.round()).abs() <= 8.0 * f64::EPSILON * cells as f64 * (1.0 + axis.least.abs() / width)
+        };
+        (1..=MOST_CELLS).find(|&cells| knots.iter().all(|&knot| knot > axis.greatest || meets(cells, knot)))
+    };
+    let cells: Vec<usize> = (0..height).map(of_level).collect::<Option<_>>()?;
+    let nodes = cells.iter().fold(1_usize, |count, cells| count.saturating_mul(cells + 1));
+    (nodes <= MOST_NODES).then_some(cells)
+}
+
+/// `a` + `part` × (`b` − `a`).
+#[inline(always)]
+fn lerp(part: f64, a: f64, b: f64) -> f64 {
+    part.mul_add(b - a, a)
+}
+
+/// Two rising lists as one, each number once.
+fn merged(mut a: Vec<f64>, b: &[f64]) -> Vec<f64> {
+    a.extend_from_slice(b);
+    a.sort_unstable_by(f64::total_cmp);
+    a.dedup();
+    a
+}
+
+/// The innermost coordinate beyond which every value is zero, `greatest` if all groups end in zero at it or before.
+fn zero_beyond(table: &PiecewiseTable, greatest: f64) -> f64 {
+    let all_drop = table.levels[0].axis == 0
+        && table.tail == Tail::Zero
+        && table.levels[1].children.windows(2).all(|group| group[1] - group[0] > 1);
+    if all_drop { greatest } else { f64::INFINITY }
+}
+
+/// The smallest magnitude of the table within the range of the grid; zero where signs differ or a group ends in zero before another.
+fn smallest_magnitude(table: &PiecewiseTable) -> f64 {
+    let least = table.values.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = table.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let innermost = &table.levels[0];
+    let ends_early = innermost.axis == 0
+        && table.tail == Tail::Zero
+        && table.levels[1].children[1..]
+            .iter()
+            .any(|&end| innermost.knots[end - 1] != innermost.knots[innermost.knots.len() - 1]);
+    if ends_early || (least <= 0.0 && greatest >= 0.0) { 0.0 } else { least.abs().min(greatest.abs()) }
+}
+
+/// The grid's values compiled for the processor at hand.
+struct Each<'a> {
+    grid: &'a Grid,
+    columns: &'a [&'a [f64]],
+    values: &'a mut [f64],
+}
+
+impl pulp::WithSimd for Each<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        for (block, values) in self.values.chunks_mut(BLOCK).enumerate() {
+            self.grid.block(self.columns, block * BLOCK, values);
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Why a table has no approximation of some form.
+
+use std::fmt;
+
+/// Why a table cannot be approximated in a form, or is not.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The value depends on nothing: there is nothing to make faster.
+    Constant,
+    /// The value depends on more axes than the fast forms are made for.
+    TooManyAxes(usize),
+    /// A number too large for the form's arithmetic.
+    TooLarge(f64),
+    /// A number other than zero that is too small for the form's arithmetic.
+    TooSmall(f64),
+    /// A slope, or inverse width, outside the range of the form's arithmetic.
+    Slope(f64),
+    /// Two abscissae that are one in the form's arithmetic.
+    Merged(f64),
+    /// A table of one axis is never resampled: it would gain no time and lose the knots.
+    OneAxis,
+    /// A grid with no cells along an axis, or for another number of axes.
+    Cells,
+    /// A grid of so many nodes would not stay in cache.
+    TooManyNodes(usize),
+    /// The refinement of table and grid has so many vertices that its error is not computed.
+    TooManyVertices(usize),
+    /// The error bound, here as a part of the largest value or pointwise, is above the tolerance.
+    Bound {
+        /// The bound.
+        bound: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+    /// Within the tolerance, but another form is cheaper.
+    Slower,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant => write!(f, "the value depends on no axis"),
+            Self::TooManyAxes(count) => write!(f, "the value depends on {count} axes, more than 4"),
+            Self::TooLarge(value) => write!(f, "{value:e} is too large for its arithmetic"),
+            Self::TooSmall(value) => write!(f, "{value:e} is too small for its arithmetic"),
+            Self::Slope(slope) => write!(f, "a slope of {slope:e} is outside the range of its arithmetic"),
+            Self::Merged(at) => write!(f, "two abscissae near {at:e} are one in its arithmetic"),
+            Self::OneAxis => write!(f, "a table of one axis gains nothing by resampling"),
+            Self::Cells => write!(f, "the grid needs cells along each axis the value depends on"),
+            Self::TooManyNodes(count) => write!(f, "a grid of {count} nodes would not stay in cache"),
+            Self::TooManyVertices(count) => {
+                write!(f, "its error would have to be computed at {count} vertices, which is too many")
+            }
+            Self::Bound { bound, tolerance } => write!(f, "its bound, {bound:.1e}, is above {tolerance:.1e}"),
+            Self::Slower => write!(f, "another form within the tolerance is cheaper"),
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The integrals of the heat at one node: HTL and SFDRT and, times its area, HTLA and SFDRTA.
+//!
+//! Backward Euler, as the integrals of current are (O-5). The two flows have increments of their own, because a row may know one and not the other.
+
+use super::Integral;
+
+/// The integrals of the heat that leaves the slave and of the heat of friction.
+#[derive(Clone, Debug, Default)]
+pub struct ThermalHistory {
+    /// Heat leaving the slave surface: HTL, HTLA.
+    pub leaving: FlowHistory,
+    /// Heat of friction into both surfaces: SFDRT, SFDRTA.
+    pub friction: FlowHistory,
+}
+
+/// The integral of one flow per area over time and, times the area of the node, of the whole flow.
+#[derive(Clone, Debug, Default)]
+pub struct FlowHistory {
+    previous: Option<f64>,
+    integral: Integral,
+}
+
+impl FlowHistory {
+    /// Goes on to the row at `time`, whose flow holds since the row before; `area` is the area of the node, if known.
+    ///
+    /// The first row starts the history: its integral is 0.
+    pub fn add(&mut self, time: f64, flow: f64, area: Option<f64>) {
+        let duration = self.previous.map(|start| time - start);
+        self.previous = Some(time);
+        self.integral.add_increment(flow, duration, area);
+    }
+
+    /// The integral of the flow per area.
+    pub fn per_area(&self) -> f64 {
+        self.integral.per_unit.total()
+    }
+
+    /// The integral of the whole flow; `None` once an area was unknown.
+    pub fn of_area(&self) -> Option<f64> {
+        self.integral.of_area()
+    }
+}

@@ -1,0 +1,212 @@
+//! Thermal gap conductance as CalculiX has it: the same keyword *GAP CONDUCTANCE, another law.
+//!
+//! The rows are (conductance, contact pressure, temperature); rows of one temperature make a curve against pressure. There is no table against clearance:
+//! a pair of faces conducts where it is closed, and nowhere else.
+//!
+//! | mean temperature | conductance |
+//! |---|---|
+//! | one curve only | that curve at any temperature |
+//! | below the first curve, or at or above the last | that curve, constant outside its pressures |
+//! | from one curve up to the next | both curves, **clipped to the pressures that both have**, linear in temperature; constant outside these pressures |
+//!
+//! The clipping is what sets it apart from the nested tables of Abaqus (T-06), in which each curve is constant outside its own pressures.
+//! It makes the conductance jump where the mean temperature reaches a curve of other pressures.
+//! Curves that share no pressures have no value between them, and ccx stops: such rows form no law here either.
+//! ccx keeps room for 20 rows a curve and reads beyond that without a word; that fault is not part of the law (rule T016 warns of it).
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | k | gap conductance | J T⁻¹ L⁻² θ⁻¹ |
+//! | p | contact pressure | F L⁻² |
+//! | θ̄ | mean temperature of both sides | θ |
+//!
+//! Derivatives: as those of a table (semantics 4.4), of the clipped curves.
+//! Source: CalculiX ccx 2.20, `materialdata_sp.f`, `plmix.f`, `springforc_f2f_th.f`, and runs of it; semantics K-38.
+
+use super::conductance::{Branch, Conductance, ConductanceSlopes, ContactPoint};
+use super::contact::ContactState;
+use crate::table::{PiecewiseTable, Sides, TableError, TableFault, Tail};
+use std::fmt;
+use std::ops::Range;
+
+/// The conductance of an interaction in the dialect of CalculiX.
+#[derive(Clone, Debug)]
+pub struct CalculixConductance {
+    /// The temperature of each curve, ascending.
+    temperatures: Vec<f64>,
+    /// The first and the last curve against pressure, by which ccx goes on outside the temperatures.
+    outermost: [PiecewiseTable; 2],
+    /// For each curve but the last the clipped table against pressure and temperature up to the next.
+    between: Vec<PiecewiseTable>,
+    /// All rows as one table, of which a plan tells its axes.
+    rows: PiecewiseTable,
+}
+
+/// Rows that CalculiX makes no conductance of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CalculixError {
+    /// They form no table: pressures or temperatures do not ascend, a number is not finite.
+    Table(TableError),
+    /// Two neighbouring curves share no pressures.
+    Disjoint {
+        /// The temperature of the first of the two.
+        first: f64,
+        /// The temperature of the second.
+        second: f64,
+    },
+}
+
+impl fmt::Display for CalculixError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Table(error) => error.fmt(formatter),
+            Self::Disjoint { first, second } => {
+                write!(formatter, "the curves at temperatures {first:?} and {second:?} share no pressures")
+            }
+        }
+    }
+}
+
+impl std::error::Error for CalculixError {}
+
+const WIDTH: usize = CalculixConductance::WIDTH;
+
+impl CalculixConductance {
+    /// How many numbers a row has: conductance, pressure, temperature.
+    pub const WIDTH: usize = 3;
+
+    /// The conductance of `cells`, rows of conductance, pressure and temperature.
+    ///
+    /// # Errors
+    /// Rows that do not ascend, which ccx would take without a word and read wrongly; and neighbouring curves without pressures in common, at which it stops.
+    pub fn from_rows(cells: &[f64]) -> Result<Self, CalculixError> {
+        let rows = PiecewiseTable::from_rows(cells, WIDTH, Tail::Constant).map_err(CalculixError::Table)?;
+        let (rows_of_table, _) = cells.as_chunks::<WIDTH>();
+        let curves: Vec<&[[f64; WIDTH]]> = rows_of_table.chunk_by(|row, next| row[2] == next[2]).collect();
+        let nothing = CalculixError::Table(TableError { row: 0, fault: TableFault::NoRows });
+        let (Some(first), Some(last)) = (curves.first(), curves.last()) else { return Err(nothing) };
+        let outermost = [curve_table(first)?, curve_table(last)?];
+        let between = curves.windows(2).map(|pair| clipped(pair[0], pair[1])).collect::<Result<_, _>>()?;
+        Ok(Self { temperatures: curves.iter().map(|curve| curve[0][2]).collect(), outermost, between, rows })
+    }
+
+    /// The conductance at a point, of whose variables the first is the mean temperature; zero where it is open.
+    ///
+    /// NaN where the state is undetermined, or pressure or temperature is NaN and the conductance depends on it.
+    pub fn conductance(&self, point: &ContactPoint<'_>) -> Conductance {
+        let nowhere = |value| Conductance { value, branch: Branch::Neither, sides: Sides::default() };
+        match point.state {
+            ContactState::Open => return nowhere(0.0),
+            ContactState::Undetermined => return nowhere(f64::NAN),
+            ContactState::Closed => {}
+        }
+        let (table, outside) = self.in_force(point);
+        let (value, mut sides) = match table {
+            Some(table) => table.value_and_sides_at(point.pressure.0, point.variables),
+            None => (f64::NAN, Sides::default()),
+        };
+        match outside {
+            Outside::No => {}
+            Outside::Below => sides.mark_below(1),
+            Outside::Above => sides.mark_above(1),
+        }
+        Conductance { value, branch: Branch::Pressure, sides }
+    }
+
+    /// The slopes along pressure, and along the temperature in `variables`; there are no others.
+    pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
+        let nothing = match point.state {
+            ContactState::Undetermined => f64::NAN,
+            _ => 0.0,
+        };
+        let table = if point.state == ContactState::Closed { Some(self.in_force(point).0) } else { None };
+        let slope = |axis| match table {
+            None => nothing,
+            Some(None) => f64::NAN,
+            Some(Some(table)) => table.slope_at(axis, point.pressure.0, point.variables),
+        };
+        for (variable, along) in variables.iter_mut().enumerate() {
+            *along = if variable == 0 { slope(1) } else { 0.0 };
+        }
+        ConductanceSlopes { clearance: nothing, pressure: slope(0) }
+    }
+
+    /// All rows as one table against pressure and temperature, for its axes: the values between two curves are not those of the law.
+    pub fn rows(&self) -> &PiecewiseTable {
+        &self.rows
+    }
+
+    /// Whether the conductance depends on the temperature.
+    pub fn depends_on_temperature(&self) -> bool {
+        1 < self.temperatures.len()
+    }
+
+    /// The table that holds at a temperature; none where the temperature is NaN.
+    fn in_force(&self, point: &ContactPoint<'_>) -> (Option<&PiecewiseTable>, Outside) {
+        let [first, last] = &self.outermost;
+        if !self.depends_on_temperature() {
+            return (Some(first), Outside::No);
+        }
+        let temperature = point.variables.first().copied().unwrap_or(f64::NAN);
+        if temperature.is_nan() {
+            return (None, Outside::No);
+        }
+        let not_above = self.temperatures.partition_point(|&curve| curve <= temperature);
+        match not_above {
+            0 => (Some(first), Outside::Below),
+            _ => match self.between.get(not_above - 1) {
+                Some(table) => (Some(table), Outside::No),
+                None if self.temperatures.last() == Some(&temperature) => (Some(last), Outside::No),
+                None => (Some(last), Outside::Above),
+            },
+        }
+    }
+}
+
+/// On which side of all curves a temperature lies.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outside {
+    No,
+    Below,
+    Above,
+}
+
+/// A curve by itself, against pressure.
+fn curve_table(rows: &[[f64; WIDTH]]) -> Result<PiecewiseTable, CalculixError> {
+    let cells: Vec<[f64; 2]> = rows.iter().map(|&[value, pressure, _]| [value, pressure]).collect();
+    PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Constant).map_err(CalculixError::Table)
+}
+
+/// Two neighbouring curves over the pressures both have.
+fn clipped(first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseTable, CalculixError> {
+    let (first_range, second_range) = (pressures(first), pressures(second));
+    let shared = first_range.start.max(second_range.start)..first_range.end.min(second_range.end);
+    // Curves that begin together share at least that pressure; otherwise the one that begins earlier must reach beyond where the other begins.
+    let do_share = first_range.start == second_range.start
+        || if first_range.start < second_range.start {
+            second_range.start < first_range.end
+        } else {
+            first_range.start < second_range.end
+        };
+    if !do_share {
+        return Err(CalculixError::Disjoint { first: first[0][2], second: second[0][2] });
+    }
+    let mut cells = Vec::new();
+    for curve in [first, second] {
+        let table = curve_table(curve)?;
+        let temperature = curve[0][2];
+        let mut push = |pressure: f64| cells.push([table.value(&[pressure]), pressure, temperature]);
+        push(shared.start);
+        let inner = curve.iter().map(|row| row[1]).filter(|&pressure| shared.start < pressure && pressure < shared.end);
+        inner.for_each(&mut push);
+        if shared.start < shared.end {
+            push(shared.end);
+        }
+    }
+    PiecewiseTable::from_rows(cells.as_flattened(), WIDTH, Tail::Constant).map_err(CalculixError::Table)
+}
+
+/// From the first to the last pressure of a curve; both belong to it.
+fn pressures(curve: &[[f64; WIDTH]]) -> Range<f64> {
+    curve[0][1]..curve[curve.len() - 1][1]
+}

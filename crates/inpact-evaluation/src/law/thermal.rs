@@ -1,0 +1,157 @@
+//! Heat across an interface: conduction by *GAP CONDUCTANCE, and the sum of all that crosses and arises there.
+//!
+//! q_k = k (θ_slave − θ_master), positive leaving the slave surface.
+//! With radiation q_r and generated heat q_g of which the share f goes into the slave, the heat that leaves each side is
+//!
+//! - slave: q_k + q_r − f q_g (output HFL);
+//! - master: −q_k − q_r − (1 − f) q_g;
+//!
+//! so that both sides together take in q_g: the interface stores no heat (H-09).
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | k | gap conductance, against clearance or pressure, mean temperature, mass flow rate, field variables | J T⁻¹ L⁻² θ⁻¹ |
+//! | θ | temperature of one side, on the scale of the deck | θ |
+//! | ṁ | mean of the magnitudes of the mass flow rates of both sides | M L⁻² T⁻¹ |
+//! | q | heat flux | J T⁻¹ L⁻² |
+//!
+//! Domain: any finite temperatures; q_k is right wherever it is finite, also where the difference of the temperatures is not.
+//! Derivatives: ∂q_k/∂θ_slave = k + ½k'(θ_slave − θ_master), ∂q_k/∂θ_master = −k + ½k'(θ_slave − θ_master), k' the slope along the mean temperature.
+//! Limits: beyond the last clearance k is zero (K-31), beyond the pressures it is constant.
+//! Source: semantics 4.2, 5 (H-02 to H-06, H-09), 8, K-30 to K-32; Analysis User's Guide 37.2.1, Theory Guide 5.2.4 and 5.2.6 (6.14).
+
+use super::calculix::CalculixConductance;
+use super::conductance::{Conductance, ConductanceSlopes, ConductanceTables, ContactPoint};
+use super::heat::GeneratedHeat;
+use crate::numbers::{CompensatedSum, Scaled, mean, scaled_difference_product};
+
+/// The gap conductance of an interaction.
+///
+/// Of the `variables` of a [`ContactPoint`], 0 is the mean temperature, 1 the mean mass flow rate, the rest are the field variables.
+#[derive(Clone, Debug)]
+pub enum ThermalConductance {
+    /// As *GAP CONDUCTANCE of Abaqus has it: against clearance, contact pressure, or both.
+    Tables(ConductanceTables),
+    /// As that of CalculiX has it: against pressure and temperature, closed only.
+    Calculix(CalculixConductance),
+}
+
+impl ThermalConductance {
+    /// The conductance at a point; NaN where an input it depends on is NaN.
+    #[inline]
+    pub fn conductance(&self, point: &ContactPoint<'_>) -> Conductance {
+        match self {
+            Self::Tables(tables) => tables.conductance(point),
+            Self::Calculix(curves) => curves.conductance(point),
+        }
+    }
+
+    /// Its slopes along clearance and pressure, and along the other variables in `variables` (semantics 4.4).
+    pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
+        match self {
+            Self::Tables(tables) => tables.slopes(point, variables),
+            Self::Calculix(curves) => curves.slopes(point, variables),
+        }
+    }
+}
+
+/// The temperatures of the two sides, θ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Temperatures {
+    /// Of the slave surface.
+    pub slave: f64,
+    /// Of the master surface.
+    pub master: f64,
+}
+
+impl Temperatures {
+    /// Their mean, which conductances depend on.
+    pub fn mean(self) -> f64 {
+        mean(self.slave, self.master)
+    }
+}
+
+/// The heat q_k that is conducted out of the slave into the master surface.
+#[inline]
+pub fn conducted_heat(conductance: f64, temperatures: Temperatures) -> f64 {
+    // No heat is 0, not −0.
+    scaled_difference_product(conductance, temperatures.slave, temperatures.master) + 0.0
+}
+
+/// [`conducted_heat`] in twice the precision of f64, rounded once, for a conductance of `value` + `rest`.
+///
+/// Inputs that are infinite or NaN give what [`conducted_heat`] gives.
+pub fn reference_conducted_heat(value: f64, rest: f64, temperatures: Temperatures) -> f64 {
+    let Temperatures { slave, master } = temperatures;
+    if ![value, rest, slave, master].iter().all(|input| input.is_finite()) {
+        return conducted_heat(value, temperatures);
+    }
+    ((Scaled::new(value) + Scaled::new(rest)) * Scaled::difference(slave, master)).to_f64() + 0.0
+}
+
+/// Slopes of a flux along the temperatures of both sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideSlopes {
+    /// ∂q/∂θ_slave.
+    pub slave: f64,
+    /// ∂q/∂θ_master.
+    pub master: f64,
+}
+
+/// The slopes of q_k along both temperatures, for a conductance with the slope `along_mean` along the mean temperature.
+///
+/// Along clearance, pressure, mass flow rate and field variables the slope of q_k is that of the conductance by [`conducted_heat`].
+pub fn conducted_heat_slopes(conductance: f64, along_mean: f64, temperatures: Temperatures) -> SideSlopes {
+    let by_mean = conducted_heat(0.5 * along_mean, temperatures);
+    SideSlopes { slave: by_mean + conductance, master: by_mean - conductance }
+}
+
+/// The mean of the magnitudes of the mass flow rates of both sides; a side without one counts as standing still (K-32).
+#[inline]
+pub fn mean_mass_flow(slave: Option<f64>, master: Option<f64>) -> f64 {
+    mean(slave.map_or(0.0, f64::abs), master.map_or(0.0, f64::abs))
+}
+
+/// All heat at one point of an interface, each part per area and time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InterfaceHeat {
+    /// q_k, conducted out of the slave surface.
+    pub conduction: f64,
+    /// q_r, radiated out of the slave surface.
+    pub radiation: f64,
+    /// Generated by electric current.
+    pub current: GeneratedHeat,
+    /// Generated by friction.
+    pub friction: GeneratedHeat,
+}
+
+impl InterfaceHeat {
+    /// The heat that leaves the slave surface, q_k + q_r − f q_g (output HFL).
+    #[inline]
+    pub fn leaving_slave(&self) -> f64 {
+        sum([self.conduction, self.radiation, -self.current.slave, -self.friction.slave])
+    }
+
+    /// All heat into the slave surface.
+    #[inline]
+    pub fn into_slave(&self) -> f64 {
+        // No heat is 0, not −0.
+        0.0 - self.leaving_slave()
+    }
+
+    /// All heat into the master surface.
+    #[inline]
+    pub fn into_master(&self) -> f64 {
+        sum([self.conduction, self.radiation, self.current.master, self.friction.master])
+    }
+}
+
+/// A sum of parts that may all but cancel, or whose partial sums exceed the range of f64 where the whole does not.
+#[inline]
+fn sum(parts: [f64; 4]) -> f64 {
+    let total = parts.into_iter().collect::<CompensatedSum>().total();
+    if !total.is_finite() && parts.iter().all(|part| part.is_finite()) {
+        return parts.into_iter().fold(Scaled::ZERO, |sum, part| sum + Scaled::new(part)).to_f64();
+    }
+    total + 0.0
+}

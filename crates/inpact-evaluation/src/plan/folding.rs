@@ -1,0 +1,126 @@
+//! Tables folded along the axes on which a scene has one value.
+
+use super::make::Planner;
+use super::source::Source;
+use super::{AxisPlan, FormPlan, TablePlan};
+use crate::accuracy::{Method, Wanted, choose};
+use crate::law::contact::ContactState;
+use crate::nodes::{Column, Part};
+use crate::numbers::mean;
+use crate::results::Along;
+use crate::table::PiecewiseTable;
+
+/// Folds a table along every axis that `constant` knows one value of, and chooses its form; what came of it stands in the plan.
+pub(super) fn fold_and_choose(
+    planner: Planner<'_>,
+    table: &PiecewiseTable,
+    plan: &mut TablePlan,
+    constant: impl Fn(Along) -> Option<f64>,
+) {
+    let folded = fold(table, plan, constant);
+    plan.form = Some(form_plan(&folded, planner.choices.accuracy));
+}
+
+/// The form that a table will have.
+fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
+    let choice = choose(table, wanted);
+    let refused = choice.candidates.iter().filter_map(|candidate| {
+        let refusal = candidate.refusal.as_ref()?;
+        Some((candidate.method.to_string(), refusal.to_string()))
+    });
+    let refused = refused.collect();
+    match choice.chosen() {
+        Some(chosen) => FormPlan { method: chosen.method.clone(), bound: chosen.bound, cost: chosen.cost, refused },
+        None => FormPlan { method: Method::Full, bound: None, cost: 0.0, refused },
+    }
+}
+
+fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -> Option<f64>) -> PiecewiseTable {
+    let mut folded = table.clone();
+    // The outermost first: what is left of the others is smaller then.
+    for (axis, of) in plan.axes.iter_mut().enumerate().rev().filter(|(_, of)| of.matters) {
+        let Some(at) = constant(of.along) else { continue };
+        match folded.folded(axis, at) {
+            Ok(smaller) => {
+                folded = smaller;
+                of.fold = Some(at);
+            }
+            Err(refusal) => plan.not_folded.push((of.along, refusal)),
+        }
+    }
+    plan.folded_rows = folded.row_count();
+    // With the others folded away, a variable may no longer make a difference.
+    for (summary, of) in folded.axes().iter().zip(&mut plan.axes) {
+        of.is_idle = of.matters && of.fold.is_none() && !summary.matters();
+    }
+    folded
+}
+
+/// A table of a plan as it is evaluated.
+pub(crate) fn folded_as_planned(table: &PiecewiseTable, plan: &TablePlan) -> PiecewiseTable {
+    let folds = plan.axes.iter().enumerate().rev().filter_map(|(axis, of)| Some((axis, of.fold?)));
+    // The plan folded the same table along the same axes.
+    folds.fold(table.clone(), |table, (axis, at)| table.folded(axis, at).unwrap_or(table))
+}
+
+impl AxisPlan {
+    /// Whether an evaluation reads its coordinate.
+    pub fn is_read(&self) -> bool {
+        self.matters && self.fold.is_none() && !self.is_idle
+    }
+}
+
+impl Planner<'_> {
+    /// The number that a column has in every row of the interaction.
+    fn constant(self, column: Column) -> Option<f64> {
+        let place = self.survey.columns.iter().position(|read| *read == column)?;
+        let of = self.of.columns[place];
+        let is_whole = self.of.rows > 0 && of.present == self.of.rows && of.non_finite == 0;
+        (is_whole && of.least == of.greatest).then_some(of.least)
+    }
+
+    /// The value that a source has in every row.
+    pub(super) fn constant_of(self, source: Source<Column>) -> Option<f64> {
+        match source {
+            Source::Cell(cell) => self.constant(cell),
+            Source::Sides(slave, master) => Some(mean(self.constant(slave)?, self.constant(master)?)),
+            Source::CellOrSides(..) => None,
+        }
+    }
+
+    /// The clearance at which a conductance table is read in every row; overclosure counts as zero (J-5).
+    pub(super) fn constant_clearance(self) -> Option<f64> {
+        self.constant(Column::Clearance).map(|clearance| if clearance < 0.0 { 0.0 } else { clearance })
+    }
+
+    /// The contact pressure of every row.
+    pub(super) fn constant_pressure(self) -> Option<f64> {
+        self.constant(Column::Pressure)
+    }
+
+    /// The pressure at which a permeability table is read in every row: zero while open (P-34).
+    pub(super) fn constant_permeability_pressure(self) -> Option<f64> {
+        match self.only_state() {
+            Some(ContactState::Open) => Some(0.0),
+            Some(ContactState::Closed) => self.constant_pressure(),
+            _ => self.constant_pressure().filter(|pressure| *pressure == 0.0),
+        }
+    }
+
+    /// The mean pore pressure of every row.
+    pub(super) fn constant_pore_pressure(self) -> Option<f64> {
+        let [slave, master] = [Part::Slave, Part::Master].map(|part| self.constant(Column::PorePressure(part)));
+        Some(mean(slave?, master?))
+    }
+
+    /// The state that every row has.
+    fn only_state(self) -> Option<ContactState> {
+        let of = self.of;
+        match of.rows {
+            0 => None,
+            rows if of.closed == rows => Some(ContactState::Closed),
+            rows if of.open == rows => Some(ContactState::Open),
+            _ => None,
+        }
+    }
+}

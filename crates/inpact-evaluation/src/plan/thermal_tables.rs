@@ -1,0 +1,155 @@
+//! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
+
+use super::tables::field_variable;
+use crate::law::calculix::{CalculixConductance, CalculixError};
+use crate::law::conductance::ConductanceTables;
+use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
+use crate::law::thermal::ThermalConductance;
+use crate::results::Along;
+use crate::table::{PiecewiseTable, TableError, Tail};
+use inpact_parser::grammar::Dialect;
+use inpact_parser::model::{Interaction, Model, SubOption, Table, TableKind};
+
+const CONDUCTANCE: &str = "GAP CONDUCTANCE";
+const RADIATION: &str = "GAP RADIATION";
+
+/// What the rows of an interaction say of heat; an error where they form no table.
+#[derive(Debug, Default)]
+pub(crate) struct ThermalTables {
+    /// *GAP CONDUCTANCE; `None` where the interaction has none.
+    pub(crate) conductance: Option<ConductanceRows>,
+    /// *GAP RADIATION; `None` where the interaction has none.
+    pub(crate) radiation: Option<Result<RadiationLaw, RadiationFault>>,
+}
+
+/// What *GAP CONDUCTANCE gives.
+#[derive(Debug)]
+pub(crate) enum ConductanceRows {
+    /// The conductance is that of a user subroutine.
+    User,
+    /// There are no rows.
+    Nothing,
+    /// The tables of Abaqus, of which there is at least one.
+    Tables {
+        /// Against clearance.
+        clearance: Option<Result<PiecewiseTable, TableError>>,
+        /// Against contact pressure.
+        pressure: Option<Result<PiecewiseTable, TableError>>,
+    },
+    /// The curves of CalculiX.
+    Calculix(Result<CalculixConductance, CalculixError>),
+}
+
+/// Why *GAP RADIATION gives no law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum RadiationFault {
+    /// The constant of that name is not given (T-42).
+    NoConstant(&'static str),
+    /// The first row has no two emissivities from 0 to 1.
+    BadEmissivities,
+    /// The further rows form no table of view factors.
+    BrokenTable(TableError),
+    /// There are no rows.
+    NoRows,
+}
+
+impl ThermalTables {
+    /// Compiles the tables of an interaction.
+    pub(crate) fn of(model: &Model, interaction: &Interaction, dialect: Dialect) -> Self {
+        let radiation = interaction.other.iter().rfind(|option| option.keyword == RADIATION);
+        Self {
+            conductance: conductance(interaction, dialect),
+            radiation: radiation.map(|option| radiation_law(option, model)),
+        }
+    }
+
+    /// The tables of conductance that can be evaluated, with the first of their variables.
+    pub(crate) fn conductance_tables(&self) -> Vec<(Along, &PiecewiseTable)> {
+        match &self.conductance {
+            Some(ConductanceRows::Tables { clearance, pressure }) => {
+                let tables = [(Along::Clearance, clearance), (Along::Pressure, pressure)];
+                tables
+                    .into_iter()
+                    .filter_map(|(against, table)| Some((against, table.as_ref()?.as_ref().ok()?)))
+                    .collect()
+            }
+            Some(ConductanceRows::Calculix(Ok(curves))) => vec![(Along::Pressure, curves.rows())],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The law of conductance, where all its tables can be evaluated.
+    pub(crate) fn thermal_conductance(&self) -> Option<ThermalConductance> {
+        match self.conductance.as_ref()? {
+            ConductanceRows::User | ConductanceRows::Nothing => None,
+            ConductanceRows::Calculix(curves) => Some(ThermalConductance::Calculix(curves.as_ref().ok()?.clone())),
+            ConductanceRows::Tables { clearance, pressure } => {
+                let table = |table: &Option<Result<PiecewiseTable, TableError>>| {
+                    table.as_ref().and_then(|table| table.as_ref().ok()).cloned()
+                };
+                let tables = match (table(clearance), table(pressure)) {
+                    (Some(clearance), None) => ConductanceTables::Clearance(clearance),
+                    (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
+                    (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
+                    (None, None) => return None,
+                };
+                Some(ThermalConductance::Tables(tables))
+            }
+        }
+    }
+}
+
+fn conductance(interaction: &Interaction, dialect: Dialect) -> Option<ConductanceRows> {
+    let options = interaction.other.iter().filter(|option| option.keyword == CONDUCTANCE);
+    let options: Vec<&SubOption> = options.collect();
+    if options.is_empty() {
+        return None;
+    }
+    if options.iter().any(|option| option.parameter("USER").is_some()) {
+        return Some(ConductanceRows::User);
+    }
+    // Of two tables of one kind the later governs; in CalculiX, of any two.
+    let last = |kind: Option<TableKind>| {
+        let mut tables = options.iter().filter_map(|option| option.table.as_ref());
+        tables.rfind(|table| kind.is_none_or(|kind| TableKind::of(CONDUCTANCE, table) == kind))
+    };
+    if dialect == Dialect::Calculix {
+        let curves = last(None).filter(|table| table.width() == CalculixConductance::WIDTH);
+        let curves = curves.map(|table| CalculixConductance::from_rows(&table.values));
+        return Some(curves.map_or(ConductanceRows::Nothing, ConductanceRows::Calculix));
+    }
+    let build = |table: &Table, tail| PiecewiseTable::from_rows(&table.values, table.width(), tail);
+    // Beyond the last clearance nothing is conducted, whatever is chosen for current (K-31, Q-1).
+    let clearance = last(Some(TableKind::ThermalClearance)).map(|table| build(table, Tail::Zero));
+    let pressure = last(Some(TableKind::ThermalPressure)).map(|table| build(table, Tail::Constant));
+    let is_empty = clearance.is_none() && pressure.is_none();
+    Some(if is_empty { ConductanceRows::Nothing } else { ConductanceRows::Tables { clearance, pressure } })
+}
+
+/// The law of the rows: the emissivities, then view factors and clearances (2.6).
+fn radiation_law(option: &SubOption, model: &Model) -> Result<RadiationLaw, RadiationFault> {
+    let constants = model.constants;
+    let absolute_zero = constants.absolute_zero.ok_or(RadiationFault::NoConstant("ABSOLUTE ZERO"))?;
+    let stefan_boltzmann = constants.stefan_boltzmann.ok_or(RadiationFault::NoConstant("STEFAN BOLTZMANN"))?;
+    let rows = option.numbers(&model.parameters);
+    let (head, rows) = rows.split_first().ok_or(RadiationFault::NoRows)?;
+    // An item that is not there is zero (S-32).
+    let item = |row: &[f64], column: usize| row.get(column).copied().unwrap_or(0.0);
+    let emissivities = Emissivities { slave: item(head, 0), master: item(head, 1) };
+    let coefficient =
+        RadiationCoefficient::new(stefan_boltzmann, emissivities).ok_or(RadiationFault::BadEmissivities)?;
+    let cells: Vec<[f64; 2]> = rows.iter().map(|row| [item(row, 0), item(row, 1)]).collect();
+    let view_factor =
+        PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Zero).map_err(RadiationFault::BrokenTable)?;
+    Ok(RadiationLaw { coefficient, absolute_zero, view_factor })
+}
+
+/// Which variable axis `axis` of a thermal conductance is (T-03).
+pub(super) fn thermal_axis(against: Along, axis: usize) -> Along {
+    match axis {
+        0 => against,
+        1 => Along::Temperature,
+        2 => Along::MassFlow,
+        _ => field_variable(axis - 3),
+    }
+}

@@ -1,0 +1,159 @@
+//! A table in the form in which it is evaluated: the accuracy that was asked for, over columns.
+//!
+//! What a law's tables mean stands in [`crate::table`]; how exactly and how fast their values are found is chosen here, once, when the laws are compiled.
+
+use crate::accuracy::{Approximation, Choice, Method, Wanted, choose};
+use crate::kernel::TableKernel;
+use crate::numbers::Scaled;
+use crate::table::{PiecewiseTable, Sides};
+
+/// A table ready for columns of coordinates.
+#[derive(Clone, Debug)]
+pub struct TableForm {
+    table: PiecewiseTable,
+    means: Means,
+    kernel: TableKernel,
+}
+
+/// How the values are found.
+#[derive(Clone, Debug)]
+enum Means {
+    Full,
+    Reference,
+    Fast(Approximation),
+}
+
+/// The value of a table at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundValue {
+    /// The value, rounded.
+    pub value: f64,
+    /// What rounding took away, where the form knows it.
+    pub rest: Option<f64>,
+    /// Where the point lies outside the table.
+    pub sides: Sides,
+}
+
+/// The values of a table in some rows.
+#[derive(Clone, Debug, Default)]
+pub struct TableValues {
+    /// The values, rounded.
+    pub values: Vec<f64>,
+    /// What rounding took away; empty unless the form knows it.
+    pub rests: Vec<f64>,
+    /// Where each row lies outside the table.
+    pub sides: Vec<Sides>,
+}
+
+/// The largest error met in a sample of rows, against the reference.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SeenError {
+    /// How many rows were compared.
+    pub rows: u64,
+    /// The largest error as a part of the reference value of its row; infinite where that is zero.
+    pub pointwise: f64,
+    /// The largest error as a part of the largest magnitude in the table.
+    pub relative_to_largest: f64,
+}
+
+impl TableForm {
+    /// The table in the form that is chosen for it.
+    pub fn new(table: PiecewiseTable, wanted: Wanted) -> Self {
+        let choice = choose(&table, wanted);
+        let method = choice.chosen().map_or(Method::Full, |chosen| chosen.method.clone());
+        Self::of_choice(table, &method, choice)
+    }
+
+    fn of_choice(table: PiecewiseTable, method: &Method, choice: Choice) -> Self {
+        let means = match (method, choice.approximation) {
+            (Method::Reference, _) => Means::Reference,
+            (Method::Fast(_), Some(approximation)) => Means::Fast(approximation),
+            _ => Means::Full,
+        };
+        let kernel = TableKernel::new(&table);
+        Self { table, means, kernel }
+    }
+
+    /// The table itself.
+    pub fn table(&self) -> &PiecewiseTable {
+        &self.table
+    }
+
+    /// The values at some points, one column of coordinates for each axis; a column that the table does not depend on may be empty.
+    pub fn evaluate(&self, columns: &[&[f64]], rows: usize, found: &mut TableValues) {
+        found.values.resize(rows, f64::NAN);
+        found.sides.resize(rows, Sides::default());
+        found.rests.clear();
+        self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides);
+        match &self.means {
+            Means::Full => {}
+            // Where a row lies outside the table, the kernel has found; the values are those of the form.
+            Means::Fast(approximation) => approximation.values(columns, &mut found.values),
+            Means::Reference => {
+                for row in 0..rows {
+                    let (value, rest) = self.reference_in(columns, row);
+                    found.values[row] = value;
+                    found.rests.push(rest);
+                }
+            }
+        }
+    }
+
+    /// The value at one point.
+    pub fn value_at(&self, first: f64, others: &[f64]) -> FoundValue {
+        let (value, sides) = self.table.value_and_sides_at(first, others);
+        match &self.means {
+            Means::Full => FoundValue { value, rest: None, sides },
+            Means::Fast(approximation) => {
+                let point: Vec<f64> = std::iter::once(first).chain(others.iter().copied()).collect();
+                FoundValue { value: approximation.value(&point), rest: None, sides }
+            }
+            Means::Reference => {
+                let (value, rest) = self.reference_at(first, others);
+                FoundValue { value, rest: Some(rest), sides }
+            }
+        }
+    }
+
+    /// Compares some of the values found, evenly spread, with the reference.
+    pub fn compare(&self, columns: &[&[f64]], values: &[f64], seen: &mut SeenError) {
+        /// How many rows of a batch are compared.
+        const SAMPLE: usize = 16;
+        let largest = self.table.values().iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        for row in (0..values.len()).step_by(values.len().div_ceil(SAMPLE).max(1)) {
+            let (reference, rest) = self.reference_in(columns, row);
+            if !reference.is_finite() {
+                continue;
+            }
+            // The rest decides between errors of less than an ulp.
+            let error = ((values[row] - reference) - rest).abs();
+            seen.rows += 1;
+            if error > 0.0 {
+                seen.pointwise = seen.pointwise.max(error / reference.abs());
+                seen.relative_to_largest = seen.relative_to_largest.max(error / largest);
+            }
+        }
+    }
+
+    /// The reference value in a row, rounded, and what rounding took away.
+    fn reference_in(&self, columns: &[&[f64]], row: usize) -> (f64, f64) {
+        let coordinate = |column: &&[f64]| column.get(row).copied().unwrap_or(f64::NAN);
+        let mut coordinates = columns.iter().map(coordinate);
+        let first = coordinates.next().unwrap_or(f64::NAN);
+        let others: Vec<f64> = coordinates.collect();
+        self.reference_at(first, &others)
+    }
+
+    fn reference_at(&self, first: f64, others: &[f64]) -> (f64, f64) {
+        self.table.reference_at(first, others).map_or((f64::NAN, 0.0), Scaled::to_pair)
+    }
+}
+
+impl SeenError {
+    /// Takes the errors of another sample as well.
+    pub fn merge(&mut self, other: &Self) {
+        self.rows += other.rows;
+        self.pointwise = self.pointwise.max(other.pointwise);
+        self.relative_to_largest = self.relative_to_largest.max(other.relative_to_largest);
+    }
+}

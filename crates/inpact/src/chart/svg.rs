@@ -1,0 +1,153 @@
+//! Lines, circles and text as an SVG document.
+//!
+//! Colours are attributes of each shape, so that every viewer and renderer draws them alike on a light ground.
+
+use std::fmt::Write;
+
+/// A drawing that grows shape by shape.
+#[derive(Debug)]
+pub(super) struct Drawing {
+    text: String,
+}
+
+/// How shapes of a kind look: attributes of SVG.
+const LOOKS: &[(&str, &str)] = &[
+    ("grid", r##"stroke="#cfd6dd" stroke-width="1""##),
+    ("fine", r##"stroke="#edf0f3" stroke-width="1""##),
+    ("axis", r##"stroke="#3a434c" stroke-width="1.5""##),
+    ("roof", r##"stroke="#b3541e" stroke-width="2" stroke-dasharray="7 5""##),
+    ("level", r##"stroke="#7b8794" stroke-width="1.2" stroke-dasharray="2 4""##),
+    ("bar", r##"stroke="#8fa3b5" stroke-width="1.5""##),
+    ("front", r##"fill="none" stroke="#0b6e99" stroke-width="2.2" stroke-opacity="0.75""##),
+    ("best", r##"fill="#0b6e99" stroke="#ffffff" stroke-width="1.5""##),
+    ("other", r##"fill="#ffffff" stroke="#5b6b7a" stroke-width="2""##),
+    ("title", r##"fill="#16202a" font-size="21" font-weight="bold""##),
+    ("name", r##"fill="#16202a" font-size="15""##),
+    ("tick", r##"fill="#3a434c" font-size="13""##),
+    ("note", r##"fill="#4d5965" font-size="13""##),
+    ("label", r##"fill="#16202a" font-size="13""##),
+    ("roof-label", r##"fill="#8f3f12" font-size="13""##),
+    ("level-label", r##"fill="#5b6b7a" font-size="12""##),
+];
+
+impl Drawing {
+    /// A light ground of that size, in pixels; `title` is what a screen reader says.
+    pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" role=\"img\">\n\
+             <title>{}</title>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
+            escaped(title)
+        );
+        Self { text }
+    }
+
+    pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64), look: &str) {
+        let [x1, y1, x2, y2] = [from.0, from.1, to.0, to.1].map(short);
+        self.add(&format!(r#"<line x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}" {}/>"#, looks(look)));
+    }
+
+    pub(super) fn circle(&mut self, (x, y): (f64, f64), radius: f64, look: &str) {
+        self.add(&format!(r#"<circle cx="{}" cy="{}" r="{radius}" {}/>"#, short(x), short(y), looks(look)));
+    }
+
+    /// Straight lines from corner to corner; nothing for fewer than two.
+    pub(super) fn path(&mut self, corners: &[(f64, f64)], look: &str) {
+        if corners.len() < 2 {
+            return;
+        }
+        let corners: Vec<String> = corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect();
+        self.add(&format!(r#"<polyline points="{}" {}/>"#, corners.join(" "), looks(look)));
+    }
+
+    /// A text whose start, middle or end (`anchor`) is at a place.
+    pub(super) fn text(&mut self, (x, y): (f64, f64), text: &str, look: &str, anchor: &str) {
+        if text.is_empty() {
+            return;
+        }
+        let (x, y, text) = (short(x), short(y), escaped(text));
+        self.add(&format!(r#"<text x="{x}" y="{y}" text-anchor="{anchor}" {}>{text}</text>"#, looks(look)));
+    }
+
+    /// A text that runs upwards, its middle at a place.
+    pub(super) fn upright_text(&mut self, (x, y): (f64, f64), text: &str, look: &str) {
+        let (x, y, text) = (short(x), short(y), escaped(text));
+        let turn = format!("translate({x} {y}) rotate(-90)");
+        self.add(&format!(r#"<text transform="{turn}" text-anchor="middle" {}>{text}</text>"#, looks(look)));
+    }
+
+    /// The document.
+    pub(super) fn finish(mut self) -> String {
+        self.text += "</svg>\n";
+        self.text
+    }
+
+    fn add(&mut self, shape: &str) {
+        // Writing into a string cannot fail.
+        let _ = writeln!(self.text, "{shape}");
+    }
+}
+
+fn looks(name: &str) -> &'static str {
+    LOOKS.iter().find(|(known, _)| *known == name).map_or("", |(_, attributes)| attributes)
+}
+
+/// A coordinate to a tenth of a pixel.
+fn short(coordinate: f64) -> String {
+    format!("{:.1}", coordinate + 0.0).trim_end_matches(".0").to_owned()
+}
+
+/// A text with its marks escaped, and without characters that XML does not have.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            '\u{fffe}' | '\u{ffff}' => {}
+            character if character.is_control() => escaped.push(' '),
+            character => escaped.push(character),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_of_xml_are_escaped() {
+        assert_eq!(escaped("a<b & \"c\" > \u{7}d"), "a&lt;b &amp; &quot;c&quot; &gt;  d");
+    }
+
+    #[test]
+    fn every_look_is_known() {
+        let chart = crate::chart::Chart {
+            title: "t".to_owned(),
+            subtitle: "s".to_owned(),
+            x_title: "x".to_owned(),
+            y_title: "y".to_owned(),
+            points: [(1.0, 2.0, true), (3.0, 1.0, true), (4.0, 4.0, false)]
+                .map(|(x, y, on_front)| crate::chart::Point {
+                    x,
+                    y,
+                    bar_to: Some(9.0),
+                    label: "l".to_owned(),
+                    on_front,
+                })
+                .into(),
+            vertical: vec![(2.0, "v".to_owned())],
+            horizontal: vec![(2.0, "h".to_owned())],
+            front_title: "f".to_owned(),
+            footnote: "n".to_owned(),
+        };
+        let svg = chart.svg();
+        for (name, attributes) in LOOKS {
+            assert!(svg.contains(attributes), "{name}");
+        }
+        assert!(!svg.contains(" />"), "a shape without a look");
+    }
+}

@@ -1,0 +1,198 @@
+//! Times and errors of every mode.
+
+use super::modes::{Copied, MODES, Prepared};
+use super::subjects::{Sample, Subject};
+use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
+use std::time::Instant;
+
+/// Fewer rows than that are repeated, so that a run takes long enough to be timed.
+const LEAST_ROWS: usize = 1 << 16;
+
+/// What was measured on a deck and its node table.
+pub(super) struct Measured {
+    /// Rows of the node table.
+    pub(super) rows: u64,
+    /// One of so many was taken.
+    pub(super) one_of: u64,
+    pub(super) rounds: u32,
+    /// One for each table and, where there are several, one for all of them.
+    pub(super) groups: Vec<Group>,
+}
+
+/// The modes on one table, or on all.
+pub(super) struct Group {
+    pub(super) name: String,
+    /// Rows that reach it, and rows of one run: the same, repeated.
+    pub(super) rows: usize,
+    pub(super) rows_of_a_run: usize,
+    /// Rows of the table itself; of all tables together.
+    pub(super) table_rows: usize,
+    /// The time that a copy takes to move what `full` moves for a row, in ns.
+    pub(super) copy: f64,
+    pub(super) entries: Vec<Entry>,
+}
+
+/// One mode on one table, or on all.
+#[derive(Clone)]
+pub(super) struct Entry {
+    pub(super) mode: &'static str,
+    /// The least time of a row, in ns.
+    pub(super) time: f64,
+    pub(super) errors: Errors,
+    /// The largest error there can be, as a part of the largest value of its table.
+    pub(super) bound: f64,
+    /// Read and written for a row.
+    pub(super) bytes: f64,
+    /// No other mode is as fast and as exact, and better in one of the two.
+    pub(super) on_front: bool,
+}
+
+/// Differences from the exact value.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Errors {
+    /// As a part of the largest value of the table.
+    pub(super) largest: f64,
+    pub(super) rms: f64,
+    /// In units in the last place of the exact value.
+    pub(super) largest_ulp: f64,
+    pub(super) rms_ulp: f64,
+}
+
+/// Times every mode on every table in turns, then finds its errors.
+pub(super) fn measure(sample: &Sample, rounds: u32) -> Measured {
+    let repeated: Vec<Subject> = sample.subjects.iter().map(repeated).collect();
+    let mut groups: Vec<Group> =
+        sample.subjects.iter().zip(&repeated).map(|(subject, repeated)| group(subject, repeated, rounds)).collect();
+    if groups.len() > 1 {
+        groups.push(all_of(&groups));
+    }
+    for group in &mut groups {
+        mark_front(&mut group.entries);
+    }
+    Measured { rows: sample.rows, one_of: sample.one_of, rounds, groups }
+}
+
+/// The same rows over and over, until there are enough.
+fn repeated(subject: &Subject) -> Subject {
+    let times = LEAST_ROWS.div_ceil(subject.rows());
+    let columns = subject.columns.iter().map(|column| column.repeat(times)).collect();
+    Subject { name: subject.name.clone(), table: subject.table.clone(), columns }
+}
+
+fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
+    let mut modes: Vec<(&'static str, Prepared<'_>, f64)> =
+        MODES.iter().filter_map(|mode| Some((mode.name, (mode.of)(repeated)?, f64::INFINITY))).collect();
+    let mut copied = Copied::new(repeated);
+    let mut copy = f64::INFINITY;
+    let rows = repeated.rows();
+    // One round more: the first fills caches and is not counted.
+    for round in 0..=rounds {
+        let is_counted = round > 0;
+        let time = |run: &mut dyn FnMut(), least: &mut f64| {
+            let start = Instant::now();
+            run();
+            let taken = start.elapsed().as_secs_f64() * 1e9 / rows as f64;
+            if is_counted {
+                *least = least.min(taken);
+            }
+        };
+        time(&mut || copied.run(), &mut copy);
+        for (_, prepared, least) in &mut modes {
+            time(&mut || prepared.run.run(), least);
+        }
+    }
+    let moved = 8 * (repeated.axes() + 1);
+    let entries = modes.into_iter().map(|(mode, prepared, time)| Entry {
+        mode,
+        time,
+        errors: errors(subject, &prepared),
+        bound: prepared.bound,
+        bytes: prepared.bytes as f64,
+        on_front: false,
+    });
+    Group {
+        name: subject.name.clone(),
+        rows: subject.rows(),
+        rows_of_a_run: rows,
+        table_rows: subject.table.row_count(),
+        copy: copy * moved as f64 / copied.bytes() as f64,
+        entries: entries.collect(),
+    }
+}
+
+/// The errors over the rows of a subject, which the rows of a run begin with.
+fn errors(subject: &Subject, prepared: &Prepared<'_>) -> Errors {
+    let greatest = subject.table.values().iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
+    let mut errors = Errors::default();
+    let (mut squares, mut ulp_squares) = (CompensatedSum::default(), CompensatedSum::default());
+    let mut point = vec![f64::NAN; subject.columns.len()];
+    let mut rows = 0;
+    for row in 0..subject.rows() {
+        for (coordinate, column) in point.iter_mut().zip(&subject.columns) {
+            *coordinate = column.get(row).copied().unwrap_or(f64::NAN);
+        }
+        let value = prepared.run.value(row);
+        let Some(exact) = subject.table.reference_at(point[0], &point[1..]) else { continue };
+        let error = if value.is_finite() { (Scaled::new(value) + -exact).to_f64().abs() } else { f64::INFINITY };
+        let part = if error == 0.0 { 0.0 } else { error / greatest };
+        let ulps = error / ulp(exact.to_f64());
+        errors.largest = errors.largest.max(part);
+        errors.largest_ulp = errors.largest_ulp.max(ulps);
+        squares.add(part * part);
+        ulp_squares.add(ulps * ulps);
+        rows += 1;
+    }
+    if rows > 0 {
+        errors.rms = (squares.total() / f64::from(rows)).sqrt();
+        errors.rms_ulp = (ulp_squares.total() / f64::from(rows)).sqrt();
+    }
+    errors
+}
+
+/// The modes over all tables, each row in its own; a table that a mode does not serve is evaluated in `full`.
+fn all_of(groups: &[Group]) -> Group {
+    let rows: usize = groups.iter().map(|group| group.rows).sum();
+    let share = |group: &Group| group.rows as f64 / rows as f64;
+    let entries = MODES.iter().filter_map(|mode| {
+        let named = |group: &Group, name| group.entries.iter().find(|entry| entry.mode == name).cloned();
+        let serves_any = groups.iter().any(|group| named(group, mode.name).is_some());
+        let of_groups = groups
+            .iter()
+            .filter_map(|group| Some((share(group), named(group, mode.name).or_else(|| named(group, "full"))?)));
+        let of_groups: Vec<(f64, Entry)> = of_groups.collect();
+        let mean = |of: fn(&Entry) -> f64| of_groups.iter().map(|(share, entry)| share * of(entry)).sum::<f64>();
+        let largest = |of: fn(&Entry) -> f64| of_groups.iter().map(|(_, entry)| of(entry)).fold(0.0, f64::max);
+        serves_any.then(|| Entry {
+            mode: mode.name,
+            time: mean(|entry| entry.time),
+            errors: Errors {
+                largest: largest(|entry| entry.errors.largest),
+                rms: mean(|entry| entry.errors.rms.powi(2)).sqrt(),
+                largest_ulp: largest(|entry| entry.errors.largest_ulp),
+                rms_ulp: mean(|entry| entry.errors.rms_ulp.powi(2)).sqrt(),
+            },
+            bound: largest(|entry| entry.bound),
+            bytes: mean(|entry| entry.bytes),
+            on_front: false,
+        })
+    });
+    Group {
+        name: "all tables".to_owned(),
+        rows,
+        rows_of_a_run: groups.iter().map(|group| group.rows_of_a_run).sum(),
+        table_rows: groups.iter().map(|group| group.table_rows).sum(),
+        copy: groups.iter().map(|group| share(group) * group.copy).sum(),
+        entries: entries.collect(),
+    }
+}
+
+/// Marks the entries that no other beats.
+fn mark_front(entries: &mut [Entry]) {
+    let places: Vec<(f64, f64)> = entries.iter().map(|entry| (entry.time, entry.errors.largest)).collect();
+    for (entry, (time, error)) in entries.iter_mut().zip(&places) {
+        let beats = |(other_time, other_error): &(f64, f64)| {
+            other_time <= time && other_error <= error && (other_time < time || other_error < error)
+        };
+        entry.on_front = !places.iter().any(beats);
+    }
+}
