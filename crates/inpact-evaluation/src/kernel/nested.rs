@@ -4,6 +4,8 @@
 //! along an outer one both neighbouring groups are evaluated for the whole block and the values are interpolated as [`crate::numbers::between`] does.
 //! Coordinates are clamped to the range of their group first, which gives the value at its end.
 
+use std::hint::select_unpredictable;
+
 use super::buckets::{BISECTION, BITS, Breaks, GroupSearch, LINEAR, Search};
 use super::pieces::{Piece, half_segments};
 use super::{InstructionSet, column_of};
@@ -332,8 +334,8 @@ fn outer_axis(level: &Level, groups: &[std::ops::Range<usize>]) -> (Axis, Vec<Se
 #[inline(always)]
 fn between_or_nan(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let from_left = x - x0 <= x1 - x;
-    let (near, base) = if from_left { (x0, y0) } else { (x1, y1) };
-    let (far, other) = if from_left { (x1, y1) } else { (x0, y0) };
+    let (near, far) = (select_unpredictable(from_left, x0, x1), select_unpredictable(from_left, x1, x0));
+    let (base, other) = (select_unpredictable(from_left, y0, y1), select_unpredictable(from_left, y1, y0));
     let (offset, offset_error) = two_difference(x, near);
     let (width, width_error) = two_difference(far, near);
     let (rise, rise_error) = two_difference(other, base);
@@ -352,7 +354,7 @@ fn between_or_nan(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let value = if value < least { least } else { value };
     let value = if value > greatest { greatest } else { value };
     let ordinary = is_ordinary(offset) & is_ordinary(width) & is_ordinary(rise);
-    let value = if ordinary { value } else { f64::NAN };
-    let value = if x == near || base == other { base } else { value };
-    if x.is_nan() { f64::NAN } else { value }
+    let value = select_unpredictable(ordinary, value, f64::NAN);
+    let value = select_unpredictable((x == near) | (base == other), base, value);
+    select_unpredictable(x.is_nan(), f64::NAN, value)
 }
