@@ -12,6 +12,7 @@ mod tables;
 use std::hint::black_box;
 use std::time::Instant;
 
+use inpact_evaluation::accuracy::Approximation;
 use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs_of_table};
 use inpact_evaluation::kernel::{InstructionSet, TableKernel, blocks, total};
 use inpact_evaluation::law::heat::HeatGeneration;
@@ -77,6 +78,16 @@ fn time_case(case: &Case, rounds: usize) {
             });
         }));
     }
+    #[expect(clippy::cast_possible_truncation, reason = "columns of f32 are what is timed")]
+    let single: Vec<Vec<f32>> = case.columns.iter().map(|column| column.iter().map(|&x| x as f32).collect()).collect();
+    contenders.extend(Approximation::single(&case.table).ok().map(|approximation| {
+        let mut values = vec![0.0_f32; rows];
+        Contender::new("fast, f32 columns", move || {
+            let mut columns: [&[f32]; 3] = [&[]; 3];
+            columns.iter_mut().zip(&single).for_each(|(part, column)| *part = column);
+            approximation.values_single(&columns[..single.len()], black_box(&mut values));
+        })
+    }));
     let mut values = vec![0.0; rows];
     contenders.push(Contender::new("scalar function", move || {
         for (row, value) in black_box(&mut values).iter_mut().enumerate() {

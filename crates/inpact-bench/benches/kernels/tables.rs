@@ -18,7 +18,7 @@ pub(crate) struct Case {
 pub(crate) fn cases(rows: usize) -> Vec<Case> {
     let mut random = Random(1);
     let mut cases = Vec::new();
-    for count in [2, 10, 100, 1000] {
+    for count in [2, 10, 16, 100, 1000] {
         let knots = uniform(&mut random, count);
         cases.push(grid_case(format!("1-D uniform, {count} points"), vec![knots], rows, &mut random, false));
     }

@@ -364,6 +364,7 @@ fn between_or_nan(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let value = if value > greatest { greatest } else { value };
     let ordinary = is_ordinary(offset) & is_ordinary(width) & is_ordinary(rise);
     let value = select_unpredictable(ordinary, value, f64::NAN);
-    let value = select_unpredictable((x == near) | (base == other), base, value);
+    let value = select_unpredictable(x == near, base, value);
+    let value = select_unpredictable(base == other, base, value);
     select_unpredictable(x.is_nan(), f64::NAN, value)
 }
