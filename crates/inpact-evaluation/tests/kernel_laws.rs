@@ -113,7 +113,9 @@ proptest! {
             prop_assert_eq!(pool.install(|| total::total(&column)), expected, "{} threads", threads);
             let blocks = pool.install(|| blocks::map_blocks(rows, |rows| total::block_total(InstructionSet::best(), &column[rows])));
             let mut merged = CompensatedSum::default();
-            blocks.iter().for_each(|block| merged.merge(block));
+            for block in &blocks {
+                merged.merge(block);
+            }
             prop_assert_eq!(merged, expected, "blocks by {} threads", threads);
         }
     }

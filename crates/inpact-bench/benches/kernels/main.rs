@@ -1,78 +1,196 @@
-//! Times.
-use inpact_evaluation::kernel::*;
-use inpact_evaluation::table::*;
+//! Times of the kernels beside a memory copy of the same columns, the scalar functions, other crates and numpy, in one run.
+//!
+//! `cargo bench -p inpact-bench --bench kernels`; `-- 1000000 10000000` are the rows, `-- --rounds 7` how often all are timed in turn.
+//! Every figure is the least of its rounds, which take turns so that a busy moment of the machine hits all alike.
+//! The first line times a chain of additions: where it says much more than four cycles of the processor, the machine was not giving its full speed.
+
+#![allow(clippy::print_stdout, reason = "a benchmark prints")]
+
+mod peers;
+mod tables;
+
+use std::hint::black_box;
 use std::time::Instant;
+
+use inpact_evaluation::accuracy::Approximation;
+use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs_of_table};
+use inpact_evaluation::kernel::{InstructionSet, TableKernel, blocks, total};
+use inpact_evaluation::law::heat::HeatGeneration;
+use tables::Case;
+
+/// Something that is timed: what it is and one run of it over all rows.
+pub(crate) struct Contender<'a> {
+    name: String,
+    run: Box<dyn FnMut() + 'a>,
+}
+
+impl<'a> Contender<'a> {
+    pub(crate) fn new(name: impl Into<String>, run: impl FnMut() + 'a) -> Self {
+        Self { name: name.into(), run: Box::new(run) }
+    }
+}
+
 fn main() {
-    let n = 1_000_000usize;
-    let mut s = 1u64;
-    let mut unit = move || {
-        s = s.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (s >> 11) as f64 / 9007199254740992.0
-    };
-    for n in [n, 10 * n] {
-        for (k, log) in [
-            (2usize, false),
-            (8, false),
-            (10, false),
-            (16, false),
-            (17, false),
-            (100, false),
-            (1000, false),
-            (10, true),
-            (100, true),
-            (1000, true),
-        ] {
-            let mut x = 0.0;
-            let mut knots = vec![];
-            for i in 0..k {
-                if log {
-                    knots.push(1e-9 * (1.3e9f64).powf((i as f64 + 0.3 * unit()) / (k - 1) as f64));
-                } else {
-                    knots.push(x);
-                    x += 0.5 + unit();
-                }
-            }
-            let cells: Vec<f64> = knots.iter().flat_map(|&k| [1.0 / (1.0 + k), k]).collect();
-            let t = PiecewiseTable::from_rows(&cells, 2, Tail::Constant).unwrap();
-            let kernel = TableKernel::new(&t);
-            let (a, b) = (knots[0], knots[k - 1]);
-            let col: Vec<f64> = (0..n)
-                .map(|_| if log { a * (b / a).powf(unit() * 1.1 - 0.05) } else { a + (b - a) * (unit() * 1.2 - 0.1) })
-                .collect();
-            let mut out = vec![1.0; n];
-            let mut best = vec![f64::INFINITY; 8];
-            let sets = InstructionSet::available();
-            for _ in 0..if n > 5_000_000 { 5 } else { 11 } {
-                let c = Instant::now();
-                out.copy_from_slice(&col);
-                std::hint::black_box(&mut out);
-                best[0] = best[0].min(c.elapsed().as_secs_f64());
-                for (i, &set) in sets.iter().enumerate() {
-                    if set == InstructionSet::Scalar && n > 5_000_000 {
-                        continue;
-                    }
-                    let c = Instant::now();
-                    kernel.values_with(set, &[&col], &mut out);
-                    std::hint::black_box(&mut out);
-                    best[1 + i] = best[1 + i].min(c.elapsed().as_secs_f64());
-                }
-                if n < 5_000_000 {
-                    let c = Instant::now();
-                    for (o, &x) in out.iter_mut().zip(&col) {
-                        *o = t.value_at(x, &[]);
-                    }
-                    std::hint::black_box(&mut out);
-                    best[5] = best[5].min(c.elapsed().as_secs_f64());
-                }
-            }
-            println!(
-                "n={n} k={k} log={log} {:?} {:?}: copy {:.2} {:.2?} table {:.2}",
-                kernel.search(),
-                sets,
-                best[0] * 1e9 / n as f64,
-                best[1..=sets.len()].iter().map(|b| b * 1e9 / n as f64).collect::<Vec<_>>(),
-                best[5] * 1e9 / n as f64
-            );
+    let arguments: Vec<String> = std::env::args().collect();
+    let after = |option: &str| arguments.iter().position(|word| word == option).and_then(|at| arguments.get(at + 1));
+    let rounds = after("--rounds").and_then(|rounds| rounds.parse().ok()).unwrap_or(7);
+    let mut sizes: Vec<usize> =
+        arguments.iter().filter_map(|word| word.parse().ok()).filter(|&rows| rows > 1000).collect();
+    if sizes.is_empty() {
+        sizes = vec![1_000_000, 10_000_000];
+    }
+    println!("a chain of additions: {:.2} ns each", addition_chain());
+    println!("instruction sets: {:?}", InstructionSet::available());
+    for rows in sizes {
+        for case in tables::cases(rows) {
+            time_case(&case, rounds);
+        }
+        time_electrical(rows, rounds);
+        time_total(rows, rounds);
+    }
+    println!("a chain of additions: {:.2} ns each", addition_chain());
+}
+
+/// One table: the copy, the kernels, the scalar function and the peers.
+fn time_case(case: &Case, rounds: usize) {
+    let rows = case.columns[0].len();
+    let columns: Vec<&[f64]> = case.columns.iter().map(Vec::as_slice).collect();
+    let columns = &columns[..];
+    let kernel = TableKernel::new(&case.table);
+    let kernel = &kernel;
+    let mut contenders = vec![copy_of(columns)];
+    for set in InstructionSet::available() {
+        let mut values = vec![0.0; rows];
+        contenders.push(Contender::new(format!("kernel, {set}"), move || {
+            kernel.values_with(set, columns, black_box(&mut values));
+        }));
+    }
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
+        let mut values = vec![0.0; rows];
+        contenders.push(Contender::new(format!("kernel in blocks, {threads} threads"), move || {
+            pool.install(|| {
+                blocks::for_each_block(black_box(&mut values), |rows, values| {
+                    let mut part: [&[f64]; 3] = [&[]; 3];
+                    part.iter_mut().zip(columns).for_each(|(part, column)| *part = &column[rows.clone()]);
+                    kernel.values(&part[..columns.len()], values);
+                });
+            });
+        }));
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "columns of f32 are what is timed")]
+    let single: Vec<Vec<f32>> = case.columns.iter().map(|column| column.iter().map(|&x| x as f32).collect()).collect();
+    contenders.extend(Approximation::single(&case.table).ok().map(|approximation| {
+        let mut values = vec![0.0_f32; rows];
+        Contender::new("fast, f32 columns", move || {
+            let mut columns: [&[f32]; 3] = [&[]; 3];
+            columns.iter_mut().zip(&single).for_each(|(part, column)| *part = column);
+            approximation.values_single(&columns[..single.len()], black_box(&mut values));
+        })
+    }));
+    let mut values = vec![0.0; rows];
+    contenders.push(Contender::new("scalar function", move || {
+        for (row, value) in black_box(&mut values).iter_mut().enumerate() {
+            let mut point = [0.0; 3];
+            point.iter_mut().zip(columns).for_each(|(x, column)| *x = column[row]);
+            *value = case.table.value(&point[..columns.len()]);
+        }
+    }));
+    contenders.extend(peers::of(case));
+    println!("\n## {}, {rows} rows, search: {:?}", case.name, kernel.search());
+    let copy = print_times(rows, rounds, contenders);
+    peers::time_python(case, rounds, copy);
+}
+
+/// The whole electrical output set from a table of ten points, against a copy of its columns.
+fn time_electrical(rows: usize, rounds: usize) {
+    let case = &tables::cases(rows)[1];
+    let kernel = &TableKernel::new(&case.table);
+    let clearance = &case.columns[0];
+    let jump: &Vec<f64> = &(0..rows).map(|row| 1e-3 * (row % 1000) as f64 + 0.1).collect();
+    let area: &Vec<f64> = &(0..rows).map(|row| 1.0 + 1e-3 * (row % 77) as f64).collect();
+    let mut from = [clearance, jump, area, jump, clearance, jump, area];
+    let mut copies = vec![vec![0.0; rows]; 7];
+    // Three columns are read and seven written: a copy reads and writes seven.
+    let copy = Contender::new("copy of 7 columns", move || {
+        for (copy, column) in black_box(&mut copies).iter_mut().zip(black_box(&mut from)) {
+            copy.copy_from_slice(column);
+        }
+    });
+    let mut contenders = vec![copy];
+    for set in InstructionSet::available() {
+        let mut columns = vec![vec![0.0; rows]; 7];
+        contenders.push(Contender::new(format!("all electrical outputs, {set}"), move || {
+            let [conductance, j, i, q, qa, slave, master] = black_box(&mut columns[..]) else { return };
+            let mut outputs = ElectricalOutputs {
+                current_density: Some(j),
+                current: Some(i),
+                heat: Some(q),
+                heat_of_area: Some(qa),
+                heat_slave: Some(slave),
+                heat_master: Some(master),
+            };
+            let inputs = ElectricalInputs { jump, jump_at_start: None, area: Some(area) };
+            let generation = HeatGeneration::default();
+            electrical_outputs_of_table(set, generation, (kernel, &[clearance]), conductance, &inputs, &mut outputs);
+        }));
+    }
+    println!("\n## Electrical outputs with conductance, {}, {rows} rows", case.name);
+    print_times(rows, rounds, contenders);
+}
+
+/// The total of a column.
+fn time_total(rows: usize, rounds: usize) {
+    let column: &Vec<f64> = &(0..rows).map(|row| 1.0 / (1.0 + row as f64)).collect();
+    let mut contenders = vec![copy_of(std::slice::from_ref(&column.as_slice()))];
+    contenders.push(Contender::new("plain sum", || {
+        black_box(column.iter().sum::<f64>());
+    }));
+    for set in InstructionSet::available() {
+        contenders.push(Contender::new(format!("total, {set}"), move || {
+            black_box(total::total_with(set, column));
+        }));
+    }
+    println!("\n## Total of a column, {rows} rows");
+    print_times(rows, rounds, contenders);
+}
+
+/// A copy of a column: what reading and writing eight bytes a row costs, for each column.
+fn copy_of<'a>(columns: &[&'a [f64]]) -> Contender<'a> {
+    let columns = columns.to_vec();
+    let mut copies: Vec<Vec<f64>> = columns.iter().map(|column| vec![0.0; column.len()]).collect();
+    Contender::new("memory copy", move || {
+        for (copy, column) in black_box(&mut copies).iter_mut().zip(&columns) {
+            copy.copy_from_slice(column);
+        }
+    })
+}
+
+/// Times the contenders in turn and prints each one's best and its ratio to the first; gives the first one's time in nanoseconds a row.
+fn print_times(rows: usize, rounds: usize, mut contenders: Vec<Contender<'_>>) -> f64 {
+    let mut best = vec![f64::INFINITY; contenders.len()];
+    for _ in 0..=rounds {
+        for (contender, best) in contenders.iter_mut().zip(&mut best) {
+            let start = Instant::now();
+            (contender.run)();
+            *best = best.min(start.elapsed().as_secs_f64() * 1e9 / rows as f64);
         }
     }
+    println!("| | ns a row | times the copy |\n|---|---:|---:|");
+    for (contender, time) in contenders.iter().zip(&best) {
+        println!("| {} | {time:.2} | {:.2} |", contender.name, time / best[0]);
+    }
+    best[0]
+}
+
+/// Nanoseconds of an addition that waits for the one before.
+fn addition_chain() -> f64 {
+    let count = 10_000_000;
+    let start = Instant::now();
+    let mut sum = 1.0;
+    for _ in 0..count {
+        sum += black_box(1e-9);
+    }
+    black_box(sum);
+    start.elapsed().as_secs_f64() * 1e9 / f64::from(count)
 }

@@ -34,8 +34,9 @@ pub(super) struct GroupSearch {
     ends: Vec<f64>,
 }
 
+/// One group: where its pieces and buckets begin and how a bucket is told.
 #[derive(Clone, Copy, Debug)]
-struct Group {
+pub(super) struct Group {
     /// The least abscissa, and the order of its bits.
     least: f64,
     order: i64,
@@ -87,27 +88,52 @@ impl GroupSearch {
         self.steps
     }
 
-    /// The piece of `group` that holds `x`, which is within the group's range or NaN.
+    /// Finds the piece that holds each `x`, which is within the range of its group or NaN.
+    ///
+    /// `group_of` gives the group of a row. What can be vectorised stands in a loop of its own, before the loads that depend on it.
     #[inline(always)]
-    pub(super) fn piece<const KIND: u8, const STEPS: usize>(&self, group: usize, x: f64) -> usize {
-        let group = &self.groups[group];
+    pub(super) fn find<const KIND: u8, const STEPS: usize>(
+        &self,
+        x: &[f64],
+        group_of: impl Fn(usize) -> Group,
+        pieces: &mut [u32],
+    ) {
         if KIND == BISECTION {
-            let mut piece = group.first_piece as usize;
-            let mut count = group.piece_count as usize;
-            while count > 1 {
-                let half = count / 2;
-                let right = x >= self.ends[piece + half - 1];
-                piece = std::hint::select_unpredictable(right, piece + half, piece);
-                count -= half;
+            for (row, (&x, piece)) in x.iter().zip(pieces).enumerate() {
+                *piece = self.by_halves(&group_of(row), x);
             }
-            return piece;
+            return;
         }
-        let key = group.key::<KIND>(x);
-        let mut piece = self.buckets[(group.first_bucket + key) as usize] as usize;
-        for _ in 0..STEPS {
-            piece += usize::from(x >= self.ends[piece]);
+        for (row, (&x, bucket)) in x.iter().zip(&mut *pieces).enumerate() {
+            let group = group_of(row);
+            *bucket = group.first_bucket + group.key::<KIND>(x);
+        }
+        let (buckets, ends) = (&self.buckets[..], &self.ends[..]);
+        for (&x, piece) in x.iter().zip(pieces) {
+            let mut found = buckets[*piece as usize];
+            for _ in 0..STEPS {
+                found += u32::from(x >= ends[found as usize]);
+            }
+            *piece = found;
+        }
+    }
+
+    #[inline(always)]
+    fn by_halves(&self, group: &Group, x: f64) -> u32 {
+        let mut piece = group.first_piece;
+        let mut count = group.piece_count;
+        while count > 1 {
+            let half = count / 2;
+            let right = x >= self.ends[(piece + half - 1) as usize];
+            piece = std::hint::select_unpredictable(right, piece + half, piece);
+            count -= half;
         }
         piece
+    }
+
+    #[inline(always)]
+    pub(super) fn group(&self, group: usize) -> Group {
+        self.groups[group]
     }
 
     fn with_buckets(groups: &[Breaks], kind: Search, steps: usize) -> Option<Self> {

@@ -4,6 +4,8 @@
 //! along an outer one both neighbouring groups are evaluated for the whole block and the values are interpolated as [`crate::numbers::between`] does.
 //! Coordinates are clamped to the range of their group first, which gives the value at its end.
 
+use std::hint::select_unpredictable;
+
 use super::buckets::{BISECTION, BITS, Breaks, GroupSearch, LINEAR, Search};
 use super::pieces::{Piece, half_segments};
 use super::{InstructionSet, column_of};
@@ -108,7 +110,7 @@ impl NestedKernel {
                 .map(|sides| Noted { sides: &mut sides[first..first + values.len()], takes_part: [true; BLOCK] });
             if self.outer.is_empty() {
                 let x = &columns[self.leaf.column][first..];
-                self.leaf_values(x, |_| 0, values, noted.as_mut());
+                self.leaf_values(x, None, values, noted.as_mut());
             } else {
                 let block = Block { kernel: self, set, height: self.outer.len(), columns, first };
                 block.values(&[0; BLOCK], values, noted.as_mut());
@@ -119,44 +121,28 @@ impl NestedKernel {
         has_nan
     }
 
-    /// The values of a block of rows along the innermost axis.
+    /// The values of a block of rows along the innermost axis, each in its group or all in the first.
     #[inline(always)]
     fn leaf_values(
         &self,
         column: &[f64],
-        group_of: impl Fn(usize) -> usize + Copy,
+        groups: Option<&[u32; BLOCK]>,
         values: &mut [f64],
         noted: Option<&mut Noted<'_>>,
     ) {
-        match (self.leaf.search.kind(), self.leaf.search.steps()) {
-            (Search::LinearBuckets, 1) => self.leaf_values_by::<LINEAR, 1>(column, group_of, values),
-            (Search::LinearBuckets, 2) => self.leaf_values_by::<LINEAR, 2>(column, group_of, values),
-            (Search::LinearBuckets, _) => self.leaf_values_by::<LINEAR, 4>(column, group_of, values),
-            (Search::BitBuckets, 1) => self.leaf_values_by::<BITS, 1>(column, group_of, values),
-            (Search::BitBuckets, 2) => self.leaf_values_by::<BITS, 2>(column, group_of, values),
-            (Search::BitBuckets, _) => self.leaf_values_by::<BITS, 4>(column, group_of, values),
-            _ => self.leaf_values_by::<BISECTION, 0>(column, group_of, values),
+        let column = &column[..values.len()];
+        let (mut clamped, mut found) = ([0.0; BLOCK], [0; BLOCK]);
+        let (clamped, found) = (&mut clamped[..values.len()], &mut found[..values.len()]);
+        self.leaf.find(column, groups, clamped, found);
+        for ((&x, &piece), value) in clamped.iter().zip(&*found).zip(values) {
+            *value = self.pieces[piece as usize].value(x);
         }
         if let Some(noted) = noted {
             for (row, (&x, sides)) in column.iter().zip(&mut *noted.sides).enumerate() {
                 if noted.takes_part[row] {
-                    self.leaf.note(group_of(row), x, sides);
+                    self.leaf.note(groups.map_or(0, |groups| groups[row] as usize), x, sides);
                 }
             }
-        }
-    }
-
-    #[inline(always)]
-    fn leaf_values_by<const KIND: u8, const STEPS: usize>(
-        &self,
-        column: &[f64],
-        group_of: impl Fn(usize) -> usize,
-        values: &mut [f64],
-    ) {
-        for (row, (&x, value)) in column.iter().zip(values).enumerate() {
-            let group = group_of(row);
-            let x = self.leaf.ranges[group].clamp(x);
-            *value = self.pieces[self.leaf.search.piece::<KIND, STEPS>(group, x)].value(x);
         }
     }
 }
@@ -180,7 +166,7 @@ impl Block<'_> {
         let Self { kernel, set, height, columns, first } = self;
         if height == 0 {
             let x = &columns[kernel.leaf.column][first..];
-            return kernel.leaf_values(x, |row| groups[row] as usize, values, noted);
+            return kernel.leaf_values(x, Some(groups), values, noted);
         }
         let (axis, segments) = &kernel.outer[height - 1];
         let rows = values.len();
@@ -188,11 +174,11 @@ impl Block<'_> {
         let mut clamped = [0.0; BLOCK];
         let mut ends = [[0.0; BLOCK]; 2];
         let mut inner = [[0; BLOCK]; 2];
+        let mut found = [0; BLOCK];
+        let (clamped, found) = (&mut clamped[..rows], &mut found[..rows]);
+        axis.find(column, Some(groups), clamped, found);
         for row in 0..rows {
-            let range = &axis.ranges[groups[row] as usize];
-            let x = range.clamp(column[row]);
-            let segment = &segments[axis.piece(groups[row] as usize, x)];
-            clamped[row] = x;
+            let segment = &segments[found[row] as usize];
             (ends[0][row], ends[1][row]) = (segment.x0, segment.x1);
             (inner[0][row], inner[1][row]) = (segment.lower, segment.upper);
         }
@@ -221,9 +207,9 @@ impl Block<'_> {
         if let (Some(noted), Some(takes_part)) = (noted, takes_part) {
             noted.takes_part = takes_part;
         }
-        for row in 0..rows {
-            let (start, end) = ((ends[0][row], values[row]), (ends[1][row], upper_values[row]));
-            values[row] = between_or_nan(clamped[row], start, end);
+        let abscissae = clamped.iter().zip(ends[0].iter().zip(&ends[1]));
+        for ((value, &upper), (&x, (&x0, &x1))) in values.iter_mut().zip(&*upper_values).zip(abscissae) {
+            *value = between_or_nan(x, (x0, *value), (x1, upper));
         }
     }
 }
@@ -246,15 +232,40 @@ impl pulp::NullaryFnOnce for InnerValues<'_, '_> {
 }
 
 impl Axis {
-    /// The piece of a group of an outer axis that holds `x`.
+    /// Clamps the coordinates of a block to the groups they are in and finds the pieces that hold them.
     #[inline(always)]
-    fn piece(&self, group: usize, x: f64) -> usize {
+    fn find(&self, column: &[f64], groups: Option<&[u32; BLOCK]>, clamped: &mut [f64], pieces: &mut [u32]) {
         match (self.search.kind(), self.search.steps()) {
-            (Search::LinearBuckets, 1) => self.search.piece::<LINEAR, 1>(group, x),
-            (Search::LinearBuckets, _) => self.search.piece::<LINEAR, 4>(group, x),
-            (Search::BitBuckets, 1) => self.search.piece::<BITS, 1>(group, x),
-            (Search::BitBuckets, _) => self.search.piece::<BITS, 4>(group, x),
-            _ => self.search.piece::<BISECTION, 0>(group, x),
+            (Search::LinearBuckets, 1) => self.find_by::<LINEAR, 1>(column, groups, clamped, pieces),
+            (Search::LinearBuckets, 2) => self.find_by::<LINEAR, 2>(column, groups, clamped, pieces),
+            (Search::LinearBuckets, _) => self.find_by::<LINEAR, 4>(column, groups, clamped, pieces),
+            (Search::BitBuckets, 1) => self.find_by::<BITS, 1>(column, groups, clamped, pieces),
+            (Search::BitBuckets, 2) => self.find_by::<BITS, 2>(column, groups, clamped, pieces),
+            (Search::BitBuckets, _) => self.find_by::<BITS, 4>(column, groups, clamped, pieces),
+            _ => self.find_by::<BISECTION, 0>(column, groups, clamped, pieces),
+        }
+    }
+
+    #[inline(always)]
+    fn find_by<const KIND: u8, const STEPS: usize>(
+        &self,
+        column: &[f64],
+        groups: Option<&[u32; BLOCK]>,
+        clamped: &mut [f64],
+        pieces: &mut [u32],
+    ) {
+        if let (Some(groups), true) = (groups, self.ranges.len() > 1) {
+            for ((clamped, &x), &group) in clamped.iter_mut().zip(column).zip(groups) {
+                *clamped = self.ranges[group as usize].clamp(x);
+            }
+            self.search.find::<KIND, STEPS>(clamped, |row| self.search.group(groups[row] as usize), pieces);
+        } else {
+            // One group for all: what it tells stays in registers.
+            let (range, group) = (self.ranges[0], self.search.group(0));
+            for (clamped, &x) in clamped.iter_mut().zip(column) {
+                *clamped = range.clamp(x);
+            }
+            self.search.find::<KIND, STEPS>(clamped, |_| group, pieces);
         }
     }
 
@@ -332,8 +343,8 @@ fn outer_axis(level: &Level, groups: &[std::ops::Range<usize>]) -> (Axis, Vec<Se
 #[inline(always)]
 fn between_or_nan(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let from_left = x - x0 <= x1 - x;
-    let (near, base) = if from_left { (x0, y0) } else { (x1, y1) };
-    let (far, other) = if from_left { (x1, y1) } else { (x0, y0) };
+    let (near, far) = (select_unpredictable(from_left, x0, x1), select_unpredictable(from_left, x1, x0));
+    let (base, other) = (select_unpredictable(from_left, y0, y1), select_unpredictable(from_left, y1, y0));
     let (offset, offset_error) = two_difference(x, near);
     let (width, width_error) = two_difference(far, near);
     let (rise, rise_error) = two_difference(other, base);
@@ -352,7 +363,8 @@ fn between_or_nan(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let value = if value < least { least } else { value };
     let value = if value > greatest { greatest } else { value };
     let ordinary = is_ordinary(offset) & is_ordinary(width) & is_ordinary(rise);
-    let value = if ordinary { value } else { f64::NAN };
-    let value = if x == near || base == other { base } else { value };
-    if x.is_nan() { f64::NAN } else { value }
+    let value = select_unpredictable(ordinary, value, f64::NAN);
+    let value = select_unpredictable(x == near, base, value);
+    let value = select_unpredictable(base == other, base, value);
+    select_unpredictable(x.is_nan(), f64::NAN, value)
 }

@@ -4,6 +4,8 @@
 //! Both differences are monotone in x as computed, so that there is one last x of the left half, which is found here bit by bit:
 //! at a query one search over the halves then tells segment and end together.
 
+use std::hint::select_unpredictable;
+
 use crate::numbers::KernelSlope;
 
 /// What interpolation needs on one half segment.
@@ -31,7 +33,8 @@ impl Piece {
         let (offset, offset_error) = crate::numbers::two_difference(x, self.near);
         let value = offset.mul_add(self.high, self.base);
         let value = value + (offset * self.low + offset_error * self.high);
-        if x == self.near { self.base } else { value }
+        // A branch would be mispredicted wherever queries at knots, or clamped to the ends, are mixed with others.
+        select_unpredictable(x == self.near, self.base, value)
     }
 }
 

@@ -16,6 +16,10 @@ const MOST_KNOTS: usize = 16;
 
 type Lanes = [f64; 8];
 
+/// Vectors that are evaluated together, so that the steps of one fill the waits of another, and their rows.
+const VECTORS: usize = 4;
+const ROWS: usize = 8 * VECTORS;
+
 /// A small table in the form of the registers' contents.
 #[derive(Clone, Debug)]
 pub(super) struct RegisterKernel {
@@ -132,19 +136,28 @@ impl<const HALVINGS: u32, const DROPS: bool> pulp::NullaryFnOnce for Run<'_, HAL
         let Self { kernel, simd, column, values } = self;
         let registers = Registers::<HALVINGS, DROPS>::load(kernel, simd);
         let mut has_nan = 0;
-        let (blocks, rest) = column.as_chunks::<8>();
-        let (value_blocks, value_rest) = values.as_chunks_mut::<8>();
+        let (blocks, rest) = column.as_chunks::<ROWS>();
+        let (value_blocks, value_rest) = values.as_chunks_mut::<ROWS>();
         for (x, value) in blocks.iter().zip(value_blocks) {
-            let (result, nan) = registers.values(cast(*x));
-            *value = cast(result);
+            // All are read before the first is written: a read that seems to follow a write to its place modulo 4096 would wait for it.
+            let x: [Lanes; VECTORS] = cast(*x);
+            let x: [__m512d; VECTORS] = [cast(x[0]), cast(x[1]), cast(x[2]), cast(x[3])];
+            let results =
+                [registers.values(x[0]), registers.values(x[1]), registers.values(x[2]), registers.values(x[3])];
+            for (result, value) in results.iter().zip(value.as_chunks_mut::<8>().0) {
+                *value = cast(result.0);
+                has_nan |= result.1;
+            }
+        }
+        for (x, value) in rest.chunks(8).zip(value_rest.chunks_mut(8)) {
+            let mut lanes = [kernel.first; 8];
+            lanes[..x.len()].copy_from_slice(x);
+            let (result, nan) = registers.values(cast(lanes));
+            let result: Lanes = cast(result);
+            value.copy_from_slice(&result[..x.len()]);
             has_nan |= nan;
         }
-        let mut last = [kernel.first; 8];
-        last[..rest.len()].copy_from_slice(rest);
-        let (result, nan) = registers.values(cast(last));
-        let result: Lanes = cast(result);
-        value_rest.copy_from_slice(&result[..rest.len()]);
-        (has_nan | nan) != 0
+        has_nan != 0
     }
 }
 
