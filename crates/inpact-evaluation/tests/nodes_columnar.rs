@@ -116,8 +116,10 @@ fn read(bytes: Vec<u8>, rows_of_a_batch: usize, read_ahead: usize) -> (Vec<Batch
     (batches, findings.into_list().into_iter().map(|found| format!("{} {}", found.code, found.message)).collect())
 }
 
-/// What a cell is to those who read it: texts, and the bits of numbers.
-fn cells(batches: &[Batch]) -> Vec<(u64, Vec<Vec<u8>>, Vec<Option<u64>>)> {
+/// What a row is to those who read it: its number, its texts, and the bits of its numbers.
+type RowCells = (u64, Vec<Vec<u8>>, Vec<Option<u64>>);
+
+fn cells(batches: &[Batch]) -> Vec<RowCells> {
     let rows = batches.iter().flat_map(|batch| (0..batch.rows).map(move |row| (batch, row)));
     // The sign and payload of a NaN say nothing.
     let bits = |value: f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };

@@ -255,7 +255,15 @@ fn push_small(text: &mut Vec<u8>, printed: &[u8]) {
 /// A bound in two digits, never below it: `6.7e-16`.
 pub fn rounded_up(bound: f64) -> String {
     let text = format!("{bound:.1e}");
-    if text.parse().is_ok_and(|shown: f64| shown < bound) { format!("{:.1e}", bound * 1.05) } else { text }
+    let is_below = text.parse().is_ok_and(|shown: f64| shown < bound);
+    match text.split_once('e') {
+        Some((digits, exponent)) if is_below => {
+            let digits: f64 = digits.parse().unwrap_or_default();
+            format!("{:.1}e{exponent}", digits + 0.1)
+        }
+        _ => text,
+    }
+}
 }
 
 /// A number in its shortest form, see [`push_number`].
@@ -310,6 +318,16 @@ mod tests {
                 prop_assert_eq!(String::from_utf8_lossy(&text).into_owned(), judge(value));
             }
         }
+    }
+
+    #[test]
+    fn bounds_are_never_shown_smaller() {
+        assert_eq!(rounded_up(4.44e-16), "4.5e-16");
+        assert_eq!(rounded_up(4.5e-16), "4.5e-16");
+        assert_eq!(rounded_up(9.96e-3), "1.0e-2");
+        assert_eq!(rounded_up(9.94e-3), "10.0e-3");
+        assert_eq!(rounded_up(0.0), "0.0e0");
+        assert_eq!(rounded_up(f64::INFINITY), "inf");
     }
 
     #[test]

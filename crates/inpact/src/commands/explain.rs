@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use inpact_evaluation::nodes::DATA_RULES;
 use inpact_parser::grammar::{Grammar, nearest_names};
 use inpact_validation::rules::RULES;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -45,10 +46,11 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Outcome, Failure> {
 
 fn all_pages() -> String {
     let grammar = Grammar::builtin();
-    let rules = RULES.iter().map(|rule| page::of_rule(rule));
-    let rules = rules.chain(DATA_RULES.iter().map(|rule| page::of_data_rule(rule)));
+    let rules = RULES.iter().map(|rule| (rule.code, page::of_rule(rule)));
+    let rules = rules.chain(DATA_RULES.iter().map(|rule| (rule.code, page::of_data_rule(rule))));
+    let rules: BTreeMap<&str, String> = rules.collect();
     let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
-    rules.chain(keywords).collect::<Vec<_>>().join("\n")
+    rules.into_values().chain(keywords).collect::<Vec<_>>().join("\n")
 }
 
 fn page_of(what: &str) -> Result<String, Failure> {
