@@ -264,7 +264,6 @@ pub fn rounded_up(bound: f64) -> String {
         _ => text,
     }
 }
-}
 
 /// A number in its shortest form, see [`push_number`].
 pub(crate) fn number_text(value: f64) -> String {
