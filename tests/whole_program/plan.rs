@@ -68,3 +68,31 @@ fn streams_and_files_are_as_for_eval() {
     folder.write("n.csv", "node,clearance,pressure\n1,0,x\n");
     assert_eq!(folder.inpact(&["plan", "a.inp", "--nodes", "n.csv"]).code, 1);
 }
+
+/// What was cut is the difference between the trees, whatever was asked for.
+#[test]
+fn the_cuts_add_up() {
+    let options: [&[&str]; 5] = [
+        &[],
+        &["--outputs", "ECD,status"],
+        &["--accuracy", "fast"],
+        &["--accuracy", "reference"],
+        &["--tolerance", "1e-9"],
+    ];
+    for name in ["spot-weld", "busbar-joint", "retaining-wall", "brake-disc"] {
+        for option in options {
+            let (deck, nodes) = (format!("decks/{name}/{name}.inp"), format!("decks/{name}/{name}-nodes.csv"));
+            let run = inpact(&[&["plan", &deck, "--nodes", &nodes, "--format", "json"], option].concat());
+            if run.code != 0 {
+                // Not every sample has a current.
+                assert!(option.contains(&"ECD,status"), "{name} {option:?}: {}", run.errors);
+                continue;
+            }
+            let plan: serde_json::Value = serde_json::from_str(&run.output).expect("JSON");
+            let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+            let cuts: f64 = plan["cuts"].as_array().expect("cuts").iter().map(|cut| number(&cut["saved"])).sum();
+            let (before, after) = (number(&plan["before"]["cost"]), number(&plan["after"]["cost"]));
+            assert!((before - cuts - after).abs() < 1e-9 * before, "{name} {option:?}: {before} - {cuts} = {after}");
+        }
+    }
+}
