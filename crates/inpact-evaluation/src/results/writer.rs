@@ -304,7 +304,7 @@ mod tests {
         fn numbers_are_as_short_as_those_of_the_standard_library(bits in any::<u64>(), digits in -99_999..99_999_i32, power in -25..25_i32) {
             let short = f64::from(digits) * 10.0f64.powi(power);
             let halfway = (2.0f64.powi(50) + f64::from(digits.unsigned_abs()) + 0.25) * f64::from(digits.signum());
-            for value in [f64::from_bits(bits), halfway, 263_508_915_864_979.625, short, short.next_up(), short.next_down()] {
+            for value in [f64::from_bits(bits), halfway, 263_508_915_864_979.0 + 0.625, short, short.next_up(), short.next_down()] {
                 let mut text = Vec::new();
                 push_number(&mut text, value);
                 let (text, judge) = (String::from_utf8_lossy(&text).into_owned(), judge(value));
