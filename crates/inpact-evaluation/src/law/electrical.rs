@@ -52,17 +52,6 @@ impl ElectricalLaw {
     pub fn flow(&self, conductance: f64, jump: PotentialJump, dissipation: Dissipation) -> ElectricalFlow {
         flow(conductance, jump, dissipation, self.heat_generation)
     }
-
-    /// [`reference_flow`] with the heat generation of this law.
-    pub fn reference_flow(
-        &self,
-        value: f64,
-        rest: f64,
-        jump: PotentialJump,
-        dissipation: Dissipation,
-    ) -> ElectricalFlow {
-        reference_flow((value, rest), jump, dissipation, self.heat_generation)
-    }
 }
 
 /// Current and heat for a conductance, whatever gives it.
@@ -77,19 +66,6 @@ pub fn flow(
         current_density: conductance * jump.0,
         heat: generated_heat(conductance, jump, dissipation, generation),
     }
-}
-
-/// [`flow`] in twice the precision of f64, each result rounded once, for a conductance of `value` + `rest` from the reference kernel.
-///
-/// Inputs that are infinite or NaN give what [`flow`] gives.
-pub fn reference_flow(
-    (value, rest): (f64, f64),
-    jump: PotentialJump,
-    dissipation: Dissipation,
-    generation: HeatGeneration,
-) -> ElectricalFlow {
-    ExactFlow::new((value, rest), jump, dissipation, generation)
-        .map_or_else(|| flow(value, jump, dissipation, generation), |exact| exact.rounded(generation))
 }
 
 /// Current and heat in twice the precision of f64 and without a limit to their size, for what they are multiplied with and summed up to.

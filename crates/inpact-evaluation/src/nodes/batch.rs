@@ -146,11 +146,6 @@ impl NumberColumn {
         Some(self.present.as_slice()).filter(|present| !present.is_empty())
     }
 
-    /// Whether no number is missing.
-    pub fn all_present(&self) -> bool {
-        self.present.iter().all(|present| *present)
-    }
-
     /// Adds a row.
     #[inline]
     pub fn push(&mut self, value: Option<f64>) {

@@ -58,36 +58,6 @@ const OF_TIME: [Output; 10] = [
     Output::Ptla,
 ];
 
-/// The outputs that may depend on the rows of a node before: integrals, the heat of an increment, and the rate of a gap.
-pub(super) const OF_HISTORY: [Output; 26] = [
-    Output::Ecdt,
-    Output::Ecdta,
-    Output::Sjd,
-    Output::Sjda,
-    Output::Sjdt,
-    Output::Sjdta,
-    Output::HeatSlave,
-    Output::HeatMaster,
-    Output::Hfl,
-    Output::Hfla,
-    Output::Htl,
-    Output::Htla,
-    Output::Sfdrt,
-    Output::Sfdrta,
-    Output::TotalHeatSlave,
-    Output::TotalHeatMaster,
-    Output::Pfl,
-    Output::Pfla,
-    Output::Ptl,
-    Output::Ptla,
-    Output::QGapSlave,
-    Output::QGapMaster,
-    Output::QSlave,
-    Output::QMaster,
-    Output::QAcross,
-    Output::Permeability,
-];
-
 /// The outputs that are sums of all heat across and into the interface.
 pub(super) const SUMS_OF_HEAT: [Output; 6] =
     [Output::Hfl, Output::Hfla, Output::Htl, Output::Htla, Output::TotalHeatSlave, Output::TotalHeatMaster];
@@ -114,6 +84,13 @@ fn is_of_pore(output: &Output) -> bool {
             | QMaster
             | QSlave
     )
+}
+
+/// Whether an output may depend on the rows of a node before: integrals, the heat of an increment, and the rate of a gap.
+pub(super) fn is_of_history(output: &Output) -> bool {
+    let is_of_heat = ELECTRICAL_HEAT.contains(output) || SUMS_OF_HEAT.contains(output);
+    let is_of_gap = is_of_pore(output) && !matches!(output, Output::PermeabilitySlope(_));
+    OF_TIME.contains(output) || is_of_heat || is_of_gap
 }
 
 /// Whether an output comes from the thermal law alone; WEIGHT is one of the electrical law too.

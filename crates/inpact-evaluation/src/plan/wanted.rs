@@ -1,6 +1,6 @@
 //! The columns of a node table that some law of a deck could use, before its rows are known.
 
-use super::asked::{ELECTRICAL_FLOWS, OF_AREA, OF_HISTORY, SUMS_OF_HEAT};
+use super::asked::{ELECTRICAL_FLOWS, OF_AREA, SUMS_OF_HEAT, is_of_history};
 use super::choices::Choices;
 use super::governing::GovernedBy;
 use super::regime::regime;
@@ -52,7 +52,7 @@ fn want_of_any_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
     if choices.asks_for(&OF_AREA) {
         wanted.insert(Column::Area);
     }
-    if choices.asks_for(&OF_HISTORY) {
+    if choices.asks_where(is_of_history) {
         wanted.insert(Column::Time);
     }
 }
