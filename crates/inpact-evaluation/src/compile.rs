@@ -1,7 +1,9 @@
 //! From a plan to laws that can be evaluated: tables compiled, columns turned into places of a batch.
 
+mod interface;
 mod user;
 
+pub use interface::{ElectricalSource, FrictionSource, InterfaceLaws};
 pub(crate) use user::CompiledUser;
 
 use crate::accuracy::Wanted;
@@ -97,6 +99,9 @@ pub(crate) struct CompiledPore {
     pub(crate) variables: Vec<Option<Source<usize>>>,
     pub(crate) slave: usize,
     pub(crate) master: usize,
+    pub(crate) jump: Option<usize>,
+    /// The flow across where the permeability is infinite.
+    pub(crate) across: Option<usize>,
     pub(crate) bulk: Option<(usize, usize)>,
     pub(crate) rate: Option<usize>,
     pub(crate) characteristic_length: Length,
@@ -285,14 +290,8 @@ impl Compiler<'_> {
         let [clearance_needs, pressure_needs] = needs;
         let forms = [&clearance, &pressure].map(|table| Some(TableForm::new(table.clone()?, choices.accuracy)));
         let [clearance_form, pressure_form] = forms;
-        let tables = match (clearance, pressure) {
-            (Some(clearance), None) => ConductanceTables::Clearance(clearance),
-            (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
-            (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
-            (None, None) => return None,
-        };
         Some(CompiledTables {
-            tables,
+            tables: ConductanceTables::of(clearance, pressure)?,
             clearance_form,
             pressure_form,
             clearance: clearance_needs,
@@ -322,6 +321,8 @@ impl Compiler<'_> {
             variables: self.sources(&plan.variables),
             slave,
             master,
+            jump: self.place(Column::PorePressure(Part::Both)),
+            across: self.place(Column::FlowAcross),
             bulk: sides(Column::BulkPermeability).filter(|_| plan.bulk == Bulk::Columns),
             rate: self.place(Column::ClearanceRate).filter(|_| plan.rate == Rate::Column),
             characteristic_length: match (plan.characteristic_length, length) {

@@ -24,11 +24,10 @@ mod wait;
 pub use batch::{Batch, LabelColumn, NumberColumn};
 pub(crate) use column::coordinates;
 pub use column::{Column, Direction, Part};
-pub(crate) use diagnostic::{
-    BEYOND_TABLE, MALFORMED_CELL, MISSING_COLUMN, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, TIME_NOT_ASCENDING,
-    UNKNOWN_INTERACTION, USER_FAULT,
+pub use diagnostic::{
+    BEYOND_TABLE, DATA_RULES, DUPLICATE_COLUMN, DataDiagnostic, DataRule, Findings, MALFORMED_CELL, MISSING_COLUMN,
+    NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, Place, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION, USER_FAULT,
 };
-pub use diagnostic::{DATA_RULES, DataDiagnostic, DataRule, Findings, Place};
 pub use header::{Header, HeaderCell};
 pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
 pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};

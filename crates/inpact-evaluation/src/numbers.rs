@@ -14,10 +14,12 @@ mod product;
 mod scaled;
 mod segment;
 mod sum;
+mod wide;
 
+pub use float::{exponent_of, scale_by_power, two_difference, two_product, two_sum, ulp};
 pub(crate) use float::{is_moderate, is_ordinary, is_zero_or_ordinary};
-pub use float::{two_difference, two_product, two_sum, ulp};
 pub use product::{mean, product, ratio, scaled_difference_product};
 pub use scaled::Scaled;
 pub use segment::{KernelSlope, between, interpolate, slope};
 pub use sum::CompensatedSum;
+pub use wide::Wide;

@@ -47,9 +47,12 @@ pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, Radiation
 pub use user::UserPlan;
 
 pub(crate) use folding::folded_as_planned;
+pub(crate) use make::generation_of;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
-pub(crate) use thermal_tables::ThermalTables;
+pub(crate) use thermal::tells_of_friction;
+pub(crate) use thermal_tables::{ConductanceRows, RadiationFault, ThermalTables};
+pub(crate) use user::user_names;
 
 use crate::accuracy::{ErrorBound, Method};
 use crate::law::contact::ContactState;
@@ -159,6 +162,10 @@ pub struct PorePlan {
     pub cutoffs: Cutoffs,
     /// Where average temperature and field variables come from, in the order of the table's columns; `None` where it does not depend on one.
     pub variables: Vec<Option<Source<Column>>>,
+    /// `por_jump`, where it has numbers: it is taken instead of the difference of the pore pressures.
+    pub jump: Option<Column>,
+    /// `q_across`, where it has numbers and the permeability is infinite: the solution of the equations that the flow is an unknown of.
+    pub across: Option<Column>,
     /// Where the characteristic element length comes from.
     pub characteristic_length: CharacteristicLength,
     /// Where the rate of the clearance comes from.

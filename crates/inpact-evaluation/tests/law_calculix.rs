@@ -56,7 +56,7 @@ fn closed(pressure: f64, variables: &[f64]) -> ContactPoint<'_> {
 
 /// The heat out of the upper cube, which is the slave and 100 degrees hotter than the lower one.
 fn heat(rows: &[Row], pressure: f64, lower: f64) -> f64 {
-    let sides = Temperatures { slave: lower + 100.0, master: lower };
+    let sides = Temperatures::of(lower + 100.0, lower);
     conducted_heat(conductance(rows, pressure, sides.mean()), sides)
 }
 
@@ -135,7 +135,7 @@ fn heat_generation_and_its_shares() {
     let law = ThermalConductance::Calculix(law(&[[100.0, 0.0, 0.0]]));
     // Unknowns: how far the faces are above the ends. Each cube leads away what its face takes in.
     let taken = |slave: f64, master: f64| {
-        let sides = Temperatures { slave, master };
+        let sides = Temperatures::of(slave, master);
         let conductance = law.conductance(&closed(1000.0, &[sides.mean()])).value;
         let conduction = conducted_heat(conductance, sides);
         let nothing = frictional_heat(ShearStress(0.0), SlipRate(0.0), generation);
@@ -158,7 +158,7 @@ fn in_series_with_two_cubes() {
     let rows: Vec<Row> = ONE.iter().map(|&[value, pressure, _]| [value, pressure, 0.0]).collect();
     let (mut slave, mut master) = (393.0, 293.0);
     let flux = |slave: f64, master: f64| {
-        let sides = Temperatures { slave, master };
+        let sides = Temperatures::of(slave, master);
         conducted_heat(conductance(&rows, 1000.0, sides.mean()), sides)
     };
     for _ in 0..2000 {

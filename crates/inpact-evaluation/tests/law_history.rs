@@ -99,6 +99,7 @@ fn run_pore(law: &PoreLaw, rows: &[(f64, f64)], master: f64, rate: Option<Cleara
             state: ContactState::Open,
             slave: PorePressure(1.0),
             master: PorePressure(master),
+            jump: None,
             variables: &[],
             characteristic_length: None,
             bulk: None,

@@ -27,6 +27,7 @@ fn point(slave: f64, master: f64) -> PorePoint<'static> {
         state: ContactState::Closed,
         slave: PorePressure(slave),
         master: PorePressure(master),
+        jump: None,
         variables: &[],
         characteristic_length: None,
         bulk: None,

@@ -19,7 +19,7 @@ fn coefficient(stefan_boltzmann: f64, slave: f64, master: f64) -> Option<f64> {
 }
 
 fn temperatures(slave: f64, master: f64) -> Temperatures {
-    Temperatures { slave, master }
+    Temperatures::of(slave, master)
 }
 
 /// C (a⁴ − b⁴) F of the rounded inputs, without an error.

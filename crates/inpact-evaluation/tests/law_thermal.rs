@@ -35,7 +35,7 @@ fn point(clearance: f64, pressure: f64, state: ContactState) -> ContactPoint<'st
 }
 
 fn temperatures(slave: f64, master: f64) -> Temperatures {
-    Temperatures { slave, master }
+    Temperatures::of(slave, master)
 }
 
 /// The zero of a rising function between two bounds.

@@ -8,6 +8,8 @@ pub(crate) mod inp;
 pub(crate) mod json;
 pub(crate) mod plan;
 pub(crate) mod shell;
+pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
+mod laws;
 mod scene;

@@ -43,6 +43,8 @@ enum Command {
     Eval(commands::eval::EvalArguments),
     /// Show what an evaluation would do: which laws, tables, columns and outputs, and what is left out and why.
     Plan(commands::plan::PlanArguments),
+    /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
+    Solve(commands::solve::SolveArguments),
     /// Measure what accuracy costs on a deck and its node data: time and error of every mode.
     Tradeoff(commands::tradeoff::TradeoffArguments),
     /// Explain a rule or a keyword.
@@ -66,6 +68,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Inp(arguments) => commands::inp::run(&arguments),
         Command::Eval(arguments) => commands::eval::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),
+        Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Completions(arguments) => commands::shell::completions(&arguments, Arguments::command()),

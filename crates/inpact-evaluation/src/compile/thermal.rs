@@ -26,6 +26,7 @@ pub(crate) struct CompiledThermal {
     pub(crate) current: CurrentHeat,
     /// Slave and master.
     pub(crate) temperatures: Option<(usize, usize)>,
+    pub(crate) jump: Option<usize>,
     pub(crate) area: Option<usize>,
     pub(crate) history: History,
     pub(crate) slots: ThermalSlots,
@@ -107,6 +108,7 @@ impl Compiler<'_> {
             friction,
             current: plan.current,
             temperatures: plan.temperatures.and_then(|[slave, master]| Some((place(slave)?, place(master)?))),
+            jump: plan.jump.and_then(place),
             area: plan.area.and_then(place),
             history: plan.history,
             slots: ThermalSlots::new(|output| self.slot(output)),

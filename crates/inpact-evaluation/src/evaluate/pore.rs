@@ -55,6 +55,7 @@ pub(super) fn evaluate(
         state: row.state,
         slave: PorePressure(slave),
         master: PorePressure(master),
+        jump: law.jump.and_then(|place| row.number(place)),
         variables,
         characteristic_length: match law.characteristic_length {
             Length::Place(place) => row.number(place),
@@ -63,7 +64,7 @@ pub(super) fn evaluate(
         },
         bulk,
         gap,
-        multiplier: None,
+        multiplier: law.across.and_then(|place| row.number(place)),
     };
     let flow = law.law.flow_with(&point, |table, first, others| match &law.form {
         Some(form) => form.value_at(first, others),

@@ -31,9 +31,10 @@ pub(super) fn evaluate(
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
 ) -> Outcome {
-    let temperatures = law
-        .temperatures
-        .and_then(|(slave, master)| Some(Temperatures { slave: row.number(slave)?, master: row.number(master)? }));
+    let temperatures = law.temperatures.and_then(|(slave, master)| {
+        let jump = law.jump.and_then(|place| row.number(place));
+        Some(Temperatures { slave: row.number(slave)?, master: row.number(master)?, jump })
+    });
     let (mut is_beyond, mut gives_something) = (false, false);
     // A part that the plan does not have is known to be nothing.
     let conduction = match &law.conduction {

@@ -67,6 +67,16 @@ pub struct Conductance {
 }
 
 impl ConductanceTables {
+    /// The conductance of the tables there are; `None` without any.
+    pub fn of(clearance: Option<PiecewiseTable>, pressure: Option<PiecewiseTable>) -> Option<Self> {
+        match (clearance, pressure) {
+            (Some(clearance), None) => Some(Self::Clearance(clearance)),
+            (None, Some(pressure)) => Some(Self::Pressure(pressure)),
+            (Some(clearance), Some(pressure)) => Some(Self::Both { clearance, pressure }),
+            (None, None) => None,
+        }
+    }
+
     /// The conductance at a point.
     ///
     /// NaN where the state is undetermined or an input the branch depends on is NaN.
@@ -163,6 +173,12 @@ impl ConductanceTables {
             Self::Pressure(_) => false,
         };
         drops && !here.sides.is_above(0) && next.sides.is_above(0)
+    }
+
+    /// The table that holds in a state, if one does.
+    pub fn branch_in(&self, state: ContactState) -> Option<(Branch, &PiecewiseTable)> {
+        let (branch, table) = self.branch(state);
+        Some((branch, table?))
     }
 
     /// The branch and table that hold in a state.

@@ -79,6 +79,8 @@ pub struct PorePoint<'a> {
     pub slave: PorePressure,
     /// Pore pressure at the master surface.
     pub master: PorePressure,
+    /// p_slave − p_master, where it is known by itself: the difference of two nearly equal pressures has lost its digits.
+    pub jump: Option<f64>,
     /// The mean of the two pore pressures, the mean temperature, then the field variables, as far as the table depends on them; the rest may be NaN or left out.
     pub variables: &'a [f64],
     /// The characteristic element length, if known.
@@ -283,7 +285,7 @@ impl PoreLaw {
 
 /// k (p_master − p_slave); with what rounding took away from k in twice the precision, rounded once.
 fn flow_of(permeability: f64, rest: Option<f64>, point: &PorePoint<'_>) -> f64 {
-    let (slave, master) = (point.slave.0, point.master.0);
+    let (slave, master) = point.jump.map_or((point.slave.0, point.master.0), |jump| (jump, 0.0));
     match rest {
         Some(rest) if [permeability, rest, slave, master].iter().all(|input| input.is_finite()) => {
             ((Scaled::new(permeability) + Scaled::new(rest)) * Scaled::difference(master, slave)).to_f64()

@@ -116,16 +116,16 @@ pub fn radiated_heat(
     absolute_zero: f64,
     temperatures: Temperatures,
 ) -> f64 {
-    let Temperatures { slave, master } = temperatures;
-    let (a, b, difference) = (slave - absolute_zero, master - absolute_zero, slave - master);
+    let Temperatures { slave, master, jump } = temperatures;
+    let (a, b, difference) = (slave - absolute_zero, master - absolute_zero, jump.unwrap_or(slave - master));
     let is_moderate = |value: f64| value == 0.0 || MODERATE.contains(&value.abs());
     let is_harmless = is_moderate(a)
         && is_moderate(b)
         && is_moderate(difference)
         && is_zero_or_ordinary(coefficient.0)
         && is_zero_or_ordinary(view_factor);
-    if !is_harmless && [coefficient.0, view_factor, absolute_zero, slave, master].iter().all(|input| input.is_finite())
-    {
+    let inputs = [coefficient.0, view_factor, absolute_zero, slave, master, jump.unwrap_or(0.0)];
+    if !is_harmless && inputs.iter().all(|input| input.is_finite()) {
         return radiated_heat_of_extremes(coefficient, view_factor, absolute_zero, temperatures);
     }
     // No heat is 0, not −0.
@@ -138,9 +138,10 @@ fn radiated_heat_of_extremes(
     coefficient: RadiationCoefficient,
     view_factor: f64,
     absolute_zero: f64,
-    Temperatures { slave, master }: Temperatures,
+    temperatures: Temperatures,
 ) -> f64 {
-    let (a, b) = (Scaled::difference(slave, absolute_zero), Scaled::difference(master, absolute_zero));
-    let powers = (a * a + b * b) * (a + b) * Scaled::difference(slave, master);
+    let absolute = |temperature| Scaled::difference(temperature, absolute_zero);
+    let (a, b) = (absolute(temperatures.slave), absolute(temperatures.master));
+    let powers = (a * a + b * b) * (a + b) * temperatures.difference();
     (Scaled::new(coefficient.0) * Scaled::new(view_factor) * powers).to_f64() + 0.0
 }

@@ -62,9 +62,21 @@ pub struct Temperatures {
     pub slave: f64,
     /// Of the master surface.
     pub master: f64,
+    /// θ_slave − θ_master, where it is known by itself: the difference of two nearly equal temperatures has lost its digits.
+    pub jump: Option<f64>,
 }
 
 impl Temperatures {
+    /// Those of two surfaces, of which no more is known.
+    pub fn of(slave: f64, master: f64) -> Self {
+        Self { slave, master, jump: None }
+    }
+
+    /// The exact difference θ_slave − θ_master of finite temperatures.
+    pub(crate) fn difference(self) -> Scaled {
+        self.jump.map_or_else(|| Scaled::difference(self.slave, self.master), Scaled::new)
+    }
+
     /// Their mean, which conductances depend on.
     pub fn mean(self) -> f64 {
         mean(self.slave, self.master)
@@ -75,18 +87,21 @@ impl Temperatures {
 #[inline]
 pub fn conducted_heat(conductance: f64, temperatures: Temperatures) -> f64 {
     // No heat is 0, not −0.
-    scaled_difference_product(conductance, temperatures.slave, temperatures.master) + 0.0
+    match temperatures.jump {
+        Some(jump) => conductance * jump + 0.0,
+        None => scaled_difference_product(conductance, temperatures.slave, temperatures.master) + 0.0,
+    }
 }
 
 /// [`conducted_heat`] in twice the precision of f64, rounded once, for a conductance of `value` + `rest`.
 ///
 /// Inputs that are infinite or NaN give what [`conducted_heat`] gives.
 pub fn reference_conducted_heat(value: f64, rest: f64, temperatures: Temperatures) -> f64 {
-    let Temperatures { slave, master } = temperatures;
-    if ![value, rest, slave, master].iter().all(|input| input.is_finite()) {
+    let Temperatures { slave, master, jump } = temperatures;
+    if ![value, rest, slave, master, jump.unwrap_or(0.0)].iter().all(|input| input.is_finite()) {
         return conducted_heat(value, temperatures);
     }
-    ((Scaled::new(value) + Scaled::new(rest)) * Scaled::difference(slave, master)).to_f64() + 0.0
+    ((Scaled::new(value) + Scaled::new(rest)) * temperatures.difference()).to_f64() + 0.0
 }
 
 /// Slopes of a flux along the temperatures of both sides.

@@ -23,8 +23,12 @@ pub enum Column {
     Temperature(Part),
     /// `epot_s`; `epot_m`; `epot_jump`, φ_s − φ_m: electric potential, φ.
     Potential(Part),
-    /// `por_s`; `por_m`: pore pressure, F L⁻².
+    /// `temp_jump`, θ_s − θ_m: the difference of the temperatures, where both together would lose its digits, θ.
+    TemperatureJump,
+    /// `por_s`; `por_m`; `por_jump`, p_s − p_m: pore pressure, F L⁻².
     PorePressure(Part),
+    /// `q_across`: pore fluid out of the master into the slave surface, where an infinite permeability leaves it to the solution of the equations, L T⁻¹.
+    FlowAcross,
     /// `fvN_s`; `fvN_m`; `fvN`: field variable N, from 1.
     FieldVariable(u32, Part),
     /// `area`, `cnarea`: area of the slave node, L².
@@ -69,7 +73,7 @@ pub enum Part {
     Slave,
     /// Master (main) side, `_m`.
     Master,
-    /// Both sides together: their average, or for potentials the jump from master to slave.
+    /// Both sides together: their average, or for potentials and pore pressures the jump from master to slave.
     Both,
 }
 
@@ -89,6 +93,9 @@ const NAMES: &[(Column, &[&str])] = &[
     (Column::Potential(Part::Both), &["epot_jump"]),
     (Column::PorePressure(Part::Slave), &["por_s"]),
     (Column::PorePressure(Part::Master), &["por_m"]),
+    (Column::PorePressure(Part::Both), &["por_jump"]),
+    (Column::TemperatureJump, &["temp_jump"]),
+    (Column::FlowAcross, &["q_across"]),
     (Column::Area, &["area", "cnarea"]),
     (Column::ClearanceRate, &["clearance_rate"]),
     (Column::CharacteristicLength, &["char_length"]),
@@ -152,7 +159,7 @@ impl fmt::Display for Column {
             return write!(formatter, "fv{number}{suffix}");
         }
         let listed = NAMES.iter().find(|(column, _)| column == self);
-        formatter.write_str(listed.map_or("por", |(_, names)| names[0]))
+        formatter.write_str(listed.map_or("", |(_, names)| names[0]))
     }
 }
 

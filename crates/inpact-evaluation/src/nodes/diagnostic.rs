@@ -1,8 +1,10 @@
 //! What is wrong with a node table: rules D001 to D010 and their findings.
 //!
 //! A finding has a row and a column where a finding of the deck has a span. Knows no colours and no terminals; the command line renders it.
+//! Findings of other data that belongs to a deck are of this kind as well; their rules stand where that data is read.
 
 use inpact_validation::Severity;
+use std::collections::BTreeMap;
 
 /// The most findings of one rule in one table; more are counted, not kept.
 const MOST_OF_ONE_RULE: usize = 20;
@@ -23,7 +25,8 @@ pub struct DataRule {
 /// Declares the rules and the list of them.
 macro_rules! data_rules {
     ($($identifier:ident = $code:literal $name:literal $severity:ident $summary:literal;)+) => {
-        $(pub(crate) static $identifier: DataRule =
+        $(#[doc = $summary]
+        pub static $identifier: DataRule =
             DataRule { code: $code, name: $name, severity: Severity::$severity, summary: $summary };)+
 
         /// The rules about node tables, in the order of their codes.
@@ -79,13 +82,14 @@ pub struct Place {
 pub struct Findings {
     file: String,
     kept: Vec<DataDiagnostic>,
-    reported: [usize; DATA_RULES.len()],
+    /// How often each rule was reported, by its code.
+    reported: BTreeMap<&'static str, usize>,
 }
 
 impl Findings {
     /// No findings yet, of the table of that name.
     pub fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), kept: Vec::new(), reported: [0; DATA_RULES.len()] }
+        Self { file: file.to_owned(), kept: Vec::new(), reported: BTreeMap::new() }
     }
 
     /// Reports a finding; an empty `help` is none.
@@ -102,7 +106,7 @@ impl Findings {
         message: impl Into<String>,
         help: impl Into<String>,
     ) {
-        let count = self.count_mut(rule);
+        let count = self.reported.entry(rule.code).or_default();
         *count += 1;
         if *count > MOST_OF_ONE_RULE {
             return;
@@ -120,18 +124,13 @@ impl Findings {
 
     /// The findings in the order they were reported; the last of a rule says how many of it were left out.
     pub fn into_list(mut self) -> Vec<DataDiagnostic> {
-        for (rule, count) in DATA_RULES.iter().zip(self.reported) {
+        for (code, count) in self.reported {
             let Some(hidden) = count.checked_sub(MOST_OF_ONE_RULE).filter(|hidden| *hidden > 0) else { continue };
-            if let Some(last) = self.kept.iter_mut().rfind(|found| found.code == rule.code) {
+            if let Some(last) = self.kept.iter_mut().rfind(|found| found.code == code) {
                 let more = format!("{hidden} more findings of this rule in this table are not shown");
                 last.help = Some(last.help.take().map_or_else(|| more.clone(), |help| format!("{help}; {more}")));
             }
         }
         self.kept
-    }
-
-    fn count_mut(&mut self, rule: &DataRule) -> &mut usize {
-        let index = DATA_RULES.iter().position(|known| known.code == rule.code);
-        &mut self.reported[index.expect("every rule is in the list, which declares them")]
     }
 }

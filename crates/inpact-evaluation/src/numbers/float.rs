@@ -61,7 +61,7 @@ pub(crate) fn is_moderate(value: f64) -> bool {
 }
 
 /// The exponent e of a finite `value` that is not zero: 2^e <= |value| < 2^(e+1).
-pub(super) fn exponent_of(value: f64) -> i32 {
+pub fn exponent_of(value: f64) -> i32 {
     let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;
     if biased > 0 {
         return biased - 1023;
@@ -71,7 +71,7 @@ pub(super) fn exponent_of(value: f64) -> i32 {
 }
 
 /// `value` × 2^`exponent`, rounded once where the result is subnormal, for a `value` of ordinary size or a scaling that makes it one.
-pub(super) fn scale_by_power(value: f64, exponent: i32) -> f64 {
+pub fn scale_by_power(value: f64, exponent: i32) -> f64 {
     match exponent {
         ..-1022 => value * power_of_two(-1000) * power_of_two((exponent + 1000).max(-1022)),
         -1022..=1023 => value * power_of_two(exponent),

@@ -58,6 +58,7 @@ impl InteractionPlan {
         if let Some(law) = &self.pore {
             columns.extend(law.variables.iter().flatten().flat_map(Source::cells));
             columns.extend([Part::Slave, Part::Master].map(Column::PorePressure));
+            columns.extend([law.jump, law.across].into_iter().flatten());
             if law.bulk == Bulk::Columns {
                 columns.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
             }

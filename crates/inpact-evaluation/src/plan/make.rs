@@ -186,20 +186,25 @@ impl Planner<'_> {
 
     /// What becomes of dissipated energy; `None` where it is switched off (K-05).
     pub(super) fn heat_generation(self) -> Option<HeatGeneration> {
-        if self.interaction.has_parameter("USER") {
-            return None;
-        }
-        let given = self.interaction.gap_heat_generation;
-        Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
-            fraction: given.fraction,
-            slave_weight: given.slave_weight,
-        }))
+        generation_of(self.interaction)
     }
 
     /// Whether no row is closed, or none open; unknown for a table without rows.
     pub(super) fn never(self, count: u64) -> bool {
         self.survey.rows > 0 && count == 0 && self.of.closed + self.of.open == self.of.rows
     }
+}
+
+/// What becomes of the energy dissipated in an interaction; `None` where a user subroutine switches that off (K-05).
+pub(crate) fn generation_of(interaction: &Interaction) -> Option<HeatGeneration> {
+    if interaction.has_parameter("USER") {
+        return None;
+    }
+    let given = interaction.gap_heat_generation;
+    Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
+        fraction: given.fraction,
+        slave_weight: given.slave_weight,
+    }))
 }
 
 /// The columns an evaluation reads: the texts of the result's key columns, the numbers that some law needs.

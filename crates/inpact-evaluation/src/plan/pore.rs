@@ -83,10 +83,13 @@ pub(super) fn plan_pore(
         |axis: usize| table_plan.as_ref().is_some_and(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
     let variables = variables.into_iter().enumerate();
     let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 2))).collect();
+    let given = |column| cell(column, |column| planner.presence(column)).ok();
     let mut plan = PorePlan {
         table: table_plan,
         cutoffs,
         variables,
+        jump: given(Column::PorePressure(Part::Both)).filter(|_| table.is_some()),
+        across: given(Column::FlowAcross).filter(|_| table.is_none()),
         characteristic_length: characteristic_length(planner, cutoffs, is_transient),
         rate: if is_transient { rate(planner, has_history) } else { Rate::NotNeeded },
         bulk: bulk(planner, table.is_some() && is_transient),

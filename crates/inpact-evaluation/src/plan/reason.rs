@@ -19,7 +19,7 @@ pub struct LeftOut {
 
 impl LeftOut {
     /// A law, or another thing that has words of its own.
-    pub(super) fn law(what: &str, reason: Reason) -> Self {
+    pub(crate) fn law(what: &str, reason: Reason) -> Self {
         Self { what: what.to_owned(), outputs: Vec::new(), reason }
     }
 }

@@ -7,7 +7,7 @@
 use super::asked::SUMS_OF_HEAT;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
-use super::source::Source;
+use super::source::{Source, cell};
 use super::thermal_parts::{plan_conduction, plan_friction, plan_radiation};
 use super::thermal_tables::ThermalTables;
 use super::{Derivatives, ElectricalPlan, History, TablePlan};
@@ -33,6 +33,8 @@ pub struct ThermalPlan {
     pub heat: Option<HeatGeneration>,
     /// Temperatures of slave and master, where they have numbers.
     pub temperatures: Option<[Column; 2]>,
+    /// `temp_jump`, where it has numbers: it is taken instead of their difference.
+    pub jump: Option<Column>,
     /// `area`, where it has numbers.
     pub area: Option<Column>,
     /// Whether the rows of a node are a history.
@@ -106,7 +108,7 @@ pub enum CurrentHeat {
 impl ThermalPlan {
     /// The columns it reads, those of contact, area and time left out.
     pub(super) fn columns(&self) -> Vec<Column> {
-        let mut columns: Vec<Column> = self.temperatures.into_iter().flatten().collect();
+        let mut columns: Vec<Column> = self.temperatures.into_iter().flatten().chain(self.jump).collect();
         if let Some(conduction) = &self.conduction {
             columns.extend(conduction.variables.iter().flatten().flat_map(Source::cells));
             columns.extend(conduction.mass_flow.iter().flat_map(|of| [of.mean, of.slave, of.master]).flatten());
@@ -120,7 +122,7 @@ impl ThermalPlan {
 }
 
 /// Whether the options of an interaction tell of heat by friction: only then are `shear` and `slip_rate` its business.
-pub(super) fn tells_of_friction(interaction: &Interaction) -> bool {
+pub(crate) fn tells_of_friction(interaction: &Interaction) -> bool {
     let is_thermal = |keyword: &str| matches!(keyword, "FRICTION" | "GAP CONDUCTANCE" | "GAP RADIATION");
     interaction.gap_heat_generation.is_some()
         || interaction.other.iter().any(|option| is_thermal(option.keyword.as_str()))
@@ -183,6 +185,7 @@ pub(super) fn plan_thermal(
         current: if generates { CurrentHeat::Generated } else { CurrentHeat::None },
         heat,
         temperatures: None,
+        jump: None,
         area: None,
         history: History::None,
     };
@@ -234,6 +237,7 @@ fn plan_flows(
         match temperatures(planner) {
             Ok(sides) => {
                 plan.temperatures = Some(sides);
+                plan.jump = cell(Column::TemperatureJump, |column| planner.presence(column)).ok();
                 outputs.extend(plan.conduction.is_some().then_some(HeatConduction));
                 outputs.extend(plan.radiation.is_some().then_some(HeatRadiation));
             }

@@ -7,7 +7,7 @@ use super::reason::{Missing, Reason};
 use super::source::{cell, whole_or_sides};
 use super::tables::matters;
 use super::thermal::{Planned, tells_of_friction, temperatures};
-use super::thermal_tables::{ConductanceRows, RadiationFault, ThermalTables, thermal_axis};
+use super::thermal_tables::{ConductanceRows, ThermalTables, thermal_axis};
 use super::wanted::columns_of;
 use super::{AxisPlan, ConductionPlan, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource};
 use crate::law::heat::HeatGeneration;
@@ -125,12 +125,7 @@ pub(super) fn plan_radiation(planner: Planner<'_>, tables: &ThermalTables) -> Pl
             return Planned::LeftOut(Reason::NotInCalculix("has no *GAP RADIATION"));
         }
         Some(Err(fault)) => {
-            return Planned::LeftOut(match *fault {
-                RadiationFault::NoConstant(name) => Reason::NoConstant(name),
-                RadiationFault::BadEmissivities => Reason::BadEmissivities,
-                RadiationFault::BrokenTable(error) => Reason::BrokenTable(error),
-                RadiationFault::NoRows => Reason::NoRows("GAP RADIATION"),
-            });
+            return Planned::LeftOut(fault.reason());
         }
         Some(Ok(law)) => law,
     };

@@ -1,5 +1,6 @@
 //! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
 
+use super::reason::Reason;
 use super::tables::field_variable;
 use crate::law::calculix::{CalculixConductance, CalculixError};
 use crate::law::conductance::ConductanceTables;
@@ -53,6 +54,18 @@ pub(crate) enum RadiationFault {
     NoRows,
 }
 
+impl RadiationFault {
+    /// Why there is no law.
+    pub(crate) fn reason(self) -> Reason {
+        match self {
+            Self::NoConstant(name) => Reason::NoConstant(name),
+            Self::BadEmissivities => Reason::BadEmissivities,
+            Self::BrokenTable(error) => Reason::BrokenTable(error),
+            Self::NoRows => Reason::NoRows(RADIATION),
+        }
+    }
+}
+
 impl ThermalTables {
     /// Compiles the tables of an interaction.
     pub(crate) fn of(model: &Model, interaction: &Interaction, dialect: Dialect) -> Self {
@@ -87,13 +100,7 @@ impl ThermalTables {
                 let table = |table: &Option<Result<PiecewiseTable, TableError>>| {
                     table.as_ref().and_then(|table| table.as_ref().ok()).cloned()
                 };
-                let tables = match (table(clearance), table(pressure)) {
-                    (Some(clearance), None) => ConductanceTables::Clearance(clearance),
-                    (None, Some(pressure)) => ConductanceTables::Pressure(pressure),
-                    (Some(clearance), Some(pressure)) => ConductanceTables::Both { clearance, pressure },
-                    (None, None) => return None,
-                };
-                Some(ThermalConductance::Tables(tables))
+                ConductanceTables::of(table(clearance), table(pressure)).map(ThermalConductance::Tables)
             }
         }
     }

@@ -63,7 +63,7 @@ pub(super) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result
     let (others, lacking): (Vec<Column>, Vec<Column>) =
         with_default().partition(|column| presence(*column).has_numbers());
     note_defaults(planner, &lacking, notes);
-    let names = names(planner.model, &planner.interaction.name, notes);
+    let names = user_names(planner.model, &planner.interaction.name, notes);
     Ok(UserPlan { names, temperatures, field_variables, others })
 }
 
@@ -123,7 +123,7 @@ fn quoted(column: Column) -> String {
 }
 
 /// The names, in the case user subroutines get them in (S-43): upper case, but for what is quoted.
-fn names(model: &Model, interaction: &Name, notes: &mut Vec<String>) -> UserNames {
+pub(crate) fn user_names(model: &Model, interaction: &Name, notes: &mut Vec<String>) -> UserNames {
     let of_this = model.contact_pairs.iter().filter(|pair| {
         let governed_by = pair.interaction.as_ref();
         governed_by.is_some_and(|reference| reference.name == *interaction)

@@ -77,6 +77,7 @@ fn want_thermal(interaction: &Interaction, tables: &ThermalTables, choices: &Cho
     if !of_conductance.is_empty() || tables.radiation.is_some() {
         want_of_any_law(choices, wanted);
         wanted.extend([Part::Slave, Part::Master].map(Column::Temperature));
+        wanted.insert(Column::TemperatureJump);
     }
     for (against, table) in of_conductance {
         want_variables(table, |axis| thermal_axis(against, axis), wanted);
@@ -99,7 +100,8 @@ fn want_pore(
         return;
     }
     want_of_any_law(choices, wanted);
-    wanted.extend([Part::Slave, Part::Master].map(Column::PorePressure));
+    wanted.extend([Part::Slave, Part::Master, Part::Both].map(Column::PorePressure));
+    wanted.insert(Column::FlowAcross);
     if let Some(table) = tables.permeability() {
         want_variables(table, pore_axis, wanted);
     }

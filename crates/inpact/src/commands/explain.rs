@@ -4,7 +4,8 @@ use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::page;
 use clap::{Args, ValueEnum};
-use inpact_evaluation::nodes::DATA_RULES;
+use inpact_evaluation::nodes::{DATA_RULES, DataRule};
+use inpact_network::scene::SCENE_RULES;
 use inpact_parser::grammar::{Grammar, nearest_names};
 use inpact_validation::rules::RULES;
 use std::collections::BTreeMap;
@@ -44,10 +45,15 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
+/// The rules about data: node tables, then scenes.
+fn data_rules() -> impl Iterator<Item = &'static DataRule> {
+    DATA_RULES.iter().chain(SCENE_RULES).copied()
+}
+
 fn all_pages() -> String {
     let grammar = Grammar::builtin();
     let rules = RULES.iter().map(|rule| (rule.code, page::of_rule(rule)));
-    let rules = rules.chain(DATA_RULES.iter().map(|rule| (rule.code, page::of_data_rule(rule))));
+    let rules = rules.chain(data_rules().map(|rule| (rule.code, page::of_data_rule(rule))));
     let rules: BTreeMap<&str, String> = rules.collect();
     let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
     rules.into_values().chain(keywords).collect::<Vec<_>>().join("\n")
@@ -58,7 +64,7 @@ fn page_of(what: &str) -> Result<String, Failure> {
     if let Some(rule) = RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
         return Ok(page::of_rule(rule));
     }
-    if let Some(rule) = DATA_RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
+    if let Some(rule) = data_rules().find(|rule| is_meant(rule.code, rule.name)) {
         return Ok(page::of_data_rule(rule));
     }
     let grammar = Grammar::builtin();
@@ -73,7 +79,7 @@ fn page_of(what: &str) -> Result<String, Failure> {
         }
         None => {
             let rules = RULES.iter().flat_map(|rule| [rule.code, rule.name]);
-            let rules = rules.chain(DATA_RULES.iter().flat_map(|rule| [rule.code, rule.name]));
+            let rules = rules.chain(data_rules().flat_map(|rule| [rule.code, rule.name]));
             let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));
             let keywords = grammar.nearest_keywords(words, 3).into_iter().map(|keyword| format!("*{keyword}"));
             let near: Vec<String> = rules.chain(keywords).collect();

@@ -1,21 +1,18 @@
 //! A scene: a deck, a node table and the choices between them; what `eval` and `plan` have in common.
 
+use super::laws::LawArguments;
 use crate::failure::{Failure, say};
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
-use crate::user_library;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::law::pore::CutoffBoundary;
-use inpact_evaluation::law::user::UserLaw;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
 use inpact_evaluation::plan::{
     Choices, Derivatives, Plan, Survey, SurveyByNode, concerning, make, survey, survey_by_node,
 };
 use inpact_evaluation::results::Output;
-use inpact_evaluation::table::Tail;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{self, Model, Name, Regime};
@@ -43,15 +40,8 @@ pub(crate) struct SceneArguments {
     /// Steady state or transient, instead of what the deck's procedures say.
     #[arg(long, value_enum)]
     procedure: Option<Procedure>,
-    /// What follows the last point of conductance against clearance: the manual's text or its figure.
-    #[arg(long, value_enum, default_value_t = ClearanceTail::Constant)]
-    clearance_tail: ClearanceTail,
-    /// The characteristic element length of all rows, the default of both cutoffs of pore fluid flow.
-    #[arg(long, value_name = "X", value_parser = positive_length)]
-    char_length: Option<f64>,
-    /// Whether pore fluid flows at the very cutoff.
-    #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
-    cutoff_boundary: Boundary,
+    #[command(flatten)]
+    laws: LawArguments,
     /// Use so many threads, instead of all cores; the results are the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -70,15 +60,6 @@ pub(crate) struct SceneArguments {
     /// Give the slopes of conductances and permeability as well; with `--outputs` name those that are wanted there.
     #[arg(long, conflicts_with = "outputs")]
     derivatives: bool,
-    /// A shared library with the user subroutine GAPELECTR, compiled with
-    /// `gfortran -shared -fPIC -o gapelectr.so gapelectr.f`, for *GAP ELECTRICAL CONDUCTANCE, USER.
-    ///
-    /// It is loaded and run only when it is named here, and when an interaction of the deck has such a conductance.
-    /// `INCLUDE 'ABA_PARAM.INC'` reads a file beside the source with one line, `      IMPLICIT REAL*8 (A-H,O-Z)`.
-    /// It is native code: inpact cannot stop it from harm, and a crash in it ends the program.
-    /// What it writes to unit 6 comes out on standard output: write the result to a file with `-o`.
-    #[arg(long, value_name = "FILE")]
-    user_library: Option<PathBuf>,
     #[command(flatten)]
     reading: DeckArguments,
 }
@@ -90,14 +71,6 @@ enum Procedure {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ClearanceTail {
-    /// The last value, as the text of the manual has it.
-    Constant,
-    /// Zero, as its figure has it.
-    Zero,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum AccuracyChoice {
     /// In twice the precision of f64, rounded once.
     Reference,
@@ -105,14 +78,6 @@ enum AccuracyChoice {
     Full,
     /// In the cheapest form whose error bound is within 1e-4 of the largest value.
     Fast,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Boundary {
-    /// It does, as the user's guide has it.
-    Inclusive,
-    /// It does not, as the theory guide has it.
-    Exclusive,
 }
 
 /// How what is found is printed on standard error.
@@ -179,7 +144,8 @@ impl SceneArguments {
             return Ok(None);
         }
         let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
-        let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &plan, format);
+        let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
+        let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &names, format);
         let deck_name = self.deck.display().to_string();
         Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
@@ -212,39 +178,17 @@ impl SceneArguments {
     }
 
     fn choices(&self, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
+        let regime = self.procedure.map(|procedure| match procedure {
+            Procedure::Steady => Regime::SteadyState,
+            Procedure::Transient => Regime::Transient,
+        });
         Ok(Choices {
             interaction: self.interaction.as_deref().map(Name::new),
-            regime: self.procedure.map(|procedure| match procedure {
-                Procedure::Steady => Regime::SteadyState,
-                Procedure::Transient => Regime::Transient,
-            }),
-            clearance_tail: match self.clearance_tail {
-                ClearanceTail::Constant => Tail::Constant,
-                ClearanceTail::Zero => Tail::Zero,
-            },
-            characteristic_length: self.char_length,
-            cutoff_boundary: match self.cutoff_boundary {
-                Boundary::Inclusive => CutoffBoundary::Inclusive,
-                Boundary::Exclusive => CutoffBoundary::Exclusive,
-            },
-            dialect,
             derivatives: self.derivatives(),
             accuracy: self.accuracy(),
             outputs: self.outputs.clone(),
-            user_conductance: self.user_conductance(model)?,
+            ..self.laws.choices(model, dialect, regime)?
         })
-    }
-
-    /// The routine of `--user-library`, loaded only if an interaction of the deck asks for one.
-    fn user_conductance(&self, model: &Model) -> Result<Option<UserLaw>, Failure> {
-        let Some(path) = &self.user_library else { return Ok(None) };
-        let electrical = model.interactions.values().filter_map(|of| of.gap_electrical_conductance.as_ref());
-        if electrical.filter(|option| option.user.is_some()).count() == 0 {
-            let path = path.display();
-            say(&format!("warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `{path}` is not loaded"));
-            return Ok(None);
-        }
-        user_library::load(path).map(Some)
     }
 
     fn accuracy(&self) -> Wanted {
@@ -311,15 +255,14 @@ impl NodesInput {
     }
 }
 
-/// Says what the check found in the interactions of the plan, notes left out; true if there are errors.
-fn say_deck_findings(
+/// Says what the check found in some interactions, notes left out; true if there are errors.
+pub(crate) fn say_deck_findings(
     found: &[Diagnostic],
     (deck, grammar, model): (&Deck, &Grammar, &Model),
-    plan: &Plan,
+    names: &[&Name],
     format: FindingFormat,
 ) -> bool {
-    let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
-    let concerning = concerning(found, deck, grammar, model, &names);
+    let concerning = concerning(found, deck, grammar, model, names);
     let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
     let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
     let format = match format {
@@ -395,18 +338,10 @@ fn output_named(text: &str) -> Result<Output, String> {
     })
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(tolerance) if tolerance > 0.0 && tolerance.is_finite() => Ok(tolerance),
         Ok(_) => Err("a tolerance must be above zero and finite".to_owned()),
-        Err(_) => Err("not a number".to_owned()),
-    }
-}
-
-fn positive_length(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(length) if length > 0.0 && length.is_finite() => Ok(length),
-        Ok(_) => Err("a length must be above zero and finite".to_owned()),
         Err(_) => Err("not a number".to_owned()),
     }
 }

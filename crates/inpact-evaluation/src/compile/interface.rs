@@ -1,0 +1,160 @@
+//! The laws of one surface interaction as functions of plain inputs, for those who have no node table: a solver asks them point by point.
+//!
+//! What a deck says of an interaction is decided in the same places as for a plan; here nothing is folded, as nothing is known of the points yet.
+
+use crate::law::conductance::ConductanceTables;
+use crate::law::heat::HeatGeneration;
+use crate::law::pore::{Cutoffs, Permeability, PoreLaw};
+use crate::law::radiation::RadiationLaw;
+use crate::law::thermal::ThermalConductance;
+use crate::law::user::{UserLaw, UserNames};
+use crate::plan::{
+    Choices, ConductanceRows, InteractionTables, LeftOut, RadiationFault, Reason, ThermalTables, generation_of,
+    tells_of_friction, user_names,
+};
+use crate::results::Along;
+use inpact_parser::grammar::Dialect;
+use inpact_parser::model::{Interaction, Model, Procedure};
+
+/// The laws of an interaction; what it does not have, or what cannot be evaluated, is `None`.
+#[derive(Debug, Clone)]
+pub struct InterfaceLaws {
+    /// Electrical conductance.
+    pub electrical: Option<ElectricalSource>,
+    /// What becomes of dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
+    pub heat_generation: Option<HeatGeneration>,
+    /// Thermal conductance.
+    pub thermal: Option<ThermalConductance>,
+    /// Radiation across the gap.
+    pub radiation: Option<RadiationLaw>,
+    /// Whether the deck tells of friction, which generates heat where shear stress and slip rate are known.
+    pub friction: Option<FrictionSource>,
+    /// Pore fluid across the interface and into its gap.
+    pub pore: Option<PoreLaw>,
+    /// What cannot be evaluated, and why.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// What gives an electrical conductance.
+#[derive(Debug, Clone)]
+pub enum ElectricalSource {
+    /// Tables of the deck; axis 1 is the mean temperature, the field variables follow.
+    Tables(Box<ConductanceTables>),
+    /// A routine of the user's, and the names it is called with.
+    User(UserLaw, Box<UserNames>),
+}
+
+/// How heat of friction is found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionSource {
+    /// The slip rate that the deck gives (K-38, CalculiX).
+    pub slip_rate: Option<f64>,
+    /// CalculiX takes shear and slip rate by their magnitudes.
+    pub takes_magnitudes: bool,
+}
+
+impl InterfaceLaws {
+    /// The laws of an interaction of `model`.
+    pub fn of(model: &Model, interaction: &Interaction, choices: &Choices) -> Self {
+        let mut left_out = Vec::new();
+        let tables = InteractionTables::of(interaction, choices.clearance_tail);
+        let thermal_tables = ThermalTables::of(model, interaction, choices.dialect);
+        Self {
+            electrical: electrical(model, interaction, &tables, choices, &mut left_out),
+            heat_generation: generation_of(interaction),
+            thermal: thermal(&thermal_tables, &mut left_out),
+            radiation: radiation(&thermal_tables, choices.dialect, &mut left_out),
+            friction: tells_of_friction(interaction).then(|| FrictionSource {
+                slip_rate: interaction.gap_heat_generation.and_then(|heat| heat.slip_rate),
+                takes_magnitudes: choices.dialect == Dialect::Calculix,
+            }),
+            pore: pore(model, interaction, &tables, choices, &mut left_out),
+            left_out,
+        }
+    }
+}
+
+fn electrical(
+    model: &Model,
+    interaction: &Interaction,
+    tables: &InteractionTables,
+    choices: &Choices,
+    left_out: &mut Vec<LeftOut>,
+) -> Option<ElectricalSource> {
+    let option = interaction.gap_electrical_conductance.as_ref()?;
+    let mut refuse = |reason| {
+        left_out.push(LeftOut::law("electrical law", reason));
+        None
+    };
+    if option.user.is_some() {
+        return match &choices.user_conductance {
+            Some(law) => {
+                let names = user_names(model, &interaction.name, &mut Vec::new());
+                Some(ElectricalSource::User(law.clone(), Box::new(names)))
+            }
+            None => refuse(Reason::NeedsUserSubroutine("GAPELECTR")),
+        };
+    }
+    if let Some(error) = tables.electrical_error() {
+        return refuse(Reason::BrokenTable(error));
+    }
+    let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table.clone());
+    match ConductanceTables::of(table(Along::Clearance), table(Along::Pressure)) {
+        Some(tables) => Some(ElectricalSource::Tables(Box::new(tables))),
+        None => refuse(Reason::NoRows("GAP ELECTRICAL CONDUCTANCE")),
+    }
+}
+
+fn thermal(tables: &ThermalTables, left_out: &mut Vec<LeftOut>) -> Option<ThermalConductance> {
+    let found = tables.thermal_conductance();
+    let reason = match tables.conductance.as_ref()? {
+        ConductanceRows::User => Reason::NeedsUserSubroutine("GAPCON"),
+        ConductanceRows::Nothing => Reason::NoRows("GAP CONDUCTANCE"),
+        ConductanceRows::Calculix(Err(error)) => Reason::BrokenCurves(*error),
+        ConductanceRows::Calculix(Ok(_)) => return found,
+        ConductanceRows::Tables { clearance, pressure } => {
+            let mut errors = [clearance, pressure].into_iter().flatten().filter_map(|table| table.as_ref().err());
+            match errors.next() {
+                Some(error) => Reason::BrokenTable(*error),
+                None => return found,
+            }
+        }
+    };
+    left_out.push(LeftOut::law("heat conduction", reason));
+    None
+}
+
+fn radiation(tables: &ThermalTables, dialect: Dialect, left_out: &mut Vec<LeftOut>) -> Option<RadiationLaw> {
+    let reason = match tables.radiation.as_ref()? {
+        _ if dialect == Dialect::Calculix => Reason::NotInCalculix("has no *GAP RADIATION"),
+        Ok(law) => return Some(law.clone()),
+        Err(fault) => RadiationFault::reason(*fault),
+    };
+    left_out.push(LeftOut::law("heat radiation", reason));
+    None
+}
+
+fn pore(
+    model: &Model,
+    interaction: &Interaction,
+    tables: &InteractionTables,
+    choices: &Choices,
+    left_out: &mut Vec<LeftOut>,
+) -> Option<PoreLaw> {
+    let option = interaction.contact_permeability.as_ref();
+    if option.is_none() && !model.procedures.iter().any(Procedure::solves_pore_pressure) {
+        return None;
+    }
+    if let Some(error) = tables.permeability_error() {
+        left_out.push(LeftOut::law("pore fluid law", Reason::BrokenTable(error)));
+        return None;
+    }
+    Some(PoreLaw {
+        permeability: tables.permeability().cloned().map_or(Permeability::Infinite, Permeability::Finite),
+        cutoffs: option.map_or_else(Cutoffs::default, |option| Cutoffs {
+            flow_across: option.cutoff_flow_across,
+            gap_fill: option.cutoff_gap_fill,
+        }),
+        boundary: choices.cutoff_boundary,
+    })
+}

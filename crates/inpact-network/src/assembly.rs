@@ -1,0 +1,254 @@
+//! From a scene at one time to the equations of one field: rows asked for their conductances, sources gathered, and all of it as a linear network.
+
+use crate::interface::{self, Conducts, PoreElement};
+use crate::knowledge::Knowledge;
+use crate::linear::{LinearNetwork, Link, NONE, Store};
+use crate::problem::FieldNodes;
+use crate::scene::{Field, SceneInterface};
+use inpact_evaluation::law::user::UserFault;
+use inpact_evaluation::numbers::Wide;
+
+/// What the rows of a field say at some state.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct RowTerms {
+    /// The conductance of each row, times its area; infinite where both sides have one value.
+    pub(crate) conductances: Vec<f64>,
+    /// Slopes per area and conductance of each row.
+    pub(crate) slopes: Vec<Conducts>,
+}
+
+/// A row whose law gives nothing that can be solved with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowFault {
+    /// The row, in the order of the scene.
+    pub row: u32,
+    /// What is wrong.
+    pub why: RowFaultReason,
+}
+
+/// Why a row cannot be solved with.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RowFaultReason {
+    /// A routine of the user's gives what is no conductance.
+    User(UserFault),
+    /// Whether fluid flows depends on the characteristic element length, which is not known.
+    NeedsLength,
+    /// A conductance is negative, NaN or infinite.
+    NoConductance(f64),
+}
+
+/// Heat of a current at nodes, with its slopes: what Newton's iteration needs of it.
+#[derive(Debug, Clone)]
+pub(crate) struct HeatTerm {
+    /// The place among the flows of the potential: a link, or behind all links a row.
+    pub(crate) flow: usize,
+    /// Places among the nodes of temperature, with their shares of the heat.
+    pub(crate) nodes: Vec<(u32, f64)>,
+    /// ∂Q/∂Δφ.
+    pub(crate) along_jump: f64,
+    /// ∂Q/∂θ of either side of a row, by way of its conductance.
+    pub(crate) along_temperatures: f64,
+}
+
+/// What flows, and by what, in the field of potentials: a solution or a step towards it.
+#[derive(Clone, Copy)]
+pub(crate) struct Currents<'a> {
+    /// Through links, then rows.
+    pub(crate) flows: &'a [Wide],
+    pub(crate) rows: &'a RowTerms,
+}
+
+/// Asks the law of every row of a field.
+///
+/// # Errors
+/// The first row that cannot be solved with.
+pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNodes) -> Result<RowTerms, RowFault> {
+    let mut terms = RowTerms::default();
+    for &row in &nodes.rows {
+        let fault = |why| RowFault { row, why };
+        let Some(laws) = knowledge.problem.laws_of(row as usize) else { continue };
+        let (of, contact, sides) = (knowledge.row(row), knowledge.contact(row), knowledge.sides(row));
+        let conducts = match field {
+            Field::Potential => match &laws.electrical {
+                Some(source) => {
+                    let node = node_number(&knowledge.problem.scene.nodes[of.slave as usize]);
+                    interface::electrical(source, of, &contact, &sides, knowledge.moment(), node)
+                        .map_err(|why| fault(RowFaultReason::User(why)))?
+                }
+                None => Conducts::default(),
+            },
+            Field::Temperature => interface::thermal(laws, of, &contact, &sides),
+            Field::PorePressure => match interface::pore(laws, of, &contact, &sides, knowledge.gap(row)).0 {
+                PoreElement::Finite(conducts) => conducts,
+                PoreElement::Constrained => Conducts { conductance: f64::INFINITY, ..Conducts::default() },
+                PoreElement::NeedsLength => return Err(fault(RowFaultReason::NeedsLength)),
+            },
+        };
+        let conductance = conducts.conductance * of.area;
+        let may_be_infinite = field == Field::PorePressure && conducts.conductance.is_infinite();
+        let is_usable = conductance >= 0.0 && (conductance.is_finite() || may_be_infinite);
+        if !is_usable {
+            return Err(fault(RowFaultReason::NoConductance(conducts.conductance)));
+        }
+        terms.conductances.push(conductance);
+        terms.slopes.push(conducts);
+    }
+    Ok(terms)
+}
+
+/// What flows into the nodes of a field besides what conducts: sources of the scene, friction, gap filling.
+pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNodes) -> Vec<f64> {
+    let scene = knowledge.problem.scene;
+    let conditions = scene.conditions(field);
+    let given = |node: &u32| conditions.sources.get(node).map_or(0.0, |course| course.at(knowledge.time));
+    let mut sources: Vec<f64> = nodes.nodes.iter().map(given).collect();
+    let mut add = |of: &SceneInterface, into: [f64; 2]| {
+        for (node, flow) in [of.slave, of.master].into_iter().zip(into) {
+            if let Some(sum) = sources.get_mut(nodes.place[node as usize] as usize) {
+                *sum += flow;
+            }
+        }
+    };
+    match field {
+        Field::Potential => {}
+        Field::Temperature => {
+            for (row, of) in scene.interfaces.iter().enumerate() {
+                add(of, knowledge.problem.friction(row));
+            }
+        }
+        Field::PorePressure => {
+            for &row in &nodes.rows {
+                let of = knowledge.row(row);
+                let Some(laws) = knowledge.problem.laws_of(row as usize) else { continue };
+                let (contact, sides) = (knowledge.contact(row), knowledge.sides(row));
+                let (_, filling) = interface::pore(laws, of, &contact, &sides, knowledge.gap(row));
+                add(of, filling.map(|flux| flux * of.area));
+            }
+        }
+    }
+    sources
+}
+
+/// The heat of currents, added to the sources of temperature; with its slopes where they are asked for.
+pub(crate) fn add_heat(
+    knowledge: &Knowledge<'_>,
+    potential: &FieldNodes,
+    currents: Currents<'_>,
+    temperature: &FieldNodes,
+    sources: &mut [f64],
+    mut slopes: Option<&mut Vec<HeatTerm>>,
+) {
+    let scene = knowledge.problem.scene;
+    let mut put = |flow: usize, nodes: [(u32, f64); 2], heat: f64, along_jump: f64, along_temperatures: f64| {
+        let places = nodes.map(|(node, share)| (temperature.place[node as usize], share));
+        let carried: Vec<(u32, f64)> = places.into_iter().filter(|(place, _)| *place != NONE).collect();
+        for &(place, share) in &carried {
+            sources[place as usize] += share * heat;
+        }
+        if let Some(slopes) = slopes.as_deref_mut() {
+            slopes.push(HeatTerm { flow, nodes: carried, along_jump, along_temperatures });
+        }
+    };
+    for (place, &row) in potential.rows.iter().enumerate() {
+        let generation = knowledge.problem.laws_of(row as usize).and_then(|laws| laws.heat_generation);
+        let (Some(generation), conductance) = (generation, currents.rows.conductances[place]) else { continue };
+        if conductance == 0.0 {
+            continue;
+        }
+        let flow = potential.links.len() + place;
+        let jump = (currents.flows[flow] / Wide::new(conductance)).to_f64();
+        let of = knowledge.row(row);
+        let conducts = currents.rows.slopes[place];
+        let found = interface::heat_of_current(conducts.conductance, jump, knowledge.jump_at_start(row), generation);
+        let weight = generation.slave_weight;
+        // The share of either side is rounded once where it is found.
+        let shares = if found.heat.total == 0.0 {
+            [weight, 1.0 - weight]
+        } else {
+            [found.heat.slave / found.heat.total, found.heat.master / found.heat.total]
+        };
+        put(
+            flow,
+            [(of.slave, shares[0]), (of.master, shares[1])],
+            found.heat.total * of.area,
+            found.along_jump * of.area,
+            0.5 * found.along_conductance * conducts.along_temperature * of.area,
+        );
+    }
+    for (place, &link) in potential.links.iter().enumerate() {
+        let of = &scene.links[link as usize];
+        let conductance = of.conductances[Field::Potential.index()];
+        if of.joule_heat_fraction == 0.0 || conductance.is_infinite() {
+            continue;
+        }
+        let generation =
+            inpact_evaluation::law::heat::HeatGeneration { fraction: of.joule_heat_fraction, slave_weight: 0.5 };
+        let jump = (currents.flows[place] / Wide::new(conductance)).to_f64();
+        let start = knowledge.increment.and_then(|increment| {
+            let before = increment.before.link_flow(knowledge.problem, Field::Potential, link)?;
+            Some(before / conductance)
+        });
+        let found = interface::heat_of_current(conductance, jump, start, generation);
+        put(place, [(of.nodes[0], 0.5), (of.nodes[1], 0.5)], found.heat.total, found.along_jump, 0.0);
+    }
+}
+
+/// How nodes with a capacity enter the equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Capacities {
+    /// Not at all: steady state.
+    None,
+    /// They are held at their initial values, so that all other nodes find theirs at the start of a transient.
+    Held,
+    /// They take up what the increment brings.
+    Stored,
+}
+
+/// The equations of a field as a linear network: its links, then its rows.
+pub(crate) fn network(
+    knowledge: &Knowledge<'_>,
+    field: Field,
+    nodes: &FieldNodes,
+    rows: &[f64],
+    sources: &[f64],
+    capacities: Capacities,
+) -> LinearNetwork {
+    let scene = knowledge.problem.scene;
+    let conditions = scene.conditions(field);
+    let mut network = LinearNetwork::of_nodes(nodes.nodes.len());
+    network.sources.copy_from_slice(sources);
+    for (held, node) in network.held.iter_mut().zip(&nodes.nodes) {
+        *held = conditions.fixed.get(node).map(|course| course.at(knowledge.time));
+    }
+    let known = match field {
+        Field::PorePressure => &knowledge.pore_pressures,
+        _ => &knowledge.temperatures,
+    };
+    let with_capacity = conditions.capacities.iter().filter(|(_, capacity)| **capacity > 0.0);
+    for (&node, &capacity) in with_capacity {
+        let place = nodes.place[node as usize];
+        match (capacities, knowledge.increment) {
+            (Capacities::Held, _) => network.held[place as usize] = Some(known[node as usize]),
+            (Capacities::Stored, Some(increment)) => {
+                let before = increment.before.wide_value(knowledge.problem, field, node).unwrap_or_default();
+                network.stores.push(Store { node: place, conductance: capacity / increment.duration, before });
+            }
+            _ => {}
+        }
+    }
+    let place_of = |node: u32| nodes.place[node as usize];
+    network.links.extend(nodes.links.iter().map(|&link| {
+        let of = &scene.links[link as usize];
+        Link { nodes: of.nodes.map(place_of), conductance: of.conductances[field.index()] }
+    }));
+    network.links.extend(nodes.rows.iter().zip(rows).map(|(&row, &conductance)| {
+        let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
+        Link { nodes: [place_of(slave), place_of(master)], conductance }
+    }));
+    network
+}
+
+/// The number of a node whose name is one, for routines of the user's; 0 otherwise.
+fn node_number(name: &str) -> i32 {
+    name.trim().parse().unwrap_or(0)
+}

@@ -1,0 +1,353 @@
+//! The laws of one interface row at one state: conductances, their slopes, and the heat and fluid that arise there.
+//!
+//! | field | element from slave to master | what arises |
+//! |---|---|---|
+//! | potential | σ A, current J A = σ A (φ_s − φ_m) | |
+//! | temperature | (k + h_r) A with h_r = C F (θ_s'² + θ_m'²)(θ_s' + θ_m'), θ' from absolute zero: conduction and radiation are one conductance times one jump | heat of current and friction, shared by f |
+//! | pore pressure | k A, infinite where no table is given | gap filling −w ḋ A and −(1 − w) ḋ A |
+//!
+//! The slopes of section 8 of the semantics: of a flow q = g Δ whose g depends on the mean of both sides, ½ g' Δ beside ± g.
+//! Source: semantics T-20 to T-25, H-01 to H-08, K-41, P-30 to P-42, section 8.
+
+use crate::scene::SceneInterface;
+use inpact_evaluation::compile::{ElectricalSource, InterfaceLaws};
+use inpact_evaluation::law::conductance::ContactPoint;
+use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PorePressure, PotentialJump};
+use inpact_evaluation::law::electrical::{Dissipation, generated_heat};
+use inpact_evaluation::law::friction::{ShearStress, SlipRate, frictional_heat};
+use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
+use inpact_evaluation::law::pore::{BulkPermeabilities, Flow, Gap, PorePoint};
+use inpact_evaluation::law::thermal::{Temperatures, ThermalConductance};
+use inpact_evaluation::law::user::{UserConductancePoint, UserFault};
+use inpact_evaluation::numbers::{mean, product};
+use inpact_evaluation::table::PiecewiseTable;
+
+/// What contact there is in a row at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    pub(crate) clearance: Clearance,
+    pub(crate) pressure: ContactPressure,
+    pub(crate) state: ContactState,
+}
+
+/// What is known of both sides of a row where a law is asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sides {
+    /// θ of slave and master; NaN where neither is known.
+    pub(crate) temperatures: [f64; 2],
+    /// Pore pressures of slave and master.
+    pub(crate) pore_pressures: [f64; 2],
+}
+
+/// A flow from slave to master per area: a conductance, and what its slopes along the values of both sides have beside ± the conductance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Conducts {
+    pub(crate) conductance: f64,
+    /// Along the mean temperature: ∂g/∂θ̄, half of which either side contributes.
+    pub(crate) along_temperature: f64,
+    /// Along the mean pore pressure.
+    pub(crate) along_pore_pressure: f64,
+    /// What radiation adds to the slopes along the temperatures of slave and master, beside its part in the conductance.
+    pub(crate) radiation_slopes: [f64; 2],
+}
+
+/// What a row's law of pore fluid says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum PoreElement {
+    /// Fluid crosses by a finite conductance; zero beyond the cutoff.
+    Finite(Conducts),
+    /// Both sides have one pore pressure.
+    Constrained,
+    /// It depends on the characteristic element length, which is not known.
+    NeedsLength,
+}
+
+/// Heat of a current with its slopes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HeatOfCurrent {
+    pub(crate) heat: GeneratedHeat,
+    /// ∂q_g/∂Δφ.
+    pub(crate) along_jump: f64,
+    /// ∂q_g/∂σ.
+    pub(crate) along_conductance: f64,
+}
+
+/// When a law is asked, for routines of the user's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Moment {
+    pub(crate) time: f64,
+    pub(crate) step_time: f64,
+    pub(crate) increment: i32,
+}
+
+impl Contact {
+    /// The contact of a row at a time; `None` where the scene does not tell.
+    pub(crate) fn of(row: &SceneInterface, time: f64) -> Option<Self> {
+        let number = |course: &Option<crate::scene::Course>| course.as_ref().map(|course| course.at(time));
+        let (clearance, pressure) = (number(&row.clearance), number(&row.pressure));
+        let state = match row.closed {
+            Some(true) => ContactState::Closed,
+            Some(false) => ContactState::Open,
+            None => {
+                clearance.or(pressure)?;
+                let of_clearance = Clearance(clearance.unwrap_or(f64::INFINITY));
+                let of_pressure = ContactPressure(pressure.unwrap_or(0.0));
+                ContactState::from_clearance_and_pressure(of_clearance, of_pressure)
+            }
+        };
+        Some(Self {
+            clearance: Clearance(clearance.unwrap_or(f64::NAN)),
+            pressure: ContactPressure(pressure.unwrap_or(f64::NAN)),
+            state,
+        })
+    }
+
+    fn point<'a>(&self, variables: &'a [f64]) -> ContactPoint<'a> {
+        ContactPoint { clearance: self.clearance, pressure: self.pressure, state: self.state, variables }
+    }
+}
+
+impl Sides {
+    pub(crate) fn mean_temperature(&self) -> f64 {
+        mean(self.temperatures[0], self.temperatures[1])
+    }
+}
+
+/// The electrical conductance of a row.
+///
+/// # Errors
+/// A routine of the user's gives what is no conductance.
+pub(crate) fn electrical(
+    source: &ElectricalSource,
+    row: &SceneInterface,
+    contact: &Contact,
+    sides: &Sides,
+    moment: Moment,
+    node: i32,
+) -> Result<Conducts, UserFault> {
+    match source {
+        ElectricalSource::Tables(tables) => {
+            let variables = variables(&[sides.mean_temperature()], &row.field_variables);
+            let point = contact.point(&variables);
+            let mut slopes = vec![0.0; variables.len()];
+            tables.slopes(&point, &mut slopes);
+            Ok(Conducts {
+                conductance: tables.conductance(&point).value,
+                along_temperature: finite(slopes[0]),
+                ..Conducts::default()
+            })
+        }
+        ElectricalSource::User(law, names) => {
+            let fields: Vec<[f64; 2]> = row.field_variables.iter().map(|&value| [value; 2]).collect();
+            let value = law.conductance(&UserConductancePoint {
+                clearance: contact.clearance.0,
+                temperatures: sides.temperatures,
+                field_variables: &fields,
+                time: [moment.step_time, moment.time],
+                names,
+                coordinates: [[0.0; 3]; 2],
+                node,
+                step: 1,
+                increment: moment.increment,
+            })?;
+            Ok(Conducts {
+                conductance: value.conductance,
+                along_temperature: value.slope_along_mean_temperature(),
+                ..Conducts::default()
+            })
+        }
+    }
+}
+
+/// The thermal conductance of a row: conduction and radiation together.
+pub(crate) fn thermal(laws: &InterfaceLaws, row: &SceneInterface, contact: &Contact, sides: &Sides) -> Conducts {
+    let mut conducts = Conducts::default();
+    if let Some(law) = &laws.thermal {
+        let first = [sides.mean_temperature(), row.mass_flow.map_or(f64::NAN, f64::abs)];
+        let variables = variables(&first, &row.field_variables);
+        let point = contact.point(&variables);
+        let mut slopes = vec![0.0; variables.len()];
+        law.slopes(&point, &mut slopes);
+        conducts.conductance = law.conductance(&point).value;
+        conducts.along_temperature = finite(slopes[0]);
+    }
+    if let Some(law) = &laws.radiation {
+        let (view_factor, _) = law.view_factor(contact.clearance, contact.state);
+        let [a, b] = sides.temperatures.map(|temperature| temperature - law.absolute_zero);
+        // Below absolute zero, where a step of Newton's may look, nothing is radiated.
+        let (a, b) = (a.max(0.0), b.max(0.0));
+        let part = |powers: &[f64]| product(&[&[law.coefficient.0, view_factor], powers].concat());
+        let radiation = part(&[a, a, a]) + part(&[a, a, b]) + part(&[a, b, b]) + part(&[b, b, b]);
+        conducts.conductance += radiation;
+        let slopes = law.heat_slopes(view_factor, Temperatures::of(a + law.absolute_zero, b + law.absolute_zero));
+        conducts.radiation_slopes = [slopes.slave - radiation, slopes.master + radiation];
+    }
+    conducts
+}
+
+/// The heat that a current generates, per area.
+pub(crate) fn heat_of_current(
+    conductance: f64,
+    jump: f64,
+    jump_at_start: Option<f64>,
+    generation: HeatGeneration,
+) -> HeatOfCurrent {
+    let dissipation = jump_at_start
+        .map_or(Dissipation::Steady, |start| Dissipation::Transient { jump_at_start: PotentialJump(start) });
+    let heat = generated_heat(conductance, PotentialJump(jump), dissipation, generation);
+    let per_conductance = generated_heat(1.0, PotentialJump(jump), dissipation, generation).total;
+    let factor = generation.fraction * conductance;
+    let along_jump = match jump_at_start {
+        None => 2.0 * factor * jump,
+        Some(start) => factor / 3.0 * (2.0 * jump + start),
+    };
+    HeatOfCurrent { heat, along_jump: finite(along_jump), along_conductance: finite(per_conductance) }
+}
+
+/// The heat of friction of a row, per area; none where the scene does not tell of it.
+pub(crate) fn heat_of_friction(laws: &InterfaceLaws, row: &SceneInterface) -> Option<GeneratedHeat> {
+    let (source, generation) = (laws.friction?, laws.heat_generation?);
+    let (shear, slip_rate) = (row.shear?, source.slip_rate.or(row.slip_rate)?);
+    let (shear, slip_rate) = if source.takes_magnitudes { (shear.abs(), slip_rate.abs()) } else { (shear, slip_rate) };
+    Some(frictional_heat(ShearStress(shear), SlipRate(slip_rate), generation))
+}
+
+/// The law of pore fluid of a row: its element, and what flows into slave and master out of the changing gap, per area.
+pub(crate) fn pore(
+    laws: &InterfaceLaws,
+    row: &SceneInterface,
+    contact: &Contact,
+    sides: &Sides,
+    (gap, length): (Gap, Option<f64>),
+) -> (PoreElement, [f64; 2]) {
+    let Some(law) = &laws.pore else { return (PoreElement::Finite(Conducts::default()), [0.0; 2]) };
+    let [slave, master] = sides.pore_pressures;
+    let variables = variables(&[mean(slave, master), sides.mean_temperature()], &row.field_variables);
+    let bulk = match row.bulk_permeabilities {
+        [Some(slave), Some(master)] => Some(BulkPermeabilities { slave, master }),
+        _ => None,
+    };
+    let point = PorePoint {
+        clearance: contact.clearance,
+        pressure: contact.pressure,
+        state: contact.state,
+        slave: PorePressure(slave),
+        master: PorePressure(master),
+        jump: None,
+        variables: &variables,
+        characteristic_length: row.characteristic_length.or(length),
+        bulk,
+        gap,
+        multiplier: None,
+    };
+    let flow = law.flow(&point);
+    let filling = [flow.q_gap_slave, flow.q_gap_master];
+    let (Flow::Active | Flow::CutOff, [Some(into_slave), Some(into_master)]) = (flow.across, filling) else {
+        return (PoreElement::NeedsLength, [0.0; 2]);
+    };
+    let element = match flow.permeability {
+        None => PoreElement::Constrained,
+        Some(conductance) => {
+            let mut slopes = vec![0.0; variables.len()];
+            law.permeability_slopes(&point, &mut slopes);
+            PoreElement::Finite(Conducts {
+                conductance,
+                along_pore_pressure: finite(slopes[0]),
+                along_temperature: finite(slopes[1]),
+                ..Conducts::default()
+            })
+        }
+    };
+    (element, [into_slave, into_master])
+}
+
+/// The variables of a table: some first ones, then the field variables.
+fn variables(first: &[f64], field_variables: &[f64]) -> Vec<f64> {
+    first.iter().chain(field_variables).copied().collect()
+}
+
+/// A slope that can be used; at a jump there may be none.
+fn finite(slope: f64) -> f64 {
+    if slope.is_finite() { slope } else { 0.0 }
+}
+
+/// Which variables of its law a row cannot do without.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Dependence {
+    pub(crate) clearance: bool,
+    pub(crate) pressure: bool,
+    pub(crate) temperature: bool,
+    pub(crate) mass_flow: bool,
+    pub(crate) pore_pressure: bool,
+    /// Field variables by their number, from 1.
+    pub(crate) fields: Vec<usize>,
+}
+
+/// What the electrical conductance of a row depends on.
+pub(crate) fn dependence_of_electrical(source: &ElectricalSource, state: ContactState) -> Dependence {
+    match source {
+        ElectricalSource::User(..) => Dependence { clearance: true, temperature: true, ..Dependence::default() },
+        ElectricalSource::Tables(tables) => {
+            let mut dependence = Dependence::default();
+            let branch = tables.branch_in(state);
+            if let Some((branch, table)) = branch {
+                dependence.first(branch == inpact_evaluation::law::conductance::Branch::Pressure, table);
+                dependence.temperature = matters(table, 1);
+                dependence.fields = fields(table, 2);
+            }
+            dependence
+        }
+    }
+}
+
+/// What the thermal conductance of a row depends on.
+pub(crate) fn dependence_of_thermal(laws: &InterfaceLaws, state: ContactState) -> Dependence {
+    let mut dependence = Dependence::default();
+    match &laws.thermal {
+        Some(ThermalConductance::Tables(tables)) => {
+            if let Some((branch, table)) = tables.branch_in(state) {
+                dependence.first(branch == inpact_evaluation::law::conductance::Branch::Pressure, table);
+                dependence.temperature = matters(table, 1);
+                dependence.mass_flow = matters(table, 2);
+                dependence.fields = fields(table, 3);
+            }
+        }
+        Some(ThermalConductance::Calculix(curves)) if state == ContactState::Closed => {
+            dependence.pressure = matters(curves.rows(), 0);
+            dependence.temperature = curves.depends_on_temperature();
+        }
+        _ => {}
+    }
+    if let Some(law) = &laws.radiation {
+        dependence.temperature = true;
+        dependence.clearance |= matters(&law.view_factor, 0) && state == ContactState::Open;
+    }
+    dependence
+}
+
+/// What the permeability of a row depends on.
+pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> Dependence {
+    let mut dependence = Dependence { clearance: state != ContactState::Closed, ..Dependence::default() };
+    let law = laws.pore.as_ref().map(|law| &law.permeability);
+    if let Some(inpact_evaluation::law::pore::Permeability::Finite(table)) = law {
+        dependence.pressure = matters(table, 0) && state == ContactState::Closed;
+        dependence.pore_pressure = matters(table, 1);
+        dependence.temperature = matters(table, 2);
+        dependence.fields = fields(table, 3);
+    }
+    dependence
+}
+
+impl Dependence {
+    fn first(&mut self, is_pressure: bool, table: &PiecewiseTable) {
+        *(if is_pressure { &mut self.pressure } else { &mut self.clearance }) = matters(table, 0);
+    }
+}
+
+fn matters(table: &PiecewiseTable, axis: usize) -> bool {
+    table.axes().get(axis).is_some_and(inpact_evaluation::table::AxisSummary::matters)
+}
+
+fn fields(table: &PiecewiseTable, first: usize) -> Vec<usize> {
+    (first..table.axis_count()).filter(|&axis| matters(table, axis)).map(|axis| axis + 1 - first).collect()
+}

@@ -1,0 +1,156 @@
+//! What interface laws know of a scene while it is being solved: temperatures and pore pressures at the nodes, the jumps at the start of the increment, and when it is.
+
+use crate::interface::{Contact, Moment, Sides};
+use crate::problem::Problem;
+use crate::scene::{Field, SceneInterface};
+use crate::state::State;
+use inpact_evaluation::law::contact::ClearanceRate;
+use inpact_evaluation::law::pore::Gap;
+
+/// An increment of time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Increment<'a> {
+    /// The state at its start.
+    pub(crate) before: &'a State,
+    /// How long it is.
+    pub(crate) duration: f64,
+}
+
+/// What is known beside the unknowns of a stage.
+#[derive(Debug, Clone)]
+pub(crate) struct Knowledge<'a> {
+    pub(crate) problem: &'a Problem<'a>,
+    /// The time at the end of the increment.
+    pub(crate) time: f64,
+    pub(crate) increment: Option<Increment<'a>>,
+    pub(crate) number: i32,
+    /// By node of the scene; NaN where nothing is known.
+    pub(crate) temperatures: Vec<f64>,
+    pub(crate) pore_pressures: Vec<f64>,
+    /// The heat of currents that are solved already, by place among the nodes of temperature; empty where there is none.
+    pub(crate) heat: Vec<f64>,
+}
+
+impl<'a> Knowledge<'a> {
+    /// Nothing is known yet but where values begin.
+    pub(crate) fn at_start(problem: &'a Problem<'a>, time: f64) -> Self {
+        let nodes = problem.scene.nodes.len();
+        let mut knowledge = Self {
+            problem,
+            time,
+            increment: None,
+            number: 0,
+            temperatures: vec![f64::NAN; nodes],
+            pore_pressures: vec![f64::NAN; nodes],
+            heat: Vec::new(),
+        };
+        knowledge.begin(Field::Temperature);
+        knowledge.begin(Field::PorePressure);
+        knowledge
+    }
+
+    /// What is known in an increment before it is solved: the state at its start.
+    pub(crate) fn in_increment(problem: &'a Problem<'a>, increment: Increment<'a>, time: f64) -> Self {
+        let mut knowledge = Self::at_start(problem, time);
+        knowledge.increment = Some(increment);
+        knowledge.number = increment.before.increment + 1;
+        for field in Field::ALL {
+            knowledge.take(field, increment.before);
+        }
+        knowledge
+    }
+
+    /// A field's values of a state are known from now on.
+    pub(crate) fn take(&mut self, field: Field, state: &State) {
+        let (Some(nodes), Some(state)) = (self.problem.field(field), state.field(field)) else { return };
+        let values = match field {
+            Field::Potential => return,
+            Field::Temperature => &mut self.temperatures,
+            Field::PorePressure => &mut self.pore_pressures,
+        };
+        for (&node, value) in nodes.nodes.iter().zip(state.values()) {
+            values[node as usize] = value;
+        }
+    }
+
+    /// A first guess of a field: initial and fixed values, and their middle where neither is given.
+    fn begin(&mut self, field: Field) {
+        let Some(nodes) = self.problem.field(field) else { return };
+        let (scene, time) = (self.problem.scene, self.time);
+        let conditions = scene.conditions(field);
+        let of_all = match field {
+            Field::PorePressure => scene.initial_pore_pressure,
+            _ => scene.initial_temperature,
+        };
+        let fixed = conditions.fixed.values().map(|course| course.at(time));
+        let (least, greatest) = fixed
+            .chain(conditions.initial.values().copied())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {
+                (least.min(value), greatest.max(value))
+            });
+        let middle = if least <= greatest { 0.5 * least + 0.5 * greatest } else { 0.0 };
+        let values = if field == Field::PorePressure { &mut self.pore_pressures } else { &mut self.temperatures };
+        for &node in &nodes.nodes {
+            let fixed = conditions.fixed.get(&node).map(|course| course.at(time));
+            let value = fixed.or_else(|| conditions.initial.get(&node).copied()).or(of_all).unwrap_or(middle);
+            values[node as usize] = value;
+        }
+    }
+
+    pub(crate) fn row(&self, row: u32) -> &'a SceneInterface {
+        &self.problem.scene.interfaces[row as usize]
+    }
+
+    /// The contact of a row now.
+    pub(crate) fn contact(&self, row: u32) -> Contact {
+        // Rows without contact were refused before anything is solved.
+        Contact::of(self.row(row), self.time).unwrap_or(Contact {
+            clearance: inpact_evaluation::law::contact::Clearance(f64::NAN),
+            pressure: inpact_evaluation::law::contact::ContactPressure(f64::NAN),
+            state: inpact_evaluation::law::contact::ContactState::Undetermined,
+        })
+    }
+
+    /// What is known of both sides of a row; a side without a temperature has that of the row, of the scene, or of the other side.
+    pub(crate) fn sides(&self, row: u32) -> Sides {
+        let of = self.row(row);
+        let nodes = [of.slave as usize, of.master as usize];
+        let known = |value: f64| (!value.is_nan()).then_some(value);
+        let [slave, master] = nodes.map(|node| known(self.temperatures[node]));
+        let given = of.temperature.or(self.problem.scene.initial_temperature);
+        let or = |own: Option<f64>, other: Option<f64>| own.or(given).or(other).unwrap_or(f64::NAN);
+        Sides {
+            temperatures: [or(slave, master), or(master, slave)],
+            pore_pressures: nodes.map(|node| self.pore_pressures[node]),
+        }
+    }
+
+    /// When it is, for routines of the user's.
+    pub(crate) fn moment(&self) -> Moment {
+        let start = match self.problem.scene.procedure {
+            crate::scene::Procedure::Steady => 0.0,
+            crate::scene::Procedure::Transient(span) => span.start,
+        };
+        Moment { time: self.time, step_time: self.time - start, increment: self.number.max(1) }
+    }
+
+    /// The jump of potential of a row at the start of the increment; `None` in a steady state.
+    pub(crate) fn jump_at_start(&self, row: u32) -> Option<f64> {
+        self.increment.and_then(|increment| increment.before.row_jump(self.problem, Field::Potential, row))
+    }
+
+    /// The gap of a row: in a transient its rate as given, otherwise as its clearance has changed over the increment; and the length that its cutoffs default to.
+    pub(crate) fn gap(&self, row: u32) -> (Gap, Option<f64>) {
+        let of = self.row(row);
+        let from_course = || {
+            let (course, increment) = (of.clearance.as_ref()?, self.increment?);
+            Some((course.at(self.time) - course.at(increment.before.time)) / increment.duration)
+        };
+        let gap = if self.problem.scene.is_transient() {
+            Gap::Changing(ClearanceRate(of.clearance_rate.or_else(from_course).unwrap_or(0.0)))
+        } else {
+            Gap::Steady
+        };
+        (gap, self.problem.characteristic_length)
+    }
+}

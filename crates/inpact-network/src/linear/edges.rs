@@ -1,0 +1,276 @@
+//! Flows and balances in edge form: differences first, then conductances, then sums.
+//!
+//! The balance of a node from an assembled diagonal, s x − Σ c x', has lost whatever the strongest conductance rounds away;
+//! Σ c (x − x') has not. Jumps and flows are kept in 106 bits, so that what refinement makes of a balance is limited by no rounding of f64.
+
+use super::core::{Core, NONE};
+use super::relative::Form;
+use super::sets::index;
+use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
+
+/// The elements of a core in terms of the unknowns; conductances may change, what is there may not.
+#[derive(Clone, Debug)]
+pub(crate) struct Edges {
+    pub(crate) form: Form,
+    /// The elements that are there.
+    pub(crate) elements: Vec<u32>,
+    /// The jumps along the forest between the ends of each of them, where there are not too many.
+    ways: Option<Ways>,
+}
+
+/// For each element that is there, the unknowns whose jumps add up to its own, and whether they count in the opposite sense.
+#[derive(Clone, Debug)]
+struct Ways {
+    start: Vec<u32>,
+    steps: Vec<(u32, bool)>,
+}
+
+/// Up to so many steps an element on the average, ways along the forest are kept.
+const STEPS_OF_AN_ELEMENT: usize = 16;
+
+/// Networks with more elements have too many ways; in smaller ones, those of a few nodes are kept whatever their length.
+const MOST_ELEMENTS: usize = 1 << 16;
+
+/// Steps that are kept in any case.
+const LEAST_STEPS: usize = 1 << 16;
+
+/// What a number of 106 bits loses in a handful of operations, as a part of it.
+const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
+
+/// What the smallest numbers lose, of which the second half has run out of exponents.
+const LEAST: f64 = f64::MIN_POSITIVE / (1_u64 << 46) as f64;
+
+/// What flows, and how well it balances.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Balance {
+    /// What flows from the first to the second end of each element of the core; zero for those that are not there.
+    pub(crate) flows: Vec<Wide>,
+    /// What is missing in the equation of each unknown.
+    pub(crate) residuals: Vec<Wide>,
+    /// The magnitudes of all flows in the equation of each unknown, added up.
+    pub(crate) magnitudes: Vec<f64>,
+    /// What rounding may have done to each flow.
+    pub(crate) roundings: Vec<f64>,
+    /// What rounding may have done to each residual.
+    rounding_of_residuals: Vec<f64>,
+}
+
+impl Edges {
+    pub(crate) fn new(core: &Core, form: Form, is_there: &[bool]) -> Self {
+        let elements: Vec<u32> = (0..core.elements.len()).filter(|&element| is_there[element]).map(index).collect();
+        let ways = Ways::of(core, &form, &elements);
+        Self { form, elements, ways }
+    }
+
+    /// What flows from outside into all nodes that hang on each unknown, itself included.
+    pub(crate) fn sources(&self, core: &Core) -> Vec<Wide> {
+        let form = &self.form;
+        let mut sources: Vec<Wide> = form.nodes.iter().map(|&node| core.sources[node as usize]).collect();
+        for &unknown in form.order.iter().rev() {
+            let top = form.tops[unknown as usize];
+            if top != NONE {
+                let own = sources[unknown as usize];
+                sources[top as usize] += own;
+            }
+        }
+        sources
+    }
+
+    /// The unknowns that belong to jumps along the forest: each the sum of the jumps on its way to its top.
+    fn unknowns(&self, jumps: &[Wide]) -> Vec<Wide> {
+        let form = &self.form;
+        let mut unknowns = vec![Wide::ZERO; form.count()];
+        for &unknown in &form.order {
+            let top = form.tops[unknown as usize];
+            let scale = form.scale(unknown);
+            let mut sum = jumps[unknown as usize];
+            let mut at = form.hangs_on[unknown as usize];
+            while at != top {
+                sum += unknowns[at as usize].times_power_of_two(scale - form.scale(at));
+                at = form.tops[at as usize];
+            }
+            unknowns[unknown as usize] = sum;
+        }
+        unknowns
+    }
+
+    /// The flows at `jumps` along the forest, and how they balance with `sources`, which are those of [`Self::sources`].
+    pub(crate) fn balance(&self, core: &Core, jumps: &[Wide], sources: &[Wide], balance: &mut Balance) {
+        let form = &self.form;
+        let unknowns = if self.ways.is_some() { Vec::new() } else { self.unknowns(jumps) };
+        balance.reset(core.elements.len(), sources);
+        for (place, &number) in self.elements.iter().enumerate() {
+            let element = &core.elements[number as usize];
+            let ends = form.ends(core, element);
+            let (flow, rounding) = if let Some(hanging) = self.hanging_by(number, ends) {
+                // Along the forest the jump is kept as it is.
+                let conductance = element.conductance.times_power_of_two(-form.scale(hanging));
+                let flow = jumps[hanging as usize] * conductance;
+                (if hanging == ends[0] { flow } else { -flow }, ROUNDING * flow.to_f64().abs())
+            } else {
+                let strength = exponent_of(element.conductance.to_f64());
+                let (mut jump, mut parts) = (Wide::ZERO, 0.0);
+                let mut add = |part: Wide, is_opposite: bool| {
+                    jump += if is_opposite { -part } else { part };
+                    parts += part.to_f64().abs();
+                };
+                let part =
+                    |of: &[Wide], unknown: u32| of[unknown as usize].times_power_of_two(strength - form.scale(unknown));
+                match &self.ways {
+                    Some(ways) => ways
+                        .of_element(place)
+                        .iter()
+                        .for_each(|&(step, is_opposite)| add(part(jumps, step), is_opposite)),
+                    None => form.on_way(ends, |unknown, sign| add(part(&unknowns, unknown), sign < 0.0)),
+                }
+                let conductance = element.conductance.times_power_of_two(-strength);
+                let (mut flow, mut rounding) = (jump * conductance, ROUNDING * parts * conductance.to_f64());
+                let step = form.base_of(core, element.ends[0]) - form.base_of(core, element.ends[1]);
+                if !step.is_zero() {
+                    let of_step = step * element.conductance;
+                    flow += of_step;
+                    rounding += ROUNDING * of_step.to_f64().abs();
+                }
+                (flow, rounding)
+            };
+            balance.flows[number as usize] = flow;
+            balance.roundings[number as usize] = rounding;
+            let magnitude = flow.to_f64().abs();
+            form.on_way(ends, |unknown, sign| {
+                let unknown = unknown as usize;
+                balance.residuals[unknown] += if sign < 0.0 { flow } else { -flow };
+                balance.magnitudes[unknown] += magnitude;
+                balance.rounding_of_residuals[unknown] += rounding + LEAST;
+            });
+        }
+    }
+
+    /// The unknown that hangs by an element with these ends, if one does.
+    fn hanging_by(&self, element: u32, ends: [u32; 2]) -> Option<u32> {
+        ends.into_iter().find(|&end| end != NONE && self.form.hangs_by[end as usize] == element)
+    }
+
+    /// How much the jump along the forest of each unknown changes when the unknowns change by `changes`.
+    pub(crate) fn changes_of_jumps(&self, changes: &[f64]) -> Vec<f64> {
+        let form = &self.form;
+        let change = |unknown: u32| {
+            let scale = form.scale(unknown);
+            let mut sum = 0.0;
+            form.on_way([unknown, form.hangs_on[unknown as usize]], |on_way, sign| {
+                sum += sign * scale_by_power(changes[on_way as usize], scale - form.scale(on_way));
+            });
+            sum
+        };
+        (0..index(form.count())).map(change).collect()
+    }
+
+    /// The largest relative change of a flow when the unknowns change by `changes`; flows at their rounding count with what they are known to.
+    pub(crate) fn change_of_flows(&self, core: &Core, balance: &Balance, changes: &[f64]) -> f64 {
+        let change_of = |number: u32| {
+            let element = &core.elements[number as usize];
+            let conductance = element.conductance.to_f64();
+            let mut change = 0.0;
+            self.form.on_way(self.form.ends(core, element), |unknown, sign| {
+                change += sign * scale_by_power(conductance, -self.form.scale(unknown)) * changes[unknown as usize];
+            });
+            if change == 0.0 {
+                return 0.0;
+            }
+            let flow = balance.flows[number as usize].to_f64().abs();
+            change.abs() / flow.max(balance.roundings[number as usize] / f64::EPSILON)
+        };
+        self.elements.iter().map(|&number| change_of(number)).fold(0.0, f64::max)
+    }
+
+    /// The values of the nodes, at those that are taken out nothing.
+    pub(crate) fn values(&self, core: &Core, jumps: &[Wide]) -> Vec<Wide> {
+        let form = &self.form;
+        // Jumps are added up before the known value, beside which they may be small.
+        let mut sums = vec![Wide::ZERO; form.count()];
+        let mut values = vec![Wide::ZERO; core.free as usize];
+        for &unknown in &form.order {
+            let jump = jumps[unknown as usize].times_power_of_two(-form.scale(unknown));
+            let sum = match form.hangs_on[unknown as usize] {
+                NONE => jump,
+                above => sums[above as usize] + jump,
+            };
+            sums[unknown as usize] = sum;
+            let base = core.known[(form.bases[unknown as usize] - core.free) as usize];
+            values[form.nodes[unknown as usize] as usize] = base + sum;
+        }
+        values
+    }
+}
+
+impl Balance {
+    /// What is missing in each equation; nothing where no more than rounding is.
+    pub(crate) fn missing(&self) -> impl Iterator<Item = f64> {
+        self.residuals.iter().zip(&self.rounding_of_residuals).map(|(residual, &rounding)| {
+            let missing = residual.to_f64();
+            if missing.abs() <= rounding { 0.0 } else { missing }
+        })
+    }
+
+    /// The largest share of its flows that is missing in an equation; NaN or infinite where a flow is.
+    pub(crate) fn worst_share(&self) -> f64 {
+        let shares = self
+            .missing()
+            .zip(&self.magnitudes)
+            .map(|(missing, &magnitude)| if missing == 0.0 { 0.0 } else { missing.abs() / magnitude });
+        // NaN must not be passed over.
+        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+    }
+
+    fn reset(&mut self, elements: usize, sources: &[Wide]) {
+        self.flows.clear();
+        self.flows.resize(elements, Wide::ZERO);
+        self.roundings.clear();
+        self.roundings.resize(elements, 0.0);
+        self.residuals.clear();
+        self.residuals.extend_from_slice(sources);
+        self.magnitudes.clear();
+        self.magnitudes.extend(sources.iter().map(|source| source.to_f64().abs()));
+        self.rounding_of_residuals.clear();
+        self.rounding_of_residuals.extend(self.magnitudes.iter().map(|magnitude| ROUNDING * magnitude));
+    }
+}
+
+impl Ways {
+    /// The ways of some elements; `None` where they are too long to be kept.
+    fn of(core: &Core, form: &Form, elements: &[u32]) -> Option<Self> {
+        if elements.len() > MOST_ELEMENTS {
+            return None;
+        }
+        let most = (STEPS_OF_AN_ELEMENT * elements.len()).max(LEAST_STEPS);
+        let mut depths = vec![0_u32; form.count()];
+        for &unknown in &form.order {
+            let above = form.hangs_on[unknown as usize];
+            depths[unknown as usize] = if above == NONE { 1 } else { depths[above as usize] + 1 };
+        }
+        let depth = |unknown: u32| if unknown == NONE { 0 } else { depths[unknown as usize] };
+        let (mut start, mut steps) = (vec![0], Vec::new());
+        for &number in elements {
+            let [mut first, mut second] = form.ends(core, &core.elements[number as usize]);
+            while first != second {
+                let (of_first, of_second) = (depth(first), depth(second));
+                if of_first >= of_second {
+                    steps.push((first, false));
+                    first = form.hangs_on[first as usize];
+                }
+                if of_second >= of_first {
+                    steps.push((second, true));
+                    second = form.hangs_on[second as usize];
+                }
+            }
+            if steps.len() > most {
+                return None;
+            }
+            start.push(index(steps.len()));
+        }
+        Some(Self { start, steps })
+    }
+
+    fn of_element(&self, place: usize) -> &[(u32, bool)] {
+        &self.steps[self.start[place] as usize..self.start[place + 1] as usize]
+    }
+}

@@ -1,0 +1,80 @@
+//! What flows through infinite conductances: the multipliers of the condition that both ends have one value.
+//!
+//! All flows through finite conductances are known when this is asked. What is missing in the balance of each node must flow through its infinite ones.
+//! Where they form no ring that determines their flows. In a ring it does not; there they share as equal conductances would, however large,
+//! and the report says how many there are.
+
+use super::core::{Core, Element, NONE};
+use super::network::LinearNetwork;
+use super::sets::{Sets, index};
+use super::solve::{LAST_DIGIT, LinearFailure, LinearSolution, Method, Solver};
+use inpact_evaluation::numbers::Wide;
+
+/// Finds the flows through the infinite conductances of a network that is solved otherwise.
+pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution) -> Result<(), LinearFailure> {
+    let missing = missing(network, solution);
+    let is_infinite = |number: &usize| network.links[*number].conductance == f64::INFINITY;
+    let infinite: Vec<usize> = (0..network.links.len()).filter(is_infinite).collect();
+    let is_reference = references(network, &infinite);
+    let mut number = vec![NONE; network.nodes()];
+    let (mut free, mut sources) = (0, Vec::new());
+    for node in infinite.iter().flat_map(|&link| network.links[link].nodes) {
+        if number[node as usize] == NONE && !is_reference[node as usize] {
+            number[node as usize] = free;
+            sources.push(missing[node as usize]);
+            free += 1;
+        }
+    }
+    // One known value, of the nodes from which all others are counted.
+    let number_of = |node: u32| if is_reference[node as usize] { free } else { number[node as usize] };
+    let element =
+        |&link: &usize| Element { ends: network.links[link].nodes.map(number_of), conductance: Wide::new(1.0) };
+    let mut core = Core {
+        free,
+        known: vec![Wide::ZERO],
+        // Between two nodes that are held nothing is known of the flow but that none is needed.
+        elements: infinite.iter().map(element).collect(),
+        sources,
+    };
+    let found = Solver::new(Method::Direct, LAST_DIGIT).solve_core(&mut core)?;
+    for (place, &link) in infinite.iter().enumerate() {
+        solution.flows[link] = found.flows[place];
+    }
+    solution.report.shared = infinite.len() - free as usize;
+    Ok(())
+}
+
+/// What flows into each node by everything but infinite conductances.
+fn missing(network: &LinearNetwork, solution: &LinearSolution) -> Vec<Wide> {
+    let mut missing: Vec<Wide> = network.sources.iter().map(|&source| Wide::new(source)).collect();
+    for (link, &flow) in network.links.iter().zip(&solution.flows) {
+        missing[link.nodes[0] as usize] -= flow;
+        missing[link.nodes[1] as usize] += flow;
+    }
+    for (store, &flow) in network.stores.iter().zip(&solution.stored) {
+        missing[store.node as usize] -= flow;
+    }
+    missing
+}
+
+/// Which nodes the others of their cluster are counted from: those that are held, or one.
+fn references(network: &LinearNetwork, infinite: &[usize]) -> Vec<bool> {
+    let mut sets = Sets::new(network.nodes());
+    for &link in infinite {
+        let [a, b] = network.links[link].nodes;
+        sets.join(a, b);
+    }
+    let mut has_reference = vec![false; network.nodes()];
+    let mut is_reference: Vec<bool> = network.held.iter().map(Option::is_some).collect();
+    for node in (0..index(network.nodes())).filter(|&node| network.held[node as usize].is_some()) {
+        has_reference[sets.of(node) as usize] = true;
+    }
+    for node in 0..index(network.nodes()) {
+        let root = sets.of(node) as usize;
+        if !has_reference[root] {
+            has_reference[root] = true;
+            is_reference[node as usize] = true;
+        }
+    }
+    is_reference
+}

@@ -1,0 +1,65 @@
+//! A linear network as it is given: nodes, conductances between them, what is held and what flows in.
+
+use inpact_evaluation::numbers::Wide;
+
+/// Nodes joined by conductances: what is solved when no conductance depends on the answer.
+///
+/// One field only: potential, temperature or pore pressure, and its flow, which is current, heat or volume of fluid per time.
+/// Units are those of the scene; conductances are flow per difference of the field.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LinearNetwork {
+    /// The value of a node that is held, `None` for one whose value is sought; as many as there are nodes.
+    pub held: Vec<Option<f64>>,
+    /// What flows into each node from outside; at a held node it adds to what holds it.
+    pub sources: Vec<f64>,
+    /// The conductances.
+    pub links: Vec<Link>,
+    /// What nodes store over a time increment.
+    pub stores: Vec<Store>,
+}
+
+/// A conductance between two nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// The nodes; the flow through a link is positive from the first to the second.
+    pub nodes: [u32; 2],
+    /// Flow per difference: 0 for none, infinite where both nodes have one value.
+    pub conductance: f64,
+}
+
+/// What a node takes up in a time increment by backward Euler: conductance × (its value − its value before).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Store {
+    /// The node.
+    pub node: u32,
+    /// Capacity per length of the increment; finite.
+    pub conductance: f64,
+    /// The node's value at the start of the increment.
+    pub before: Wide,
+}
+
+/// What is wrong with a network, so that it has no solution or more than one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unsolvable {
+    /// Bodies without a path to a held value or a store: the nodes of each. A path needs conductances above zero.
+    Floating(Vec<Vec<u32>>),
+    /// Two nodes that are held at different values have one value, by infinite conductances between them.
+    Contradiction {
+        /// The nodes.
+        nodes: [u32; 2],
+        /// What they are held at.
+        values: [f64; 2],
+    },
+}
+
+impl LinearNetwork {
+    /// A network of so many nodes, none of them held, without a link.
+    pub fn of_nodes(nodes: usize) -> Self {
+        Self { held: vec![None; nodes], sources: vec![0.0; nodes], ..Self::default() }
+    }
+
+    /// How many nodes there are.
+    pub fn nodes(&self) -> usize {
+        self.held.len()
+    }
+}

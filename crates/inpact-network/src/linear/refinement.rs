@@ -1,0 +1,143 @@
+//! Refinement: a rough solver makes a solution that is right to the last digits of f64.
+//!
+//! The balance of each unknown is taken in edge form and in 106 bits, the rough solver gives a correction, and so on.
+//! Each step gains as many digits as the solver is good for. The largest relative change of a flow in the last step, times the factor by which the changes shrink,
+//! is an estimate of the error that is left; a solution is taken only when that and the balances are within the tolerance.
+//! A balance is not better than its rounding: what is left of it below that is no reason to go on.
+
+use super::core::Core;
+use super::edges::{Balance, Edges};
+use super::factor::{NoSolution, Solves};
+use super::matrix::{scaled_flows, shift, unscale};
+use inpact_evaluation::numbers::Wide;
+
+/// The most steps of a refinement: twenty bring a body without any flow from rounding down to zero, flows that differ by hundreds of decades take some more.
+const MOST_STEPS: usize = 60;
+
+/// Steps without gain after which a refinement gives up.
+const PATIENCE: usize = 24;
+
+/// What came of a refinement.
+#[derive(Debug)]
+pub(crate) struct Refined {
+    /// The jump along the forest of each unknown.
+    pub(crate) jumps: Vec<Wide>,
+    pub(crate) balance: Balance,
+    pub(crate) quality: Quality,
+}
+
+/// How good a solution is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Quality {
+    /// How often a correction was solved for.
+    pub solves: usize,
+    /// The largest share of its flows that is missing in a balance, balances that are at their rounding left out.
+    pub residual: f64,
+    /// An estimate of the largest relative error of a flow, before it is rounded to f64.
+    pub error: f64,
+    /// A lower estimate of the condition of the scaled matrix.
+    pub condition: f64,
+}
+
+/// Why a refinement gave up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum GaveUp {
+    /// The rough solver cannot.
+    Solver(NoSolution),
+    /// The steps gain nothing more: what had been reached.
+    Stalled(Quality),
+    /// A flow is beyond the range of f64.
+    Overflow,
+}
+
+/// Solves by refinement until residual and estimated error are within `tolerance`.
+///
+/// # Errors
+/// See [`GaveUp`].
+pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolerance: f64) -> Result<Refined, GaveUp> {
+    let form = &edges.form;
+    let sources = edges.sources(core);
+    let mut jumps = vec![Wide::ZERO; form.count()];
+    let mut balance = Balance::default();
+    let mut changes: Vec<f64> = Vec::new();
+    let mut quality = Quality::default();
+    let mut progress = Progress::default();
+    loop {
+        edges.balance(core, &jumps, &sources, &mut balance);
+        quality.residual = balance.worst_share();
+        if !quality.residual.is_finite() {
+            return Err(GaveUp::Overflow);
+        }
+        if quality.solves > 0 {
+            quality.error = progress.error_after(edges.change_of_flows(core, &balance, &changes));
+            let is_first = quality.solves == 1;
+            if !is_first && quality.error <= tolerance && quality.residual <= tolerance {
+                return Ok(Refined { jumps, balance, quality });
+            }
+            if progress.is_idle(quality.residual) || quality.solves >= MOST_STEPS {
+                return Err(GaveUp::Stalled(quality));
+            }
+        }
+        let Some(shift) = shift(form, balance.missing()) else {
+            // Every balance is at its rounding.
+            return Ok(Refined { jumps, balance, quality });
+        };
+        changes = scaled_flows(form, balance.missing(), shift);
+        solver.solve(&mut changes).map_err(GaveUp::Solver)?;
+        if quality.solves == 0 {
+            quality.condition = solver.norm() * inverse_norm(&changes, solver).map_err(GaveUp::Solver)?;
+        }
+        unscale(form, &mut changes, shift);
+        quality.solves += 1;
+        for (jump, change) in jumps.iter_mut().zip(edges.changes_of_jumps(&changes)) {
+            *jump += Wide::new(change);
+        }
+    }
+}
+
+/// How the steps get on.
+#[derive(Debug)]
+struct Progress {
+    change: f64,
+    best: f64,
+    idle: usize,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self { change: f64::INFINITY, best: f64::INFINITY, idle: 0 }
+    }
+}
+
+impl Progress {
+    /// The estimated error after a step that changed flows by `change`.
+    fn error_after(&mut self, change: f64) -> f64 {
+        let before = std::mem::replace(&mut self.change, change);
+        let contraction = if change == 0.0 { 0.0 } else { (change / before).min(1.0) };
+        if before.is_finite() { change * contraction } else { change }
+    }
+
+    /// Whether too many steps have gained nothing, now that this is left.
+    fn is_idle(&mut self, residual: f64) -> bool {
+        let left = residual + self.change;
+        if left < 0.5 * self.best {
+            self.best = left;
+            self.idle = 0;
+        } else {
+            self.idle += 1;
+        }
+        self.idle >= PATIENCE
+    }
+}
+
+/// A lower estimate of the norm of the inverse of a matrix: how much it stretches a first solution, in which its slow modes prevail already.
+fn inverse_norm(solution: &[f64], solver: &mut dyn Solves) -> Result<f64, NoSolution> {
+    let length = |vector: &[f64]| vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    let first = length(solution);
+    if first == 0.0 {
+        return Ok(0.0);
+    }
+    let mut stretched: Vec<f64> = solution.iter().map(|entry| entry / first).collect();
+    solver.solve_roughly(&mut stretched)?;
+    Ok(length(&stretched))
+}

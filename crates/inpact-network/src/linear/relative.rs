@@ -1,0 +1,207 @@
+//! The unknowns in relative form: no large conductance is ever added to a small one.
+//!
+//! Where a conductance is far stronger than its surroundings, the two nodes it joins have nearly one value, and an equation for either says almost only that.
+//! In plain assembly the sum of both equations, which is what the surroundings act on, is lost to rounding.
+//! Here the second node's unknown is its *jump* from the first: the strong conductance stands in the equation of the jump alone,
+//! and the first node's equation is the balance of both, in which the strong conductance does not occur.
+//!
+//! For any mixture of strengths: conductances fall into levels of strength (`strength.rs`), and a forest of the strongest conductances hangs every free node on a known value,
+//! level by level, so that the way between two nodes uses no weaker level than it must. Nodes that the levels down to some strength join are a cluster; its top node in the forest stands for it.
+//! A node's unknown is its jump from the top of the cluster into which its own conductance in the forest leads, and its equation is the balance of all nodes that hang on it so.
+//! With one level every jump is from a known value: that is plain assembly.
+//!
+//! The matrix of the jumps, each scaled by the strength of its level, has entries of at most about one whatever the strengths, and no cancellation in them:
+//! its condition depends on the shape of the network and on the width of a level, not on the contrast.
+//!
+//! What is *kept* of a solution is the jump along each conductance of the forest, so that a flow of 1e-100 beside one of 1 has all its digits.
+
+use super::core::{Core, Element, NONE};
+use super::sets::{Sets, index};
+use super::strength::Levels;
+use inpact_evaluation::numbers::Wide;
+
+/// The unknowns of a core: one for each free node that is there.
+#[derive(Clone, Debug)]
+pub(crate) struct Form {
+    /// The unknown of each free node; `NONE` for nodes that are taken out.
+    pub(crate) of_node: Vec<u32>,
+    /// The node of each unknown.
+    pub(crate) nodes: Vec<u32>,
+    /// The unknowns, those first that others hang on.
+    pub(crate) order: Vec<u32>,
+    /// The element of the forest that each unknown hangs by.
+    pub(crate) hangs_by: Vec<u32>,
+    /// The unknown it hangs on in the forest; `NONE` for a known value.
+    pub(crate) hangs_on: Vec<u32>,
+    /// The level of that element.
+    pub(crate) levels: Vec<u16>,
+    /// The unknown at the top of its cluster, from which its jump is counted; `NONE` for a known value.
+    pub(crate) tops: Vec<u32>,
+    /// The known value at the root of its tree; a number of the core.
+    pub(crate) bases: Vec<u32>,
+    /// For each level an even exponent s: unknowns and jumps are kept times 2^s, so that they are of the size of flows.
+    pub(crate) scales: Vec<i32>,
+}
+
+impl Form {
+    /// Chooses the unknowns of the nodes and elements that are there.
+    pub(crate) fn choose(core: &Core, is_there: &[bool], is_free: &[bool]) -> Self {
+        let conducts = |(number, element): &(usize, &Element)| is_there[*number] && element.conductance.to_f64() > 0.0;
+        let there = || core.elements.iter().enumerate().filter(conducts);
+        let levels = Levels::of(there().map(|(_, element)| element));
+        let mut of_node = vec![NONE; core.free as usize];
+        let mut nodes = Vec::new();
+        for (node, place) in of_node.iter_mut().enumerate().filter(|(node, _)| is_free[*node]) {
+            *place = index(nodes.len());
+            nodes.push(index(node));
+        }
+        let mut by_level: Vec<Vec<u32>> = vec![Vec::new(); levels.count()];
+        for (number, element) in there() {
+            by_level[levels.of_element(element) as usize].push(index(number));
+        }
+        let count = nodes.len();
+        let mut form = Self {
+            of_node,
+            nodes,
+            order: Vec::with_capacity(count),
+            hangs_by: vec![NONE; count],
+            hangs_on: vec![NONE; count],
+            levels: vec![0; count],
+            tops: vec![NONE; count],
+            bases: vec![NONE; count],
+            scales: levels.scales(),
+        };
+        let forest = form.forest(core, &by_level);
+        form.hang(core, &levels, &forest);
+        form.find_tops();
+        form
+    }
+
+    /// How many unknowns there are.
+    pub(crate) fn count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// How many unknowns are jumps from another unknown.
+    pub(crate) fn relative(&self) -> usize {
+        self.tops.iter().filter(|top| **top != NONE).count()
+    }
+
+    /// The exponent that unknown `unknown` and its jump in the forest are scaled by.
+    #[inline]
+    pub(crate) fn scale(&self, unknown: u32) -> i32 {
+        self.scales[self.levels[unknown as usize] as usize]
+    }
+
+    /// The unknowns at the ends of an element; `NONE` for a known value.
+    #[inline]
+    pub(crate) fn ends(&self, core: &Core, element: &Element) -> [u32; 2] {
+        element.ends.map(|end| if core.is_free(end) { self.of_node[end as usize] } else { NONE })
+    }
+
+    /// The known value that a number of the core is relative to; for a known value itself.
+    #[inline]
+    pub(crate) fn base_of(&self, core: &Core, number: u32) -> Wide {
+        let base = if core.is_free(number) { self.bases[self.of_node[number as usize] as usize] } else { number };
+        core.known[(base - core.free) as usize]
+    }
+
+    /// Calls `take` with each unknown in the difference between two, and the sign with which it counts in first − second.
+    #[inline]
+    pub(crate) fn on_way(&self, [mut first, mut second]: [u32; 2], mut take: impl FnMut(u32, f64)) {
+        // Levels ascend on the way to a known value, so that both ways meet where they first can.
+        while first != second {
+            let level = |unknown: u32| if unknown == NONE { u16::MAX } else { self.levels[unknown as usize] };
+            let (of_first, of_second) = (level(first), level(second));
+            if of_first <= of_second && first != NONE {
+                take(first, 1.0);
+                first = self.tops[first as usize];
+            }
+            if of_second <= of_first && second != NONE {
+                take(second, -1.0);
+                second = self.tops[second as usize];
+            }
+        }
+    }
+
+    /// The elements of a forest that joins every unknown to a known value, from the strongest level on.
+    fn forest(&self, core: &Core, by_level: &[Vec<u32>]) -> Vec<u32> {
+        // All known values are one set: a tree needs no way from one to another.
+        let known = index(self.count());
+        let mut sets = Sets::new(self.count() + 1);
+        let mut forest = Vec::with_capacity(self.count());
+        for elements in by_level {
+            for &number in elements {
+                let ends = self.ends(core, &core.elements[number as usize]);
+                let [a, b] = ends.map(|end| sets.of(end.min(known)));
+                if a != b {
+                    sets.join_roots(a.min(b), a.max(b));
+                    forest.push(number);
+                }
+            }
+        }
+        forest
+    }
+
+    /// Hangs every unknown on the next one towards a known value.
+    fn hang(&mut self, core: &Core, levels: &Levels, forest: &[u32]) {
+        let mut start = vec![0_u32; self.count() + 1];
+        let ends: Vec<[u32; 2]> =
+            forest.iter().map(|&number| self.ends(core, &core.elements[number as usize])).collect();
+        for end in ends.iter().flatten().filter(|end| **end != NONE) {
+            start[*end as usize + 1] += 1;
+        }
+        for unknown in 0..self.count() {
+            start[unknown + 1] += start[unknown];
+        }
+        let mut next = start.clone();
+        let mut branches = vec![0_u32; start[self.count()] as usize];
+        for (branch, ends) in ends.iter().enumerate() {
+            for &end in ends.iter().filter(|end| **end != NONE) {
+                branches[next[end as usize] as usize] = index(branch);
+                next[end as usize] += 1;
+            }
+        }
+        for (branch, ends) in ends.iter().enumerate() {
+            let (unknown, known_end) = match *ends {
+                [NONE, unknown] => (unknown, 0),
+                [unknown, NONE] => (unknown, 1),
+                _ => continue,
+            };
+            self.hangs_by[unknown as usize] = forest[branch];
+            self.bases[unknown as usize] = core.elements[forest[branch] as usize].ends[known_end];
+            self.order.push(unknown);
+        }
+        let mut done = 0;
+        while let Some(&unknown) = self.order.get(done) {
+            done += 1;
+            for place in start[unknown as usize]..start[unknown as usize + 1] {
+                let branch = branches[place as usize] as usize;
+                let [a, b] = ends[branch];
+                let other = if a == unknown { b } else { a };
+                if other == NONE || self.hangs_by[other as usize] != NONE {
+                    continue;
+                }
+                self.hangs_by[other as usize] = forest[branch];
+                self.hangs_on[other as usize] = unknown;
+                self.bases[other as usize] = self.bases[unknown as usize];
+                self.order.push(other);
+            }
+        }
+        for (level, &number) in self.levels.iter_mut().zip(&self.hangs_by) {
+            *level = levels.of_element(&core.elements[number as usize]);
+        }
+    }
+
+    /// Finds the top of each unknown's cluster: up the forest as long as elements are at least as strong as its own.
+    fn find_tops(&mut self) {
+        for &unknown in &self.order {
+            let level = self.levels[unknown as usize];
+            let mut top = self.hangs_on[unknown as usize];
+            while top != NONE && self.levels[top as usize] <= level {
+                top = self.tops[top as usize];
+            }
+            self.tops[unknown as usize] = top;
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Nodes that only pass on what flows through them are taken out before anything is factored, and put back exactly.
+//!
+//! A free node with two conductances g₁ and g₂ and no source makes one conductance g₁g₂/(g₁+g₂) of them.
+//! A free node with one conductance sends its source through that.
+//! So the slave node between a body's link and an interface of constant conductance is no unknown, and a chain of links has none at all.
+//! Sums and quotients of positive numbers lose nothing, and they are made in 106 bits, so that a chain of any length is as exact as one link.
+//! A node with two conductances *and* a source stays: to share its source between its neighbours would make flows that cancel far larger than those that flow.
+
+use super::core::{Core, Element, NONE};
+use super::sets::index;
+use inpact_evaluation::numbers::Wide;
+
+/// What was taken out, in order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Series {
+    steps: Vec<Step>,
+    /// Whether an element is still there, those that were made included.
+    pub(crate) is_there: Vec<bool>,
+    /// Whether a free node is still there.
+    pub(crate) is_free: Vec<bool>,
+}
+
+/// One node taken out.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    node: u32,
+    source: Wide,
+    /// The conductances it had; the second is `NONE` at the end of a chain.
+    elements: [u32; 2],
+    /// What was made of them: from the far end of the first to that of the second; `NONE` where both lead to one node.
+    made: u32,
+}
+
+impl Series {
+    /// Takes out of a core every free node with one or two conductances, but for those that have to stay.
+    pub(crate) fn take_out(core: &mut Core, stays: &dyn Fn(u32) -> bool) -> Self {
+        let mut series = Self {
+            steps: Vec::new(),
+            is_there: vec![true; core.elements.len()],
+            is_free: vec![true; core.free as usize],
+        };
+        let mut degrees = vec![0_u32; core.free as usize];
+        for end in core.elements.iter().flat_map(|element| element.ends) {
+            if let Some(degree) = degrees.get_mut(end as usize) {
+                *degree += 1;
+            }
+        }
+        let is_due = |(node, degree): (u32, &u32)| (1..=2).contains(degree) && !stays(node);
+        if (0..).zip(&degrees).any(is_due) {
+            Walk { incident: Incident::of(core, &degrees), degrees, core, series: &mut series, stays }.run();
+        }
+        series
+    }
+
+    /// How many nodes were taken out.
+    pub(crate) fn count(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Puts the nodes back: their values, and what flows from the first to the second end of each element.
+    pub(crate) fn put_back(&self, core: &Core, values: &mut [Wide], flows: &mut [Wide]) {
+        for step in self.steps.iter().rev() {
+            let Step { node, source, elements, made } = *step;
+            let through = if made == NONE { Wide::ZERO } else { flows[made as usize] };
+            let leaving = match elements {
+                [first, NONE] => [(first, source), (NONE, Wide::ZERO)],
+                [first, second] => [(first, -through), (second, through)],
+            };
+            for (element, leaving) in leaving.into_iter().filter(|(element, _)| *element != NONE) {
+                let is_from_node = core.elements[element as usize].ends[0] == node;
+                flows[element as usize] = if is_from_node { leaving } else { -leaving };
+            }
+            let (strongest, leaving) = match leaving {
+                [first, (NONE, _)] => first,
+                [first, second] if strength(core, first.0) >= strength(core, second.0) => first,
+                [_, second] => second,
+            };
+            let Element { ends, conductance } = core.elements[strongest as usize];
+            let other = if ends[0] == node { ends[1] } else { ends[0] };
+            values[node as usize] = core.value(values, other) + leaving / conductance;
+        }
+    }
+}
+
+fn strength(core: &Core, element: u32) -> f64 {
+    core.elements[element as usize].conductance.to_f64()
+}
+
+/// What two conductances in series conduct: of the quotient of the smaller and the larger nothing overflows.
+fn in_series(a: Wide, b: Wide) -> Wide {
+    let (smaller, larger) = if a.to_f64() <= b.to_f64() { (a, b) } else { (b, a) };
+    smaller / (Wide::new(1.0) + smaller / larger)
+}
+
+/// The elements at each free node, as they were before any was replaced.
+struct Incident {
+    start: Vec<u32>,
+    elements: Vec<u32>,
+    /// What an element was replaced by.
+    replaced_by: Vec<u32>,
+}
+
+impl Incident {
+    fn of(core: &Core, degrees: &[u32]) -> Self {
+        let mut start = Vec::with_capacity(degrees.len() + 1);
+        let mut sum = 0;
+        start.push(0);
+        start.extend(degrees.iter().map(|degree| {
+            sum += degree;
+            sum
+        }));
+        let mut next: Vec<u32> = start[..degrees.len()].to_vec();
+        let mut elements = vec![NONE; sum as usize];
+        for (number, element) in core.elements.iter().enumerate() {
+            for end in element.ends {
+                if let Some(next) = next.get_mut(end as usize) {
+                    elements[*next as usize] = index(number);
+                    *next += 1;
+                }
+            }
+        }
+        Self { start, elements, replaced_by: vec![NONE; core.elements.len()] }
+    }
+
+    /// The elements that are there now at a node.
+    fn at(&mut self, node: u32, is_there: &[bool]) -> Vec<u32> {
+        let range = self.start[node as usize] as usize..self.start[node as usize + 1] as usize;
+        let now = range.map(|place| self.now(self.elements[place]));
+        now.collect::<Vec<u32>>().into_iter().filter(|&element| is_there[element as usize]).collect()
+    }
+
+    /// What an element was replaced by in the end.
+    fn now(&mut self, mut element: u32) -> u32 {
+        while self.replaced_by[element as usize] != NONE {
+            let next = self.replaced_by[element as usize];
+            let behind = self.replaced_by[next as usize];
+            if behind != NONE {
+                self.replaced_by[element as usize] = behind;
+            }
+            element = next;
+        }
+        element
+    }
+}
+
+/// A walk over the nodes that can be taken out.
+struct Walk<'a> {
+    core: &'a mut Core,
+    series: &'a mut Series,
+    incident: Incident,
+    degrees: Vec<u32>,
+    stays: &'a dyn Fn(u32) -> bool,
+}
+
+impl Walk<'_> {
+    fn run(mut self) {
+        for start in 0..self.core.free {
+            let mut waiting = vec![start];
+            while let Some(node) = waiting.pop() {
+                let is_there = self.series.is_free[node as usize] && !(self.stays)(node);
+                if is_there && (1..=2).contains(&self.degrees[node as usize]) {
+                    waiting.extend(self.take(node).into_iter().filter(|&end| self.core.is_free(end)));
+                }
+            }
+        }
+    }
+
+    /// Takes out a node; gives the numbers at the far ends of its elements.
+    fn take(&mut self, node: u32) -> Vec<u32> {
+        let elements = self.incident.at(node, &self.series.is_there);
+        let far = |element: u32| {
+            let ends = self.core.elements[element as usize].ends;
+            if ends[0] == node { ends[1] } else { ends[0] }
+        };
+        let source = self.core.sources[node as usize];
+        if elements.len() == 2 && !source.is_zero() {
+            return Vec::new();
+        }
+        self.series.is_free[node as usize] = false;
+        for &element in &elements {
+            self.series.is_there[element as usize] = false;
+        }
+        match *elements.as_slice() {
+            [only] => {
+                let end = far(only);
+                self.add_source(end, source);
+                self.lower_degree(end, 1);
+                self.series.steps.push(Step { node, source, elements: [only, NONE], made: NONE });
+                vec![end]
+            }
+            [first, second] => {
+                let ends = [far(first), far(second)];
+                let made = if ends[0] == ends[1] {
+                    self.lower_degree(ends[0], 2);
+                    NONE
+                } else {
+                    self.make(ends, [first, second])
+                };
+                self.series.steps.push(Step { node, source, elements: [first, second], made });
+                ends.to_vec()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn make(&mut self, ends: [u32; 2], elements: [u32; 2]) -> u32 {
+        let [first, second] = elements.map(|element| self.core.elements[element as usize].conductance);
+        let made = index(self.core.elements.len());
+        self.core.elements.push(Element { ends, conductance: in_series(first, second) });
+        self.series.is_there.push(true);
+        self.incident.replaced_by.push(NONE);
+        for element in elements {
+            self.incident.replaced_by[element as usize] = made;
+        }
+        made
+    }
+
+    fn add_source(&mut self, end: u32, source: Wide) {
+        if let Some(sum) = self.core.sources.get_mut(end as usize) {
+            *sum += source;
+        }
+    }
+
+    fn lower_degree(&mut self, end: u32, by: u32) {
+        if let Some(degree) = self.degrees.get_mut(end as usize) {
+            *degree -= by;
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! From a linear network to its solution: what can be left out is left out, the rest is factored, refined and checked, and what was left out is put back.
+
+use super::bodies::refuse_floating;
+use super::core::{Core, NONE, Origins};
+use super::edges::Edges;
+use super::elimination::eliminate;
+use super::factor::{Factor, NoSolution, Solves};
+use super::infinite;
+use super::iterative::ConjugateGradients;
+use super::matrix::Pattern;
+use super::network::{LinearNetwork, Unsolvable};
+use super::ordering::{Analysis, Ordering};
+use super::refinement::{GaveUp, Quality, Refined, refine};
+use super::relative::Form;
+use super::series::Series;
+use inpact_evaluation::numbers::Wide;
+use std::sync::Arc;
+
+/// How a network is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// A Cholesky factor in f64.
+    #[default]
+    Direct,
+    /// A Cholesky factor in f32: half the memory and, in three dimensions, about half the time.
+    Mixed,
+    /// Conjugate gradients with an incomplete factor: memory of a few entries a node.
+    Iterative,
+    /// Elimination without subtraction in 106 bits: slow, and exact to the last digit at any contrast.
+    Elimination,
+}
+
+/// The tolerance that stands for the last digit of f64.
+pub const LAST_DIGIT: f64 = f64::EPSILON / 16.0;
+
+/// Solves networks, and keeps what the next one can use again: the order of elimination as long as the same unknowns are coupled, the factor as long as the matrix is the same.
+#[derive(Debug)]
+pub struct Solver {
+    method: Method,
+    tolerance: f64,
+    kept: Option<Kept>,
+}
+
+/// What is kept from one network to the next.
+#[derive(Debug)]
+struct Kept {
+    pattern: Arc<Pattern>,
+    analysis: Option<Arc<Analysis>>,
+    factor: KeptFactor,
+}
+
+/// Factors of the matrix with these values.
+#[derive(Debug, Default)]
+struct KeptFactor {
+    values: Vec<f64>,
+    double: Option<Factor<f64>>,
+    single: Option<Factor<f32>>,
+}
+
+/// The solution of a linear network.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearSolution {
+    /// The value of each node.
+    pub values: Vec<Wide>,
+    /// The flow through each link, from its first to its second node.
+    pub flows: Vec<Wide>,
+    /// The flow into each store.
+    pub stored: Vec<Wide>,
+    /// How it was found and how good it is.
+    pub report: LinearReport,
+}
+
+/// How a solution was found and how good it is.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct LinearReport {
+    /// The method that gave it.
+    pub method: Method,
+    /// How many unknowns were solved for.
+    pub unknowns: usize,
+    /// How many of them are jumps from another node.
+    pub relative: usize,
+    /// In how many levels the strengths of the conductances fall.
+    pub levels: usize,
+    /// How many nodes have the value of another by an infinite conductance.
+    pub merged: usize,
+    /// How many nodes were taken out as they only pass on what flows through them.
+    pub taken_out: usize,
+    /// How many infinite conductances there are beyond those that determine how they share their flow; they share it as equal ones would.
+    pub shared: usize,
+    /// The order of elimination, where there was a factor.
+    pub ordering: Option<Ordering>,
+    /// Entries of the factor.
+    pub factor_entries: usize,
+    /// Iterations of conjugate gradients.
+    pub iterations: usize,
+    /// How good it is; `None` for an elimination, which needs no refinement.
+    pub quality: Quality,
+    /// The methods that were tried before, and why they were given up.
+    pub given_up: Vec<(Method, Shortcoming)>,
+}
+
+/// Why a method was given up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shortcoming {
+    /// It could not begin.
+    NoSolution(NoSolution),
+    /// It came no nearer than this.
+    Stalled(Quality),
+    /// A flow is beyond the range of f64.
+    Overflow,
+    /// The filled network would be too large.
+    TooLarge,
+}
+
+/// Why a network has no solution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LinearFailure {
+    /// It has none, or more than one.
+    Unsolvable(Unsolvable),
+    /// No method came within the tolerance.
+    NotSolved(Vec<(Method, Shortcoming)>),
+}
+
+/// What is left to solve, solved: values of the core's free nodes, flows of its elements.
+pub(super) struct CoreSolution {
+    pub(super) values: Vec<Wide>,
+    pub(super) flows: Vec<Wide>,
+    report: LinearReport,
+}
+
+impl Solver {
+    /// A solver that is content with an estimated relative error of `tolerance` in every flow; [`LAST_DIGIT`] is as good as f64 can tell.
+    pub fn new(method: Method, tolerance: f64) -> Self {
+        Self { method, tolerance, kept: None }
+    }
+
+    /// Solves a network.
+    ///
+    /// # Errors
+    /// See [`LinearFailure`].
+    pub fn solve(&mut self, network: &LinearNetwork) -> Result<LinearSolution, LinearFailure> {
+        refuse_floating(network).map_err(LinearFailure::Unsolvable)?;
+        let (core, origins) = Core::merged(network, &|_| false).map_err(LinearFailure::Unsolvable)?;
+        let mut core = core;
+        let CoreSolution { values, flows, mut report } = self.solve_core(&mut core)?;
+        report.merged = origins.merged;
+        let mut solution = put_together(&core, &origins, &values, &flows, report);
+        if origins.merged > 0 {
+            infinite::find_flows(network, &mut solution)?;
+        }
+        Ok(solution)
+    }
+
+    /// Solves a core, in which all conductances are finite and every node has a path to a known value.
+    pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<CoreSolution, LinearFailure> {
+        let series = Series::take_out(core, &|_| false);
+        let form = Form::choose(core, &series.is_there, &series.is_free);
+        let mut report = LinearReport {
+            unknowns: form.count(),
+            relative: form.relative(),
+            levels: form.scales.len(),
+            taken_out: series.count(),
+            ..LinearReport::default()
+        };
+        let (mut values, mut flows) = self.solve_form(core, &series, form, &mut report)?;
+        series.put_back(core, &mut values, &mut flows);
+        Ok(CoreSolution { values, flows, report })
+    }
+
+    /// Solves for the unknowns, by the method that was asked for and, where that falls short, by safer ones.
+    fn solve_form(
+        &mut self,
+        core: &Core,
+        series: &Series,
+        form: Form,
+        report: &mut LinearReport,
+    ) -> Result<(Vec<Wide>, Vec<Wide>), LinearFailure> {
+        let edges = Edges::new(core, form, &series.is_there);
+        let mut method = self.method;
+        loop {
+            let shortcoming = match self.attempt(method, core, &edges, series, report) {
+                Ok(found) => {
+                    report.method = method;
+                    return Ok(found);
+                }
+                Err(shortcoming) => shortcoming,
+            };
+            report.given_up.push((method, shortcoming));
+            method = match (method, shortcoming) {
+                (_, Shortcoming::Overflow) | (Method::Elimination, _) => {
+                    return Err(LinearFailure::NotSolved(std::mem::take(&mut report.given_up)));
+                }
+                (Method::Direct, _) => Method::Elimination,
+                (Method::Mixed | Method::Iterative, _) => Method::Direct,
+            };
+        }
+    }
+
+    fn attempt(
+        &mut self,
+        method: Method,
+        core: &Core,
+        edges: &Edges,
+        series: &Series,
+        report: &mut LinearReport,
+    ) -> Result<(Vec<Wide>, Vec<Wide>), Shortcoming> {
+        if method == Method::Elimination {
+            let found = eliminate(core, &series.is_there, &series.is_free).ok_or(Shortcoming::TooLarge)?;
+            report.quality = Quality::default();
+            let is_finite = found.flows.iter().all(|flow| flow.to_f64().is_finite());
+            return if is_finite { Ok((found.values, found.flows)) } else { Err(Shortcoming::Overflow) };
+        }
+        if edges.form.count() == 0 {
+            let refined = refine(core, edges, &mut Nothing, self.tolerance)?;
+            return Ok((edges.values(core, &refined.jumps), refined.balance.flows));
+        }
+        let pattern = self.pattern(core, edges);
+        let matrix = pattern.matrix(core, edges);
+        let tolerance = self.tolerance;
+        let refined = if method == Method::Iterative {
+            let mut solver = ConjugateGradients::new(&matrix, tolerance);
+            let refined = refine(core, edges, &mut solver, tolerance);
+            report.iterations = solver.iterations;
+            refined?
+        } else {
+            let Some(Kept { pattern, analysis, factor }) = &mut self.kept else {
+                return Err(NoSolution::Memory.into());
+            };
+            let analysis = match analysis {
+                Some(analysis) => analysis,
+                None => analysis.insert(Arc::new(Analysis::of(pattern.symbolic()).ok_or(NoSolution::Memory)?)),
+            };
+            report.ordering = Some(analysis.ordering);
+            report.factor_entries = analysis.entries();
+            if factor.values != matrix.values {
+                *factor = KeptFactor::default();
+            }
+            let KeptFactor { values, double, single } = factor;
+            let refined = match method {
+                Method::Mixed => {
+                    refine(core, edges, get_or_try(single, || Factor::new(analysis, &matrix))?, tolerance)?
+                }
+                _ => refine(core, edges, get_or_try(double, || Factor::new(analysis, &matrix))?, tolerance)?,
+            };
+            *values = matrix.values;
+            refined
+        };
+        let Refined { jumps, balance, quality } = refined;
+        report.quality = quality;
+        Ok((edges.values(core, &jumps), balance.flows))
+    }
+
+    /// The pattern of some edges with its analysis, those of the network before where they are the same.
+    fn pattern(&mut self, core: &Core, edges: &Edges) -> Arc<Pattern> {
+        let pattern = Pattern::of(core, edges);
+        if let Some(kept) = &mut self.kept
+            && kept.pattern.has_entries_of(pattern.symbolic())
+        {
+            // The parts may come in another order.
+            kept.pattern = Arc::new(pattern);
+            return Arc::clone(&kept.pattern);
+        }
+        let pattern = Arc::new(pattern);
+        self.kept = Some(Kept { pattern: Arc::clone(&pattern), analysis: None, factor: KeptFactor::default() });
+        pattern
+    }
+}
+
+/// What is in `place`, made first where there is nothing.
+fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolution>) -> Result<&mut T, NoSolution> {
+    if place.is_none() {
+        *place = Some(make()?);
+    }
+    place.as_mut().ok_or(NoSolution::Memory)
+}
+
+/// The solution in terms of the network.
+fn put_together(
+    core: &Core,
+    origins: &Origins,
+    values: &[Wide],
+    flows: &[Wide],
+    report: LinearReport,
+) -> LinearSolution {
+    let flow_of = |&element: &u32| if element == NONE { Wide::ZERO } else { flows[element as usize] };
+    LinearSolution {
+        values: origins.number.iter().map(|&number| core.value(values, number)).collect(),
+        flows: origins.of_link.iter().map(flow_of).collect(),
+        stored: origins.of_store.iter().map(flow_of).collect(),
+        report,
+    }
+}
+
+/// Solves for no unknown.
+struct Nothing;
+
+impl Solves for Nothing {
+    fn solve(&mut self, _: &mut [f64]) -> Result<(), NoSolution> {
+        Ok(())
+    }
+
+    fn norm(&self) -> f64 {
+        0.0
+    }
+}
+
+impl From<NoSolution> for Shortcoming {
+    fn from(reason: NoSolution) -> Self {
+        Self::NoSolution(reason)
+    }
+}
+
+impl From<GaveUp> for Shortcoming {
+    fn from(reason: GaveUp) -> Self {
+        match reason {
+            GaveUp::Solver(reason) => Self::NoSolution(reason),
+            GaveUp::Stalled(quality) => Self::Stalled(quality),
+            GaveUp::Overflow => Self::Overflow,
+        }
+    }
+}

@@ -1,0 +1,363 @@
+//! What of a scene is solved: the fields that get unknowns, the nodes and interface rows of each, and in which order the fields are solved.
+//!
+//! Only what a scene requires is modelled:
+//!
+//! - a field gets unknowns where the scene says something of it, and a law couples it or something drives it: a fixed value or a source that is not zero;
+//! - of a field only those nodes get one that a link or an interface of the field joins, or a condition names;
+//! - pore fluid crosses an interface only where both sides carry pore pressure (P-01);
+//! - a field whose conductances depend on no other is solved before those that depend on it; fields that depend on each other are solved together;
+//! - a field that depends on nothing unsolved is linear: it takes one solve, no Newton.
+
+use crate::interface::{
+    Contact, Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal, heat_of_friction,
+};
+use crate::linear::{NONE, index};
+use crate::scene::{Field, MISSING_QUANTITY, Scene, SceneInterface};
+use inpact_evaluation::compile::InterfaceLaws;
+use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::nodes::{Findings, Place, UNKNOWN_INTERACTION};
+use inpact_evaluation::plan::Choices;
+use inpact_parser::model::Model;
+
+/// A scene with the laws of its deck.
+#[derive(Debug)]
+pub struct Problem<'a> {
+    pub(crate) scene: &'a Scene,
+    /// The laws of each interaction of the model that a row names.
+    pub(crate) laws: Vec<Option<InterfaceLaws>>,
+    /// The interaction of each row, by its place in the model.
+    pub(crate) interactions: Vec<usize>,
+    /// What is solved of each field, by [`Field`].
+    pub(crate) fields: [Option<FieldNodes>; 3],
+    /// The fields in the order in which they are solved; those that depend on each other stand together.
+    pub(crate) stages: Vec<Stage>,
+    /// The characteristic element length of rows that have none of their own.
+    pub(crate) characteristic_length: Option<f64>,
+    /// What is not solved, and why, for a person.
+    pub left_out: Vec<String>,
+}
+
+/// The nodes and rows of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FieldNodes {
+    /// The nodes of the scene that carry it.
+    pub(crate) nodes: Vec<u32>,
+    /// The place among them of each node of the scene; `NONE` for those that do not.
+    pub(crate) place: Vec<u32>,
+    /// The links of the scene that conduct it.
+    pub(crate) links: Vec<u32>,
+    /// The rows that couple it.
+    pub(crate) rows: Vec<u32>,
+}
+
+/// Fields that are solved together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Stage {
+    pub(crate) fields: Vec<Field>,
+    /// Whether one solve is enough.
+    pub(crate) is_linear: bool,
+}
+
+/// How the laws of a scene depend on its fields.
+#[derive(Debug, Clone, Copy, Default)]
+struct Couplings {
+    potential_on_temperature: bool,
+    temperature_on_potential: bool,
+    temperature_on_itself: bool,
+    pore_on_itself: bool,
+}
+
+impl<'a> Problem<'a> {
+    /// Puts a scene and the model of its deck together; `None` after reporting what is missing.
+    pub fn new(scene: &'a Scene, model: &Model, choices: &Choices, findings: &mut Findings) -> Option<Self> {
+        let mut problem = Self {
+            scene,
+            laws: (0..model.interactions.len()).map(|_| None).collect(),
+            interactions: Vec::with_capacity(scene.interfaces.len()),
+            fields: [None, None, None],
+            stages: Vec::new(),
+            characteristic_length: choices.characteristic_length,
+            left_out: Vec::new(),
+        };
+        for row in &scene.interfaces {
+            let found = match &row.interaction {
+                Some(name) => model.interactions.get_index_of(name),
+                None => (model.interactions.len() == 1).then_some(0),
+            };
+            let Some(interaction) = found else {
+                report_unknown(row, model, findings);
+                problem.interactions.push(0);
+                continue;
+            };
+            problem.interactions.push(interaction);
+            if problem.laws[interaction].is_none()
+                && let Some((_, of)) = model.interactions.get_index(interaction)
+            {
+                let laws = InterfaceLaws::of(model, of, choices);
+                problem.left_out.extend(
+                    laws.left_out.iter().map(|left| format!("{} of `{}`: {}", left.what, of.name, left.reason)),
+                );
+                problem.laws[interaction] = Some(laws);
+            }
+        }
+        if findings.has_errors() {
+            return None;
+        }
+        problem.choose_fields();
+        problem.check_rows(findings);
+        problem.choose_stages();
+        (!findings.has_errors()).then_some(problem)
+    }
+
+    /// The scene that is solved.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// The laws of a row.
+    pub(crate) fn laws_of(&self, row: usize) -> Option<&InterfaceLaws> {
+        self.laws[self.interactions[row]].as_ref()
+    }
+
+    /// What is solved of a field.
+    pub(crate) fn field(&self, field: Field) -> Option<&FieldNodes> {
+        self.fields[field.index()].as_ref()
+    }
+
+    /// The fields that are solved, in the order of the results.
+    pub fn solved_fields(&self) -> Vec<Field> {
+        Field::ALL.into_iter().filter(|field| self.field(*field).is_some()).collect()
+    }
+
+    /// The nodes that carry a solved field.
+    pub fn nodes_of(&self, field: Field) -> &[u32] {
+        self.field(field).map_or(&[], |nodes| &nodes.nodes)
+    }
+
+    /// When a row first looks at contact.
+    fn start(&self) -> f64 {
+        match self.scene.procedure {
+            crate::scene::Procedure::Steady => 0.0,
+            crate::scene::Procedure::Transient(span) => span.start,
+        }
+    }
+
+    /// Whether an interaction has a law of a field.
+    fn has_law(laws: &InterfaceLaws, field: Field) -> bool {
+        match field {
+            Field::Potential => laws.electrical.is_some(),
+            Field::Temperature => laws.thermal.is_some() || laws.radiation.is_some() || laws.friction.is_some(),
+            Field::PorePressure => laws.pore.is_some(),
+        }
+    }
+
+    fn choose_fields(&mut self) {
+        for field in Field::ALL {
+            let scene = self.scene;
+            let row_numbers = 0..scene.interfaces.len();
+            let has_law = |row: &usize| self.laws_of(*row).is_some_and(|laws| Self::has_law(laws, field));
+            if !scene.mentions(field) {
+                if row_numbers.clone().any(|row| has_law(&row)) {
+                    self.left_out.push(format!("{field}: the deck has laws of it, and the scene says nothing of it"));
+                }
+                continue;
+            }
+            let mut carries = vec![false; scene.nodes.len()];
+            let conditions = scene.conditions(field);
+            let named = conditions.fixed.keys().chain(conditions.sources.keys()).chain(conditions.capacities.keys());
+            named.for_each(|node| carries[*node as usize] = true);
+            let conducting = |link: &u32| scene.links[*link as usize].conductances[field.index()] > 0.0;
+            let links: Vec<u32> = (0..index(scene.links.len())).filter(conducting).collect();
+            for &link in &links {
+                for node in scene.links[link as usize].nodes {
+                    carries[node as usize] = true;
+                }
+            }
+            let couples = |row: &u32| {
+                let SceneInterface { slave, master, .. } = scene.interfaces[*row as usize];
+                let sides = [slave, master].map(|node| carries[node as usize]);
+                let do_carry = if field == Field::PorePressure { sides == [true; 2] } else { sides != [false; 2] };
+                do_carry && has_law(&(*row as usize))
+            };
+            let rows: Vec<u32> = (0..index(scene.interfaces.len())).filter(couples).collect();
+            let is_driven = !conditions.fixed.is_empty()
+                || conditions.sources.values().any(|source| source.values().any(|value| value != 0.0))
+                || conditions.capacities.values().any(|capacity| *capacity > 0.0);
+            if rows.is_empty() && !is_driven {
+                self.left_out.push(format!("{field}: no interface law couples it, and nothing drives it"));
+                continue;
+            }
+            for &row in &rows {
+                let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
+                carries[slave as usize] = true;
+                carries[master as usize] = true;
+            }
+            let nodes: Vec<u32> = (0..index(carries.len())).filter(|node| carries[*node as usize]).collect();
+            let mut place = vec![NONE; scene.nodes.len()];
+            for (number, node) in (0..).zip(&nodes) {
+                place[*node as usize] = number;
+            }
+            self.fields[field.index()] = Some(FieldNodes { nodes, place, links, rows });
+        }
+    }
+
+    /// The rows of a field with their laws.
+    fn rows_of(&self, field: Field) -> impl Iterator<Item = (usize, &SceneInterface, &InterfaceLaws)> {
+        let rows = self.field(field).map_or(&[][..], |nodes| &nodes.rows);
+        rows.iter().filter_map(|&row| {
+            let row = row as usize;
+            Some((row, &self.scene.interfaces[row], self.laws_of(row)?))
+        })
+    }
+
+    /// What a row's law of a field depends on; in any state of contact it may come to.
+    fn dependence(row: &SceneInterface, laws: &InterfaceLaws, field: Field, time: f64) -> Dependence {
+        // Contact that follows time may come to be open or closed.
+        let changes = row.clearance.as_ref().is_some_and(|course| course.corners().next().is_some())
+            || row.pressure.as_ref().is_some_and(|course| course.corners().next().is_some());
+        let now = Contact::of(row, time).map_or(ContactState::Undetermined, |contact| contact.state);
+        let states: &[ContactState] =
+            if changes { &[ContactState::Closed, ContactState::Open] } else { std::slice::from_ref(&now) };
+        let of_state = |state: &ContactState| match (field, &laws.electrical) {
+            (Field::Potential, Some(source)) => dependence_of_electrical(source, *state),
+            (Field::Potential, None) => Dependence::default(),
+            (Field::Temperature, _) => dependence_of_thermal(laws, *state),
+            (Field::PorePressure, _) => dependence_of_pore(laws, *state),
+        };
+        states.iter().map(of_state).fold(Dependence::default(), Dependence::or)
+    }
+
+    /// Reports each row that lacks what its laws depend on.
+    fn check_rows(&self, findings: &mut Findings) {
+        let has_temperature = self.field(Field::Temperature).is_some();
+        for field in Field::ALL {
+            for (_, row, laws) in self.rows_of(field) {
+                let needs = Self::dependence(row, laws, field, self.start());
+                let mut missing: Vec<String> = Vec::new();
+                let mut need = |is_needed: bool, is_there: bool, what: &str| {
+                    if is_needed && !is_there {
+                        missing.push(format!("`{what}`"));
+                    }
+                };
+                need(true, Contact::of(row, self.start()).is_some(), "clearance");
+                need(needs.clearance, row.clearance.is_some(), "clearance");
+                need(needs.pressure, row.pressure.is_some(), "pressure");
+                need(needs.mass_flow, row.mass_flow.is_some(), "mass_flow");
+                let knows_temperature =
+                    has_temperature || row.temperature.is_some() || self.scene.initial_temperature.is_some();
+                need(needs.temperature, knows_temperature, "temperature");
+                for number in &needs.fields {
+                    need(true, *number <= row.field_variables.len(), &format!("fv{number}"));
+                }
+                missing.dedup();
+                if !missing.is_empty() {
+                    let names = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
+                    let message = format!(
+                        "the interface of `{}` and `{}` lacks {}, which its law of {field} depends on",
+                        names[0],
+                        names[1],
+                        missing.join(", ")
+                    );
+                    report_row(row, findings, &message);
+                }
+            }
+        }
+    }
+
+    fn choose_stages(&mut self) {
+        let couplings = self.couplings();
+        let has = |field| self.field(field).is_some();
+        let electrical = has(Field::Potential).then_some(Field::Potential);
+        let thermal = has(Field::Temperature).then_some(Field::Temperature);
+        let is_mutual = couplings.potential_on_temperature && couplings.temperature_on_potential;
+        let mut stages = Vec::new();
+        if let (Some(electrical), Some(thermal), true) = (electrical, thermal, is_mutual) {
+            stages.push(Stage { fields: vec![electrical, thermal], is_linear: false });
+        } else {
+            let of_potential = electrical.map(|field| Stage { fields: vec![field], is_linear: true });
+            let of_temperature =
+                thermal.map(|field| Stage { fields: vec![field], is_linear: !couplings.temperature_on_itself });
+            // The field that depends on the other comes second.
+            let pair = if couplings.potential_on_temperature {
+                [of_temperature, of_potential]
+            } else {
+                [of_potential, of_temperature]
+            };
+            stages.extend(pair.into_iter().flatten());
+        }
+        if has(Field::PorePressure) {
+            stages.push(Stage { fields: vec![Field::PorePressure], is_linear: !couplings.pore_on_itself });
+        }
+        self.stages = stages;
+    }
+
+    fn couplings(&self) -> Couplings {
+        let has_temperature = self.field(Field::Temperature).is_some();
+        let start = self.start();
+        let mut couplings = Couplings::default();
+        for (row, of, laws) in self.rows_of(Field::Potential) {
+            let needs = Self::dependence(of, laws, Field::Potential, start);
+            couplings.potential_on_temperature |= needs.temperature && has_temperature;
+            let is_heated = self.field(Field::Temperature).is_some_and(|field| field.rows.contains(&index(row)))
+                || self.receives_heat(of);
+            couplings.temperature_on_potential |=
+                has_temperature && is_heated && laws.heat_generation.is_some_and(|heat| heat.fraction != 0.0);
+        }
+        let heats = |link: &crate::scene::SceneLink| link.joule_heat_fraction > 0.0 && link.conductances[0] > 0.0;
+        couplings.temperature_on_potential |= has_temperature && self.scene.links.iter().any(heats);
+        for (_, of, laws) in self.rows_of(Field::Temperature) {
+            couplings.temperature_on_itself |= Self::dependence(of, laws, Field::Temperature, start).temperature;
+        }
+        for (_, of, laws) in self.rows_of(Field::PorePressure) {
+            couplings.pore_on_itself |= Self::dependence(of, laws, Field::PorePressure, start).pore_pressure;
+        }
+        couplings
+    }
+
+    /// Whether one of the nodes of a row carries temperature, so that heat of its current has a place to go.
+    fn receives_heat(&self, row: &SceneInterface) -> bool {
+        let Some(field) = self.field(Field::Temperature) else { return false };
+        [row.slave, row.master].into_iter().any(|node| field.place[node as usize] != NONE)
+    }
+
+    /// The heat of friction of a row, into slave and master; zero where nothing tells of it.
+    pub(crate) fn friction(&self, row: usize) -> [f64; 2] {
+        let of = &self.scene.interfaces[row];
+        let heat = self.laws_of(row).and_then(|laws| heat_of_friction(laws, of));
+        heat.map_or([0.0; 2], |heat| [heat.slave * of.area, heat.master * of.area])
+    }
+}
+
+impl Dependence {
+    fn or(mut self, other: Self) -> Self {
+        self.clearance |= other.clearance;
+        self.pressure |= other.pressure;
+        self.temperature |= other.temperature;
+        self.mass_flow |= other.mass_flow;
+        self.pore_pressure |= other.pore_pressure;
+        self.fields.extend(other.fields);
+        self.fields.sort_unstable();
+        self.fields.dedup();
+        self
+    }
+}
+
+fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str) {
+    let (line, table) = &row.place;
+    let message = match table {
+        Some(table) => format!("{message} (line {line} of `{table}`)"),
+        None => message.to_owned(),
+    };
+    let place = Place { line: table.is_none().then_some(*line), ..Place::default() };
+    findings.report(&MISSING_QUANTITY, place, message, "give it in the scene");
+}
+
+fn report_unknown(row: &SceneInterface, model: &Model, findings: &mut Findings) {
+    let names: Vec<String> = model.interactions.keys().take(8).map(|name| format!("`{name}`")).collect();
+    let message = match &row.interaction {
+        Some(name) => format!("the deck defines no interaction `{name}`"),
+        None => format!("`interaction` is missing, and the deck has {} interactions", model.interactions.len()),
+    };
+    let place = Place { line: row.place.1.is_none().then_some(row.place.0), ..Place::default() };
+    findings.report(&UNKNOWN_INTERACTION, place, message, format!("its interactions are {}", names.join(", ")));
+}

@@ -1,0 +1,214 @@
+//! Scenes: nodes, the conductances between them, the interfaces of a deck that couple them, and what is held or flows in.
+//!
+//! A scene file is TOML ([`read`]); large parts of it can stand in tables beside it. No file is opened here: the caller gives bytes.
+
+mod course;
+mod diagnostic;
+mod file;
+mod read;
+mod tables;
+
+pub use course::Course;
+pub use diagnostic::{
+    CONTRADICTORY_VALUES, DUPLICATE_NODE, FLOATING_BODY, MALFORMED_SCENE, MALFORMED_TIME, MISSING_QUANTITY,
+    NOT_CONVERGED, SCENE_RULES, UNKNOWN_NODE, UNUSABLE_NUMBER,
+};
+pub use read::{SceneFiles, read};
+
+use inpact_parser::model::Name;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A scene as it is given, every name resolved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The deck, as the scene names it.
+    pub deck: String,
+    /// Steady state or transient.
+    pub procedure: Procedure,
+    /// The temperature with which nodes and nonlinear solutions begin, θ.
+    pub initial_temperature: Option<f64>,
+    /// The pore pressure with which nodes begin, F L⁻².
+    pub initial_pore_pressure: Option<f64>,
+    /// The names of the nodes.
+    pub nodes: Vec<String>,
+    /// The line of the scene file of each node that has one.
+    pub node_lines: BTreeMap<u32, u64>,
+    /// What is known of each field at the nodes, by [`Field`].
+    pub conditions: [Conditions; 3],
+    /// The bulk conductances.
+    pub links: Vec<SceneLink>,
+    /// The interfaces.
+    pub interfaces: Vec<SceneInterface>,
+}
+
+/// What changes with time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Procedure {
+    /// Nothing.
+    Steady,
+    /// Everything with a capacity.
+    Transient(TimeSpan),
+}
+
+/// The time of a transient.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeSpan {
+    /// When it starts, T.
+    pub start: f64,
+    /// When it ends, T.
+    pub end: f64,
+    /// How long increments are.
+    pub steps: Steps,
+}
+
+/// How long increments are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Steps {
+    /// All of one length, T; the last may be shorter.
+    Given(f64),
+    /// As long as the estimated local error allows.
+    ByError {
+        /// The error that an increment may add, as a part of the range of the field's values.
+        tolerance: f64,
+        /// The length of the first, T.
+        first: f64,
+    },
+}
+
+/// A field that nodes carry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Field {
+    /// Electric potential φ; its flow is current.
+    Potential,
+    /// Temperature θ; its flow is heat.
+    Temperature,
+    /// Pore pressure; its flow is volume of fluid per time.
+    PorePressure,
+}
+
+/// What is known of one field at the nodes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Conditions {
+    /// The values that nodes are held at.
+    pub fixed: BTreeMap<u32, Course>,
+    /// What flows in from outside.
+    pub sources: BTreeMap<u32, Course>,
+    /// What nodes take up per change of the value.
+    pub capacities: BTreeMap<u32, f64>,
+    /// The values with which nodes begin.
+    pub initial: BTreeMap<u32, f64>,
+}
+
+/// A lumped bulk conductance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneLink {
+    /// The nodes; flows are positive from the first to the second.
+    pub nodes: [u32; 2],
+    /// What it conducts of each field, by [`Field`]; 0 for nothing, infinite where both nodes are one.
+    pub conductances: [f64; 3],
+    /// The share of the energy its current dissipates that becomes heat.
+    pub joule_heat_fraction: f64,
+}
+
+/// A slave node, the point of the master surface opposite to it, and what governs both.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneInterface {
+    /// The *SURFACE INTERACTION; `None` for the only one of the deck.
+    pub interaction: Option<Name>,
+    /// The slave node.
+    pub slave: u32,
+    /// The master node.
+    pub master: u32,
+    /// Area of the slave node, L².
+    pub area: f64,
+    /// Clearance d, L.
+    pub clearance: Option<Course>,
+    /// Contact pressure p, F L⁻².
+    pub pressure: Option<Course>,
+    /// Whether it is closed, where that is given.
+    pub closed: Option<bool>,
+    /// Field variables from number 1 on, averages of both sides.
+    pub field_variables: Vec<f64>,
+    /// The mean temperature where none is solved for, θ.
+    pub temperature: Option<f64>,
+    /// Mean mass flow rate per area, M L⁻² T⁻¹.
+    pub mass_flow: Option<f64>,
+    /// Frictional shear stress τ, F L⁻².
+    pub shear: Option<f64>,
+    /// Rate of relative slip γ̇, L T⁻¹.
+    pub slip_rate: Option<f64>,
+    /// Rate of the clearance ḋ, where it does not come from its course, L T⁻¹.
+    pub clearance_rate: Option<f64>,
+    /// Characteristic element length, L.
+    pub characteristic_length: Option<f64>,
+    /// Bulk permeabilities behind slave and master.
+    pub bulk_permeabilities: [Option<f64>; 2],
+    /// Where it stands: the line, and the table unless it is the scene file.
+    pub place: (u64, Option<String>),
+}
+
+impl Field {
+    /// All of them, in the order of the results.
+    pub const ALL: [Self; 3] = [Self::Potential, Self::Temperature, Self::PorePressure];
+
+    /// Its place in arrays.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// What a link calls its conductance.
+    pub fn conductance_key(self) -> &'static str {
+        match self {
+            Self::Potential => "electrical",
+            Self::Temperature => "thermal",
+            Self::PorePressure => "hydraulic",
+        }
+    }
+
+    /// The name of its column and key.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Potential => "potential",
+            Self::Temperature => "temperature",
+            Self::PorePressure => "pore_pressure",
+        }
+    }
+
+    /// What flows.
+    pub fn flow_name(self) -> &'static str {
+        match self {
+            Self::Potential => "current",
+            Self::Temperature => "heat",
+            Self::PorePressure => "fluid",
+        }
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Potential => "potential",
+            Self::Temperature => "temperature",
+            Self::PorePressure => "pore pressure",
+        })
+    }
+}
+
+impl Scene {
+    /// What is known of a field.
+    pub fn conditions(&self, field: Field) -> &Conditions {
+        &self.conditions[field.index()]
+    }
+
+    /// Whether the scene says anything of a field.
+    pub fn mentions(&self, field: Field) -> bool {
+        *self.conditions(field) != Conditions::default()
+            || self.links.iter().any(|link| link.conductances[field.index()] > 0.0)
+    }
+
+    /// Whether time goes on.
+    pub fn is_transient(&self) -> bool {
+        matches!(self.procedure, Procedure::Transient(_))
+    }
+}

@@ -1,0 +1,236 @@
+//! The scene file as it is written: TOML whose every key is known, with the places of what may be wrong.
+//!
+//! The form is a contract; its JSON Schema is committed (`schema/scene.schema.json`).
+
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A scene: nodes, what conducts between them, the interfaces of a deck that couple them, and what is held.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "Scene of inpact solve"))]
+pub(crate) struct SceneFile {
+    /// The deck, relative to the scene file.
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub(crate) deck: Spanned<String>,
+    /// Steady state or transient; it has the say over the procedures of the deck.
+    #[serde(default)]
+    pub(crate) procedure: ProcedureName,
+    /// The time of a transient.
+    #[cfg_attr(test, schemars(with = "Option<TimeEntry>"))]
+    pub(crate) time: Option<Spanned<TimeEntry>>,
+    /// Values at the start of a transient of nodes with a capacity, and where a nonlinear solution begins.
+    #[serde(default)]
+    pub(crate) initial: InitialEntry,
+    /// The share of the energy dissipated in links that becomes heat in their nodes, where a link gives none; 0 unless given.
+    #[serde(default)]
+    pub(crate) joule_heat_fraction: f64,
+    /// The nodes.
+    #[serde(default, rename = "node")]
+    #[cfg_attr(test, schemars(with = "Vec<NodeEntry>"))]
+    pub(crate) nodes: Vec<Spanned<NodeEntry>>,
+    /// Lumped bulk conductances.
+    #[serde(default, rename = "link")]
+    #[cfg_attr(test, schemars(with = "Vec<LinkEntry>"))]
+    pub(crate) links: Vec<Spanned<LinkEntry>>,
+    /// The interfaces.
+    #[serde(default, rename = "interface")]
+    #[cfg_attr(test, schemars(with = "Vec<InterfaceEntry>"))]
+    pub(crate) interfaces: Vec<Spanned<InterfaceEntry>>,
+    /// Further nodes, in tables of comma-separated values.
+    #[serde(default, rename = "node_file")]
+    pub(crate) node_files: Vec<FileEntry>,
+    /// Further links, in tables or Matrix Market files.
+    #[serde(default, rename = "link_file")]
+    pub(crate) link_files: Vec<LinkFileEntry>,
+    /// Further interfaces, in tables of comma-separated values.
+    #[serde(default, rename = "interface_file")]
+    pub(crate) interface_files: Vec<FileEntry>,
+}
+
+/// Steady state or transient.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) enum ProcedureName {
+    /// Nothing changes: one solution.
+    #[default]
+    Steady,
+    /// Nodes with capacities take up heat or fluid: increments of time.
+    Transient,
+}
+
+/// The time of a transient: one of `step` and `tolerance`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct TimeEntry {
+    /// When it starts.
+    #[serde(default)]
+    pub(crate) start: f64,
+    /// When it ends.
+    pub(crate) end: f64,
+    /// The length of every increment; the last may be shorter.
+    pub(crate) step: Option<f64>,
+    /// Increments are as long as their estimated local error stays within this share of the range of the values.
+    pub(crate) tolerance: Option<f64>,
+    /// The length of the first increment with `tolerance`, instead of a thousandth of the whole.
+    pub(crate) first_step: Option<f64>,
+}
+
+/// Values to begin with.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct InitialEntry {
+    /// Of all temperatures that are not given by node; also the temperature of interfaces where no temperature is solved for.
+    pub(crate) temperature: Option<f64>,
+    /// Of all pore pressures that are not given by node.
+    pub(crate) pore_pressure: Option<f64>,
+}
+
+/// A node.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct NodeEntry {
+    /// Its name.
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub(crate) name: Spanned<String>,
+    /// What is known of its electric potential.
+    #[cfg_attr(test, schemars(with = "Option<Condition>"))]
+    pub(crate) potential: Option<Spanned<Condition>>,
+    /// What is known of its temperature.
+    #[cfg_attr(test, schemars(with = "Option<Condition>"))]
+    pub(crate) temperature: Option<Spanned<Condition>>,
+    /// What is known of its pore pressure.
+    #[cfg_attr(test, schemars(with = "Option<Condition>"))]
+    pub(crate) pore_pressure: Option<Spanned<Condition>>,
+}
+
+/// What is known of one field at a node.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct Condition {
+    /// The value it is held at.
+    pub(crate) fixed: Option<Course>,
+    /// What flows in from outside: current, heat, volume of fluid per time.
+    pub(crate) source: Option<Course>,
+    /// What it takes up per change of the value: heat capacity, storage of pore fluid.
+    pub(crate) capacity: Option<f64>,
+    /// Its value at the start of a transient.
+    pub(crate) initial: Option<f64>,
+}
+
+/// A number, or one that follows time: linear between points of time and value, constant before and after them.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged, expecting = "expected a number, or points of time and value such as [[0.0, 20.0], [1.0, 80.0]]")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) enum Course {
+    /// The same at all times.
+    Constant(f64),
+    /// Points of time and value.
+    Points(Vec<[f64; 2]>),
+}
+
+/// A lumped bulk conductance between two nodes; `inf` makes them one.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct LinkEntry {
+    /// The two nodes; flows are positive from the first to the second.
+    #[cfg_attr(test, schemars(with = "[String; 2]"))]
+    pub(crate) nodes: Spanned<[String; 2]>,
+    /// Current per potential.
+    pub(crate) electrical: Option<f64>,
+    /// Heat per time and temperature.
+    pub(crate) thermal: Option<f64>,
+    /// Volume of fluid per time and pressure.
+    pub(crate) hydraulic: Option<f64>,
+    /// The share of the energy its current dissipates that becomes heat, half of it in either node.
+    pub(crate) joule_heat_fraction: Option<f64>,
+}
+
+/// A slave node, the point of the master surface opposite to it, and what governs both.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct InterfaceEntry {
+    /// The *SURFACE INTERACTION of the deck; not needed where it has only one.
+    #[cfg_attr(test, schemars(with = "Option<String>"))]
+    pub(crate) interaction: Option<Spanned<String>>,
+    /// The node of the slave (secondary) side.
+    #[serde(alias = "secondary")]
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub(crate) slave: Spanned<String>,
+    /// The node of the master (main) side.
+    #[serde(alias = "main")]
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub(crate) master: Spanned<String>,
+    /// The area of the slave node.
+    pub(crate) area: f64,
+    /// Clearance, open > 0.
+    pub(crate) clearance: Option<Course>,
+    /// Contact pressure.
+    pub(crate) pressure: Option<Course>,
+    /// Whether it is closed; otherwise it is where the clearance is not above zero or the contact pressure is not zero.
+    pub(crate) closed: Option<bool>,
+    /// Field variables from number 1 on, averages of both sides.
+    #[serde(default)]
+    pub(crate) fv: Vec<f64>,
+    /// The mean temperature, where no temperature is solved for.
+    pub(crate) temperature: Option<f64>,
+    /// The mean of the magnitudes of the mass flow rates of both sides.
+    pub(crate) mass_flow: Option<f64>,
+    /// Frictional shear stress.
+    pub(crate) shear: Option<f64>,
+    /// Rate of relative slip.
+    pub(crate) slip_rate: Option<f64>,
+    /// Rate of the clearance; otherwise from its course.
+    pub(crate) clearance_rate: Option<f64>,
+    /// The characteristic element length, default of both cutoffs of pore fluid flow.
+    pub(crate) char_length: Option<f64>,
+    /// The bulk permeability behind the slave surface, for the shares of gap filling.
+    pub(crate) perm_s: Option<f64>,
+    /// The bulk permeability behind the master surface.
+    pub(crate) perm_m: Option<f64>,
+}
+
+/// A table beside the scene file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct FileEntry {
+    /// Its name, relative to the scene file.
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub(crate) file: Spanned<String>,
+}
+
+/// A file of links: a table of comma-separated values, or a symmetric Matrix Market file of one field.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct LinkFileEntry {
+    /// Its name, relative to the scene file; `.mtx` is a Matrix Market file.
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub(crate) file: Spanned<String>,
+    /// Of a Matrix Market file, what its numbers conduct.
+    pub(crate) conducts: Option<Conducts>,
+    /// Of a Matrix Market file, what stands before the numbers of its rows in the names of the nodes.
+    #[serde(default)]
+    pub(crate) prefix: String,
+}
+
+/// What a conductance conducts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) enum Conducts {
+    /// Current.
+    Electrical,
+    /// Heat.
+    Thermal,
+    /// Pore fluid.
+    Hydraulic,
+}

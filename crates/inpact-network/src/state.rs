@@ -1,0 +1,166 @@
+//! The state of a scene at one time: values, flows, and what they were found with.
+
+use crate::linear::{LinearReport, LinearSolution};
+use crate::problem::Problem;
+use crate::scene::{Field, Scene, SceneInterface};
+use inpact_evaluation::numbers::Wide;
+
+/// The state of a scene at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// The time; 0 in a steady state.
+    pub time: f64,
+    /// How many increments led to it.
+    pub increment: i32,
+    /// What is known of each field, by [`Field`].
+    pub(crate) fields: [Option<FieldState>; 3],
+    /// How it was found, one report for each group of fields that were solved together.
+    pub reports: Vec<StageReport>,
+}
+
+/// The state of one field.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FieldState {
+    /// Values of its nodes; flows through its links, then through its rows; flows into stores.
+    pub(crate) solution: LinearSolution,
+    /// The conductance times area of each row; infinite where both sides have one value.
+    pub(crate) rows: Vec<f64>,
+    /// What flows in at each node besides: sources and heat.
+    pub(crate) sources: Vec<f64>,
+}
+
+/// How fields were found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StageReport {
+    /// The fields.
+    pub fields: Vec<Field>,
+    /// How many steps Newton's iteration took; 0 for a linear stage.
+    pub iterations: usize,
+    /// How far the conductances are from those at the solution, relative.
+    pub inconsistency: f64,
+    /// How the last linear problem of each field was solved.
+    pub linear: Vec<LinearReport>,
+}
+
+impl FieldState {
+    /// The values of its nodes as f64.
+    pub(crate) fn values(&self) -> impl Iterator<Item = f64> {
+        self.solution.values.iter().map(|value| value.to_f64())
+    }
+}
+
+impl State {
+    pub(crate) fn field(&self, field: Field) -> Option<&FieldState> {
+        self.fields[field.index()].as_ref()
+    }
+
+    /// The value of a field at a node of the scene; `None` where it is not solved for.
+    pub fn value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<f64> {
+        self.wide_value(problem, field, node).map(Wide::to_f64)
+    }
+
+    pub(crate) fn wide_value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<Wide> {
+        let place = problem.field(field)?.place[node as usize];
+        self.field(field)?.solution.values.get(place as usize).copied()
+    }
+
+    /// What flows through a link of the scene, from its first to its second node; `None` where the field is not solved for or the link does not conduct it.
+    pub fn link_flow(&self, problem: &Problem<'_>, field: Field, link: u32) -> Option<f64> {
+        let place = problem.field(field)?.links.binary_search(&link).ok()?;
+        Some(self.field(field)?.solution.flows[place].to_f64())
+    }
+
+    /// What flows through an interface row by its conductance, from slave to master; without the heat and fluid that arise there.
+    pub fn row_flow(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
+        let nodes = problem.field(field)?;
+        let place = nodes.rows.binary_search(&row).ok()?;
+        Some(self.field(field)?.solution.flows[nodes.links.len() + place].to_f64())
+    }
+
+    /// The jump of a field across an interface row, slave − master, as exactly as it is known.
+    pub fn row_jump(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
+        let nodes = problem.field(field)?;
+        let state = self.field(field)?;
+        if let Ok(place) = nodes.rows.binary_search(&row) {
+            let conductance = state.rows[place];
+            let flow = state.solution.flows[nodes.links.len() + place];
+            if conductance == f64::INFINITY {
+                return Some(0.0);
+            }
+            if conductance > 0.0 {
+                return Some((flow / Wide::new(conductance)).to_f64());
+            }
+        }
+        let SceneInterface { slave, master, .. } = problem.scene.interfaces[row as usize];
+        let [slave, master] = [slave, master].map(|node| self.wide_value(problem, field, node));
+        Some((slave? - master?).to_f64())
+    }
+
+    /// Whether both sides of a row have one value, by an infinite conductance.
+    pub fn is_constrained(&self, problem: &Problem<'_>, field: Field, row: u32) -> bool {
+        let place = problem.field(field).and_then(|nodes| nodes.rows.binary_search(&row).ok());
+        place.zip(self.field(field)).is_some_and(|(place, state)| state.rows[place] == f64::INFINITY)
+    }
+
+    /// What leaves each node of a field through links and rows, less what flows in from outside; nothing but what is held or stored makes it other than zero.
+    pub(crate) fn leaving(&self, problem: &Problem<'_>, field: Field) -> Vec<Wide> {
+        let (Some(nodes), Some(state)) = (problem.field(field), self.field(field)) else { return Vec::new() };
+        let scene: &Scene = problem.scene;
+        let mut leaving: Vec<Wide> = state.sources.iter().map(|&source| -Wide::new(source)).collect();
+        let place = |node: u32| nodes.place[node as usize] as usize;
+        let of_links = nodes.links.iter().map(|&link| scene.links[link as usize].nodes);
+        let of_rows = nodes.rows.iter().map(|&row| {
+            let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
+            [slave, master]
+        });
+        for (ends, &flow) in of_links.chain(of_rows).zip(&state.solution.flows) {
+            leaving[place(ends[0])] += flow;
+            leaving[place(ends[1])] -= flow;
+        }
+        leaving
+    }
+
+    /// What each held node of a field supplies: what leaves it, less what flows in otherwise.
+    pub fn supplies(&self, problem: &Problem<'_>, field: Field) -> Vec<(u32, f64)> {
+        let Some(nodes) = problem.field(field) else { return Vec::new() };
+        let fixed = &problem.scene.conditions(field).fixed;
+        let leaving = self.leaving(problem, field);
+        let held = nodes.nodes.iter().zip(&leaving).filter(|(node, _)| fixed.contains_key(node));
+        held.map(|(&node, leaving)| (node, leaving.to_f64())).collect()
+    }
+
+    /// What the fixed values of a field supply together, what sources and interfaces add, and what is stored: the three add up to zero but for rounding.
+    pub fn balance(&self, problem: &Problem<'_>, field: Field) -> Option<FieldBalance> {
+        let (nodes, state) = (problem.field(field)?, self.field(field)?);
+        let fixed = &problem.scene.conditions(field).fixed;
+        let leaving = self.leaving(problem, field);
+        let held = nodes.nodes.iter().zip(&leaving).filter(|(node, _)| fixed.contains_key(node));
+        let held: Vec<Wide> = held.map(|(_, leaving)| *leaving).collect();
+        let generated: Vec<Wide> = state.sources.iter().map(|&source| Wide::new(source)).collect();
+        let stored = &state.solution.stored;
+        let sum = |parts: &[Wide]| parts.iter().copied().sum::<Wide>();
+        let turnover: Wide = [&held, &generated, stored].into_iter().flatten().map(|part| part.abs()).sum();
+        Some(FieldBalance {
+            supplied: sum(&held).to_f64(),
+            generated: sum(&generated).to_f64(),
+            stored: sum(stored).to_f64(),
+            missing: (sum(&held) + sum(&generated) - sum(stored)).to_f64(),
+            turnover: turnover.to_f64(),
+        })
+    }
+}
+
+/// The balance of one field over the whole scene, per time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldBalance {
+    /// What fixed values supply.
+    pub supplied: f64,
+    /// What sources and interfaces add.
+    pub generated: f64,
+    /// What is stored.
+    pub stored: f64,
+    /// Supplied and generated less stored: zero but for rounding.
+    pub missing: f64,
+    /// The magnitudes of all of these at their nodes, added up: what the missing is to be compared with.
+    pub turnover: f64,
+}

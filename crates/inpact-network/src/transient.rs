@@ -1,0 +1,192 @@
+//! A transient: increments of backward Euler from the state at the start to the end.
+//!
+//! The local error of an increment of length h is h²/2 · |x''| to first order; x'' is the change of the rate from the increment before, over h.
+//! Increments by error are as long as that allows, and end where a course of the scene has a corner; one that errs too much is taken back and cut.
+//! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the control of lengths.
+
+use crate::problem::Problem;
+use crate::scene::{Field, Procedure, Scene, Steps, TimeSpan};
+use crate::solve::{Equations, SolveFailure};
+use crate::state::{FieldState, State};
+
+/// An increment is not cut below this part of the whole time.
+const SHORTEST: f64 = 1e-12;
+
+/// A remainder below this part of an increment is not an increment of its own.
+const REMAINDER: f64 = 1e-9;
+
+/// How a transient went.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TransientReport {
+    /// How many increments there are.
+    pub increments: usize,
+    /// How many were taken back.
+    pub taken_back: usize,
+    /// The largest estimated local error of an increment, as a part of the range of its field's values.
+    pub local_error: f64,
+}
+
+/// Solves a scene: its steady state, or state after state of its transient; `take` gets each as it is found.
+///
+/// # Errors
+/// The first failure, after the states before it, or what `take` returns.
+pub fn run<E: From<SolveFailure>>(
+    equations: &mut Equations<'_>,
+    mut take: impl FnMut(&State) -> Result<(), E>,
+) -> Result<TransientReport, E> {
+    let problem = equations.problem();
+    let Procedure::Transient(span) = problem.scene.procedure else {
+        take(&equations.steady()?)?;
+        return Ok(TransientReport::default());
+    };
+    let start = equations.start(span.start)?;
+    take(&start)?;
+    let rates = initial_rates(problem, &start);
+    let mut march = March { problem, equations, rates, report: TransientReport::default() };
+    match span.steps {
+        Steps::Given(step) => march.by_length(start, span, step, &mut take)?,
+        Steps::ByError { tolerance, first } => march.by_error(start, span, tolerance, first, &mut take)?,
+    }
+    Ok(march.report)
+}
+
+/// A transient on its way.
+struct March<'a, 'p> {
+    problem: &'p Problem<'p>,
+    equations: &'a mut Equations<'p>,
+    /// The rate of each node with a capacity, for temperature and pore pressure.
+    rates: [Vec<f64>; 2],
+    report: TransientReport,
+}
+
+/// The fields that have capacities.
+const STORING: [Field; 2] = [Field::Temperature, Field::PorePressure];
+
+impl March<'_, '_> {
+    fn by_length<E: From<SolveFailure>>(
+        &mut self,
+        mut state: State,
+        span: TimeSpan,
+        step: f64,
+        take: &mut impl FnMut(&State) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let whole = ((span.end - span.start) / step).round();
+        let exact = ((span.end - span.start) / step - whole).abs() <= REMAINDER;
+        let mut number = 0.0;
+        while state.time < span.end {
+            number += 1.0;
+            let time = span.start + number * step;
+            let is_last = if exact { number >= whole } else { time >= span.end };
+            let next = self.equations.step(&state, if is_last { span.end } else { time })?;
+            let rates = self.rates_of(&state, &next);
+            self.accept(&state, &next, rates);
+            take(&next)?;
+            state = next;
+        }
+        Ok(())
+    }
+
+    fn by_error<E: From<SolveFailure>>(
+        &mut self,
+        mut state: State,
+        span: TimeSpan,
+        tolerance: f64,
+        first: f64,
+        take: &mut impl FnMut(&State) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let corners = corners(self.problem.scene, span);
+        let shortest = SHORTEST * (span.end - span.start);
+        let mut length = first;
+        while state.time < span.end {
+            let until = corners.iter().copied().find(|&corner| corner > state.time).unwrap_or(span.end);
+            // What is left is shared evenly by the last two increments, so that none is a splinter.
+            let left = until - state.time;
+            let taken = if length >= left { left } else { length.min(0.5 * left).max(shortest.min(left)) };
+            let time = if taken >= left { until } else { state.time + taken };
+            let next = match self.equations.step(&state, time) {
+                Ok(next) => next,
+                Err(SolveFailure::NotConverged { .. }) if taken > 2.0 * shortest => {
+                    self.report.taken_back += 1;
+                    length = 0.25 * taken;
+                    continue;
+                }
+                Err(failure) => return Err(failure.into()),
+            };
+            let rates = self.rates_of(&state, &next);
+            let error = self.local_error(&state, &next, &rates);
+            let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt()).clamp(0.2, 5.0) } else { 5.0 };
+            length = factor * taken;
+            if error > tolerance && taken > 2.0 * shortest {
+                self.report.taken_back += 1;
+                continue;
+            }
+            self.accept(&state, &next, rates);
+            take(&next)?;
+            state = next;
+        }
+        Ok(())
+    }
+
+    fn accept(&mut self, before: &State, after: &State, rates: [Vec<f64>; 2]) {
+        self.report.local_error = self.report.local_error.max(self.local_error(before, after, &rates));
+        self.report.increments += 1;
+        self.rates = rates;
+    }
+
+    /// The rates over an increment.
+    fn rates_of(&self, before: &State, after: &State) -> [Vec<f64>; 2] {
+        let duration = after.time - before.time;
+        STORING.map(|field| {
+            let nodes = self.problem.scene.conditions(field).capacities.keys();
+            let rate = |&node: &u32| {
+                let change =
+                    after.wide_value(self.problem, field, node)? - before.wide_value(self.problem, field, node)?;
+                Some(change.to_f64() / duration)
+            };
+            nodes.map(|node| rate(node).unwrap_or(0.0)).collect()
+        })
+    }
+
+    /// The estimated local error of an increment, as a part of the range of values.
+    fn local_error(&self, before: &State, after: &State, rates: &[Vec<f64>; 2]) -> f64 {
+        let duration = after.time - before.time;
+        let mut largest = 0.0_f64;
+        for (place, field) in STORING.into_iter().enumerate() {
+            let Some(of_field) = after.field(field) else { continue };
+            let changes = rates[place].iter().zip(&self.rates[place]).map(|(now, before)| (now - before).abs());
+            let error = 0.5 * duration * changes.fold(0.0, f64::max);
+            let values = of_field.values().chain(before.field(field).into_iter().flat_map(FieldState::values));
+            let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {
+                (least.min(value), greatest.max(value))
+            });
+            if greatest > least {
+                largest = largest.max(error / (greatest - least));
+            }
+        }
+        largest
+    }
+}
+
+/// The rates with which nodes with a capacity leave their initial values.
+fn initial_rates(problem: &Problem<'_>, start: &State) -> [Vec<f64>; 2] {
+    STORING.map(|field| {
+        let leaving = start.leaving(problem, field);
+        let rate = |(&node, &capacity): (&u32, &f64)| {
+            let place = problem.field(field)?.place[node as usize];
+            (capacity > 0.0).then_some(-leaving.get(place as usize)?.to_f64() / capacity)
+        };
+        problem.scene.conditions(field).capacities.iter().map(|of| rate(of).unwrap_or(0.0)).collect()
+    })
+}
+
+/// The times inside a span at which a course of the scene changes its slope, and the end.
+fn corners(scene: &Scene, span: TimeSpan) -> Vec<f64> {
+    let of_conditions = scene.conditions.iter().flat_map(|of| of.fixed.values().chain(of.sources.values()));
+    let of_rows = scene.interfaces.iter().flat_map(|row| row.clearance.iter().chain(&row.pressure));
+    let all = of_conditions.chain(of_rows).flat_map(crate::scene::Course::corners);
+    let mut corners: Vec<f64> = all.filter(|time| span.start < *time && *time < span.end).collect();
+    corners.push(span.end);
+    corners.sort_unstable_by(f64::total_cmp);
+    corners.dedup();
+    corners
+}

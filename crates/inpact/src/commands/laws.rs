@@ -1,0 +1,94 @@
+//! What a user may choose about the laws of a deck, for every command that evaluates them.
+
+use crate::failure::{Failure, say};
+use crate::user_library;
+use clap::{Args, ValueEnum};
+use inpact_evaluation::law::pore::CutoffBoundary;
+use inpact_evaluation::law::user::UserLaw;
+use inpact_evaluation::plan::Choices;
+use inpact_evaluation::table::Tail;
+use inpact_parser::grammar::Dialect;
+use inpact_parser::model::{Model, Regime};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct LawArguments {
+    /// What follows the last point of conductance against clearance: the manual's text or its figure.
+    #[arg(long, value_enum, default_value_t = ClearanceTail::Constant)]
+    clearance_tail: ClearanceTail,
+    /// The characteristic element length of all rows, the default of both cutoffs of pore fluid flow.
+    #[arg(long, value_name = "X", value_parser = positive_length)]
+    char_length: Option<f64>,
+    /// Whether pore fluid flows at the very cutoff.
+    #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
+    cutoff_boundary: Boundary,
+    /// A shared library with the user subroutine GAPELECTR, compiled with
+    /// `gfortran -shared -fPIC -o gapelectr.so gapelectr.f`, for *GAP ELECTRICAL CONDUCTANCE, USER.
+    ///
+    /// It is loaded and run only when it is named here, and when an interaction of the deck has such a conductance.
+    /// `INCLUDE 'ABA_PARAM.INC'` reads a file beside the source with one line, `      IMPLICIT REAL*8 (A-H,O-Z)`.
+    /// It is native code: inpact cannot stop it from harm, and a crash in it ends the program.
+    /// What it writes to unit 6 comes out on standard output: write the result to a file with `-o`.
+    #[arg(long, value_name = "FILE")]
+    user_library: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ClearanceTail {
+    /// The last value, as the text of the manual has it.
+    Constant,
+    /// Zero, as its figure has it.
+    Zero,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Boundary {
+    /// It does, as the user's guide has it.
+    Inclusive,
+    /// It does not, as the theory guide has it.
+    Exclusive,
+}
+
+impl LawArguments {
+    /// The choices for the laws of a deck.
+    ///
+    /// # Errors
+    /// A user library that cannot be used.
+    pub(crate) fn choices(&self, model: &Model, dialect: Dialect, regime: Option<Regime>) -> Result<Choices, Failure> {
+        Ok(Choices {
+            regime,
+            clearance_tail: match self.clearance_tail {
+                ClearanceTail::Constant => Tail::Constant,
+                ClearanceTail::Zero => Tail::Zero,
+            },
+            characteristic_length: self.char_length,
+            cutoff_boundary: match self.cutoff_boundary {
+                Boundary::Inclusive => CutoffBoundary::Inclusive,
+                Boundary::Exclusive => CutoffBoundary::Exclusive,
+            },
+            dialect,
+            user_conductance: self.user_conductance(model)?,
+            ..Choices::default()
+        })
+    }
+
+    /// The routine of `--user-library`, loaded only if an interaction of the deck asks for one.
+    fn user_conductance(&self, model: &Model) -> Result<Option<UserLaw>, Failure> {
+        let Some(path) = &self.user_library else { return Ok(None) };
+        let electrical = model.interactions.values().filter_map(|of| of.gap_electrical_conductance.as_ref());
+        if electrical.filter(|option| option.user.is_some()).count() == 0 {
+            let path = path.display();
+            say(&format!("warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `{path}` is not loaded"));
+            return Ok(None);
+        }
+        user_library::load(path).map(Some)
+    }
+}
+
+fn positive_length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length) if length > 0.0 && length.is_finite() => Ok(length),
+        Ok(_) => Err("a length must be above zero and finite".to_owned()),
+        Err(_) => Err("not a number".to_owned()),
+    }
+}

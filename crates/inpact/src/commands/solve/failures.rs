@@ -1,0 +1,123 @@
+//! What to say of a scene that was not solved.
+
+use inpact_evaluation::nodes::{DataDiagnostic, Findings, Place, USER_FAULT};
+use inpact_network::linear::{Method, NoSolution, Quality, Shortcoming};
+use inpact_network::scene::{
+    CONTRADICTORY_VALUES, FLOATING_BODY, Field, MISSING_QUANTITY, NOT_CONVERGED, Scene, UNUSABLE_NUMBER,
+};
+use inpact_network::{RowFault, RowFaultReason, SolveFailure};
+
+/// The most nodes that are named.
+const MOST_NAMED: usize = 8;
+
+/// The findings of a failure.
+pub(super) fn findings(failure: &SolveFailure, scene: &Scene, name: &str) -> Vec<DataDiagnostic> {
+    let mut findings = Findings::new(name);
+    let place = |node: u32| Place { line: scene.node_lines.get(&node).copied(), ..Place::default() };
+    let node = |number: u32| format!("`{}`", scene.nodes[number as usize]);
+    match failure {
+        SolveFailure::Floating { field, bodies } => {
+            for body in bodies {
+                let at = body.first().map_or_else(Place::default, |&first| place(first));
+                let message = format!("nothing holds the {field} of {}", names(scene, body));
+                findings.report(&FLOATING_BODY, at, message, floating_help(*field));
+            }
+        }
+        SolveFailure::Contradiction { field, nodes, values } => {
+            let message = format!(
+                "the {field} of {} is fixed at {:?} and that of {} at {:?}, and infinite conductances make them one",
+                node(nodes[0]),
+                values[0],
+                node(nodes[1]),
+                values[1]
+            );
+            findings.report(&CONTRADICTORY_VALUES, place(nodes[1]), message, "fix one of the two, or both alike");
+        }
+        SolveFailure::Row(RowFault { row, why }) => {
+            let of = &scene.interfaces[*row as usize];
+            let label = format!("the interface of {} and {}", node(of.slave), node(of.master));
+            let line = of.place.1.is_none().then_some(of.place.0);
+            let at = Place { line, ..Place::default() };
+            match why {
+                RowFaultReason::User(fault) => {
+                    findings.report(&USER_FAULT, at, format!("user subroutine GAPELECTR {fault} at {label}"), "");
+                }
+                RowFaultReason::NeedsLength => {
+                    let message = format!(
+                        "{label} is open, and a cutoff of its pore fluid is left to the characteristic element length"
+                    );
+                    findings.report(&MISSING_QUANTITY, at, message, "give `char_length` or `--char-length`");
+                }
+                RowFaultReason::NoConductance(value) => {
+                    let message = format!("a conductance of {label} is {value:?}");
+                    findings.report(
+                        &UNUSABLE_NUMBER,
+                        at,
+                        message,
+                        "look at its table and at the row's clearance, pressure and field variables",
+                    );
+                }
+            }
+        }
+        SolveFailure::NotSolved { field, tried } => {
+            let tried: Vec<String> =
+                tried.iter().map(|(method, why)| format!("{}: {}", method_name(*method), shortcoming(why))).collect();
+            let message = format!("the equations of {field} were not solved ({})", tried.join("; "));
+            findings.report(&NOT_CONVERGED, Place::default(), message, "");
+        }
+        SolveFailure::NotConverged { time, steps, worst } => {
+            let when = if scene.is_transient() { format!(" at time {time:?}") } else { String::new() };
+            for (field, share, number) in worst {
+                let (at, named) = number.map_or_else(
+                    || (Place::default(), String::new()),
+                    |number| (place(number), format!(", worst at {}", node(number))),
+                );
+                let message = format!(
+                    "the equations of {field} are not met{when} after {steps} steps: {share:.1e} of the flow is missing{named}"
+                );
+                let help = "the scene may have no solution (heat that grows faster than it is led away), or several: \
+                            try a transient, or other initial values";
+                findings.report(&NOT_CONVERGED, at, message, help);
+            }
+        }
+    }
+    findings.into_list()
+}
+
+fn floating_help(field: Field) -> String {
+    format!(
+        "give one of these nodes a fixed {field}, or a conductance to a body that has one; an open gap of zero conductance is no path"
+    )
+}
+
+/// Some nodes by name, and how many there are.
+fn names(scene: &Scene, nodes: &[u32]) -> String {
+    let named: Vec<String> =
+        nodes.iter().take(MOST_NAMED).map(|&node| format!("`{}`", scene.nodes[node as usize])).collect();
+    let others = nodes.len() - named.len();
+    if others == 0 { named.join(", ") } else { format!("{} and {others} more nodes", named.join(", ")) }
+}
+
+/// What a user calls a method.
+pub(crate) fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::Direct => "direct",
+        Method::Mixed => "mixed",
+        Method::Iterative => "iterative",
+        Method::Elimination => "elimination",
+    }
+}
+
+/// Why a method was given up.
+pub(crate) fn shortcoming(why: &Shortcoming) -> String {
+    match why {
+        Shortcoming::NoSolution(NoSolution::Pivot) => "a pivot was not above zero".to_owned(),
+        Shortcoming::NoSolution(NoSolution::Memory) => "there is not enough memory".to_owned(),
+        Shortcoming::NoSolution(NoSolution::Iterations) => "the iterations did not converge".to_owned(),
+        Shortcoming::Stalled(Quality { residual, error, .. }) => {
+            format!("it came no nearer than a residual of {residual:.1e} and an error of {error:.1e}")
+        }
+        Shortcoming::Overflow => "a value or a flow is beyond the range of f64".to_owned(),
+        Shortcoming::TooLarge => "it would need too much memory".to_owned(),
+    }
+}

@@ -1,0 +1,194 @@
+//! The results of solving, written as they come.
+
+use super::super::scene::FindingFormat;
+use super::summary::balances;
+use super::{SolvableScene, SolveArguments, interfaces};
+use crate::failure::Failure;
+use crate::files::{ResultFile, STANDARD_STREAM};
+use clap::ValueEnum;
+use inpact_evaluation::nodes::Column;
+use inpact_network::scene::Field;
+use inpact_network::tables::{
+    Times, interface_columns, interface_header, interface_rows, link_header, link_rows, state_header, state_rows,
+};
+use inpact_network::{Problem, State};
+use serde_json::{Map, Value, json};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// How a state is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum StateFormat {
+    /// Comma-separated values.
+    Csv,
+    /// One JSON document.
+    Json,
+}
+
+impl StateFormat {
+    pub(super) fn of_findings(self) -> FindingFormat {
+        match self {
+            Self::Csv => FindingFormat::Concise,
+            Self::Json => FindingFormat::Json,
+        }
+    }
+}
+
+/// Where results go.
+pub(super) struct Outputs<'a> {
+    prepared: &'a SolvableScene,
+    problem: &'a Problem<'a>,
+    format: StateFormat,
+    times: Times,
+    states: ResultFile,
+    /// The flows of links that go behind the states.
+    links_behind: Option<Vec<u8>>,
+    /// The flows of links that have a file of their own.
+    link_file: Option<ResultFile>,
+    interfaces: Option<Interfaces>,
+    /// The states as JSON.
+    documents: Vec<Value>,
+}
+
+/// The rows of the interfaces as a node table, and where their results go.
+struct Interfaces {
+    target: PathBuf,
+    columns: Vec<Column>,
+    table: Vec<u8>,
+}
+
+impl<'a> Outputs<'a> {
+    pub(super) fn create(
+        arguments: &SolveArguments,
+        prepared: &'a SolvableScene,
+        problem: &'a Problem<'a>,
+    ) -> Result<Self, Failure> {
+        let times = Times::of(problem);
+        let links = arguments.links.as_deref();
+        let is_behind = |links: &Path| links.as_os_str() == STANDARD_STREAM;
+        let mut outputs = Self {
+            prepared,
+            problem,
+            format: arguments.format,
+            times,
+            states: ResultFile::create(arguments.output.as_deref())?,
+            links_behind: links.filter(|links| is_behind(links)).map(|_| Vec::new()),
+            link_file: match links.filter(|links| !is_behind(links)) {
+                Some(target) => Some(ResultFile::create(Some(target))?),
+                None => None,
+            },
+            interfaces: arguments.interfaces.clone().map(|target| {
+                let columns = interface_columns(problem);
+                let table = interface_header(&columns, times).into_bytes();
+                Interfaces { target, columns, table }
+            }),
+            documents: Vec::new(),
+        };
+        if outputs.format == StateFormat::Csv {
+            write(&mut outputs.states, state_header(times).as_bytes())?;
+        }
+        if let Some(links) = &mut outputs.link_file {
+            write(links, link_header(times).as_bytes())?;
+        }
+        Ok(outputs)
+    }
+
+    /// Takes the next state.
+    pub(super) fn take(&mut self, state: &State) -> Result<(), Failure> {
+        let (problem, times) = (self.problem, self.times);
+        let mut text = Vec::new();
+        match self.format {
+            StateFormat::Csv => {
+                state_rows(problem, state, times, &mut text);
+                write(&mut self.states, &text)?;
+            }
+            StateFormat::Json => self.documents.push(document(problem, state, self.links_behind.is_some())),
+        }
+        if let (Some(links), StateFormat::Csv) = (&mut self.links_behind, self.format) {
+            link_rows(problem, state, times, links);
+        }
+        if let Some(file) = &mut self.link_file {
+            text.clear();
+            link_rows(problem, state, times, &mut text);
+            write(file, &text)?;
+        }
+        if let Some(Interfaces { columns, table, .. }) = &mut self.interfaces {
+            interface_rows(problem, &self.prepared.model, state, (columns, times), table);
+        }
+        Ok(())
+    }
+
+    /// Writes what is left, and gives the files their names.
+    pub(super) fn finish(mut self, last: &State, findings: FindingFormat) -> Result<(), Failure> {
+        match self.format {
+            StateFormat::Csv => {
+                if let Some(links) = &self.links_behind {
+                    write(&mut self.states, format!("\n{}", link_header(self.times)).as_bytes())?;
+                    write(&mut self.states, links)?;
+                }
+            }
+            StateFormat::Json => {
+                let whole = self.whole(last);
+                write(&mut self.states, format!("{whole:#}\n").as_bytes())?;
+            }
+        }
+        if let Some(Interfaces { target, table, .. }) = self.interfaces.take() {
+            interfaces::write(self.prepared, table, &target, findings)?;
+        }
+        if let Some(file) = self.link_file {
+            file.finish()?;
+        }
+        self.states.finish()
+    }
+
+    /// The JSON document: the last state on top, all of them below where there are several.
+    fn whole(&mut self, last: &State) -> Value {
+        let fields: Vec<&str> = self.problem.solved_fields().iter().map(|field| field.key()).collect();
+        let mut whole = Map::new();
+        whole.insert("schema".to_owned(), json!("inpact/state/1"));
+        whole.insert("scene".to_owned(), json!(self.prepared.name));
+        whole.insert("deck".to_owned(), json!(self.prepared.deck_name));
+        let procedure = if self.times == Times::Many { "transient" } else { "steady" };
+        whole.insert("procedure".to_owned(), json!(procedure));
+        whole.insert("fields".to_owned(), json!(fields));
+        whole.insert("left_out".to_owned(), json!(self.problem.left_out));
+        if let Some(Value::Object(state)) = self.documents.last().cloned() {
+            whole.extend(state);
+        }
+        whole.insert("balance".to_owned(), balances(self.problem, last));
+        if self.times == Times::Many {
+            whole.insert("states".to_owned(), Value::Array(std::mem::take(&mut self.documents)));
+        }
+        Value::Object(whole)
+    }
+}
+
+/// One state.
+fn document(problem: &Problem<'_>, state: &State, with_links: bool) -> Value {
+    let scene = problem.scene();
+    let nodes = (0..).zip(&scene.nodes).map(|(number, name)| {
+        let mut node = Map::from_iter([("node".to_owned(), json!(name))]);
+        for field in Field::ALL {
+            node.insert(field.key().to_owned(), json!(state.value(problem, field, number)));
+        }
+        Value::Object(node)
+    });
+    let mut document = Map::from_iter([("time".to_owned(), json!(state.time))]);
+    document.insert("nodes".to_owned(), nodes.collect());
+    if with_links {
+        let links = (0..).zip(&scene.links).map(|(number, link)| {
+            let names = link.nodes.map(|node| &scene.nodes[node as usize]);
+            let mut of_link = Map::from_iter([("nodes".to_owned(), json!(names))]);
+            for field in Field::ALL {
+                of_link.insert(field.flow_name().to_owned(), json!(state.link_flow(problem, field, number)));
+            }
+            Value::Object(of_link)
+        });
+        document.insert("links".to_owned(), links.collect());
+    }
+    Value::Object(document)
+}
+
+fn write(file: &mut ResultFile, bytes: &[u8]) -> Result<(), Failure> {
+    file.write_all(bytes).map_err(|error| file.failure(error))
+}

@@ -1,0 +1,192 @@
+//! What there is to say of a solution: what was solved, how, and how well it balances.
+
+use super::failures::{method_name, shortcoming};
+use inpact_network::linear::{LinearReport, Method, Ordering, Quality};
+use inpact_network::scene::Field;
+use inpact_network::transient::TransientReport;
+use inpact_network::{FieldBalance, Problem, StageReport, State};
+use serde_json::{Map, Value, json};
+use std::time::Duration;
+
+/// A solution, and what it took.
+pub(super) struct Summary<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    /// The last state.
+    pub(super) state: &'a State,
+    pub(super) report: &'a TransientReport,
+    pub(super) name: &'a str,
+    pub(super) time: Duration,
+}
+
+impl Summary<'_> {
+    /// Lines for a person.
+    pub(super) fn text(&self) -> Vec<String> {
+        let scene = self.problem.scene();
+        let (nodes, links, interfaces) = (scene.nodes.len(), scene.links.len(), scene.interfaces.len());
+        let mut lines = vec![format!(
+            "{}: {}, {}, {}, {:.3} s",
+            self.name,
+            count(nodes, "node"),
+            count(links, "link"),
+            count(interfaces, "interface"),
+            self.time.as_secs_f64()
+        )];
+        if scene.is_transient() {
+            let TransientReport { increments, taken_back, local_error } = self.report;
+            lines.push(format!(
+                "  {}, {taken_back} taken back, largest estimated local error {local_error:.1e} of the range",
+                count(*increments, "increment")
+            ));
+        }
+        for stage in &self.state.reports {
+            lines.extend(stage_lines(stage));
+        }
+        for field in self.problem.solved_fields() {
+            if let Some(balance) = self.state.balance(self.problem, field) {
+                lines.push(balance_line(field, &balance, scene.is_transient()));
+            }
+        }
+        lines.extend(self.problem.left_out.iter().map(|left_out| format!("  left out: {left_out}")));
+        lines
+    }
+
+    /// The same for another program.
+    pub(super) fn json(&self) -> Value {
+        let scene = self.problem.scene();
+        let stages = self.state.reports.iter().map(|stage| {
+            let fields = stage.fields.iter().zip(&stage.linear).map(|(field, linear)| linear_json(*field, linear));
+            json!({
+                "newton_steps": stage.iterations,
+                "inconsistency": stage.inconsistency,
+                "fields": fields.collect::<Vec<Value>>(),
+            })
+        });
+        json!({
+            "scene": self.name,
+            "nodes": scene.nodes.len(),
+            "links": scene.links.len(),
+            "interfaces": scene.interfaces.len(),
+            "increments": self.report.increments,
+            "increments_taken_back": self.report.taken_back,
+            "local_error": self.report.local_error,
+            "stages": stages.collect::<Vec<Value>>(),
+            "balance": balances(self.problem, self.state),
+            "left_out": self.problem.left_out,
+            "seconds": self.time.as_secs_f64(),
+        })
+    }
+}
+
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
+fn stage_lines(stage: &StageReport) -> Vec<String> {
+    let mut lines = Vec::new();
+    if stage.iterations > 0 || stage.inconsistency > 0.0 {
+        let fields: Vec<String> = stage.fields.iter().map(ToString::to_string).collect();
+        lines.push(format!(
+            "  {}: {} of Newton's, conductances right to {:.1e}",
+            fields.join(" and "),
+            count(stage.iterations, "step"),
+            stage.inconsistency
+        ));
+    }
+    for (field, linear) in stage.fields.iter().zip(&stage.linear) {
+        lines.push(format!("  {field}: {}", linear_text(linear)));
+        for (method, why) in &linear.given_up {
+            lines.push(format!("    {} was given up: {}", method_name(*method), shortcoming(why)));
+        }
+        if linear.shared > 0 {
+            lines.push(format!(
+                "    {} in rings, whose flows the equations do not tell apart: they share as equal ones would",
+                count(linear.shared, "infinite conductance")
+            ));
+        }
+    }
+    lines
+}
+
+fn linear_text(linear: &LinearReport) -> String {
+    let mut parts = vec![count(linear.unknowns, "unknown")];
+    if linear.relative > 0 {
+        parts.push(format!("{} of them jumps, in {}", linear.relative, count(linear.levels, "level")));
+    }
+    if linear.merged > 0 {
+        parts.push(format!("{} merged", count(linear.merged, "node")));
+    }
+    if linear.taken_out > 0 {
+        parts.push(format!("{} taken out", count(linear.taken_out, "node")));
+    }
+    let method = match (linear.method, linear.ordering) {
+        (_, _) if linear.unknowns == 0 => "nothing to factor".to_owned(),
+        (Method::Iterative, _) => format!("iterative, {}", count(linear.iterations, "iteration")),
+        (method, Some(Ordering::NestedDissection)) => format!("{}, nested dissection", method_name(method)),
+        (method, _) => method_name(method).to_owned(),
+    };
+    let Quality { solves, residual, error, condition } = linear.quality;
+    let quality = match (linear.unknowns, linear.method) {
+        (0, _) => String::new(),
+        (_, Method::Elimination) => format!(", residual {residual:.1e}"),
+        _ => format!(
+            ", {}, residual {residual:.1e}, estimated error {error:.1e}, condition {condition:.1e}",
+            count(solves, "solve")
+        ),
+    };
+    format!("{}; {method}{quality}", parts.join(", "))
+}
+
+fn linear_json(field: Field, linear: &LinearReport) -> Value {
+    json!({
+        "field": field.key(),
+        "unknowns": linear.unknowns,
+        "relative": linear.relative,
+        "levels": linear.levels,
+        "merged": linear.merged,
+        "taken_out": linear.taken_out,
+        "shared": linear.shared,
+        "solver": method_name(linear.method),
+        "ordering": linear.ordering.map(|ordering| match ordering {
+            Ordering::MinimumDegree => "minimum degree",
+            Ordering::NestedDissection => "nested dissection",
+        }),
+        "factor_entries": linear.factor_entries,
+        "iterations": linear.iterations,
+        "solves": linear.quality.solves,
+        "residual": linear.quality.residual,
+        "error": linear.quality.error,
+        "condition": linear.quality.condition,
+        "given_up": linear.given_up.iter().map(|(method, why)| {
+            json!({ "solver": method_name(*method), "reason": shortcoming(why) })
+        }).collect::<Vec<Value>>(),
+    })
+}
+
+fn balance_line(field: Field, balance: &FieldBalance, is_transient: bool) -> String {
+    let FieldBalance { supplied, generated, stored, missing, turnover } = *balance;
+    let stored = if is_transient { format!(", {stored:?} stored") } else { String::new() };
+    let share = if turnover > 0.0 { missing.abs() / turnover } else { 0.0 };
+    let flow = field.flow_name();
+    format!("  {flow}: {supplied:?} supplied, {generated:?} generated{stored}; {share:.1e} of the turnover is missing")
+}
+
+/// The balance of each solved field.
+pub(super) fn balances(problem: &Problem<'_>, state: &State) -> Value {
+    let mut balances = Map::new();
+    for field in problem.solved_fields() {
+        let Some(balance) = state.balance(problem, field) else { continue };
+        let supplies = state.supplies(problem, field);
+        let supplies =
+            supplies.iter().map(|(node, supply)| (problem.scene().nodes[*node as usize].clone(), json!(supply)));
+        let of_field = json!({
+            "supplied": balance.supplied,
+            "generated": balance.generated,
+            "stored": balance.stored,
+            "missing": balance.missing,
+            "turnover": balance.turnover,
+            "supplies": supplies.collect::<Map<String, Value>>(),
+        });
+        balances.insert(field.key().to_owned(), of_field);
+    }
+    Value::Object(balances)
+}
