@@ -35,7 +35,7 @@ const MOST_ELEMENTS: usize = 1 << 16;
 const LEAST_STEPS: usize = 1 << 16;
 
 /// What a number of 106 bits loses in a handful of operations, as a part of it.
-const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
+pub(crate) const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// What the smallest numbers lose, of which the second half has run out of exponents.
 const LEAST: f64 = f64::MIN_POSITIVE / (1_u64 << 46) as f64;
@@ -203,6 +203,12 @@ impl Edges {
 }
 
 impl Balance {
+    /// The flows; none where no more than rounding is.
+    pub(crate) fn into_flows(self) -> Vec<Wide> {
+        let cells = self.flows.into_iter().zip(self.roundings);
+        cells.map(|(flow, rounding)| if flow.to_f64().abs() <= rounding { Wide::ZERO } else { flow }).collect()
+    }
+
     /// What is missing in each equation; nothing where no more than rounding is.
     pub(crate) fn missing(&self) -> impl Iterator<Item = f64> {
         self.residuals.iter().zip(&self.rounding_of_residuals).map(|(residual, &rounding)| {

@@ -5,6 +5,7 @@
 //! and the report says how many there are.
 
 use super::core::{Core, Element, NONE};
+use super::edges::ROUNDING;
 use super::network::LinearNetwork;
 use super::sets::{Sets, index};
 use super::solve::{LAST_DIGIT, LinearFailure, LinearSolution, Method, Solver};
@@ -44,17 +45,23 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
     Ok(())
 }
 
-/// What flows into each node by everything but infinite conductances.
+/// What flows into each node by everything but infinite conductances; nothing where no more than rounding is.
 fn missing(network: &LinearNetwork, solution: &LinearSolution) -> Vec<Wide> {
     let mut missing: Vec<Wide> = network.sources.iter().map(|&source| Wide::new(source)).collect();
+    let mut magnitudes: Vec<f64> = network.sources.iter().map(|source| source.abs()).collect();
+    let mut add = |node: u32, flow: Wide| {
+        missing[node as usize] += flow;
+        magnitudes[node as usize] += flow.to_f64().abs();
+    };
     for (link, &flow) in network.links.iter().zip(&solution.flows) {
-        missing[link.nodes[0] as usize] -= flow;
-        missing[link.nodes[1] as usize] += flow;
+        add(link.nodes[0], -flow);
+        add(link.nodes[1], flow);
     }
     for (store, &flow) in network.stores.iter().zip(&solution.stored) {
-        missing[store.node as usize] -= flow;
+        add(store.node, -flow);
     }
-    missing
+    let cells = missing.into_iter().zip(magnitudes);
+    cells.map(|(flow, magnitude)| if flow.to_f64().abs() <= ROUNDING * magnitude { Wide::ZERO } else { flow }).collect()
 }
 
 /// Which nodes the others of their cluster are counted from: those that are held, or one.

@@ -212,7 +212,7 @@ impl Solver {
         }
         if edges.form.count() == 0 {
             let refined = refine(core, edges, &mut Nothing, self.tolerance)?;
-            return Ok((edges.values(core, &refined.jumps), refined.balance.flows));
+            return Ok((edges.values(core, &refined.jumps), refined.balance.into_flows()));
         }
         let pattern = self.pattern(core, edges);
         let matrix = pattern.matrix(core, edges);
@@ -247,7 +247,7 @@ impl Solver {
         };
         let Refined { jumps, balance, quality } = refined;
         report.quality = quality;
-        Ok((edges.values(core, &jumps), balance.flows))
+        Ok((edges.values(core, &jumps), balance.into_flows()))
     }
 
     /// The pattern of some edges with its analysis, those of the network before where they are the same.
