@@ -5,12 +5,14 @@
 //! generated from the spec alone, so a mistake of theirs cannot hide in it.
 //! The benchmarks measure the other crates.
 //! The generator holds no more in memory than the interfaces of a node table, whatever the size of the output.
+//! [`network`] makes networks of nodes, and measures how exact and how fast they are solved.
 //! [`extremes`] runs the other crates and writes the page of what they make of extreme numbers.
 
 pub mod costs;
 pub mod deck;
 pub mod extremes;
 pub mod interface;
+pub mod network;
 pub mod nodes;
 pub mod plate;
 pub mod random;

@@ -10,7 +10,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use inpact_bench::costs;
 use inpact_bench::deck::{self, Content, DeckRequest};
 use inpact_bench::extremes;
+use inpact_bench::network::grid::{Grid, write_matrix};
+use inpact_bench::network::{accuracy, run};
 use inpact_bench::nodes::{self, NodesRequest};
+use inpact_network::linear::Method;
 
 /// Generates decks and node tables for measurements.
 #[derive(Debug, Parser)]
@@ -65,6 +68,70 @@ enum Command {
     },
     /// Print the page of extremes: what the evaluation makes of numbers at the ends of f64 (docs/extremes.md).
     Extremes,
+    /// Print the page of networks: how exact their solvers are at all contrasts (docs/network.md).
+    Network,
+    /// Solve a grid of nodes with one interface, and print times, memory and quality as JSON.
+    Grid {
+        #[command(flatten)]
+        grid: GridArguments,
+        /// How it is solved.
+        #[arg(long, value_enum, default_value_t = SolverName::Direct)]
+        solver: SolverName,
+        /// The relative error of a flow that is acceptable [default: the last digit].
+        #[arg(long, value_parser = positive)]
+        tolerance: Option<f64>,
+        /// How often it is solved, from nothing; the fastest counts.
+        #[arg(long, default_value_t = 3, value_parser = at_least::<1>)]
+        rounds: usize,
+    },
+    /// Write the assembled matrix of a grid in Matrix Market form, for other solvers.
+    GridMatrix {
+        /// The file to write, or `-` for standard output.
+        out: PathBuf,
+        #[command(flatten)]
+        grid: GridArguments,
+    },
+}
+
+/// Which grid.
+#[derive(Debug, Clone, Copy, Args)]
+struct GridArguments {
+    /// Nodes along the first direction, in which the ends are held.
+    #[arg(long)]
+    nx: u32,
+    /// Nodes along the second.
+    #[arg(long)]
+    ny: u32,
+    /// Nodes along the third.
+    #[arg(long, default_value_t = 1)]
+    nz: u32,
+    /// By what the conductances of the interface are larger than those of the bodies.
+    #[arg(long, default_value_t = 1.0)]
+    contrast: f64,
+}
+
+impl GridArguments {
+    fn grid(self) -> Grid {
+        Grid { size: [self.nx, self.ny, self.nz], contrast: self.contrast }
+    }
+}
+
+/// The solvers by the names users give them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SolverName {
+    Direct,
+    Mixed,
+    Iterative,
+}
+
+impl SolverName {
+    fn method(self) -> Method {
+        match self {
+            Self::Direct => Method::Direct,
+            Self::Mixed => Method::Mixed,
+            Self::Iterative => Method::Iterative,
+        }
+    }
 }
 
 /// Options that both generators must be given alike for a deck and its node table.
@@ -126,6 +193,13 @@ fn run(command: Command) -> io::Result<()> {
             report(&out, size)
         }
         Command::Extremes => io::stdout().lock().write_all(extremes::page().as_bytes()),
+        Command::Network => io::stdout().lock().write_all(accuracy::page().as_bytes()),
+        Command::Grid { grid, solver, tolerance, rounds } => {
+            let line = run::run(grid.grid(), solver.method(), tolerance, rounds);
+            let line = line.map_err(|failure| io::Error::other(format!("not solved: {failure:?}")))?;
+            writeln!(io::stdout(), "{line}")
+        }
+        Command::GridMatrix { out, grid } => write_matrix(&grid.grid().network(), &mut open(&out)?),
     }
 }
 

@@ -27,4 +27,5 @@ pub use refinement::Quality;
 pub(crate) use relative::Form;
 pub(crate) use series::Series;
 pub(crate) use sets::index;
-pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Shortcoming, Solver};
+pub(crate) use solve::jump;
+pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Phases, Shortcoming, Solver};

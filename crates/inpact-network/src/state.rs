@@ -1,6 +1,6 @@
 //! The state of a scene at one time: values, flows, and what they were found with.
 
-use crate::linear::{LinearReport, LinearSolution};
+use crate::linear::{LinearReport, LinearSolution, jump};
 use crate::problem::Problem;
 use crate::scene::{Field, Scene, SceneInterface};
 use inpact_evaluation::numbers::Wide;
@@ -81,19 +81,14 @@ impl State {
     pub fn row_jump(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;
         let state = self.field(field)?;
-        if let Ok(place) = nodes.rows.binary_search(&row) {
-            let conductance = state.rows[place];
-            let flow = state.solution.flows[nodes.links.len() + place];
-            if conductance == f64::INFINITY {
-                return Some(0.0);
-            }
-            if conductance > 0.0 {
-                return Some((flow / Wide::new(conductance)).to_f64());
-            }
-        }
         let SceneInterface { slave, master, .. } = problem.scene.interfaces[row as usize];
         let [slave, master] = [slave, master].map(|node| self.wide_value(problem, field, node));
-        Some((slave? - master?).to_f64())
+        let values = [slave?, master?];
+        let (flow, conductance) = match nodes.rows.binary_search(&row) {
+            Ok(place) => (state.solution.flows[nodes.links.len() + place], state.rows[place]),
+            Err(_) => (Wide::ZERO, 0.0),
+        };
+        Some(jump(flow, conductance, || values).to_f64())
     }
 
     /// Whether both sides of a row have one value, by an infinite conductance.

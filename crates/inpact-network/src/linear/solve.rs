@@ -8,13 +8,14 @@ use super::factor::{Factor, NoSolution, Solves};
 use super::infinite;
 use super::iterative::ConjugateGradients;
 use super::matrix::Pattern;
-use super::network::{LinearNetwork, Unsolvable};
+use super::network::{LinearNetwork, Link, Unsolvable};
 use super::ordering::{Analysis, Ordering};
 use super::refinement::{GaveUp, Quality, Refined, refine};
 use super::relative::Form;
 use super::series::Series;
 use inpact_evaluation::numbers::Wide;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// How a network is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,6 +71,26 @@ pub struct LinearSolution {
     pub report: LinearReport,
 }
 
+impl LinearSolution {
+    /// The jump across a link of the network, its first node less its second: of the flow where that tells, so that it has all its digits.
+    pub fn jump(&self, network: &LinearNetwork, link: usize) -> Wide {
+        let Link { nodes, conductance } = network.links[link];
+        jump(self.flows[link], conductance, || nodes.map(|node| self.values[node as usize]))
+    }
+}
+
+/// The jump that a flow through a conductance makes, otherwise that of the values of both ends.
+pub(crate) fn jump(flow: Wide, conductance: f64, values: impl FnOnce() -> [Wide; 2]) -> Wide {
+    if conductance == f64::INFINITY {
+        Wide::ZERO
+    } else if conductance > 0.0 {
+        flow / Wide::new(conductance)
+    } else {
+        let [first, second] = values();
+        first - second
+    }
+}
+
 /// How a solution was found and how good it is.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct LinearReport {
@@ -93,10 +114,25 @@ pub struct LinearReport {
     pub factor_entries: usize,
     /// Iterations of conjugate gradients.
     pub iterations: usize,
-    /// How good it is; `None` for an elimination, which needs no refinement.
+    /// How good it is; an elimination has no estimate of its error.
     pub quality: Quality,
     /// The methods that were tried before, and why they were given up.
     pub given_up: Vec<(Method, Shortcoming)>,
+    /// How long its parts took.
+    pub phases: Phases,
+}
+
+/// How long the parts of a solution took, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Phases {
+    /// Leaving out what can be left out, choosing unknowns, assembling.
+    pub set_up: f64,
+    /// Ordering and analysing; nothing where that was kept.
+    pub order: f64,
+    /// Factoring; nothing where that was kept.
+    pub factor: f64,
+    /// Solving and refining.
+    pub solve: f64,
 }
 
 /// Why a method was given up.
@@ -139,12 +175,19 @@ impl Solver {
     /// # Errors
     /// See [`LinearFailure`].
     pub fn solve(&mut self, network: &LinearNetwork) -> Result<LinearSolution, LinearFailure> {
+        let start = Instant::now();
         refuse_floating(network).map_err(LinearFailure::Unsolvable)?;
         let (core, origins) = Core::merged(network, &|_| false).map_err(LinearFailure::Unsolvable)?;
         let mut core = core;
         let CoreSolution { values, flows, mut report } = self.solve_core(&mut core)?;
         report.merged = origins.merged;
+        let Phases { order, factor, solve, .. } = report.phases;
+        report.phases.set_up = start.elapsed().as_secs_f64() - order - factor - solve;
+        let method = report.method;
         let mut solution = put_together(&core, &origins, &values, &flows, report);
+        if !solution.values.iter().chain(&solution.flows).all(|number| number.to_f64().is_finite()) {
+            return Err(LinearFailure::NotSolved(vec![(method, Shortcoming::Overflow)]));
+        }
         if origins.merged > 0 {
             infinite::find_flows(network, &mut solution)?;
         }
@@ -206,9 +249,13 @@ impl Solver {
     ) -> Result<(Vec<Wide>, Vec<Wide>), Shortcoming> {
         if method == Method::Elimination {
             let found = eliminate(core, &series.is_there, &series.is_free).ok_or(Shortcoming::TooLarge)?;
-            report.quality = Quality::default();
-            let is_finite = found.flows.iter().all(|flow| flow.to_f64().is_finite());
-            return if is_finite { Ok((found.values, found.flows)) } else { Err(Shortcoming::Overflow) };
+            let residual = worst_share(core, series, &found.flows);
+            report.quality = Quality { residual, ..Quality::default() };
+            return match residual <= self.tolerance.max(f64::EPSILON) {
+                true => Ok((found.values, found.flows)),
+                false if residual.is_finite() => Err(Shortcoming::Stalled(report.quality)),
+                false => Err(Shortcoming::Overflow),
+            };
         }
         if edges.form.count() == 0 {
             let refined = refine(core, edges, &mut Nothing, self.tolerance)?;
@@ -219,8 +266,10 @@ impl Solver {
         let tolerance = self.tolerance;
         let refined = if method == Method::Iterative {
             let mut solver = ConjugateGradients::new(&matrix, tolerance);
+            let solving = Instant::now();
             let refined = refine(core, edges, &mut solver, tolerance);
             report.iterations = solver.iterations;
+            report.phases.solve += solving.elapsed().as_secs_f64();
             refined?
         } else {
             let Some(Kept { pattern, analysis, factor }) = &mut self.kept else {
@@ -228,7 +277,12 @@ impl Solver {
             };
             let analysis = match analysis {
                 Some(analysis) => analysis,
-                None => analysis.insert(Arc::new(Analysis::of(pattern.symbolic()).ok_or(NoSolution::Memory)?)),
+                None => {
+                    let ordering = Instant::now();
+                    let made = Analysis::of(pattern.symbolic()).ok_or(NoSolution::Memory)?;
+                    report.phases.order += ordering.elapsed().as_secs_f64();
+                    analysis.insert(Arc::new(made))
+                }
             };
             report.ordering = Some(analysis.ordering);
             report.factor_entries = analysis.entries();
@@ -236,12 +290,16 @@ impl Solver {
                 *factor = KeptFactor::default();
             }
             let KeptFactor { values, double, single } = factor;
-            let refined = match method {
-                Method::Mixed => {
-                    refine(core, edges, get_or_try(single, || Factor::new(analysis, &matrix))?, tolerance)?
-                }
-                _ => refine(core, edges, get_or_try(double, || Factor::new(analysis, &matrix))?, tolerance)?,
+            let factoring = Instant::now();
+            let solver: &mut dyn Solves = match method {
+                Method::Mixed => get_or_try(single, || Factor::new(analysis, &matrix))?,
+                _ => get_or_try(double, || Factor::new(analysis, &matrix))?,
             };
+            report.phases.factor += factoring.elapsed().as_secs_f64();
+            let solving = Instant::now();
+            let refined = refine(core, edges, solver, tolerance);
+            report.phases.solve += solving.elapsed().as_secs_f64();
+            let refined = refined?;
             *values = matrix.values;
             refined
         };
@@ -264,6 +322,26 @@ impl Solver {
         self.kept = Some(Kept { pattern: Arc::clone(&pattern), analysis: None, factor: KeptFactor::default() });
         pattern
     }
+}
+
+/// The largest share of its flows that is missing in the balance of a node; not finite where a flow is not.
+fn worst_share(core: &Core, series: &Series, flows: &[Wide]) -> f64 {
+    let mut missing = core.sources.clone();
+    let mut magnitudes: Vec<f64> = core.sources.iter().map(|source| source.to_f64().abs()).collect();
+    for (element, flow) in
+        core.elements.iter().zip(flows).zip(&series.is_there).filter_map(|(of, there)| there.then_some(of))
+    {
+        for (end, leaving) in element.ends.into_iter().zip([*flow, -*flow]) {
+            if core.is_free(end) {
+                missing[end as usize] -= leaving;
+                magnitudes[end as usize] += leaving.to_f64().abs();
+            }
+        }
+    }
+    let cells = missing.iter().zip(&magnitudes).zip(&series.is_free).filter_map(|(of, is_free)| is_free.then_some(of));
+    let shares =
+        cells.map(|(missing, magnitude)| if missing.is_zero() { 0.0 } else { missing.to_f64().abs() / magnitude });
+    shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
 }
 
 /// What is in `place`, made first where there is nothing.

@@ -1,0 +1,171 @@
+//! The page of what the solvers make of all contrasts: docs/network.md.
+
+use super::exact::{self, Exact, relative_error};
+use super::grid::Grid;
+use super::random_networks::{Kind, Sources, network};
+use inpact_network::linear::{LAST_DIGIT, LinearNetwork, LinearSolution, Method, Solver};
+use std::fmt::Write as _;
+
+/// The largest relative errors over some networks.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Worst {
+    /// Of a node's value.
+    pub value: f64,
+    /// Of the jump across a link.
+    pub jump: f64,
+    /// Of the flow through a link.
+    pub flow: f64,
+    /// How many networks there were.
+    pub networks: u32,
+    /// How many of them are beyond the range of f64 and refused as such.
+    pub refused: u32,
+    /// The most corrections that one of them took.
+    pub solves: usize,
+}
+
+impl Worst {
+    /// The largest of the three.
+    pub fn largest(self) -> f64 {
+        self.value.max(self.jump).max(self.flow)
+    }
+}
+
+/// Solves random networks of one kind, seed after seed, and compares them with their exact solutions.
+pub fn worst(kind: Kind, seeds: std::ops::Range<u64>, methods: &[Method]) -> Vec<Worst> {
+    let mut worst = vec![Worst::default(); methods.len()];
+    for seed in seeds {
+        let network = network(kind, seed);
+        let exact = exact::solve(&network);
+        for (worst, &method) in worst.iter_mut().zip(methods) {
+            worst.networks += 1;
+            match Solver::new(method, LAST_DIGIT).solve(&network) {
+                Ok(solution) => worst.take(&network, &solution, &exact),
+                Err(_) => worst.refused += 1,
+            }
+        }
+    }
+    worst
+}
+
+impl Worst {
+    fn take(&mut self, network: &LinearNetwork, solution: &LinearSolution, exact: &Exact) {
+        for (value, exact) in solution.values.iter().zip(&exact.values) {
+            self.value = self.value.max(relative_error(value.to_f64(), exact));
+        }
+        for (link, exact) in exact.jumps.iter().enumerate() {
+            self.jump = self.jump.max(relative_error(solution.jump(network, link).to_f64(), exact));
+        }
+        for (flow, exact) in solution.flows.iter().zip(&exact.flows) {
+            if let Some(exact) = exact {
+                self.flow = self.flow.max(relative_error(flow.to_f64(), exact));
+            }
+        }
+        self.solves = self.solves.max(solution.report.quality.solves);
+    }
+}
+
+/// The methods of the tables.
+const METHODS: [(Method, &str); 3] =
+    [(Method::Direct, "direct"), (Method::Mixed, "mixed"), (Method::Iterative, "iterative")];
+
+/// The page.
+pub fn page() -> String {
+    let mut page = String::from(INTRODUCTION);
+    page += "\n## Random networks against exact rationals\n\n";
+    page += RANDOM;
+    page += "\n| nodes | decades | sources | networks |";
+    for (_, name) in METHODS {
+        let _ = write!(page, " {name}: potential | jump | flow | corrections |");
+    }
+    page += "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (nodes, count) in [(5, 400), (12, 150), (25, 30), (50, 4)] {
+        for decades in [0.0, 3.0, 10.0, 30.0, 100.0, 300.0] {
+            for sources in [Sources::None, Sources::Some] {
+                let methods = METHODS.map(|(method, _)| method);
+                let found = worst(Kind { nodes, decades, sources }, 0..count, &methods);
+                let sources = if sources == Sources::Some { "yes" } else { "no" };
+                let _ = write!(page, "| {nodes} | ±{decades} | {sources} | {count} |");
+                for worst in found {
+                    let Worst { value, jump, flow, solves, refused, .. } = worst;
+                    let refused = if refused > 0 { format!(", {refused} refused") } else { String::new() };
+                    let _ = write!(page, " {} | {} | {} | {solves}{refused} |", short(value), short(jump), short(flow));
+                }
+                page += "\n";
+            }
+        }
+    }
+    page += "\n## One interface of any conductance\n\n";
+    page += GRIDS;
+    page += "\n| grid | interface | largest difference of potentials | of flows | corrections: direct | mixed | iterative | conjugate gradients |\n";
+    page += "|---|---|---|---|---|---|---|---|\n";
+    for (size, name) in [([100, 100, 1], "100 × 100"), ([22, 22, 22], "22 × 22 × 22")] {
+        for contrast in CONTRASTS {
+            page += &grid_line(Grid { size, contrast }, name);
+        }
+    }
+    page
+}
+
+const CONTRASTS: [f64; 12] = [0.0, 1e-300, 1e-100, 1e-20, 1e-6, 1.0, 1e4, 1e8, 1e15, 1e100, 1e300, f64::INFINITY];
+
+fn grid_line(grid: Grid, name: &str) -> String {
+    let network = grid.network();
+    let solve = |method| Solver::new(method, LAST_DIGIT).solve(&network);
+    let contrast = match grid.contrast {
+        0.0 => "0".to_owned(),
+        f64::INFINITY => "∞".to_owned(),
+        contrast => format!("{contrast:e}"),
+    };
+    let (Ok(direct), Ok(mixed), Ok(iterative), Ok(other)) =
+        (solve(Method::Direct), solve(Method::Mixed), solve(Method::Iterative), solve(Method::Elimination))
+    else {
+        return format!("| {name} | {contrast} | not solved | | | | | |\n");
+    };
+    let solves = |solution: &LinearSolution| {
+        let given_up = if solution.report.given_up.is_empty() { "" } else { " (after falling back)" };
+        format!("{}{given_up}", solution.report.quality.solves)
+    };
+    let (values, flows) = difference(&direct, &other);
+    format!(
+        "| {name} | {contrast} | {} | {} | {} | {} | {} | {} |\n",
+        short(values),
+        short(flows),
+        solves(&direct),
+        solves(&mixed),
+        solves(&iterative),
+        iterative.report.iterations
+    )
+}
+
+/// The largest relative differences of values and flows.
+fn difference(a: &LinearSolution, b: &LinearSolution) -> (f64, f64) {
+    let relative = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()) };
+    let largest = |pairs: &mut dyn Iterator<Item = (f64, f64)>| pairs.map(relative).fold(0.0, f64::max);
+    let to_f64 = |number: &inpact_evaluation::numbers::Wide| number.to_f64();
+    let values = largest(&mut a.values.iter().map(to_f64).zip(b.values.iter().map(to_f64)));
+    let flows = largest(&mut a.flows.iter().map(to_f64).zip(b.flows.iter().map(to_f64)));
+    (values, flows)
+}
+
+/// An error in two digits.
+fn short(error: f64) -> String {
+    if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") }
+}
+
+const INTRODUCTION: &str = "# How exact the network solvers are
+
+This page is written by `cargo run --release -p inpact-bench -- network` from the library that `inpact solve` is made of.
+Errors are relative; half a unit in the last place of f64 is 1.1e-16.
+How the solvers do it stands in the heads of `crates/inpact-network/src/linear/relative.rs` and `refinement.rs`.
+";
+
+const RANDOM: &str = "Each network is a tree with as many links more; every conductance is drawn by itself from the whole range of ± so many decades, one link in twelve is infinite, one in twelve conducts nothing.
+Two nodes are held, at 100 and 50; with sources a third of the nodes has one, as large as one of its conductances leads away at a difference of up to 100.
+Each potential, each jump across a link and each flow is compared with the exact rational solution; the worst of all networks of a line is given.
+Numbers below 1e-289, where f64 begins to run out of digits, may be off by as much. A network is refused where a potential or a flow is beyond 1.8e308.
+";
+
+const GRIDS: &str = "A grid of conductances between 0.5 and 2 with one interface plane, whose conductances are larger by the factor given, and ends held at 100 and 50.
+The direct solver is compared, node by node and link by link, with elimination without subtraction in 106 bits, which shares nothing with it but the taking out of nodes in series.
+Corrections are the solves of the refinement until the last digit is reached; all methods end with the same digits.
+";

@@ -1,0 +1,83 @@
+//! Grids of nodes with one interface, as large as wanted.
+
+use crate::random::Random;
+use inpact_network::linear::{LinearNetwork, Link};
+use std::io::{self, Write};
+
+/// A grid of unit conductances, jittered from 0.5 to 2, with an interface plane halfway along its first direction and held values at both ends.
+#[derive(Debug, Clone, Copy)]
+pub struct Grid {
+    /// Nodes along each direction; one in the third is a grid in the plane.
+    pub size: [u32; 3],
+    /// By what the conductances of the interface are larger; zero and infinite are meant as such.
+    pub contrast: f64,
+}
+
+impl Grid {
+    /// How many nodes have no held value.
+    pub fn free(self) -> u32 {
+        self.size.iter().product()
+    }
+
+    /// The network of the grid; the two held nodes, at 100 and 50, are the last.
+    pub fn network(self) -> LinearNetwork {
+        let [nx, ny, nz] = self.size;
+        let free = self.free();
+        let mut network = LinearNetwork::of_nodes(free as usize + 2);
+        network.held[free as usize] = Some(100.0);
+        network.held[free as usize + 1] = Some(50.0);
+        network.links.reserve(3 * free as usize);
+        let mut random = Random::new(1);
+        let mut join = |a: u32, b: u32, factor: f64| {
+            network.links.push(Link { nodes: [a, b], conductance: random.between(0.5, 2.0) * factor });
+        };
+        let number = |x: u32, y: u32, z: u32| x + nx * (y + ny * z);
+        for z in 0..nz {
+            for y in 0..ny {
+                for x in 0..nx {
+                    let here = number(x, y, z);
+                    if x + 1 < nx {
+                        join(here, number(x + 1, y, z), if x + 1 == nx / 2 { self.contrast } else { 1.0 });
+                    }
+                    if y + 1 < ny {
+                        join(here, number(x, y + 1, z), 1.0);
+                    }
+                    if z + 1 < nz {
+                        join(here, number(x, y, z + 1), 1.0);
+                    }
+                }
+                join(number(0, y, z), free, 1.0);
+                join(number(nx - 1, y, z), free + 1, 1.0);
+            }
+        }
+        network
+    }
+}
+
+/// Writes the assembled matrix of a network's free nodes, plain, its lower triangle in Matrix Market form: what other solvers are given.
+///
+/// # Errors
+/// Those of writing.
+pub fn write_matrix(network: &LinearNetwork, out: &mut dyn Write) -> io::Result<()> {
+    let free = network.held.iter().take_while(|held| held.is_none()).count();
+    let mut diagonal = vec![0.0; free];
+    let mut below = Vec::new();
+    for Link { nodes, conductance } in &network.links {
+        let ends = nodes.map(|node| node as usize);
+        for end in ends.into_iter().filter(|end| *end < free) {
+            diagonal[end] += conductance;
+        }
+        if ends.iter().all(|end| *end < free) {
+            below.push((ends[0].max(ends[1]), ends[0].min(ends[1]), -conductance));
+        }
+    }
+    writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
+    writeln!(out, "{free} {free} {}", free + below.len())?;
+    for (node, value) in diagonal.iter().enumerate() {
+        writeln!(out, "{0} {0} {value:?}", node + 1)?;
+    }
+    for (row, column, value) in below {
+        writeln!(out, "{} {} {value:?}", row + 1, column + 1)?;
+    }
+    Ok(())
+}
