@@ -1,6 +1,6 @@
 //! The state of a scene at one time: values, flows, and what they were found with.
 
-use crate::linear::{LinearReport, LinearSolution, jump};
+use crate::linear::{LinearReport, LinearSolution};
 use crate::problem::Problem;
 use crate::scene::{Field, Scene, SceneInterface};
 use inpact_evaluation::numbers::Wide;
@@ -84,11 +84,11 @@ impl State {
         let SceneInterface { slave, master, .. } = problem.scene.interfaces[row as usize];
         let [slave, master] = [slave, master].map(|node| self.wide_value(problem, field, node));
         let values = [slave?, master?];
-        let (flow, conductance) = match nodes.rows.binary_search(&row) {
-            Ok(place) => (state.solution.flows[nodes.links.len() + place], state.rows[place]),
-            Err(_) => (Wide::ZERO, 0.0),
+        let jump = match nodes.rows.binary_search(&row) {
+            Ok(place) => state.solution.jump_at(nodes.links.len() + place, state.rows[place]),
+            Err(_) => values[0] - values[1],
         };
-        Some(jump(flow, conductance, || values).to_f64())
+        Some(jump.to_f64())
     }
 
     /// Whether both sides of a row have one value, by an infinite conductance.

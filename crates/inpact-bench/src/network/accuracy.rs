@@ -78,7 +78,7 @@ pub fn page() -> String {
         let _ = write!(page, " {name}: potential | jump | flow | corrections |");
     }
     page += "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (nodes, count) in [(5, 400), (12, 150), (25, 30), (50, 4)] {
+    for (nodes, count) in [(5, 400), (12, 150), (25, 30), (50, 8)] {
         for decades in [0.0, 3.0, 10.0, 30.0, 100.0, 300.0] {
             for sources in [Sources::None, Sources::Some] {
                 let methods = METHODS.map(|(method, _)| method);

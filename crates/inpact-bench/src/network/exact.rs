@@ -1,24 +1,28 @@
-//! Exact rational solutions of linear networks, the judge of the solvers.
+//! Exact solutions of linear networks, the judge of the solvers.
 //!
-//! Written from Kirchhoff's laws alone: nothing of the solvers' own formulas is in it.
+//! Written from Kirchhoff's laws alone, in whole numbers: nothing of the solvers' own formulas is in it.
 
-use inpact_network::linear::LinearNetwork;
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use inpact_network::linear::{LinearNetwork, Link};
+use num_bigint::{BigInt, Sign};
 use num_traits::{Signed, ToPrimitive, Zero};
-
-/// Every f64 times two to this power is an integer.
-const BITS: u32 = 1074;
 
 /// Everything there is to know of a network, without rounding.
 #[derive(Debug)]
 pub struct Exact {
     /// The value of each node.
-    pub values: Vec<BigRational>,
+    pub values: Vec<Fraction>,
     /// The jump across each link.
-    pub jumps: Vec<BigRational>,
+    pub jumps: Vec<Fraction>,
     /// The flow through each link; `None` through an infinite conductance.
-    pub flows: Vec<Option<BigRational>>,
+    pub flows: Vec<Option<Fraction>>,
+}
+
+/// A fraction that nobody has reduced: to look for common factors of numbers with 100,000 digits would take longer than to solve the network.
+#[derive(Debug)]
+pub struct Fraction {
+    top: BigInt,
+    /// More than zero.
+    bottom: BigInt,
 }
 
 /// Solves a network by elimination without fractions (Bareiss); nodes joined by infinite conductances are one.
@@ -26,6 +30,7 @@ pub struct Exact {
 /// # Panics
 /// For a network without one solution.
 pub fn solve(network: &LinearNetwork) -> Exact {
+    let scale = Scale::of(network);
     let cluster = clusters(network);
     let nodes = network.nodes();
     let mut held: Vec<Option<f64>> = vec![None; nodes];
@@ -41,50 +46,96 @@ pub fn solve(network: &LinearNetwork) -> Exact {
     let mut rows = vec![vec![BigInt::zero(); count + 1]; count];
     for link in network.links.iter().filter(|link| link.conductance > 0.0 && link.conductance.is_finite()) {
         let ends = link.nodes.map(|node| cluster[node as usize]);
-        let conductance = integer(link.conductance);
+        let conductance = whole(link.conductance, scale.conductances);
         for (here, there) in [(ends[0], ends[1]), (ends[1], ends[0])] {
             let Some(row) = unknown[here].filter(|_| ends[0] != ends[1]) else { continue };
             rows[row][row] += &conductance;
             match unknown[there] {
                 Some(column) => rows[row][column] -= &conductance,
-                None => rows[row][count] += &conductance * integer(held[there].expect("held or unknown")),
+                None => {
+                    let held = whole(held[there].expect("held or unknown"), scale.values);
+                    rows[row][count] += &conductance * held;
+                }
             }
         }
     }
     for store in &network.stores {
         let Some(row) = unknown[cluster[store.node as usize]] else { continue };
-        let conductance = integer(store.conductance);
-        rows[row][count] += &conductance * integer(store.before.to_f64());
+        let conductance = whole(store.conductance, scale.conductances);
+        rows[row][count] += &conductance * whole(store.before.to_f64(), scale.values);
         rows[row][row] += conductance;
     }
     for node in 0..nodes {
         if let Some(row) = unknown[cluster[node]] {
-            rows[row][count] += integer(network.sources[node]) << BITS;
+            rows[row][count] += whole(network.sources[node], scale.conductances + scale.values);
         }
     }
-    let solution = eliminate(rows);
-    let scale = BigRational::from(BigInt::from(1) << BITS);
-    let value_of = |node: usize| match unknown[cluster[node]] {
-        Some(unknown) => &solution[unknown] / &scale,
-        None => rational(held[cluster[node]].expect("held or unknown")),
+    let (tops, bottom) = eliminate(rows);
+    let top_of = |node: usize| match unknown[cluster[node]] {
+        Some(unknown) => tops[unknown].clone(),
+        None => whole(held[cluster[node]].expect("held or unknown"), scale.values) * &bottom,
     };
-    let values: Vec<BigRational> = (0..nodes).map(value_of).collect();
-    let jump = |nodes: [u32; 2]| &values[nodes[0] as usize] - &values[nodes[1] as usize];
-    let jumps: Vec<BigRational> = network.links.iter().map(|link| jump(link.nodes)).collect();
-    let flow = |(link, jump): (&inpact_network::linear::Link, &BigRational)| {
-        link.conductance.is_finite().then(|| jump * rational(link.conductance))
+    let values: Vec<BigInt> = (0..nodes).map(top_of).collect();
+    let jump = |link: &Link| &values[link.nodes[0] as usize] - &values[link.nodes[1] as usize];
+    let of_value = |top: BigInt| Fraction { top, bottom: &bottom << scale.values };
+    let flow = |link: &Link| {
+        link.conductance.is_finite().then(|| Fraction {
+            top: jump(link) * whole(link.conductance, scale.conductances),
+            bottom: &bottom << (scale.values + scale.conductances),
+        })
     };
-    let flows = network.links.iter().zip(&jumps).map(flow).collect();
-    Exact { values, jumps, flows }
+    Exact {
+        jumps: network.links.iter().map(|link| of_value(jump(link))).collect(),
+        flows: network.links.iter().map(flow).collect(),
+        values: values.iter().cloned().map(of_value).collect(),
+    }
 }
 
-/// A finite f64 as it is.
-fn rational(value: f64) -> BigRational {
-    BigRational::from_float(value).expect("a finite number")
+/// How many bits after the point make everything in a network whole.
+struct Scale {
+    conductances: u32,
+    values: u32,
 }
 
-fn integer(value: f64) -> BigInt {
-    (rational(value) * BigRational::from(BigInt::from(1) << BITS)).to_integer()
+impl Scale {
+    fn of(network: &LinearNetwork) -> Self {
+        let most = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(bits_after_point).max().unwrap_or(0);
+        let finite = network.links.iter().map(|link| link.conductance).filter(|conductance| conductance.is_finite());
+        let conductances = most(&mut finite.chain(network.stores.iter().map(|store| store.conductance)));
+        let before = network.stores.iter().map(|store| store.before.to_f64());
+        let values = most(&mut network.held.iter().flatten().copied().chain(before));
+        let sources = most(&mut network.sources.iter().copied());
+        Self { conductances, values: values.max(sources.saturating_sub(conductances)) }
+    }
+}
+
+/// A finite f64 as a whole number times a power of two.
+fn parts(value: f64) -> (i64, i32) {
+    let bits = value.to_bits();
+    let exponent = i32::try_from(bits >> 52 & 0x7ff).unwrap_or(0);
+    let fraction = i64::try_from(bits & ((1 << 52) - 1)).unwrap_or(0);
+    let (whole, exponent) = if exponent == 0 { (fraction, 1) } else { (fraction | 1 << 52, exponent) };
+    (if value < 0.0 { -whole } else { whole }, exponent - 1075)
+}
+
+fn bits_after_point(value: f64) -> u32 {
+    let (whole, exponent) = parts(value);
+    if whole == 0 {
+        return 0;
+    }
+    let zeros = i32::try_from(whole.trailing_zeros()).unwrap_or(0);
+    u32::try_from(-(exponent + zeros)).unwrap_or(0)
+}
+
+/// A number times two to a power that makes it whole.
+fn whole(value: f64, bits: u32) -> BigInt {
+    let (whole, exponent) = parts(value);
+    shifted(BigInt::from(whole), i64::from(exponent) + i64::from(bits))
+}
+
+/// A number times a power of two; what is cut off is zero.
+fn shifted(number: BigInt, by: i64) -> BigInt {
+    if by < 0 { number >> by.unsigned_abs() } else { number << by.unsigned_abs() }
 }
 
 /// The smallest node with the same value as each node, by infinite conductances.
@@ -104,54 +155,74 @@ fn clusters(network: &LinearNetwork) -> Vec<usize> {
     }
 }
 
-/// Gauss–Jordan elimination of rows with the right side last; all divisions are exact.
-fn eliminate(mut rows: Vec<Vec<BigInt>>) -> Vec<BigRational> {
+/// The solution of symmetric rows with the right side last, as tops of fractions and their common bottom.
+///
+/// Every division is exact; the pivots are the principal minors of a positive definite matrix, so none is zero.
+fn eliminate(mut rows: Vec<Vec<BigInt>>) -> (Vec<BigInt>, BigInt) {
     let count = rows.len();
     let mut before = BigInt::from(1);
     for pivot in 0..count {
-        let from = (pivot..count).find(|&row| !rows[row][pivot].is_zero()).expect("a network with one solution");
-        rows.swap(pivot, from);
-        let pivot_row = rows[pivot].clone();
-        for (number, row) in rows.iter_mut().enumerate().filter(|(number, _)| *number != pivot) {
-            let factor = row[pivot].clone();
-            for (column, entry) in row.iter_mut().enumerate() {
-                // Columns before the pivot are those of a diagonal.
-                if column >= pivot || column == number {
-                    *entry = (&*entry * &pivot_row[pivot] - &factor * &pivot_row[column]) / &before;
-                }
+        let (above, below) = rows.split_at_mut(pivot + 1);
+        let pivot_row = &above[pivot];
+        assert!(pivot_row[pivot].is_positive(), "a network with one solution");
+        for (row, number) in below.iter_mut().zip(pivot + 1..) {
+            let factor = &pivot_row[number];
+            for column in number..=count {
+                let product = if factor.is_zero() || pivot_row[column].is_zero() {
+                    BigInt::zero()
+                } else {
+                    factor * &pivot_row[column]
+                };
+                row[column] = (&row[column] * &pivot_row[pivot] - product) / &before;
             }
         }
         before = pivot_row[pivot].clone();
     }
-    rows.into_iter().map(|row| BigRational::new(row[count].clone(), before.clone())).collect()
+    let mut tops = vec![BigInt::zero(); count];
+    for row in (0..count).rev() {
+        let mut top = &rows[row][count] * &before;
+        for column in row + 1..count {
+            top -= &rows[row][column] * &tops[column];
+        }
+        tops[row] = top / &rows[row][row];
+    }
+    (tops, before)
 }
 
-/// Below that an f64 runs out of digits: what is smaller may be off by as much.
-const LEAST: i32 = -960;
+/// Below two to this power an f64 runs out of digits: what is smaller may be off by as much.
+const LEAST: i64 = -960;
 
 /// The relative error of a value; zero where both are below what an f64 has digits for.
-pub fn relative_error(value: f64, exact: &BigRational) -> f64 {
+pub fn relative_error(value: f64, exact: &Fraction) -> f64 {
     if !value.is_finite() {
         return f64::INFINITY;
     }
-    let difference = (rational(value) - exact).abs();
+    let Fraction { top, bottom } = exact;
+    let (whole, exponent) = parts(value);
+    let product = bottom * whole;
+    // Whichever of the two has bits after the point makes the other longer.
+    let (product, top) = if exponent < 0 {
+        (product, top << exponent.unsigned_abs())
+    } else {
+        (product << exponent.unsigned_abs(), top.clone())
+    };
+    let difference = (product - &top).abs();
     if difference.is_zero() {
         return 0.0;
     }
-    let least = BigRational::new(BigInt::from(1), BigInt::from(1) << LEAST.unsigned_abs());
-    if difference <= least && exact.abs() <= least {
+    let least = shifted(bottom.clone(), LEAST - i64::from(exponent.min(0)));
+    if difference <= least && top.magnitude() <= least.magnitude() {
         return 0.0;
     }
-    if exact.is_zero() { f64::INFINITY } else { to_f64(&(difference / exact.abs())) }
+    if top.sign() == Sign::NoSign { f64::INFINITY } else { quotient(&difference, &top.abs()) }
 }
 
-/// A rational of any size as an f64, in some fifteen digits.
-pub fn to_f64(number: &BigRational) -> f64 {
-    let bits = |integer: &BigInt| i64::try_from(integer.bits()).unwrap_or(i64::MAX);
-    let (top, bottom) = (number.numer(), number.denom());
+/// A quotient of two positive numbers of any size, in some fifteen digits.
+fn quotient(top: &BigInt, bottom: &BigInt) -> f64 {
+    let bits = |number: &BigInt| i64::try_from(number.bits()).unwrap_or(i64::MAX);
     let shift = bits(top) - bits(bottom) - 64;
-    let by = usize::try_from(shift.unsigned_abs()).unwrap_or(usize::MAX);
-    let quotient = if shift >= 0 { top / (bottom << by) } else { (top << by) / bottom };
+    let digits =
+        if shift < 0 { (top << shift.unsigned_abs()) / bottom } else { top / (bottom << shift.unsigned_abs()) };
     let power = |exponent: i64| 2.0_f64.powi(i32::try_from(exponent.clamp(-2000, 2000)).unwrap_or(0));
-    quotient.to_f64().unwrap_or(f64::NAN) * power(shift / 2) * power(shift - shift / 2)
+    digits.to_f64().unwrap_or(f64::NAN) * power(shift / 2) * power(shift - shift / 2)
 }

@@ -4,6 +4,7 @@
 //! Σ c (x − x') has not. Jumps and flows are kept in 106 bits, so that what refinement makes of a balance is limited by no rounding of f64.
 
 use super::core::{Core, NONE};
+use super::hanging::Hanging;
 use super::relative::Form;
 use super::sets::index;
 use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
@@ -180,6 +181,21 @@ impl Edges {
             change.abs() / flow.max(balance.roundings[number as usize] / f64::EPSILON)
         };
         self.elements.iter().map(|&number| change_of(number)).fold(0.0, f64::max)
+    }
+
+    /// How the nodes of the unknowns hang on known values.
+    pub(super) fn hanging(&self, core: &Core, jumps: &[Wide]) -> Hanging {
+        let form = &self.form;
+        let mut hanging = Hanging::new(core);
+        for &unknown in &form.order {
+            let above = match form.hangs_on[unknown as usize] {
+                NONE => form.bases[unknown as usize],
+                above => form.nodes[above as usize],
+            };
+            let step = jumps[unknown as usize].times_power_of_two(-form.scale(unknown));
+            hanging.hang(form.nodes[unknown as usize], above, step);
+        }
+        hanging
     }
 
     /// The values of the nodes, at those that are taken out nothing.

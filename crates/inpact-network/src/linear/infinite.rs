@@ -37,7 +37,7 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
         elements: infinite.iter().map(element).collect(),
         sources,
     };
-    let found = Solver::new(Method::Direct, LAST_DIGIT).solve_core(&mut core)?;
+    let (found, _) = Solver::new(Method::Direct, LAST_DIGIT).solve_core(&mut core)?;
     for (place, &link) in infinite.iter().enumerate() {
         solution.flows[link] = found.flows[place];
     }

@@ -7,7 +7,9 @@
 //! A node with two conductances *and* a source stays: to share its source between its neighbours would make flows that cancel far larger than those that flow.
 
 use super::core::{Core, Element, NONE};
+use super::hanging::Hanging;
 use super::sets::index;
+use super::solve::{CoreFound, SMALL};
 use inpact_evaluation::numbers::Wide;
 
 /// What was taken out, in order.
@@ -58,7 +60,8 @@ impl Series {
     }
 
     /// Puts the nodes back: their values, and what flows from the first to the second end of each element.
-    pub(crate) fn put_back(&self, core: &Core, values: &mut [Wide], flows: &mut [Wide]) {
+    pub(super) fn put_back(&self, core: &Core, found: &mut CoreFound) {
+        let CoreFound { values, flows, hanging } = found;
         for step in self.steps.iter().rev() {
             let Step { node, source, elements, made } = *step;
             let through = if made == NONE { Wide::ZERO } else { flows[made as usize] };
@@ -75,11 +78,33 @@ impl Series {
                 [first, second] if strength(core, first.0) >= strength(core, second.0) => first,
                 [_, second] => second,
             };
-            let Element { ends, conductance } = core.elements[strongest as usize];
-            let other = if ends[0] == node { ends[1] } else { ends[0] };
-            values[node as usize] = core.value(values, other) + leaving / conductance;
+            let other = far_end(core, strongest, node);
+            let step = match hanging {
+                Some(hanging) if made != NONE && through.to_f64().abs() <= SMALL => {
+                    step_of_two(core, hanging, elements.map(|element| (element, far_end(core, element, node))))
+                }
+                _ => leaving / core.elements[strongest as usize].conductance,
+            };
+            values[node as usize] = core.value(values, other) + step;
+            if let Some(hanging) = hanging {
+                hanging.hang(node, other, step);
+            }
         }
     }
+}
+
+/// How a node between two elements differs from the far end of the stronger one, of the jump between their far ends: what flows is too small to tell.
+fn step_of_two(core: &Core, hanging: &Hanging, [first, second]: [(u32, u32); 2]) -> Wide {
+    let conductance = |element: u32| core.elements[element as usize].conductance;
+    let (weaker, stronger) =
+        if strength(core, second.0) <= strength(core, first.0) { (second, first) } else { (first, second) };
+    let ratio = conductance(weaker.0) / conductance(stronger.0);
+    hanging.jump(core, [weaker.1, stronger.1]) * (ratio / (Wide::new(1.0) + ratio))
+}
+
+fn far_end(core: &Core, element: u32, node: u32) -> u32 {
+    let ends = core.elements[element as usize].ends;
+    if ends[0] == node { ends[1] } else { ends[0] }
 }
 
 fn strength(core: &Core, element: u32) -> f64 {
@@ -168,10 +193,7 @@ impl Walk<'_> {
     /// Takes out a node; gives the numbers at the far ends of its elements.
     fn take(&mut self, node: u32) -> Vec<u32> {
         let elements = self.incident.at(node, &self.series.is_there);
-        let far = |element: u32| {
-            let ends = self.core.elements[element as usize].ends;
-            if ends[0] == node { ends[1] } else { ends[0] }
-        };
+        let far = |element: u32| far_end(self.core, element, node);
         let source = self.core.sources[node as usize];
         if elements.len() == 2 && !source.is_zero() {
             return Vec::new();

@@ -2,9 +2,10 @@
 
 use super::bodies::refuse_floating;
 use super::core::{Core, NONE, Origins};
-use super::edges::Edges;
+use super::edges::{Balance, Edges};
 use super::elimination::eliminate;
 use super::factor::{Factor, NoSolution, Solves};
+use super::hanging::Hanging;
 use super::infinite;
 use super::iterative::ConjugateGradients;
 use super::matrix::Pattern;
@@ -13,6 +14,7 @@ use super::ordering::{Analysis, Ordering};
 use super::refinement::{GaveUp, Quality, Refined, refine};
 use super::relative::Form;
 use super::series::Series;
+use super::sets::index;
 use inpact_evaluation::numbers::Wide;
 use std::sync::Arc;
 use std::time::Instant;
@@ -30,6 +32,9 @@ pub enum Method {
     /// Elimination without subtraction in 106 bits: slow, and exact to the last digit at any contrast.
     Elimination,
 }
+
+/// Flows up to this have lost digits to the range of f64.
+pub(super) const SMALL: f64 = f64::MIN_POSITIVE / f64::EPSILON / f64::EPSILON;
 
 /// The tolerance that stands for the last digit of f64.
 pub const LAST_DIGIT: f64 = f64::EPSILON / 16.0;
@@ -67,27 +72,27 @@ pub struct LinearSolution {
     pub flows: Vec<Wide>,
     /// The flow into each store.
     pub stored: Vec<Wide>,
+    /// The links whose flow does not tell the jump, ascending, and the jump across each.
+    untold: Vec<(u32, Wide)>,
     /// How it was found and how good it is.
     pub report: LinearReport,
 }
 
 impl LinearSolution {
-    /// The jump across a link of the network, its first node less its second: of the flow where that tells, so that it has all its digits.
+    /// The jump across a link of the network that was solved, its first node less its second, with all its digits: no difference of values.
     pub fn jump(&self, network: &LinearNetwork, link: usize) -> Wide {
-        let Link { nodes, conductance } = network.links[link];
-        jump(self.flows[link], conductance, || nodes.map(|node| self.values[node as usize]))
+        self.jump_at(link, network.links[link].conductance)
     }
-}
 
-/// The jump that a flow through a conductance makes, otherwise that of the values of both ends.
-pub(crate) fn jump(flow: Wide, conductance: f64, values: impl FnOnce() -> [Wide; 2]) -> Wide {
-    if conductance == f64::INFINITY {
-        Wide::ZERO
-    } else if conductance > 0.0 {
-        flow / Wide::new(conductance)
-    } else {
-        let [first, second] = values();
-        first - second
+    /// The jump across a link of this conductance.
+    pub(crate) fn jump_at(&self, link: usize, conductance: f64) -> Wide {
+        if conductance == f64::INFINITY {
+            return Wide::ZERO;
+        }
+        match self.untold.binary_search_by_key(&index(link), |(untold, _)| *untold) {
+            Ok(place) => self.untold[place].1,
+            Err(_) => self.flows[link] / Wide::new(conductance),
+        }
     }
 }
 
@@ -158,10 +163,11 @@ pub enum LinearFailure {
 }
 
 /// What is left to solve, solved: values of the core's free nodes, flows of its elements.
-pub(super) struct CoreSolution {
+pub(super) struct CoreFound {
     pub(super) values: Vec<Wide>,
     pub(super) flows: Vec<Wide>,
-    report: LinearReport,
+    /// How nodes hang on known values; an elimination does not tell.
+    pub(super) hanging: Option<Hanging>,
 }
 
 impl Solver {
@@ -179,12 +185,12 @@ impl Solver {
         refuse_floating(network).map_err(LinearFailure::Unsolvable)?;
         let (core, origins) = Core::merged(network, &|_| false).map_err(LinearFailure::Unsolvable)?;
         let mut core = core;
-        let CoreSolution { values, flows, mut report } = self.solve_core(&mut core)?;
+        let (found, mut report) = self.solve_core(&mut core)?;
         report.merged = origins.merged;
         let Phases { order, factor, solve, .. } = report.phases;
         report.phases.set_up = start.elapsed().as_secs_f64() - order - factor - solve;
         let method = report.method;
-        let mut solution = put_together(&core, &origins, &values, &flows, report);
+        let mut solution = put_together(network, &core, &origins, found, report);
         if !solution.values.iter().chain(&solution.flows).all(|number| number.to_f64().is_finite()) {
             return Err(LinearFailure::NotSolved(vec![(method, Shortcoming::Overflow)]));
         }
@@ -195,7 +201,7 @@ impl Solver {
     }
 
     /// Solves a core, in which all conductances are finite and every node has a path to a known value.
-    pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<CoreSolution, LinearFailure> {
+    pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<(CoreFound, LinearReport), LinearFailure> {
         let series = Series::take_out(core, &|_| false);
         let form = Form::choose(core, &series.is_there, &series.is_free);
         let mut report = LinearReport {
@@ -205,9 +211,9 @@ impl Solver {
             taken_out: series.count(),
             ..LinearReport::default()
         };
-        let (mut values, mut flows) = self.solve_form(core, &series, form, &mut report)?;
-        series.put_back(core, &mut values, &mut flows);
-        Ok(CoreSolution { values, flows, report })
+        let mut found = self.solve_form(core, &series, form, &mut report)?;
+        series.put_back(core, &mut found);
+        Ok((found, report))
     }
 
     /// Solves for the unknowns, by the method that was asked for and, where that falls short, by safer ones.
@@ -217,7 +223,7 @@ impl Solver {
         series: &Series,
         form: Form,
         report: &mut LinearReport,
-    ) -> Result<(Vec<Wide>, Vec<Wide>), LinearFailure> {
+    ) -> Result<CoreFound, LinearFailure> {
         let edges = Edges::new(core, form, &series.is_there);
         let mut method = self.method;
         loop {
@@ -246,20 +252,20 @@ impl Solver {
         edges: &Edges,
         series: &Series,
         report: &mut LinearReport,
-    ) -> Result<(Vec<Wide>, Vec<Wide>), Shortcoming> {
+    ) -> Result<CoreFound, Shortcoming> {
         if method == Method::Elimination {
             let found = eliminate(core, &series.is_there, &series.is_free).ok_or(Shortcoming::TooLarge)?;
             let residual = worst_share(core, series, &found.flows);
             report.quality = Quality { residual, ..Quality::default() };
             return match residual <= self.tolerance.max(f64::EPSILON) {
-                true => Ok((found.values, found.flows)),
+                true => Ok(CoreFound { values: found.values, flows: found.flows, hanging: None }),
                 false if residual.is_finite() => Err(Shortcoming::Stalled(report.quality)),
                 false => Err(Shortcoming::Overflow),
             };
         }
         if edges.form.count() == 0 {
             let refined = refine(core, edges, &mut Nothing, self.tolerance)?;
-            return Ok((edges.values(core, &refined.jumps), refined.balance.into_flows()));
+            return Ok(found(core, edges, refined.jumps, refined.balance));
         }
         let pattern = self.pattern(core, edges);
         let matrix = pattern.matrix(core, edges);
@@ -305,7 +311,7 @@ impl Solver {
         };
         let Refined { jumps, balance, quality } = refined;
         report.quality = quality;
-        Ok((edges.values(core, &jumps), balance.into_flows()))
+        Ok(found(core, edges, jumps, balance))
     }
 
     /// The pattern of some edges with its analysis, those of the network before where they are the same.
@@ -352,18 +358,38 @@ fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolut
     place.as_mut().ok_or(NoSolution::Memory)
 }
 
+/// What jumps along the forest say.
+fn found(core: &Core, edges: &Edges, jumps: Vec<Wide>, balance: Balance) -> CoreFound {
+    let hanging = edges.hanging(core, &jumps);
+    CoreFound { values: edges.values(core, &jumps), flows: balance.into_flows(), hanging: Some(hanging) }
+}
+
 /// The solution in terms of the network.
 fn put_together(
+    network: &LinearNetwork,
     core: &Core,
     origins: &Origins,
-    values: &[Wide],
-    flows: &[Wide],
+    found: CoreFound,
     report: LinearReport,
 ) -> LinearSolution {
+    let CoreFound { values, flows, hanging } = found;
     let flow_of = |&element: &u32| if element == NONE { Wide::ZERO } else { flows[element as usize] };
+    let flows_of_links: Vec<Wide> = origins.of_link.iter().map(flow_of).collect();
+    let is_told = |link: &Link, flow: &Wide| link.conductance.is_infinite() || SMALL < flow.to_f64().abs();
+    let links = network.links.iter().zip(&flows_of_links).zip(0..);
+    let untold: Vec<(u32, &Link)> =
+        links.filter_map(|((link, flow), number)| (!is_told(link, flow)).then_some((number, link))).collect();
+    let jump = |nodes: [u32; 2]| {
+        let ends = nodes.map(|node| origins.number[node as usize]);
+        match &hanging {
+            Some(hanging) => hanging.jump(core, ends),
+            None => core.value(&values, ends[0]) - core.value(&values, ends[1]),
+        }
+    };
     LinearSolution {
-        values: origins.number.iter().map(|&number| core.value(values, number)).collect(),
-        flows: origins.of_link.iter().map(flow_of).collect(),
+        untold: untold.into_iter().map(|(number, link)| (number, jump(link.nodes))).collect(),
+        values: origins.number.iter().map(|&number| core.value(&values, number)).collect(),
+        flows: flows_of_links,
         stored: origins.of_store.iter().map(flow_of).collect(),
         report,
     }

@@ -1,0 +1,75 @@
+//! How free nodes hang on known values, step by step: what tells the jump across a link where its flow does not.
+//!
+//! No flow tells the jump across a link that conducts nothing, or so little that the flow is below the range of f64,
+//! and the difference of two values of 100 has lost a jump of 1e-40.
+//! The steps along the forest and along what was taken out have all their digits; the jump is the sum of those on the way from one node to the other.
+
+use super::core::{Core, NONE};
+use super::edges::ROUNDING;
+use inpact_evaluation::numbers::Wide;
+
+/// For each free node of a core what it hangs on, and its step from there.
+#[derive(Clone, Debug)]
+pub(super) struct Hanging {
+    /// The number, of a free node or a known value, that each free node hangs on.
+    above: Vec<u32>,
+    steps: Vec<Wide>,
+    /// How many nodes there are on the way up from each node, itself included.
+    depths: Vec<u32>,
+    /// The next number, on the way up from each node, that is not at the value of what it hangs on.
+    rungs: Vec<u32>,
+}
+
+impl Hanging {
+    pub(super) fn new(core: &Core) -> Self {
+        let nodes = core.free as usize;
+        Self {
+            above: vec![NONE; nodes],
+            steps: vec![Wide::ZERO; nodes],
+            depths: vec![0; nodes],
+            rungs: vec![NONE; nodes],
+        }
+    }
+
+    /// Hangs a node on a known value or on a node that hangs already; its value differs from that by `step`.
+    pub(super) fn hang(&mut self, node: u32, above: u32, step: Wide) {
+        self.rungs[node as usize] = if step.is_zero() { self.rung(above) } else { node };
+        self.depths[node as usize] = self.depth(above) + 1;
+        self.above[node as usize] = above;
+        self.steps[node as usize] = step;
+    }
+
+    /// The jump from the second to the first of two numbers; nothing where it is not more than rounding.
+    pub(super) fn jump(&self, core: &Core, ends: [u32; 2]) -> Wide {
+        let [mut first, mut second] = ends.map(|end| self.rung(end));
+        let (mut jump, mut parts) = (Wide::ZERO, 0.0);
+        let mut add = |step: Wide| {
+            jump += step;
+            parts += step.to_f64().abs();
+        };
+        while first != second && (core.is_free(first) || core.is_free(second)) {
+            if self.depth(second) <= self.depth(first) {
+                add(self.steps[first as usize]);
+                first = self.rung(self.above[first as usize]);
+            } else {
+                add(-self.steps[second as usize]);
+                second = self.rung(self.above[second as usize]);
+            }
+        }
+        if first != second {
+            let known = |number: u32| core.known[(number - core.free) as usize];
+            add(known(first));
+            add(-known(second));
+        }
+        if jump.to_f64().abs() <= ROUNDING * parts { Wide::ZERO } else { jump }
+    }
+
+    /// Nothing for a known value.
+    fn depth(&self, number: u32) -> u32 {
+        self.depths.get(number as usize).copied().unwrap_or(0)
+    }
+
+    fn rung(&self, number: u32) -> u32 {
+        self.rungs.get(number as usize).copied().unwrap_or(number)
+    }
+}
