@@ -1,6 +1,6 @@
 //! `inpact fmt`: in place, `--check`, `--diff`, standard input, exit codes.
 
-use crate::program::{Folder, root, sample_decks};
+use crate::program::{Folder, dialect_of, root, sample_decks};
 
 const DECK: &str = "\
 *heading
@@ -123,18 +123,19 @@ fn the_samples_mean_the_same_and_come_to_rest() {
     for deck in sample_decks().iter().filter(|deck| !deck.starts_with("decks/faulty/")) {
         let text = std::fs::read_to_string(root().join(deck)).expect("readable");
         let folder = Folder::with(&[("d.inp", &text)]);
+        let dialect = dialect_of(deck);
         // What the deck includes stays where it was.
         let beside = root().join(deck).parent().expect("a folder").to_string_lossy().into_owned();
         let model = || {
-            let run = folder.inpact(&["json", "d.inp", "--include-dir", &beside]);
+            let run = folder.inpact(&[&["json", "d.inp", "--include-dir", &beside], dialect].concat());
             assert_eq!(run.code, 0, "{deck}: {}", run.errors);
             // Places move.
             let spans = |line: &&str| !line.trim_start().starts_with("\"span\"");
             run.output.lines().filter(spans).map(str::to_owned).collect::<Vec<_>>()
         };
         let before = model();
-        assert_eq!(folder.inpact(&["fmt", "d.inp"]).code, 0, "{deck}");
+        assert_eq!(folder.inpact(&[&["fmt", "d.inp"], dialect].concat()).code, 0, "{deck}");
         assert_eq!(model(), before, "{deck}");
-        assert_eq!(folder.inpact(&["fmt", "--check", "d.inp"]).code, 0, "{deck}");
+        assert_eq!(folder.inpact(&[&["fmt", "--check", "d.inp"], dialect].concat()).code, 0, "{deck}");
     }
 }

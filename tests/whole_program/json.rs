@@ -1,6 +1,6 @@
 //! `inpact json` and `inpact inp`: both views, and back.
 
-use crate::program::{Folder, inpact, inpact_with_input, root, sample_decks};
+use crate::program::{Folder, dialect_of, inpact, inpact_with_input, root, sample_decks};
 
 #[test]
 fn the_model_view() {
@@ -35,7 +35,9 @@ fn every_sample_comes_back_byte_for_byte_from_the_syntax_view() {
 #[test]
 fn every_sample_means_the_same_after_the_model_view() {
     let faulty = |deck: &String| deck.starts_with("decks/faulty/");
-    for deck in sample_decks().iter().filter(|deck| !faulty(deck)) {
+    // The model view does not tell its dialect, and `inp` prints what Abaqus reads.
+    let foreign = |deck: &String| !dialect_of(deck).is_empty();
+    for deck in sample_decks().iter().filter(|deck| !faulty(deck) && !foreign(deck)) {
         let json = inpact(&["json", deck]);
         let back = inpact_with_input(&["inp", "-"], json.output.as_bytes());
         assert_eq!(back.code, 0, "{deck}: {}", back.errors);

@@ -131,3 +131,8 @@ pub(crate) fn sample_decks() -> Vec<String> {
     assert!(!decks.is_empty());
     decks
 }
+
+/// The options for the language that a sample is in, where its folder says so and the sample is read elsewhere.
+pub(crate) fn dialect_of(deck: &str) -> &'static [&'static str] {
+    if deck.starts_with("decks/scenes/ccx/") { &["--dialect", "calculix"] } else { &[] }
+}
