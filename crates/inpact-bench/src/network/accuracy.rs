@@ -52,8 +52,12 @@ impl Worst {
         for (value, exact) in solution.values.iter().zip(&exact.values) {
             self.value = self.value.max(relative_error(value.to_f64(), exact));
         }
-        for (link, exact) in exact.jumps.iter().enumerate() {
-            self.jump = self.jump.max(relative_error(solution.jump(network, link).to_f64(), exact));
+        for (link, jump) in exact.jumps.iter().enumerate() {
+            let is_flow_told = exact.flows[link].as_ref().is_none_or(|flow| !flow.is_below_range());
+            if !is_flow_told && network.links[link].conductance > 0.0 {
+                continue;
+            }
+            self.jump = self.jump.max(relative_error(solution.jump(network, link).to_f64(), jump));
         }
         for (flow, exact) in solution.flows.iter().zip(&exact.flows) {
             if let Some(exact) = exact {
@@ -64,31 +68,31 @@ impl Worst {
     }
 }
 
-/// The methods of the tables.
-const METHODS: [(Method, &str); 3] =
-    [(Method::Direct, "direct"), (Method::Mixed, "mixed"), (Method::Iterative, "iterative")];
+/// The methods of the table, in its order.
+const METHODS: [Method; 3] = [Method::Direct, Method::Mixed, Method::Iterative];
 
 /// The page.
 pub fn page() -> String {
     let mut page = String::from(INTRODUCTION);
     page += "\n## Random networks against exact rationals\n\n";
     page += RANDOM;
-    page += "\n| nodes | decades | sources | networks |";
-    for (_, name) in METHODS {
-        let _ = write!(page, " {name}: potential | jump | flow | corrections |");
-    }
-    page += "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    page += "\n| nodes | decades | sources | networks | direct: potential | jump | flow | corrections | mixed: worst | corrections | iterative: worst | corrections |\n";
+    page += "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (nodes, count) in [(5, 400), (12, 150), (25, 30), (50, 8)] {
         for decades in [0.0, 3.0, 10.0, 30.0, 100.0, 300.0] {
             for sources in [Sources::None, Sources::Some] {
-                let methods = METHODS.map(|(method, _)| method);
-                let found = worst(Kind { nodes, decades, sources }, 0..count, &methods);
+                let found = worst(Kind { nodes, decades, sources }, 0..count, &METHODS);
                 let sources = if sources == Sources::Some { "yes" } else { "no" };
                 let _ = write!(page, "| {nodes} | ±{decades} | {sources} | {count} |");
-                for worst in found {
+                for (worst, method) in found.into_iter().zip(METHODS) {
                     let Worst { value, jump, flow, solves, refused, .. } = worst;
+                    let errors = if method == Method::Direct {
+                        format!("{} | {} | {}", short(value), short(jump), short(flow))
+                    } else {
+                        short(worst.largest())
+                    };
                     let refused = if refused > 0 { format!(", {refused} refused") } else { String::new() };
-                    let _ = write!(page, " {} | {} | {} | {solves}{refused} |", short(value), short(jump), short(flow));
+                    let _ = write!(page, " {errors} | {solves}{refused} |");
                 }
                 page += "\n";
             }
@@ -98,7 +102,7 @@ pub fn page() -> String {
     page += GRIDS;
     page += "\n| grid | interface | largest difference of potentials | of flows | corrections: direct | mixed | iterative | conjugate gradients |\n";
     page += "|---|---|---|---|---|---|---|---|\n";
-    for (size, name) in [([100, 100, 1], "100 × 100"), ([22, 22, 22], "22 × 22 × 22")] {
+    for (size, name) in [([100, 100, 1], "100 × 100"), ([10, 10, 10], "10 × 10 × 10")] {
         for contrast in CONTRASTS {
             page += &grid_line(Grid { size, contrast }, name);
         }
@@ -162,10 +166,11 @@ How the solvers do it stands in the heads of `crates/inpact-network/src/linear/r
 const RANDOM: &str = "Each network is a tree with as many links more; every conductance is drawn by itself from the whole range of ± so many decades, one link in twelve is infinite, one in twelve conducts nothing.
 Two nodes are held, at 100 and 50; with sources a third of the nodes has one, as large as one of its conductances leads away at a difference of up to 100.
 Each potential, each jump across a link and each flow is compared with the exact rational solution; the worst of all networks of a line is given.
-Numbers below 1e-289, where f64 begins to run out of digits, may be off by as much. A network is refused where a potential or a flow is beyond 1.8e308.
+Numbers below 1e-289, where f64 begins to run out of digits, may be off by as much, and the jumps of such flows are not compared.
+A network is refused where a potential or a flow is beyond 1.8e308.
 ";
 
 const GRIDS: &str = "A grid of conductances between 0.5 and 2 with one interface plane, whose conductances are larger by the factor given, and ends held at 100 and 50.
-The direct solver is compared, node by node and link by link, with elimination without subtraction in 106 bits, which shares nothing with it but the taking out of nodes in series.
+The direct solver is compared, node by node and link by link, with elimination without subtraction in 106 bits, which shares nothing with it but the taking out of nodes in series; elimination is too slow for larger grids.
 Corrections are the solves of the refinement until the last digit is reached; all methods end with the same digits.
 ";

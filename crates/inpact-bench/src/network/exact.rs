@@ -192,6 +192,13 @@ fn eliminate(mut rows: Vec<Vec<BigInt>>) -> (Vec<BigInt>, BigInt) {
 /// Below two to this power an f64 runs out of digits: what is smaller may be off by as much.
 const LEAST: i64 = -960;
 
+impl Fraction {
+    /// Whether it is not zero, but so small that an f64 has not all its digits, or none.
+    pub fn is_below_range(&self) -> bool {
+        !self.top.is_zero() && self.top.magnitude() <= shifted(self.bottom.clone(), LEAST).magnitude()
+    }
+}
+
 /// The relative error of a value; zero where both are below what an f64 has digits for.
 pub fn relative_error(value: f64, exact: &Fraction) -> f64 {
     if !value.is_finite() {
