@@ -228,7 +228,7 @@ pub(crate) fn network(
     for (&node, &capacity) in with_capacity {
         let place = nodes.place[node as usize];
         match (capacities, knowledge.increment) {
-            (Capacities::Held, _) => network.held[place as usize] = Some(known[node as usize]),
+            (Capacities::Held, _) => network.held[place as usize] = Some(known[node as usize].to_f64()),
             (Capacities::Stored, Some(increment)) => {
                 let before = increment.before.wide_value(knowledge.problem, field, node).unwrap_or_default();
                 network.stores.push(Store { node: place, conductance: capacity / increment.duration, before });

@@ -19,7 +19,7 @@ use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
 use inpact_evaluation::law::pore::{BulkPermeabilities, Flow, Gap, PorePoint};
 use inpact_evaluation::law::thermal::{Temperatures, ThermalConductance};
 use inpact_evaluation::law::user::{UserConductancePoint, UserFault};
-use inpact_evaluation::numbers::{mean, product};
+use inpact_evaluation::numbers::{Wide, product};
 use inpact_evaluation::table::PiecewiseTable;
 
 /// What contact there is in a row at one time.
@@ -34,9 +34,26 @@ pub(crate) struct Contact {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sides {
     /// θ of slave and master; NaN where neither is known.
-    pub(crate) temperatures: [f64; 2],
+    pub(crate) temperatures: [Wide; 2],
     /// Pore pressures of slave and master.
-    pub(crate) pore_pressures: [f64; 2],
+    pub(crate) pore_pressures: [Wide; 2],
+}
+
+/// The mean of both sides, and what that number has lost to rounding.
+///
+/// A table that is steep at a large value moves by more than a digit of its own within the last digit of that value: tables are asked at the number,
+/// and what it has lost is added along their slope.
+#[derive(Debug, Clone, Copy)]
+struct Mean {
+    number: f64,
+    lost: f64,
+}
+
+impl Mean {
+    fn of([slave, master]: [Wide; 2]) -> Self {
+        let (number, lost) = (slave + master).times_power_of_two(-1).parts();
+        Self { number, lost: if lost.is_finite() { lost } else { 0.0 } }
+    }
 }
 
 /// A flow from slave to master per area: a conductance, and what its slopes along the values of both sides have beside ± the conductance.
@@ -107,12 +124,6 @@ impl Contact {
     }
 }
 
-impl Sides {
-    pub(crate) fn mean_temperature(&self) -> f64 {
-        mean(self.temperatures[0], self.temperatures[1])
-    }
-}
-
 /// The electrical conductance of a row.
 ///
 /// # Errors
@@ -127,21 +138,20 @@ pub(crate) fn electrical(
 ) -> Result<Conducts, UserFault> {
     match source {
         ElectricalSource::Tables(tables) => {
-            let variables = variables(&[sides.mean_temperature()], &row.field_variables);
+            let temperature = Mean::of(sides.temperatures);
+            let variables = variables(&[temperature.number], &row.field_variables);
             let point = contact.point(&variables);
             let mut slopes = vec![0.0; variables.len()];
             tables.slopes(&point, &mut slopes);
-            Ok(Conducts {
-                conductance: tables.conductance(&point).value,
-                along_temperature: finite(slopes[0]),
-                ..Conducts::default()
-            })
+            let along_temperature = finite(slopes[0]);
+            let conductance = corrected(tables.conductance(&point).value, &[(along_temperature, temperature)]);
+            Ok(Conducts { conductance, along_temperature, ..Conducts::default() })
         }
         ElectricalSource::User(law, names) => {
             let fields: Vec<[f64; 2]> = row.field_variables.iter().map(|&value| [value; 2]).collect();
             let value = law.conductance(&UserConductancePoint {
                 clearance: contact.clearance.0,
-                temperatures: sides.temperatures,
+                temperatures: sides.temperatures.map(Wide::to_f64),
                 field_variables: &fields,
                 time: [moment.step_time, moment.time],
                 names,
@@ -163,17 +173,18 @@ pub(crate) fn electrical(
 pub(crate) fn thermal(laws: &InterfaceLaws, row: &SceneInterface, contact: &Contact, sides: &Sides) -> Conducts {
     let mut conducts = Conducts::default();
     if let Some(law) = &laws.thermal {
-        let first = [sides.mean_temperature(), row.mass_flow.map_or(f64::NAN, f64::abs)];
+        let temperature = Mean::of(sides.temperatures);
+        let first = [temperature.number, row.mass_flow.map_or(f64::NAN, f64::abs)];
         let variables = variables(&first, &row.field_variables);
         let point = contact.point(&variables);
         let mut slopes = vec![0.0; variables.len()];
         law.slopes(&point, &mut slopes);
-        conducts.conductance = law.conductance(&point).value;
         conducts.along_temperature = finite(slopes[0]);
+        conducts.conductance = corrected(law.conductance(&point).value, &[(conducts.along_temperature, temperature)]);
     }
     if let Some(law) = &laws.radiation {
         let (view_factor, _) = law.view_factor(contact.clearance, contact.state);
-        let [a, b] = sides.temperatures.map(|temperature| temperature - law.absolute_zero);
+        let [a, b] = sides.temperatures.map(|temperature| temperature.to_f64() - law.absolute_zero);
         // Below absolute zero, where a step of Newton's may look, nothing is radiated.
         let (a, b) = (a.max(0.0), b.max(0.0));
         let part = |powers: &[f64]| product(&[&[law.coefficient.0, view_factor], powers].concat());
@@ -221,8 +232,9 @@ pub(crate) fn pore(
     (gap, length): (Gap, Option<f64>),
 ) -> (PoreElement, [f64; 2]) {
     let Some(law) = &laws.pore else { return (PoreElement::Finite(Conducts::default()), [0.0; 2]) };
-    let [slave, master] = sides.pore_pressures;
-    let variables = variables(&[mean(slave, master), sides.mean_temperature()], &row.field_variables);
+    let [slave, master] = sides.pore_pressures.map(Wide::to_f64);
+    let means = [sides.pore_pressures, sides.temperatures].map(Mean::of);
+    let variables = variables(&means.map(|mean| mean.number), &row.field_variables);
     let bulk = match row.bulk_permeabilities {
         [Some(slave), Some(master)] => Some(BulkPermeabilities { slave, master }),
         _ => None,
@@ -250,12 +262,10 @@ pub(crate) fn pore(
         Some(conductance) => {
             let mut slopes = vec![0.0; variables.len()];
             law.permeability_slopes(&point, &mut slopes);
-            PoreElement::Finite(Conducts {
-                conductance,
-                along_pore_pressure: finite(slopes[0]),
-                along_temperature: finite(slopes[1]),
-                ..Conducts::default()
-            })
+            let [along_pore_pressure, along_temperature] = [slopes[0], slopes[1]].map(finite);
+            let slopes = [(along_pore_pressure, means[0]), (along_temperature, means[1])];
+            let conductance = corrected(conductance, &slopes);
+            PoreElement::Finite(Conducts { conductance, along_pore_pressure, along_temperature, ..Conducts::default() })
         }
     };
     (element, [into_slave, into_master])
@@ -264,6 +274,13 @@ pub(crate) fn pore(
 /// The variables of a table: some first ones, then the field variables.
 fn variables(first: &[f64], field_variables: &[f64]) -> Vec<f64> {
     first.iter().chain(field_variables).copied().collect()
+}
+
+/// A conductance with what its variables have lost to rounding.
+fn corrected(conductance: f64, slopes: &[(f64, Mean)]) -> f64 {
+    let lost: f64 = slopes.iter().map(|(slope, mean)| slope * mean.lost).sum();
+    // A table that falls to zero there stays at zero.
+    if conductance == 0.0 { 0.0 } else { (conductance + lost).max(0.0) }
 }
 
 /// A slope that can be used; at a jump there may be none.

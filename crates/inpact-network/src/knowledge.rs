@@ -6,6 +6,7 @@ use crate::scene::{Field, SceneInterface};
 use crate::state::State;
 use inpact_evaluation::law::contact::ClearanceRate;
 use inpact_evaluation::law::pore::Gap;
+use inpact_evaluation::numbers::Wide;
 
 /// An increment of time.
 #[derive(Debug, Clone, Copy)]
@@ -25,8 +26,8 @@ pub(crate) struct Knowledge<'a> {
     pub(crate) increment: Option<Increment<'a>>,
     pub(crate) number: i32,
     /// By node of the scene; NaN where nothing is known.
-    pub(crate) temperatures: Vec<f64>,
-    pub(crate) pore_pressures: Vec<f64>,
+    pub(crate) temperatures: Vec<Wide>,
+    pub(crate) pore_pressures: Vec<Wide>,
     /// The heat of currents that are solved already, by place among the nodes of temperature; empty where there is none.
     pub(crate) heat: Vec<f64>,
 }
@@ -40,8 +41,8 @@ impl<'a> Knowledge<'a> {
             time,
             increment: None,
             number: 0,
-            temperatures: vec![f64::NAN; nodes],
-            pore_pressures: vec![f64::NAN; nodes],
+            temperatures: vec![Wide::new(f64::NAN); nodes],
+            pore_pressures: vec![Wide::new(f64::NAN); nodes],
             heat: Vec::new(),
         };
         knowledge.begin(Field::Temperature);
@@ -68,8 +69,8 @@ impl<'a> Knowledge<'a> {
             Field::Temperature => &mut self.temperatures,
             Field::PorePressure => &mut self.pore_pressures,
         };
-        for (&node, value) in nodes.nodes.iter().zip(state.values()) {
-            values[node as usize] = value;
+        for (&node, value) in nodes.nodes.iter().zip(&state.solution.values) {
+            values[node as usize] = *value;
         }
     }
 
@@ -93,7 +94,7 @@ impl<'a> Knowledge<'a> {
         for &node in &nodes.nodes {
             let fixed = conditions.fixed.get(&node).map(|course| course.at(time));
             let value = fixed.or_else(|| conditions.initial.get(&node).copied()).or(of_all).unwrap_or(middle);
-            values[node as usize] = value;
+            values[node as usize] = Wide::new(value);
         }
     }
 
@@ -115,10 +116,10 @@ impl<'a> Knowledge<'a> {
     pub(crate) fn sides(&self, row: u32) -> Sides {
         let of = self.row(row);
         let nodes = [of.slave as usize, of.master as usize];
-        let known = |value: f64| (!value.is_nan()).then_some(value);
+        let known = |value: Wide| (!value.to_f64().is_nan()).then_some(value);
         let [slave, master] = nodes.map(|node| known(self.temperatures[node]));
-        let given = of.temperature.or(self.problem.scene.initial_temperature);
-        let or = |own: Option<f64>, other: Option<f64>| own.or(given).or(other).unwrap_or(f64::NAN);
+        let given = of.temperature.or(self.problem.scene.initial_temperature).map(Wide::new);
+        let or = |own: Option<Wide>, other: Option<Wide>| own.or(given).or(other).unwrap_or(Wide::new(f64::NAN));
         Sides {
             temperatures: [or(slave, master), or(master, slave)],
             pore_pressures: nodes.map(|node| self.pore_pressures[node]),

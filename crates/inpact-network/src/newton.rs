@@ -8,27 +8,41 @@
 //!
 //! A step is taken as far as it lessens what is missing in the balances (line search by halves). Tables are piecewise linear: at a knot the slope is that of the right-hand side,
 //! and a step that overshoots a knot is cut short or, where no step lessens anything, replaced by one with the conductances held, which needs no slope.
+//! Where that ends short of a solution the scene is followed through a time of its own: every node takes up some of what is missing, as a capacity would,
+//! less and less of it the better the balances are met (pseudo-transient continuation; Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
+//! That goes where warming up would lead, over hills that a search downwards does not leave.
 //! What the iteration ends with is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
 
-use crate::assembly::{Capacities, Currents, HeatTerm, RowFault, RowTerms, add_heat, network, row_terms, sources};
+mod system;
+
+use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sources};
 use crate::knowledge::Knowledge;
-use crate::linear::{Balance, Core, Edges, Form, LinearSolution, NONE, Origins, Series, each_part, index};
-use crate::problem::FieldNodes;
+use crate::linear::{LinearSolution, NONE, each_part, index};
 use crate::scene::Field;
 use faer::Col;
 use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
+use system::{Evaluated, System};
 
 /// Below that share of its flows a balance is met.
-const MET: f64 = 1e-14;
+const MET: f64 = 1e-17;
 
 /// Below that share an iteration that gains nothing more has converged: conductances are found in f64.
 const GOOD_ENOUGH: f64 = 1e-10;
 
 /// The most steps.
 const MOST_STEPS: usize = 60;
+
+/// What equations take up at first, as a multiple of what their slopes amount to: in a second attempt more.
+const FIRST_TAKEN_UP: [f64; 2] = [1.0, 10.0];
+
+/// Balances that are met so well are near a solution.
+const AT_REST: f64 = 1e-6;
+
+/// The most steps through a time of its own.
+const MOST_CREEPING_STEPS: usize = 400;
 
 /// A step is cut in halves that often before it is given up.
 const MOST_HALVES: i32 = 12;
@@ -40,7 +54,7 @@ pub(crate) struct Iterated {
     pub(crate) steps: usize,
     /// Whether the balances are met.
     pub(crate) has_converged: bool,
-    /// The largest share that is missing in a balance of each field, and the place of its node.
+    /// For each field where most is missing: the share of the largest flow, and the node of the scene.
     pub(crate) missing: Vec<(f64, u32)>,
 }
 
@@ -54,27 +68,6 @@ pub(crate) struct Newton<'a> {
 struct Structure {
     places: Vec<(u32, u32)>,
     symbolic: SymbolicLu<u32>,
-}
-
-/// One field.
-struct System<'a> {
-    field: Field,
-    nodes: &'a FieldNodes,
-    core: Core,
-    origins: Origins,
-    edges: Edges,
-    jumps: Vec<Wide>,
-    /// Where its unknowns begin among those of all fields.
-    start: u32,
-}
-
-/// A field at some state.
-struct Evaluated {
-    terms: RowTerms,
-    heat: Vec<HeatTerm>,
-    balance: Balance,
-    /// Flows through links, then rows, of the field.
-    flows: Vec<Wide>,
 }
 
 impl<'a> Newton<'a> {
@@ -98,42 +91,95 @@ impl<'a> Newton<'a> {
     /// # Errors
     /// A row whose law fails.
     pub(crate) fn iterate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, RowFault> {
+        let start = self.jumps();
+        let mut iterated = self.descend(knowledge)?;
+        for taken_up in FIRST_TAKEN_UP {
+            if !iterated.has_converged {
+                self.set_jumps(start.clone());
+                let steps = iterated.steps + self.creep(knowledge, taken_up)?;
+                let descended = self.descend(knowledge)?;
+                iterated = Iterated { steps: steps + descended.steps, ..descended };
+            }
+        }
+        Ok(iterated)
+    }
+
+    /// Takes steps that lessen what is missing.
+    fn descend(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, RowFault> {
         let mut states = self.evaluate(knowledge)?;
         let mut best = f64::INFINITY;
         let mut idle = 0;
         for step in 0..=MOST_STEPS {
-            let missing: Vec<(f64, u32)> = self.fields.iter().zip(&states).map(|(of, at)| of.worst(at)).collect();
-            let worst = missing.iter().fold(0.0, |worst: f64, (share, _)| worst.max(*share));
+            let worst = self.worst(&states);
             if worst < 0.5 * best {
                 best = worst;
                 idle = 0;
             } else {
                 idle += 1;
             }
-            let is_met = worst <= MET || (worst <= GOOD_ENOUGH && idle >= 2);
-            let has_to_end = step == MOST_STEPS || !worst.is_finite();
-            if is_met || has_to_end {
-                return Ok(Iterated { steps: step, has_converged: is_met, missing });
+            let is_met = (worst <= MET && step > 0) || (worst <= GOOD_ENOUGH && idle >= 1);
+            let end = |has_converged: bool, newton: &Self, states: &[Evaluated]| {
+                let missing = newton.fields.iter().zip(states).map(|(of, at)| of.worst_node(at)).collect();
+                Iterated { steps: step, has_converged, missing }
+            };
+            if is_met || step == MOST_STEPS || !worst.is_finite() {
+                return Ok(end(is_met, self, &states));
             }
-            let direction = self.direction(knowledge, &states, Slopes::All);
-            let moved = match direction {
-                Some(direction) => self.search(knowledge, &direction, &states)?,
-                None => None,
-            };
-            let moved = match moved {
-                Some(moved) => Some(moved),
-                // Without slopes the step leads to the solution of the conductances as they are now.
-                None => match self.direction(knowledge, &states, Slopes::Held) {
-                    Some(direction) => self.search(knowledge, &direction, &states)?,
-                    None => None,
-                },
-            };
+            let mut moved = None;
+            // Without slopes a step leads to the solution of the conductances as they are now.
+            for slopes in [Slopes::All, Slopes::Held] {
+                if moved.is_none()
+                    && let Some(direction) = self.direction(knowledge, &states, slopes, 0.0)
+                {
+                    moved = self.search(knowledge, &direction, &states)?;
+                }
+            }
             match moved {
                 Some(moved) => states = moved,
-                None => return Ok(Iterated { steps: step, has_converged: worst <= GOOD_ENOUGH, missing }),
+                None => return Ok(end(worst <= GOOD_ENOUGH, self, &states)),
             }
         }
         unreachable!("the last pass returns")
+    }
+
+    /// Follows the scene through a time of its own until it comes to rest; gives the number of steps.
+    fn creep(&mut self, knowledge: &mut Knowledge<'a>, mut taken_up: f64) -> Result<usize, RowFault> {
+        let mut states = self.evaluate(knowledge)?;
+        let mut worst = self.worst(&states);
+        for step in 0..MOST_CREEPING_STEPS {
+            if worst <= AT_REST || !worst.is_finite() {
+                return Ok(step);
+            }
+            let Some(direction) = self.direction(knowledge, &states, Slopes::All, taken_up) else { return Ok(step) };
+            let start = self.jumps();
+            self.go(&start, &direction, 1.0);
+            states = self.evaluate(knowledge)?;
+            let before = std::mem::replace(&mut worst, self.worst(&states));
+            taken_up *= (worst / before).clamp(0.5, 2.0);
+        }
+        Ok(MOST_CREEPING_STEPS)
+    }
+
+    /// The largest share that is missing in a balance of any field.
+    fn worst(&self, states: &[Evaluated]) -> f64 {
+        let shares = self.fields.iter().zip(states).map(|(of, at)| of.worst(at));
+        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+    }
+
+    fn jumps(&self) -> Vec<Vec<Wide>> {
+        self.fields.iter().map(|system| system.jumps.clone()).collect()
+    }
+
+    fn set_jumps(&mut self, jumps: Vec<Vec<Wide>>) {
+        for (system, jumps) in self.fields.iter_mut().zip(jumps) {
+            system.jumps = jumps;
+        }
+    }
+
+    fn go(&mut self, start: &[Vec<Wide>], direction: &[f64], part: f64) {
+        for (system, jumps) in self.fields.iter_mut().zip(start) {
+            system.go(jumps, direction, part);
+        }
     }
 
     /// Asks the laws and takes the balances at the jumps as they are.
@@ -178,28 +224,34 @@ impl<'a> Newton<'a> {
             let of_field = |((of, at), unit): ((&System<'a>, &Evaluated), &f64)| of.merit(at, *unit);
             systems.iter().zip(states).zip(&units).map(of_field).sum()
         };
-        let before = merit(&self.fields, states);
-        let start: Vec<Vec<Wide>> = self.fields.iter().map(|system| system.jumps.clone()).collect();
+        let (before, worst) = (merit(&self.fields, states), self.worst(states));
+        let start = self.jumps();
         for halves in 0..=MOST_HALVES {
             let part = 0.5_f64.powi(halves);
-            for (system, jumps) in self.fields.iter_mut().zip(&start) {
-                system.go(jumps, direction, part);
-            }
+            self.go(&start, direction, part);
             let trial = self.evaluate(knowledge)?;
             let after = merit(&self.fields, &trial);
-            if after < (1.0 - 1e-4 * part) * before {
+            // Near a solution the largest balances are at their rounding, and small ones still gain.
+            let gains = after < (1.0 - 1e-4 * part) * before || self.worst(&trial) < 0.5 * worst;
+            if gains {
                 return Ok(Some(trial));
             }
         }
-        for (system, jumps) in self.fields.iter_mut().zip(start) {
-            system.jumps = jumps;
-        }
+        self.set_jumps(start);
         self.evaluate(knowledge)?;
         Ok(None)
     }
 
     /// The step of Newton's: the change of all unknowns, on the scale of the matrix; `None` where the matrix cannot be factored.
-    fn direction(&mut self, knowledge: &Knowledge<'a>, states: &[Evaluated], slopes: Slopes) -> Option<Vec<f64>> {
+    ///
+    /// Each equation of temperature and pore pressure takes up `taken_up` times what its slopes amount to.
+    fn direction(
+        &mut self,
+        knowledge: &Knowledge<'a>,
+        states: &[Evaluated],
+        slopes: Slopes,
+        taken_up: f64,
+    ) -> Option<Vec<f64>> {
         let count = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
         let mut entries: Vec<Triplet<u32, u32, f64>> = Vec::new();
         let mut right = Col::<f64>::zeros(count);
@@ -220,6 +272,9 @@ impl<'a> Newton<'a> {
                 self.slopes_of_heat(system, state, knowledge, &mut entries);
             }
         }
+        if taken_up > 0.0 {
+            self.take_up(taken_up, &mut entries);
+        }
         let scale = balance_fields(&self.fields, &mut entries, &mut right);
         let places: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.row, entry.col)).collect();
         let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, &entries).ok()?;
@@ -236,6 +291,20 @@ impl<'a> Newton<'a> {
             direction[range].iter_mut().for_each(|change| *change *= scale[system.field.index()]);
         }
         direction.iter().all(|change| change.is_finite()).then_some(direction)
+    }
+
+    /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes.
+    fn take_up(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) {
+        for system in self.fields.iter().filter(|system| system.field != Field::Potential) {
+            let count = index(system.edges.form.count());
+            let is_own = |unknown: u32| (system.start..system.start + count).contains(&unknown);
+            let mut sums = vec![0.0; count as usize];
+            for entry in entries.iter().filter(|entry| is_own(entry.row) && is_own(entry.col)) {
+                sums[(entry.row - system.start) as usize] += entry.val.abs();
+            }
+            entries
+                .extend((system.start..).zip(sums).map(|(unknown, sum)| Triplet::new(unknown, unknown, times * sum)));
+        }
     }
 
     /// What the dependence of conductances adds to the slopes of flows through rows.
@@ -320,220 +389,6 @@ enum Slopes {
     All,
     /// Conductances and heat are held.
     Held,
-}
-
-impl<'a> System<'a> {
-    fn new(
-        knowledge: &Knowledge<'a>,
-        field: Field,
-        nodes: &'a FieldNodes,
-        solution: &LinearSolution,
-        rows: &[f64],
-        capacities: Capacities,
-        start: u32,
-    ) -> Option<Self> {
-        let no_sources = vec![0.0; nodes.nodes.len()];
-        let network = network(knowledge, field, nodes, rows, &no_sources, capacities);
-        let links = nodes.links.len();
-        let (mut core, origins) = Core::merged(&network, &|link| link >= links).ok()?;
-        // Nodes at which something depends on the state have to stay.
-        let mut stays = vec![false; core.free as usize];
-        let scene = knowledge.problem.scene;
-        let ends = scene.interfaces.iter().flat_map(|of| [of.slave, of.master]);
-        let heated = scene.links.iter().filter(|link| link.joule_heat_fraction > 0.0).flat_map(|link| link.nodes);
-        for node in ends.chain(heated) {
-            let place = nodes.place[node as usize];
-            if place != NONE
-                && let Some(stays) = stays.get_mut(origins.number[place as usize] as usize)
-            {
-                *stays = true;
-            }
-        }
-        let sources = super::assembly::sources(knowledge, field, nodes);
-        for (place, source) in sources.iter().enumerate() {
-            if let Some(stays) = stays.get_mut(origins.number[place] as usize) {
-                *stays |= *source != 0.0;
-            }
-        }
-        let series = Series::take_out(&mut core, &|node| stays[node as usize]);
-        let form = Form::choose(&core, &series.is_there, &series.is_free);
-        let edges = Edges::new(&core, form, &series.is_there);
-        let mut system = Self { field, nodes, core, origins, edges, jumps: Vec::new(), start };
-        system.jumps = system.jumps_of(solution, rows, &network);
-        Some(system)
-    }
-
-    /// The jumps along the forest of a solution: of the flows where a conductance tells, otherwise of the values.
-    fn jumps_of(&self, solution: &LinearSolution, rows: &[f64], network: &crate::linear::LinearNetwork) -> Vec<Wide> {
-        let mut jump_of_element = vec![None; self.core.elements.len()];
-        let links = self.nodes.links.len();
-        for (link, &element) in self.origins.of_link.iter().enumerate().filter(|(_, element)| **element != NONE) {
-            let conductance = link.checked_sub(links).map_or(network.links[link].conductance, |row| rows[row]);
-            if conductance > 0.0 {
-                jump_of_element[element as usize] = Some(solution.flows[link] / Wide::new(conductance));
-            }
-        }
-        let mut value_of_number = vec![Wide::ZERO; self.core.free as usize];
-        for (&number, &value) in self.origins.number.iter().zip(&solution.values) {
-            if let Some(place) = value_of_number.get_mut(number as usize) {
-                *place = value;
-            }
-        }
-        let value = |number: u32| self.core.value(&value_of_number, number);
-        let form = &self.edges.form;
-        let jump = |unknown: u32| {
-            let number = form.hangs_by[unknown as usize];
-            let element = self.core.elements[number as usize];
-            let along =
-                jump_of_element[number as usize].unwrap_or_else(|| value(element.ends[0]) - value(element.ends[1]));
-            let is_first = element.ends[0] == form.nodes[unknown as usize];
-            (if is_first { along } else { -along }).times_power_of_two(form.scale(unknown))
-        };
-        (0..index(form.count())).map(jump).collect()
-    }
-
-    /// Half the exponent that an unknown is scaled by.
-    fn half(&self, unknown: u32) -> i32 {
-        self.edges.form.scale(unknown) / 2
-    }
-
-    /// Tells what the jumps make of temperatures or pore pressures.
-    fn tell(&self, knowledge: &mut Knowledge<'_>) {
-        let known = match self.field {
-            Field::Potential => return,
-            Field::Temperature => &mut knowledge.temperatures,
-            Field::PorePressure => &mut knowledge.pore_pressures,
-        };
-        let values = self.edges.values(&self.core, &self.jumps);
-        let form = &self.edges.form;
-        for (&node, &number) in self.nodes.nodes.iter().zip(&self.origins.number) {
-            if !self.core.is_free(number) {
-                known[node as usize] = self.core.known[(number - self.core.free) as usize].to_f64();
-            } else if form.of_node[number as usize] != NONE {
-                known[node as usize] = values[number as usize].to_f64();
-            }
-        }
-    }
-
-    /// Puts in conductances of rows and sources.
-    fn set(&mut self, rows: &[f64], sources: &[f64]) {
-        let links = self.nodes.links.len();
-        for (&element, &conductance) in self.origins.of_link[links..].iter().zip(rows) {
-            if element != NONE {
-                self.core.elements[element as usize].conductance = Wide::new(conductance);
-            }
-        }
-        self.core.sources.fill(Wide::ZERO);
-        for (&number, &source) in self.origins.number.iter().zip(sources) {
-            if let Some(sum) = self.core.sources.get_mut(number as usize) {
-                *sum += Wide::new(source);
-            }
-        }
-    }
-
-    fn balance(&self) -> Balance {
-        let mut balance = Balance::default();
-        let sources = self.edges.sources(&self.core);
-        self.edges.balance(&self.core, &self.jumps, &sources, &mut balance);
-        balance
-    }
-
-    /// The flows of the field's links and rows; zero for links whose nodes are taken out.
-    fn flows(&self, balance: &Balance) -> Vec<Wide> {
-        let flow = |&element: &u32| if element == NONE { Wide::ZERO } else { balance.flows[element as usize] };
-        self.origins.of_link.iter().map(flow).collect()
-    }
-
-    /// The largest share of its flows that is missing in a balance, and the node of the scene.
-    fn worst(&self, state: &Evaluated) -> (f64, u32) {
-        let mut worst = (0.0, NONE);
-        let cells = state.balance.missing().zip(&state.balance.magnitudes);
-        for (unknown, (missing, &magnitude)) in cells.enumerate() {
-            let share = if missing == 0.0 { 0.0 } else { missing.abs() / magnitude };
-            if share > worst.0 || share.is_nan() {
-                let number = self.edges.form.nodes[unknown];
-                let place = self.origins.number.iter().position(|&of| of == number);
-                worst = (share, place.map_or(NONE, |place| self.nodes.nodes[place]));
-            }
-        }
-        worst
-    }
-
-    /// The size of the flows of its equations, on the scale of the matrix.
-    fn unit(&self, state: &Evaluated) -> f64 {
-        let scaled =
-            (0..).zip(&state.balance.magnitudes).map(|(unknown, &flow)| scale_by_power(flow, -self.half(unknown)));
-        let unit = scaled.fold(0.0, f64::max);
-        if unit > 0.0 && unit.is_finite() { unit } else { 1.0 }
-    }
-
-    /// What is missing in the balances, as the sum of squares of parts of `unit`.
-    fn merit(&self, state: &Evaluated, unit: f64) -> f64 {
-        let scaled =
-            (0..).zip(state.balance.missing()).map(|(unknown, flow)| scale_by_power(flow, -self.half(unknown)) / unit);
-        scaled.map(|share| share * share).sum()
-    }
-
-    /// Goes from `jumps` a part of the way along a direction of all fields.
-    fn go(&mut self, jumps: &[Wide], direction: &[f64], part: f64) {
-        let form = &self.edges.form;
-        let changes: Vec<f64> = (0..index(form.count()))
-            .map(|unknown| {
-                let change = direction[(self.start + unknown) as usize];
-                part * scale_by_power(change, self.half(unknown))
-            })
-            .collect();
-        let changes = self.edges.changes_of_jumps(&changes);
-        self.jumps = jumps.iter().zip(changes).map(|(jump, change)| *jump + Wide::new(change)).collect();
-    }
-
-    /// The jump of values between two nodes of the scene.
-    fn jump_of_values(&self, slave: u32, master: u32) -> f64 {
-        let values = self.edges.values(&self.core, &self.jumps);
-        let value = |node: u32| {
-            let number = self.origins.number[self.nodes.place[node as usize] as usize];
-            self.core.value(&values, number)
-        };
-        (value(slave) - value(master)).to_f64()
-    }
-
-    /// Calls `take` with the row of each equation that the flow of an element is part of, and the factor it has there on the scale of the matrix.
-    fn on_element(&self, element: u32, mut take: impl FnMut(u32, f64)) {
-        let ends = self.edges.form.ends(&self.core, &self.core.elements[element as usize]);
-        self.edges.form.on_way(ends, |unknown, sign| {
-            take(self.start + unknown, scale_by_power(sign, -self.half(unknown)));
-        });
-    }
-
-    /// Calls `take` with the column of each unknown that the jump of an element is made of, and what turns a slope along the jump into one along the unknown.
-    fn on_jump(&self, element: u32, mut take: impl FnMut(u32, &dyn Fn(f64) -> f64)) {
-        let ends = self.edges.form.ends(&self.core, &self.core.elements[element as usize]);
-        self.edges.form.on_way(ends, |unknown, sign| {
-            let half = self.half(unknown);
-            take(self.start + unknown, &|slope| scale_by_power(sign * slope, -half));
-        });
-    }
-
-    /// The same for the value of a node of the scene.
-    fn on_value(&self, node: u32, take: impl FnMut(u32, &dyn Fn(f64) -> f64)) {
-        let place = self.nodes.place[node as usize];
-        if place != NONE {
-            self.on_place(place, take);
-        }
-    }
-
-    /// The same for the value of a node of the field; its balance is in the same equations, with the same factors.
-    fn on_place(&self, place: u32, mut take: impl FnMut(u32, &dyn Fn(f64) -> f64)) {
-        let number = self.origins.number[place as usize];
-        if !self.core.is_free(number) {
-            return;
-        }
-        let unknown = self.edges.form.of_node[number as usize];
-        self.edges.form.on_way([unknown, NONE], |unknown, _| {
-            let half = self.half(unknown);
-            take(self.start + unknown, &|slope| scale_by_power(slope, -half));
-        });
-    }
 }
 
 /// Chooses the unit of each field so that what couples two fields has one size in both directions; gives the factors.

@@ -8,12 +8,14 @@ use crate::problem::{FieldNodes, Problem, Stage};
 use crate::scene::Field;
 use crate::state::{FieldState, StageReport, State};
 
-/// The conductances at a solution are within this relative distance of those it was found with.
-const CONSISTENT: f64 = 1e-10;
+/// Conductances within this relative distance of those a solution was found with are the same.
+const CONSISTENT: f64 = 1e-14;
 
-/// How often a nonlinear stage is solved with the conductances of its own solution before Newton's iteration, and once more where that fails.
+/// Conductances that come no nearer are taken within this distance; the report says how near they are.
+const CONSISTENT_ENOUGH: f64 = 1e-10;
+
+/// How often a nonlinear stage is solved with the conductances of its own solution before Newton's iteration.
 const FIRST_PASSES: usize = 2;
-const MORE_PASSES: usize = 40;
 
 /// Solves a scene, time after time, with what can be kept from one to the next.
 pub struct Equations<'a> {
@@ -55,7 +57,7 @@ pub enum SolveFailure {
         time: f64,
         /// How many steps it took.
         steps: usize,
-        /// For each field the largest share of its flows that is missing in a balance, and the node.
+        /// For each field where most is missing: the share of its largest flow, and the node.
         worst: Vec<(Field, f64, Option<u32>)>,
     },
 }
@@ -173,28 +175,22 @@ impl<'a> Equations<'a> {
         for _ in 0..FIRST_PASSES {
             self.solve_fields(stage, knowledge, capacities, state)?;
         }
-        let mut iterated = Self::iterate(stage, knowledge, capacities, state)?;
-        let mut steps = iterated.steps;
-        if !iterated.has_converged {
-            // From further along the way the iteration may find what it did not find from its beginning.
-            for _ in 0..MORE_PASSES {
-                self.solve_fields(stage, knowledge, capacities, state)?;
-            }
-            iterated = Self::iterate(stage, knowledge, capacities, state)?;
-            steps += iterated.steps;
-        }
-        // The flows of the conductances that were found, to the last digit.
+        let mut steps = 0;
         let mut inconsistency = f64::INFINITY;
-        if iterated.has_converged {
-            for _ in 0..3 {
-                self.solve_fields(stage, knowledge, capacities, state)?;
-                inconsistency = self.inconsistency(stage, knowledge, state)?;
-                if inconsistency <= CONSISTENT {
-                    break;
-                }
+        let iterated = loop {
+            let iterated = Self::iterate(stage, knowledge, capacities, state)?;
+            steps += iterated.steps;
+            if !iterated.has_converged {
+                break iterated;
             }
-        }
-        if inconsistency <= CONSISTENT {
+            // The flows of the conductances that were found, to the last digit: what the conductances are there tells how good they were.
+            self.solve_fields(stage, knowledge, capacities, state)?;
+            let before = std::mem::replace(&mut inconsistency, self.inconsistency(stage, knowledge, state)?);
+            if inconsistency <= CONSISTENT || 0.5 * before <= inconsistency {
+                break iterated;
+            }
+        };
+        if iterated.has_converged && inconsistency <= CONSISTENT_ENOUGH {
             return Ok(StageReport {
                 fields: stage.fields.clone(),
                 iterations: steps,
