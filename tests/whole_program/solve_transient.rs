@@ -177,10 +177,11 @@ fn the_balance_that_is_printed_is_one() {
     for field in ["potential", "temperature"] {
         let balance = &document["balance"][field];
         let of = |name: &str| balance[name].as_f64().unwrap_or_else(|| panic!("{name}: {balance}"));
-        assert!((of("supplied") + of("generated") - of("stored")).abs() < 1e-13 * of("turnover"), "{balance}");
+        let net = of("supplied") - of("withdrawn");
+        assert!((net + of("generated") - of("stored")).abs() < 1e-13 * of("turnover"), "{balance}");
         let supplies: f64 =
             balance["supplies"].as_object().expect("supplies").values().filter_map(serde_json::Value::as_f64).sum();
-        assert!((supplies - of("supplied")).abs() < 1e-13 * of("turnover"), "{balance}");
+        assert!((supplies - net).abs() < 1e-13 * of("turnover"), "{balance}");
     }
 }
 

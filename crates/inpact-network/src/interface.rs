@@ -106,8 +106,12 @@ impl Contact {
             Some(true) => ContactState::Closed,
             Some(false) => ContactState::Open,
             None => {
-                clearance.or(pressure)?;
-                let of_clearance = Clearance(clearance.unwrap_or(f64::INFINITY));
+                // Without pressure a row whose clearance is not known may be open as well as closed.
+                let of_clearance = match (clearance, pressure) {
+                    (Some(clearance), _) => Clearance(clearance),
+                    (None, Some(pressure)) if pressure != 0.0 => Clearance(f64::INFINITY),
+                    _ => return None,
+                };
                 let of_pressure = ContactPressure(pressure.unwrap_or(0.0));
                 ContactState::from_clearance_and_pressure(of_clearance, of_pressure)
             }

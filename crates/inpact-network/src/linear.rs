@@ -27,5 +27,5 @@ pub use ordering::Ordering;
 pub use refinement::Quality;
 pub(crate) use relative::Form;
 pub(crate) use series::Series;
-pub(crate) use sets::index;
+pub(crate) use sets::{Sets, index};
 pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Phases, Shortcoming, Solver};

@@ -3,7 +3,7 @@
 //! Only what a scene requires is modelled:
 //!
 //! - a field gets unknowns where the scene says something of it, and a law couples it or something drives it: a fixed value or a source that is not zero;
-//! - of a field only those nodes get one that a link or an interface of the field joins, or a condition names;
+//! - of a field only those nodes get one that a condition names, or that links and interfaces of the field join to such a node;
 //! - pore fluid crosses an interface only where both sides carry pore pressure (P-01);
 //! - a field whose conductances depend on no other is solved before those that depend on it; fields that depend on each other are solved together;
 //! - a field that depends on nothing unsolved is linear: it takes one solve, no Newton.
@@ -11,8 +11,8 @@
 use crate::interface::{
     Contact, Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal, heat_of_friction,
 };
-use crate::linear::{NONE, index};
-use crate::scene::{Field, MISSING_QUANTITY, Scene, SceneInterface};
+use crate::linear::{NONE, Sets, index};
+use crate::scene::{Course, Field, MISSING_QUANTITY, Scene, SceneInterface};
 use inpact_evaluation::compile::InterfaceLaws;
 use inpact_evaluation::law::contact::ContactState;
 use inpact_evaluation::nodes::{Findings, Place, UNKNOWN_INTERACTION};
@@ -105,6 +105,7 @@ impl<'a> Problem<'a> {
         }
         problem.choose_fields();
         problem.check_rows(findings);
+        problem.note_friction();
         problem.choose_stages();
         (!findings.has_errors()).then_some(problem)
     }
@@ -164,7 +165,8 @@ impl<'a> Problem<'a> {
             }
             let mut carries = vec![false; scene.nodes.len()];
             let conditions = scene.conditions(field);
-            let named = conditions.fixed.keys().chain(conditions.sources.keys()).chain(conditions.capacities.keys());
+            let driven = conditions.fixed.keys().chain(conditions.sources.keys());
+            let named = driven.chain(conditions.capacities.keys()).chain(conditions.initial.keys());
             named.for_each(|node| carries[*node as usize] = true);
             let conducting = |link: &u32| scene.links[*link as usize].conductances[field.index()] > 0.0;
             let links: Vec<u32> = (0..index(scene.links.len())).filter(conducting).collect();
@@ -173,24 +175,18 @@ impl<'a> Problem<'a> {
                     carries[node as usize] = true;
                 }
             }
-            let couples = |row: &u32| {
-                let SceneInterface { slave, master, .. } = scene.interfaces[*row as usize];
-                let sides = [slave, master].map(|node| carries[node as usize]);
-                let do_carry = if field == Field::PorePressure { sides == [true; 2] } else { sides != [false; 2] };
-                do_carry && has_law(&(*row as usize))
-            };
-            let rows: Vec<u32> = (0..index(scene.interfaces.len())).filter(couples).collect();
+            let with_law = || (0..index(scene.interfaces.len())).filter(|row| has_law(&(*row as usize)));
+            let ends = |row: u32| [scene.interfaces[row as usize].slave, scene.interfaces[row as usize].master];
+            if field != Field::PorePressure {
+                spread(&mut carries, with_law().map(ends));
+            }
+            let rows: Vec<u32> = with_law().filter(|&row| ends(row).iter().all(|&end| carries[end as usize])).collect();
             let is_driven = !conditions.fixed.is_empty()
                 || conditions.sources.values().any(|source| source.values().any(|value| value != 0.0))
                 || conditions.capacities.values().any(|capacity| *capacity > 0.0);
             if rows.is_empty() && !is_driven {
                 self.left_out.push(format!("{field}: no interface law couples it, and nothing drives it"));
                 continue;
-            }
-            for &row in &rows {
-                let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
-                carries[slave as usize] = true;
-                carries[master as usize] = true;
             }
             let nodes: Vec<u32> = (0..index(carries.len())).filter(|node| carries[*node as usize]).collect();
             let mut place = vec![NONE; scene.nodes.len()];
@@ -239,7 +235,9 @@ impl<'a> Problem<'a> {
                         missing.push(format!("`{what}`"));
                     }
                 };
-                need(true, Contact::of(row, self.start()).is_some(), "clearance");
+                let corners = row.pressure.iter().flat_map(Course::corners);
+                let is_known = |time: f64| Contact::of(row, time).is_some();
+                need(true, is_known(self.start()) && corners.into_iter().all(is_known), "clearance");
                 need(needs.clearance, row.clearance.is_some(), "clearance");
                 need(needs.pressure, row.pressure.is_some(), "pressure");
                 need(needs.mass_flow, row.mass_flow.is_some(), "mass_flow");
@@ -253,14 +251,38 @@ impl<'a> Problem<'a> {
                 if !missing.is_empty() {
                     let names = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
                     let message = format!(
-                        "the interface of `{}` and `{}` lacks {}, which its law of {field} depends on",
+                        "the interface of `{}` and `{}` lacks {}, which its {} depends on",
                         names[0],
                         names[1],
-                        missing.join(", ")
+                        missing.join(", "),
+                        match field {
+                            Field::Potential => "electrical conductance",
+                            Field::Temperature => "thermal conductance",
+                            Field::PorePressure => "pore fluid flow",
+                        }
                     );
                     report_row(row, findings, &message);
                 }
             }
+        }
+    }
+
+    /// Notes the heat of friction of which rows tell only a part, and slip rates that the deck has the say over.
+    fn note_friction(&mut self) {
+        let (mut without, mut overruled) = ([0; 2], 0);
+        for (_, row, laws) in self.rows_of(Field::Temperature) {
+            let Some(source) = laws.friction else { continue };
+            let slip_rate = source.slip_rate.or(row.slip_rate);
+            without[0] += usize::from(row.shear.is_none() && slip_rate.is_some());
+            without[1] += usize::from(row.shear.is_some() && slip_rate.is_none());
+            overruled += usize::from(source.slip_rate.is_some() && row.slip_rate.is_some());
+        }
+        let of = |count: usize| format!("{count} interface{}", if count == 1 { "" } else { "s" });
+        for (count, key) in without.into_iter().zip(["shear", "slip_rate"]).filter(|(count, _)| *count > 0) {
+            self.left_out.push(format!("heat of friction of {}: `{key}` is missing", of(count)));
+        }
+        if overruled > 0 {
+            self.left_out.push(format!("`slip_rate` of {}: the deck gives the speed of slip", of(overruled)));
         }
     }
 
@@ -339,6 +361,21 @@ impl Dependence {
         self.fields.sort_unstable();
         self.fields.dedup();
         self
+    }
+}
+
+/// Marks every node that pairs of nodes join to a marked one.
+fn spread(is_marked: &mut [bool], pairs: impl Iterator<Item = [u32; 2]> + Clone) {
+    let mut sets = Sets::new(is_marked.len());
+    for [a, b] in pairs {
+        sets.join(a, b);
+    }
+    let mut has_marked = vec![false; is_marked.len()];
+    for (node, _) in (0..).zip(&*is_marked).filter(|(_, is_marked)| **is_marked) {
+        has_marked[sets.of(node) as usize] = true;
+    }
+    for (node, is_marked) in (0..).zip(is_marked) {
+        *is_marked = has_marked[sets.of(node) as usize];
     }
 }
 

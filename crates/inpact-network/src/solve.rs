@@ -53,8 +53,6 @@ pub enum SolveFailure {
     },
     /// Newton's iteration did not converge.
     NotConverged {
-        /// The time.
-        time: f64,
         /// How many steps it took.
         steps: usize,
         /// For each field where most is missing: the share of its largest flow, and the node.
@@ -203,7 +201,7 @@ impl<'a> Equations<'a> {
             .iter()
             .zip(&iterated.missing)
             .map(|(&field, &(share, node))| (field, share, Some(node).filter(|node| *node != crate::linear::NONE)));
-        Err(SolveFailure::NotConverged { time: knowledge.time, steps, worst: worst.collect() })
+        Err(SolveFailure::NotConverged { steps, worst: worst.collect() })
     }
 
     fn iterate(

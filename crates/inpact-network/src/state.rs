@@ -56,7 +56,7 @@ impl State {
 
     /// The value of a field at a node of the scene; `None` where it is not solved for.
     pub fn value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<f64> {
-        self.wide_value(problem, field, node).map(Wide::to_f64)
+        self.wide_value(problem, field, node).map(number)
     }
 
     pub(crate) fn wide_value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<Wide> {
@@ -67,14 +67,14 @@ impl State {
     /// What flows through a link of the scene, from its first to its second node; `None` where the field is not solved for or the link does not conduct it.
     pub fn link_flow(&self, problem: &Problem<'_>, field: Field, link: u32) -> Option<f64> {
         let place = problem.field(field)?.links.binary_search(&link).ok()?;
-        Some(self.field(field)?.solution.flows[place].to_f64())
+        Some(number(self.field(field)?.solution.flows[place]))
     }
 
     /// What flows through an interface row by its conductance, from slave to master; without the heat and fluid that arise there.
     pub fn row_flow(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;
         let place = nodes.rows.binary_search(&row).ok()?;
-        Some(self.field(field)?.solution.flows[nodes.links.len() + place].to_f64())
+        Some(number(self.field(field)?.solution.flows[nodes.links.len() + place]))
     }
 
     /// The jump of a field across an interface row, slave − master, as exactly as it is known.
@@ -88,7 +88,7 @@ impl State {
             Ok(place) => state.solution.jump_at(nodes.links.len() + place, state.rows[place]),
             Err(_) => values[0] - values[1],
         };
-        Some(jump.to_f64())
+        Some(number(jump))
     }
 
     /// Whether both sides of a row have one value, by an infinite conductance.
@@ -121,10 +121,10 @@ impl State {
         let fixed = &problem.scene.conditions(field).fixed;
         let leaving = self.leaving(problem, field);
         let held = nodes.nodes.iter().zip(&leaving).filter(|(node, _)| fixed.contains_key(node));
-        held.map(|(&node, leaving)| (node, leaving.to_f64())).collect()
+        held.map(|(&node, &leaving)| (node, number(leaving))).collect()
     }
 
-    /// What the fixed values of a field supply together, what sources and interfaces add, and what is stored: the three add up to zero but for rounding.
+    /// What the fixed values of a field supply and withdraw, what sources and interfaces add, and what is stored: they add up to zero but for rounding.
     pub fn balance(&self, problem: &Problem<'_>, field: Field) -> Option<FieldBalance> {
         let (nodes, state) = (problem.field(field)?, self.field(field)?);
         let fixed = &problem.scene.conditions(field).fixed;
@@ -135,26 +135,40 @@ impl State {
         let stored = &state.solution.stored;
         let sum = |parts: &[Wide]| parts.iter().copied().sum::<Wide>();
         let turnover: Wide = [&held, &generated, stored].into_iter().flatten().map(|part| part.abs()).sum();
+        // What is below the rounding of the whole is none.
+        let sizable = |sum: Wide| if sum.to_f64().abs() <= NOTHING * turnover.to_f64() { 0.0 } else { number(sum) };
+        let (supplied, withdrawn): (Vec<Wide>, Vec<Wide>) = held.iter().partition(|part| part.to_f64() > 0.0);
         Some(FieldBalance {
-            supplied: sum(&held).to_f64(),
-            generated: sum(&generated).to_f64(),
-            stored: sum(stored).to_f64(),
+            supplied: sizable(sum(&supplied)),
+            withdrawn: sizable(-sum(&withdrawn)),
+            generated: sizable(sum(&generated)),
+            stored: sizable(sum(stored)),
             missing: (sum(&held) + sum(&generated) - sum(stored)).to_f64(),
             turnover: turnover.to_f64(),
         })
     }
 }
 
+/// Below that part of a turnover a sum is its rounding.
+const NOTHING: f64 = 1e-27;
+
+/// The number nearest to one in 106 bits; none is 0, not −0.
+fn number(wide: Wide) -> f64 {
+    wide.to_f64() + 0.0
+}
+
 /// The balance of one field over the whole scene, per time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldBalance {
-    /// What fixed values supply.
+    /// What flows in at fixed values.
     pub supplied: f64,
+    /// What flows out at fixed values.
+    pub withdrawn: f64,
     /// What sources and interfaces add.
     pub generated: f64,
     /// What is stored.
     pub stored: f64,
-    /// Supplied and generated less stored: zero but for rounding.
+    /// Supplied and generated less withdrawn and stored: zero but for rounding.
     pub missing: f64,
     /// The magnitudes of all of these at their nodes, added up: what the missing is to be compared with.
     pub turnover: f64,

@@ -2,6 +2,8 @@
 //!
 //! The local error of an increment of length h is h²/2 · |x''| to first order; x'' is the change of the rate from the increment before, over h.
 //! Increments by error are as long as that allows, and end where a course of the scene has a corner; one that errs too much is taken back and cut.
+//! The error is compared with the range that the field's values have had so far. So that nothing is lost in a scene that begins, or has come, to rest,
+//! one increment to the next corner is tried after each corner, and what it does to the range counts: backward Euler overshoots nothing.
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the control of lengths.
 
 use crate::problem::Problem;
@@ -22,8 +24,10 @@ pub struct TransientReport {
     pub increments: usize,
     /// How many were taken back.
     pub taken_back: usize,
-    /// The largest estimated local error of an increment, as a part of the range of its field's values.
+    /// The largest estimated local error of an increment, as a part of the range that its field's values have had.
     pub local_error: f64,
+    /// How many points of courses lie inside increments of given length.
+    pub passed_over: usize,
 }
 
 /// Solves a scene: its steady state, or state after state of its transient; `take` gets each as it is found.
@@ -42,7 +46,9 @@ pub fn run<E: From<SolveFailure>>(
     let start = equations.start(span.start)?;
     take(&start)?;
     let rates = initial_rates(problem, &start);
-    let mut march = March { problem, equations, rates, report: TransientReport::default() };
+    let ranges = [None; 2];
+    let mut march = March { problem, equations, rates, ranges, report: TransientReport::default() };
+    march.widen(&start);
     match span.steps {
         Steps::Given(step) => march.by_length(start, span, step, &mut take)?,
         Steps::ByError { tolerance, first } => march.by_error(start, span, tolerance, first, &mut take)?,
@@ -56,6 +62,8 @@ struct March<'a, 'p> {
     equations: &'a mut Equations<'p>,
     /// The rate of each node with a capacity, for temperature and pore pressure.
     rates: [Vec<f64>; 2],
+    /// The least and the greatest value so far, of the same fields.
+    ranges: [Option<[f64; 2]>; 2],
     report: TransientReport,
 }
 
@@ -73,12 +81,18 @@ impl March<'_, '_> {
         let whole = ((span.end - span.start) / step).round();
         let exact = ((span.end - span.start) / step - whole).abs() <= REMAINDER;
         let mut number = 0.0;
+        let mut corners = corners(self.problem.scene, span);
+        corners.pop();
+        self.report.passed_over = corners.len();
         while state.time < span.end {
             number += 1.0;
             let time = span.start + number * step;
             let is_last = if exact { number >= whole } else { time >= span.end };
             let next = self.equations.step(&state, if is_last { span.end } else { time })?;
+            self.report.passed_over -=
+                corners.iter().filter(|corner| (*corner - next.time).abs() <= REMAINDER * step).count();
             let rates = self.rates_of(&state, &next);
+            self.widen(&next);
             self.accept(&state, &next, rates);
             take(&next)?;
             state = next;
@@ -97,10 +111,17 @@ impl March<'_, '_> {
         let corners = corners(self.problem.scene, span);
         let shortest = SHORTEST * (span.end - span.start);
         let mut length = first;
+        let mut tried = f64::NEG_INFINITY;
         while state.time < span.end {
             let until = corners.iter().copied().find(|&corner| corner > state.time).unwrap_or(span.end);
             // What is left is shared evenly by the last two increments, so that none is a splinter.
             let left = until - state.time;
+            if tried < until {
+                tried = until;
+                if let Ok(trial) = self.equations.step(&state, until) {
+                    self.widen(&trial);
+                }
+            }
             let taken = if length >= left { left } else { length.min(0.5 * left).max(shortest.min(left)) };
             let time = if taken >= left { until } else { state.time + taken };
             let next = match self.equations.step(&state, time) {
@@ -120,11 +141,21 @@ impl March<'_, '_> {
                 self.report.taken_back += 1;
                 continue;
             }
+            self.widen(&next);
             self.accept(&state, &next, rates);
             take(&next)?;
             state = next;
         }
         Ok(())
+    }
+
+    /// Lets the values of a state count in the ranges.
+    fn widen(&mut self, state: &State) {
+        for (range, field) in self.ranges.iter_mut().zip(STORING) {
+            let values = state.field(field).into_iter().flat_map(FieldState::values).filter(|value| value.is_finite());
+            let wider = |[least, greatest]: [f64; 2], value: f64| [least.min(value), greatest.max(value)];
+            *range = values.fold(*range, |range, value| Some(wider(range.unwrap_or([value; 2]), value)));
+        }
     }
 
     fn accept(&mut self, before: &State, after: &State, rates: [Vec<f64>; 2]) {
@@ -147,19 +178,14 @@ impl March<'_, '_> {
         })
     }
 
-    /// The estimated local error of an increment, as a part of the range of values.
+    /// The estimated local error of an increment, as a part of the range of values so far.
     fn local_error(&self, before: &State, after: &State, rates: &[Vec<f64>; 2]) -> f64 {
         let duration = after.time - before.time;
         let mut largest = 0.0_f64;
-        for (place, field) in STORING.into_iter().enumerate() {
-            let Some(of_field) = after.field(field) else { continue };
+        for place in 0..STORING.len() {
             let changes = rates[place].iter().zip(&self.rates[place]).map(|(now, before)| (now - before).abs());
             let error = 0.5 * duration * changes.fold(0.0, f64::max);
-            let values = of_field.values().chain(before.field(field).into_iter().flat_map(FieldState::values));
-            let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {
-                (least.min(value), greatest.max(value))
-            });
-            if greatest > least {
+            if let Some([least, greatest]) = self.ranges[place].filter(|[least, greatest]| least < greatest) {
                 largest = largest.max(error / (greatest - least));
             }
         }

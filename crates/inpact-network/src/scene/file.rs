@@ -143,11 +143,14 @@ pub(crate) struct LinkEntry {
     #[cfg_attr(test, schemars(with = "[String; 2]"))]
     pub(crate) nodes: Spanned<[String; 2]>,
     /// Current per potential.
-    pub(crate) electrical: Option<f64>,
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    pub(crate) electrical: Option<Spanned<f64>>,
     /// Heat per time and temperature.
-    pub(crate) thermal: Option<f64>,
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    pub(crate) thermal: Option<Spanned<f64>>,
     /// Volume of fluid per time and pressure.
-    pub(crate) hydraulic: Option<f64>,
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    pub(crate) hydraulic: Option<Spanned<f64>>,
     /// The share of the energy its current dissipates that becomes heat, half of it in either node.
     pub(crate) joule_heat_fraction: Option<f64>,
 }

@@ -16,11 +16,8 @@ use toml::Spanned;
 
 /// The tables beside a scene file.
 pub trait SceneFiles {
-    /// The bytes of a file, whose name is relative to the scene file.
-    ///
-    /// # Errors
-    /// Why it cannot be read.
-    fn read(&mut self, name: &str) -> Result<Vec<u8>, String>;
+    /// The bytes of a file, whose name is relative to the scene file; `None` where it cannot be read, which the caller knows how to say.
+    fn read(&mut self, name: &str) -> Option<Vec<u8>>;
 }
 
 /// Reads a scene; `name` is what the scene file is called in findings.
@@ -51,6 +48,9 @@ pub(super) struct Reader<'a> {
     line_starts: Vec<usize>,
     scene: Option<Scene>,
     numbers: HashMap<String, u32>,
+    is_steady: bool,
+    /// Whether a table of nodes was refused, so that nodes are not known that it may define.
+    lacks_nodes: bool,
     pub(super) findings: Findings,
     /// What was found in tables.
     found: Vec<DataDiagnostic>,
@@ -64,6 +64,8 @@ impl<'a> Reader<'a> {
             line_starts: std::iter::once(0).chain(starts).collect(),
             scene: None,
             numbers: HashMap::new(),
+            is_steady: true,
+            lacks_nodes: false,
             findings: Findings::new(name),
             found: Vec::new(),
         }
@@ -84,6 +86,8 @@ impl<'a> Reader<'a> {
 
     fn take(&mut self, file: SceneFile, files: &mut dyn SceneFiles) {
         let procedure = self.procedure(&file);
+        self.is_steady = file.procedure == ProcedureName::Steady;
+        self.check_fraction(file.joule_heat_fraction, 1, "`joule_heat_fraction`");
         for (value, what) in [
             (file.initial.temperature.unwrap_or(0.0), "`initial.temperature`"),
             (file.initial.pore_pressure.unwrap_or(0.0), "`initial.pore_pressure`"),
@@ -105,7 +109,7 @@ impl<'a> Reader<'a> {
             self.take_node(node.into_inner(), &mut scene);
         }
         for entry in &file.node_files {
-            self.take_file(&entry.file, files, |reader, text, findings| {
+            let is_whole = self.take_file(&entry.file, files, |reader, text, findings| {
                 tables::nodes(text, findings, &mut |row| {
                     let number = reader
                         .define(&row.name, &mut scene)
@@ -116,6 +120,7 @@ impl<'a> Reader<'a> {
                     Ok(())
                 });
             });
+            self.lacks_nodes |= !is_whole;
         }
         for link in file.links {
             let line = self.line_of(&link);
@@ -149,6 +154,9 @@ impl<'a> Reader<'a> {
             self.take_file(&entry.file, files, |reader, text, findings| {
                 tables::interfaces(text, findings, &mut |row, line| {
                     let [slave, master] = [&row.slave, &row.master].map(|name| reader.numbers.get(name).copied());
+                    if reader.lacks_nodes && (slave.is_none() || master.is_none()) {
+                        return Ok(());
+                    }
                     let unknown = |name: &str| (&UNKNOWN_NODE, format!("the scene defines no node `{name}`"));
                     let slave = slave.ok_or_else(|| unknown(&row.slave))?;
                     let master = master.ok_or_else(|| unknown(&row.master))?;
@@ -161,23 +169,19 @@ impl<'a> Reader<'a> {
         self.scene = Some(scene);
     }
 
-    /// Reads a table beside the scene file.
+    /// Reads a table beside the scene file; whether nothing is wrong with it.
     fn take_file(
         &mut self,
         name: &Spanned<String>,
         files: &mut dyn SceneFiles,
         take: impl FnOnce(&mut Self, &[u8], &mut Findings),
-    ) {
-        let line = self.line_of(name);
-        let name = name.as_ref();
-        match files.read(name) {
-            Ok(bytes) => {
-                let mut findings = Findings::new(name);
-                take(self, &bytes, &mut findings);
-                self.found.append(&mut findings.into_list());
-            }
-            Err(why) => self.report(&MALFORMED_SCENE, line, format!("`{name}` cannot be read: {why}"), ""),
-        }
+    ) -> bool {
+        let Some(bytes) = files.read(name.as_ref()) else { return false };
+        let mut findings = Findings::new(name.as_ref());
+        take(self, &bytes, &mut findings);
+        let is_whole = !findings.has_errors();
+        self.found.append(&mut findings.into_list());
+        is_whole
     }
 
     fn procedure(&mut self, file: &SceneFile) -> Procedure {
@@ -234,7 +238,10 @@ impl<'a> Reader<'a> {
     /// A condition whose numbers can be used.
     fn checked(&mut self, field: Field, condition: Condition, line: u64, node: &str) -> Option<CheckedCondition> {
         let key = field.key();
+        // What is named carries the field, be there nothing to say of it.
+        let is_named_only = condition == Condition::default();
         let Condition { fixed, source, capacity, initial } = condition;
+        let source = if is_named_only { Some(file::Course::Constant(0.0)) } else { source };
         if fixed.is_some() && (source.is_some() || capacity.is_some()) {
             let other = if source.is_some() { "source" } else { "capacity" };
             let help = "what is held takes up whatever flows there: leave one of the two out";
@@ -276,11 +283,28 @@ impl<'a> Reader<'a> {
                     self.report(&MALFORMED_TIME, line, format!("the times of {what} do not ascend"), help);
                     return None;
                 }
+                if self.is_steady {
+                    let help = "give a number, or write procedure = \"transient\"";
+                    self.report(
+                        &MALFORMED_TIME,
+                        line,
+                        format!("{what} follows time, and a steady state has none"),
+                        help,
+                    );
+                    return None;
+                }
                 Course::through(points)
             }
         };
         let values: Vec<f64> = course.values().collect();
         values.iter().all(|&value| self.check_finite(value, line, what)).then_some(course)
+    }
+
+    fn check_fraction(&mut self, value: f64, line: u64, what: &str) {
+        if !(0.0..=1.0).contains(&value) {
+            let help = "give a share of the energy dissipated, from 0 to 1";
+            self.report(&UNUSABLE_NUMBER, line, format!("{what} is {value:?}"), help);
+        }
     }
 
     fn check_finite(&mut self, value: f64, line: u64, what: &str) -> bool {
@@ -304,22 +328,23 @@ impl<'a> Reader<'a> {
             let help = "give `electrical`, `thermal` or `hydraulic`";
             self.report(&MALFORMED_SCENE, line, format!("{label} conducts nothing"), help);
         }
-        for (field, conductance) in Field::ALL.into_iter().zip(given) {
-            if let Some(conductance) = conductance.filter(|conductance| conductance.is_nan() || *conductance < 0.0) {
-                let key = field.conductance_key();
+        for (field, conductance) in Field::ALL.into_iter().zip(&given) {
+            let Some(spanned) = conductance else { continue };
+            let conductance = *spanned.as_ref();
+            if conductance.is_nan() || conductance < 0.0 {
+                let (key, at) = (field.conductance_key(), self.line_of(spanned));
                 let help = "give a conductance of zero or above; `inf` makes both nodes one";
-                self.report(&UNUSABLE_NUMBER, line, format!("`{key}` of {label} is {conductance:?}"), help);
+                self.report(&UNUSABLE_NUMBER, at, format!("`{key}` of {label} is {conductance:?}"), help);
             }
         }
         let fraction = entry.joule_heat_fraction.unwrap_or(default);
-        if !(fraction >= 0.0 && fraction.is_finite()) {
-            let help = "give a finite number of zero or above";
-            self.report(&UNUSABLE_NUMBER, line, format!("`joule_heat_fraction` of {label} is {fraction:?}"), help);
+        if entry.joule_heat_fraction.is_some() {
+            self.check_fraction(fraction, line, &format!("`joule_heat_fraction` of {label}"));
         }
         if let [Some(first), Some(second)] = numbers {
             scene.links.push(SceneLink {
                 nodes: [first, second],
-                conductances: given.map(|conductance| conductance.unwrap_or(0.0)),
+                conductances: given.map(|conductance| conductance.map_or(0.0, Spanned::into_inner)),
                 joule_heat_fraction: fraction,
             });
         }
@@ -350,9 +375,9 @@ impl<'a> Reader<'a> {
             bulk_permeabilities: [entry.perm_s, entry.perm_m],
             place: (line, None),
         };
-        for (what, value) in unusable_numbers(&interface) {
-            let help = "give a finite number that this can be";
-            self.report(&UNUSABLE_NUMBER, line, format!("`{what}` of {label} is {value:?}"), help);
+        for unusable in unusable_numbers(&interface) {
+            let Unusable { key, value, .. } = &unusable;
+            self.report(&UNUSABLE_NUMBER, line, format!("`{key}` of {label} is {value:?}"), &unusable.help());
         }
         if slave == master {
             self.report(&MALFORMED_SCENE, line, format!("{label} joins a node to itself"), "name two nodes");
@@ -381,7 +406,7 @@ impl<'a> Reader<'a> {
     /// The number of a node that is named in a line.
     fn number(&mut self, name: &str, line: u64, scene: &Scene) -> Option<u32> {
         let found = self.numbers.get(name).copied();
-        if found.is_none() {
+        if found.is_none() && !self.lacks_nodes {
             let near = nearest_names(name.as_bytes(), scene.nodes.iter().map(String::as_str), 3);
             let near: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
             let help = if near.is_empty() {
@@ -446,36 +471,42 @@ fn time_span(entry: TimeEntry) -> Result<TimeSpan, (String, &'static str)> {
     Ok(TimeSpan { start, end, steps })
 }
 
-/// The numbers of an interface that cannot be used: their keys and what they are.
-pub(super) fn unusable_numbers(interface: &SceneInterface) -> Vec<(String, f64)> {
+/// A number that cannot be used.
+pub(super) struct Unusable {
+    pub(super) key: String,
+    pub(super) value: f64,
+    /// What it must be.
+    pub(super) must_be: &'static str,
+}
+
+/// The numbers of an interface that cannot be used.
+pub(super) fn unusable_numbers(interface: &SceneInterface) -> Vec<Unusable> {
     let SceneInterface { area, characteristic_length, bulk_permeabilities, .. } = interface;
-    let not_negative = [
-        ("char_length", *characteristic_length),
-        ("perm_s", bulk_permeabilities[0]),
-        ("perm_m", bulk_permeabilities[1]),
+    let above_zero = |value: f64| value > 0.0 && value.is_finite();
+    let not_negative = |value: f64| value >= 0.0 && value.is_finite();
+    let given = [
+        ("area", Some(*area), above_zero as fn(f64) -> bool, "above zero"),
+        ("char_length", *characteristic_length, not_negative, "of zero or above"),
+        ("perm_s", bulk_permeabilities[0], not_negative, "of zero or above"),
+        ("perm_m", bulk_permeabilities[1], not_negative, "of zero or above"),
+        ("temperature", interface.temperature, f64::is_finite, ""),
+        ("mass_flow", interface.mass_flow, f64::is_finite, ""),
+        ("shear", interface.shear, f64::is_finite, ""),
+        ("slip_rate", interface.slip_rate, f64::is_finite, ""),
+        ("clearance_rate", interface.clearance_rate, f64::is_finite, ""),
     ];
-    let finite = [
-        ("temperature", interface.temperature),
-        ("mass_flow", interface.mass_flow),
-        ("shear", interface.shear),
-        ("slip_rate", interface.slip_rate),
-        ("clearance_rate", interface.clearance_rate),
-    ];
-    let fields = interface.field_variables.iter().enumerate();
-    let mut unusable: Vec<(String, f64)> = Vec::new();
-    if !(*area > 0.0 && area.is_finite()) {
-        unusable.push(("area".to_owned(), *area));
+    let unusable = |(key, value, is_usable, must_be): (&str, Option<f64>, fn(f64) -> bool, &'static str)| {
+        let value = value.filter(|value| !is_usable(*value))?;
+        Some(Unusable { key: key.to_owned(), value, must_be })
+    };
+    let fields = interface.field_variables.iter().zip(1..).filter(|(value, _)| !value.is_finite());
+    let of_field = |(&value, number): (&f64, i32)| Unusable { key: format!("fv{number}"), value, must_be: "" };
+    given.into_iter().filter_map(unusable).chain(fields.map(of_field)).collect()
+}
+
+impl Unusable {
+    /// What to give instead.
+    pub(super) fn help(&self) -> String {
+        format!("give a finite number {}", self.must_be).trim_end().to_owned()
     }
-    let negative = |(key, value): (&str, Option<f64>)| {
-        value.filter(|value| !(*value >= 0.0 && value.is_finite())).map(|value| (key.to_owned(), value))
-    };
-    unusable.extend(not_negative.into_iter().filter_map(negative));
-    let infinite = |(key, value): (&str, Option<f64>)| {
-        value.filter(|value| !value.is_finite()).map(|value| (key.to_owned(), value))
-    };
-    unusable.extend(finite.into_iter().filter_map(infinite));
-    unusable.extend(
-        fields.filter(|(_, value)| !value.is_finite()).map(|(number, value)| (format!("fv{}", number + 1), *value)),
-    );
-    unusable
 }

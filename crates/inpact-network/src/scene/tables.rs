@@ -4,14 +4,14 @@
 //! |---|---|
 //! | nodes | `node`; `potential_fixed`, `potential_source`; `temperature_fixed`, `temperature_source`, `temperature_capacity`, `temperature_initial`; the same with `pore_pressure_` |
 //! | links | `node_1`, `node_2`; `electrical`, `thermal`, `hydraulic`; `joule_heat_fraction` |
-//! | interfaces | `slave`, `master` (or `secondary`, `main`), `interaction`; and of a node table `area`, `clearance`, `pressure`, `closed`, `fv1` …, `temp`, `mass_flow`, `shear`, `slip_rate`, `clearance_rate`, `char_length`, `perm_s`, `perm_m` |
+//! | interfaces | `slave`, `master` (or `secondary`, `main`), `interaction`; and of a node table `area`, `clearance`, `pressure`, `closed`, `fv1` …, `temp` (or `temperature`), `mass_flow`, `shear`, `slip_rate`, `clearance_rate`, `char_length`, `perm_s`, `perm_m` |
 //!
 //! A Matrix Market file is `matrix coordinate real symmetric`. Its entries beside the diagonal are conductances between the nodes of row and column, or all of them the negative of those,
 //! as an assembled conductance matrix has them; the rows of such a matrix add up to zero.
 
 use super::course::Course;
 use super::diagnostic::UNUSABLE_NUMBER;
-use super::read::{CheckedCondition, unusable_numbers};
+use super::read::{CheckedCondition, Unusable, unusable_numbers};
 use super::{Field, SceneInterface};
 use csv::StringRecord;
 use inpact_evaluation::nodes::{
@@ -22,6 +22,15 @@ use std::fmt;
 
 /// A row's refusal: the rule and the words.
 type Refusal = (&'static DataRule, String);
+
+const NODE_COLUMNS: &str = "a table of nodes has `node`, and of each field `potential_fixed`, `potential_source`, `temperature_fixed`, `temperature_source`, \
+                            `temperature_capacity`, `temperature_initial`, or the same with `pore_pressure_`";
+
+const LINK_COLUMNS: &str =
+    "a table of links has `node_1`, `node_2`, `electrical`, `thermal`, `hydraulic` and `joule_heat_fraction`";
+
+const INTERFACE_COLUMNS: &str = "a table of interfaces has `slave`, `master`, `interaction`, `area`, `clearance`, `pressure`, `closed`, `fv1` and so on, `temp`, \
+                                 `mass_flow`, `shear`, `slip_rate`, `clearance_rate`, `char_length`, `perm_s` and `perm_m`";
 
 /// A row of a table of nodes.
 pub(super) struct NodeRow {
@@ -93,7 +102,7 @@ pub(super) fn nodes(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(
         Some(NodeColumn::Of(field, quantity))
     };
     let needed = [(NodeColumn::Name, "node")];
-    each_row(bytes, findings, named, &needed, |row| {
+    each_row(bytes, findings, (NODE_COLUMNS, named), &needed, |row| {
         let mut conditions: [CheckedCondition; 3] = std::array::from_fn(|_| CheckedCondition::default());
         for &(place, column) in row.columns {
             let NodeColumn::Of(field, quantity) = column else { continue };
@@ -126,7 +135,7 @@ pub(super) fn links(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(
         }
     };
     let needed = [(LinkColumn::Node(0), "node_1"), (LinkColumn::Node(1), "node_2")];
-    each_row(bytes, findings, named, &needed, |row| {
+    each_row(bytes, findings, (LINK_COLUMNS, named), &needed, |row| {
         let mut link = LinkRow {
             nodes: [0, 1].map(|end| row.text(LinkColumn::Node(end)).to_owned()),
             conductances: [0.0; 3],
@@ -166,7 +175,8 @@ pub(super) fn interfaces(
         "master" | "main" => Some(InterfaceColumn::Master),
         "interaction" => Some(InterfaceColumn::Interaction),
         _ => {
-            let column = Column::named(header)?;
+            // As the scene file calls it.
+            let column = Column::named(if header == "temperature" { "temp" } else { header })?;
             let is_of_interface = matches!(
                 column,
                 Column::Area
@@ -190,10 +200,12 @@ pub(super) fn interfaces(
         (InterfaceColumn::Master, "master"),
         (InterfaceColumn::Of(Column::Area), "area"),
     ];
-    each_row(bytes, findings, named, &needed, |row| {
+    each_row(bytes, findings, (INTERFACE_COLUMNS, named), &needed, |row| {
         let interface = interface_of(row)?;
-        if let Some((key, value)) = unusable_numbers(&interface).first() {
-            return Err((&UNUSABLE_NUMBER, format!("`{key}` of row {} is {value:?}", row.number)));
+        if let Some(unusable) = unusable_numbers(&interface).first() {
+            let Unusable { key, value, .. } = unusable;
+            let message = format!("`{key}` of row {} is {value:?}: {}", row.number, unusable.help());
+            return Err((&UNUSABLE_NUMBER, message));
         }
         let [slave, master] =
             [InterfaceColumn::Slave, InterfaceColumn::Master].map(|column| row.text(column).to_owned());
@@ -285,11 +297,11 @@ impl<C: Copy + PartialEq> Row<'_, C> {
     }
 }
 
-/// Reads a table row by row; reports what is wrong with it, and the rows that `take` refuses.
+/// Reads a table row by row, whose columns are named and listed for a person; reports what is wrong with it, and the rows that `take` refuses.
 fn each_row<C: Copy + PartialEq>(
     bytes: &[u8],
     findings: &mut Findings,
-    named: impl Fn(&str) -> Option<C>,
+    (all_columns, named): (&str, impl Fn(&str) -> Option<C>),
     needed: &[(C, &str)],
     mut take: impl FnMut(&Row<'_, C>) -> Result<(), Refusal>,
 ) {
@@ -302,7 +314,7 @@ fn each_row<C: Copy + PartialEq>(
     for (place, header) in headers.iter().enumerate() {
         let at = Place { line: Some(1), column: Some(header.to_owned()), ..Place::default() };
         match named(&header.to_ascii_lowercase()) {
-            None => findings.report(&MALFORMED_CELL, at, format!("such a table has no column `{header}`"), ""),
+            None => findings.report(&MALFORMED_CELL, at, format!("such a table has no column `{header}`"), all_columns),
             Some(column) if columns.iter().any(|(_, other)| *other == column) => {
                 findings.report(&DUPLICATE_COLUMN, at, format!("a second header means what `{header}` does"), "");
             }
@@ -312,7 +324,7 @@ fn each_row<C: Copy + PartialEq>(
     for (column, name) in needed {
         if !columns.iter().any(|(_, other)| other == column) {
             let at = Place { line: Some(1), ..Place::default() };
-            findings.report(&MISSING_COLUMN, at, format!("column `{name}` is missing"), "");
+            findings.report(&MISSING_COLUMN, at, format!("column `{name}` is missing"), all_columns);
         }
     }
     if findings.has_errors() {

@@ -129,7 +129,8 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         Ok(report) => report,
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
-            say_data_findings(failures::findings(&failure, scene, name), format);
+            let after = last.filter(|_| scene.is_transient()).map(|state| state.time);
+            say_data_findings(failures::findings(&failure, scene, (name, after)), format);
             return Ok(Outcome::HasErrors);
         }
     };
@@ -157,8 +158,12 @@ pub(crate) fn prepare(
     let Ok(text) = String::from_utf8(text) else {
         return Err(Failure::Data(format!("`{name}` is no scene: it is not UTF-8")));
     };
-    let (scene, found) = scene::read(&text, &name, &mut FilesBeside { folder });
+    let mut files = FilesBeside { folder, failure: None };
+    let (scene, found) = scene::read(&text, &name, &mut files);
     say_data_findings(found, format);
+    if let Some(failure) = files.failure {
+        return Err(failure);
+    }
     let Some(scene) = scene else { return Ok(None) };
     let deck_path = folder.join(&scene.deck);
     let settings = reading.settings(&deck_path)?;
@@ -187,13 +192,18 @@ pub(crate) fn prepare(
 /// The files beside a scene.
 struct FilesBeside<'a> {
     folder: &'a Path,
+    /// The first file that could not be read.
+    failure: Option<Failure>,
 }
 
 impl SceneFiles for FilesBeside<'_> {
-    fn read(&mut self, name: &str) -> Result<Vec<u8>, String> {
-        files::read_bytes(&self.folder.join(name)).map_err(|failure| match failure {
-            Failure::Read { error, .. } => error.to_string(),
-            other => other.to_string(),
-        })
+    fn read(&mut self, name: &str) -> Option<Vec<u8>> {
+        match files::read_bytes(&self.folder.join(name)) {
+            Ok(bytes) => Some(bytes),
+            Err(failure) => {
+                self.failure.get_or_insert(failure);
+                None
+            }
+        }
     }
 }

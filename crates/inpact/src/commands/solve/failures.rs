@@ -10,22 +10,27 @@ use inpact_network::{RowFault, RowFaultReason, SolveFailure};
 /// The most nodes that are named.
 const MOST_NAMED: usize = 8;
 
-/// The findings of a failure.
-pub(super) fn findings(failure: &SolveFailure, scene: &Scene, name: &str) -> Vec<DataDiagnostic> {
+/// The findings of a failure in a scene of this name, in the increment after a time where there was one.
+pub(super) fn findings(
+    failure: &SolveFailure,
+    scene: &Scene,
+    (name, after): (&str, Option<f64>),
+) -> Vec<DataDiagnostic> {
     let mut findings = Findings::new(name);
+    let when = after.map_or(String::new(), |time| format!(" in the increment after time {time:?}"));
     let place = |node: u32| Place { line: scene.node_lines.get(&node).copied(), ..Place::default() };
     let node = |number: u32| format!("`{}`", scene.nodes[number as usize]);
     match failure {
         SolveFailure::Floating { field, bodies } => {
             for body in bodies {
                 let at = body.first().map_or_else(Place::default, |&first| place(first));
-                let message = format!("nothing holds the {field} of {}", names(scene, body));
+                let message = format!("nothing holds the {field} of {}{when}", names(scene, body));
                 findings.report(&FLOATING_BODY, at, message, floating_help(*field));
             }
         }
         SolveFailure::Contradiction { field, nodes, values } => {
             let message = format!(
-                "the {field} of {} is fixed at {:?} and that of {} at {:?}, and infinite conductances make them one",
+                "the {field} of {} is fixed at {:?} and that of {} at {:?}, and infinite conductances make them one{when}",
                 node(nodes[0]),
                 values[0],
                 node(nodes[1]),
@@ -40,16 +45,16 @@ pub(super) fn findings(failure: &SolveFailure, scene: &Scene, name: &str) -> Vec
             let at = Place { line, ..Place::default() };
             match why {
                 RowFaultReason::User(fault) => {
-                    findings.report(&USER_FAULT, at, format!("user subroutine GAPELECTR {fault} at {label}"), "");
+                    findings.report(&USER_FAULT, at, format!("user subroutine GAPELECTR {fault} at {label}{when}"), "");
                 }
                 RowFaultReason::NeedsLength => {
                     let message = format!(
-                        "{label} is open, and a cutoff of its pore fluid is left to the characteristic element length"
+                        "{label} is open{when}, and a cutoff of its pore fluid is left to the characteristic element length"
                     );
                     findings.report(&MISSING_QUANTITY, at, message, "give `char_length` or `--char-length`");
                 }
                 RowFaultReason::NoConductance(value) => {
-                    let message = format!("a conductance of {label} is {value:?}");
+                    let message = format!("a conductance of {label} is {value:?}{when}");
                     findings.report(
                         &UNUSABLE_NUMBER,
                         at,
@@ -62,18 +67,17 @@ pub(super) fn findings(failure: &SolveFailure, scene: &Scene, name: &str) -> Vec
         SolveFailure::NotSolved { field, tried } => {
             let tried: Vec<String> =
                 tried.iter().map(|(method, why)| format!("{}: {}", method_name(*method), shortcoming(why))).collect();
-            let message = format!("the equations of {field} were not solved ({})", tried.join("; "));
+            let message = format!("the equations of {field} were not solved{when} ({})", tried.join("; "));
             findings.report(&NOT_CONVERGED, Place::default(), message, "");
         }
-        SolveFailure::NotConverged { time, steps, worst } => {
-            let when = if scene.is_transient() { format!(" at time {time:?}") } else { String::new() };
+        SolveFailure::NotConverged { steps, worst } => {
             for (field, share, number) in worst {
                 let (at, named) = number.map_or_else(
                     || (Place::default(), String::new()),
                     |number| (place(number), format!(", worst at {}", node(number))),
                 );
                 let message = format!(
-                    "the equations of {field} are not met{when} after {steps} steps: {share:.1e} of the flow is missing{named}"
+                    "the equations of {field} are not met{when} after {steps} steps: {share:.1e} of the largest flow is missing{named}"
                 );
                 let help = "the scene may have no solution (heat that grows faster than it is led away), or several: \
                             try a transient, or other initial values";

@@ -48,6 +48,8 @@ pub(super) struct Outputs<'a> {
     interfaces: Option<Interfaces>,
     /// The states as JSON.
     documents: Vec<Value>,
+    /// Whether a state has been taken: before that nothing is written.
+    has_begun: bool,
 }
 
 /// The rows of the interfaces as a node table, and where their results go.
@@ -66,7 +68,7 @@ impl<'a> Outputs<'a> {
         let times = Times::of(problem);
         let links = arguments.links.as_deref();
         let is_behind = |links: &Path| links.as_os_str() == STANDARD_STREAM;
-        let mut outputs = Self {
+        Ok(Self {
             prepared,
             problem,
             format: arguments.format,
@@ -83,19 +85,27 @@ impl<'a> Outputs<'a> {
                 Interfaces { target, columns, table }
             }),
             documents: Vec::new(),
-        };
-        if outputs.format == StateFormat::Csv {
-            write(&mut outputs.states, state_header(times).as_bytes())?;
+            has_begun: false,
+        })
+    }
+
+    /// Writes what stands above all states.
+    fn begin(&mut self) -> Result<(), Failure> {
+        if self.format == StateFormat::Csv {
+            write(&mut self.states, state_header(self.times).as_bytes())?;
         }
-        if let Some(links) = &mut outputs.link_file {
-            write(links, link_header(times).as_bytes())?;
+        if let Some(links) = &mut self.link_file {
+            write(links, link_header(self.times).as_bytes())?;
         }
-        Ok(outputs)
+        Ok(())
     }
 
     /// Takes the next state.
     pub(super) fn take(&mut self, state: &State) -> Result<(), Failure> {
         let (problem, times) = (self.problem, self.times);
+        if !std::mem::replace(&mut self.has_begun, true) {
+            self.begin()?;
+        }
         let mut text = Vec::new();
         match self.format {
             StateFormat::Csv => {

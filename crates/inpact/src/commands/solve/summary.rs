@@ -32,11 +32,17 @@ impl Summary<'_> {
             self.time.as_secs_f64()
         )];
         if scene.is_transient() {
-            let TransientReport { increments, taken_back, local_error } = self.report;
+            let TransientReport { increments, taken_back, local_error, passed_over } = self.report;
             lines.push(format!(
                 "  {}, {taken_back} taken back, largest estimated local error {local_error:.1e} of the range",
                 count(*increments, "increment")
             ));
+            if *passed_over > 0 {
+                lines.push(format!(
+                    "  {} of time courses inside increments, passed over: a shorter `step` would tell, or `tolerance`",
+                    count(*passed_over, "point")
+                ));
+            }
         }
         for stage in &self.state.reports {
             lines.extend(stage_lines(stage));
@@ -69,6 +75,7 @@ impl Summary<'_> {
             "increments": self.report.increments,
             "increments_taken_back": self.report.taken_back,
             "local_error": self.report.local_error,
+            "points_passed_over": self.report.passed_over,
             "stages": stages.collect::<Vec<Value>>(),
             "balance": balances(self.problem, self.state),
             "left_out": self.problem.left_out,
@@ -163,11 +170,15 @@ fn linear_json(field: Field, linear: &LinearReport) -> Value {
 }
 
 fn balance_line(field: Field, balance: &FieldBalance, is_transient: bool) -> String {
-    let FieldBalance { supplied, generated, stored, missing, turnover } = *balance;
+    let FieldBalance { supplied, withdrawn, generated, stored, missing, turnover } = *balance;
+    let at_end = if is_transient { " at the end" } else { "" };
     let stored = if is_transient { format!(", {stored:?} stored") } else { String::new() };
     let share = if turnover > 0.0 { missing.abs() / turnover } else { 0.0 };
     let flow = field.flow_name();
-    format!("  {flow}: {supplied:?} supplied, {generated:?} generated{stored}; {share:.1e} of the turnover is missing")
+    format!(
+        "  {flow}{at_end}: {supplied:?} in and {withdrawn:?} out at fixed values, {generated:?} generated{stored}; \
+         {share:.1e} of the turnover is missing"
+    )
 }
 
 /// The balance of each solved field.
@@ -180,6 +191,7 @@ pub(super) fn balances(problem: &Problem<'_>, state: &State) -> Value {
             supplies.iter().map(|(node, supply)| (problem.scene().nodes[*node as usize].clone(), json!(supply)));
         let of_field = json!({
             "supplied": balance.supplied,
+            "withdrawn": balance.withdrawn,
             "generated": balance.generated,
             "stored": balance.stored,
             "missing": balance.missing,
