@@ -10,7 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use inpact_bench::costs;
 use inpact_bench::deck::{self, Content, DeckRequest};
 use inpact_bench::extremes;
-use inpact_bench::network::grid::{Grid, write_matrix};
+use inpact_bench::network::grid::{Assembled, Grid};
 use inpact_bench::network::{accuracy, run};
 use inpact_bench::nodes::{self, NodesRequest};
 use inpact_network::linear::Method;
@@ -199,7 +199,7 @@ fn run(command: Command) -> io::Result<()> {
             let line = line.map_err(|failure| io::Error::other(format!("not solved: {failure:?}")))?;
             writeln!(io::stdout(), "{line}")
         }
-        Command::GridMatrix { out, grid } => write_matrix(&grid.grid().network(), &mut open(&out)?),
+        Command::GridMatrix { out, grid } => Assembled::of(&grid.grid().network()).write(&mut open(&out)?),
     }
 }
 

@@ -3,5 +3,6 @@
 pub mod accuracy;
 pub mod exact;
 pub mod grid;
+pub mod plain;
 pub mod random_networks;
 pub mod run;

@@ -23,12 +23,10 @@ pub(crate) fn of_rule(rule: &Rule) -> String {
     page.replace("```inp,expect", "```inp").replace("```inp,fixed", "```inp")
 }
 
-/// The page of a rule about node tables.
-pub(crate) fn of_data_rule(rule: &DataRule) -> String {
-    let DataRule { code, name, severity, summary } = rule;
-    format!(
-        "# {code} {name}\n\nSeverity: {severity}. Found in node tables, by `eval`, `plan` and `tradeoff`.\n\n{summary}.\n"
-    )
+/// The page of a rule about data, which is found where `found` says.
+pub(crate) fn of_data_rule(rule: &DataRule, found: &str) -> String {
+    let DataRule { code, name, severity, summary, explanation } = rule;
+    format!("# {code} {name}\n\nSeverity: {severity}. Found in {found}.\n\nWhat is wrong: {summary}.\n\n{explanation}\n")
 }
 
 /// The page of a keyword.

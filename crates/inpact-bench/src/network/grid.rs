@@ -54,30 +54,53 @@ impl Grid {
     }
 }
 
-/// Writes the assembled matrix of a network's free nodes, plain, its lower triangle in Matrix Market form: what other solvers are given.
+/// The assembled matrix of a network's free nodes, plain: what other solvers are given.
 ///
-/// # Errors
-/// Those of writing.
-pub fn write_matrix(network: &LinearNetwork, out: &mut dyn Write) -> io::Result<()> {
-    let free = network.held.iter().take_while(|held| held.is_none()).count();
-    let mut diagonal = vec![0.0; free];
-    let mut below = Vec::new();
-    for Link { nodes, conductance } in &network.links {
-        let ends = nodes.map(|node| node as usize);
-        for end in ends.into_iter().filter(|end| *end < free) {
-            diagonal[end] += conductance;
+/// The held nodes of the network are its last.
+#[derive(Debug)]
+pub struct Assembled {
+    /// The diagonal.
+    pub diagonal: Vec<f64>,
+    /// Row, column and value below the diagonal.
+    pub below: Vec<(usize, usize, f64)>,
+    /// What the held nodes send into each free one.
+    pub right: Vec<f64>,
+}
+
+impl Assembled {
+    /// Assembles a network.
+    pub fn of(network: &LinearNetwork) -> Self {
+        let free = network.held.iter().take_while(|held| held.is_none()).count();
+        let mut assembled = Self { diagonal: vec![0.0; free], below: Vec::new(), right: vec![0.0; free] };
+        for Link { nodes, conductance } in &network.links {
+            let ends = nodes.map(|node| node as usize);
+            for [end, other] in [ends, [ends[1], ends[0]]] {
+                if end < free {
+                    assembled.diagonal[end] += conductance;
+                    assembled.right[end] += network.held[other].map_or(0.0, |held| conductance * held);
+                }
+            }
+            if ends.iter().all(|end| *end < free) {
+                assembled.below.push((ends[0].max(ends[1]), ends[0].min(ends[1]), -conductance));
+            }
         }
-        if ends.iter().all(|end| *end < free) {
-            below.push((ends[0].max(ends[1]), ends[0].min(ends[1]), -conductance));
+        assembled
+    }
+
+    /// Writes the lower triangle in Matrix Market form.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let free = self.diagonal.len();
+        writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
+        writeln!(out, "{free} {free} {}", free + self.below.len())?;
+        for (node, value) in self.diagonal.iter().enumerate() {
+            writeln!(out, "{0} {0} {value:?}", node + 1)?;
         }
+        for (row, column, value) in &self.below {
+            writeln!(out, "{} {} {value:?}", row + 1, column + 1)?;
+        }
+        Ok(())
     }
-    writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
-    writeln!(out, "{free} {free} {}", free + below.len())?;
-    for (node, value) in diagonal.iter().enumerate() {
-        writeln!(out, "{0} {0} {value:?}", node + 1)?;
-    }
-    for (row, column, value) in below {
-        writeln!(out, "{} {} {value:?}", row + 1, column + 1)?;
-    }
-    Ok(())
 }

@@ -20,14 +20,21 @@ pub struct DataRule {
     pub severity: Severity,
     /// What it is about, in one sentence.
     pub summary: &'static str,
+    /// Why that matters and what to do, in sentences.
+    pub explanation: &'static str,
 }
 
 /// Declares the rules and the list of them.
 macro_rules! data_rules {
-    ($($identifier:ident = $code:literal $name:literal $severity:ident $summary:literal;)+) => {
+    ($($identifier:ident = $code:literal $name:literal $severity:ident $summary:literal $explanation:literal;)+) => {
         $(#[doc = $summary]
-        pub static $identifier: DataRule =
-            DataRule { code: $code, name: $name, severity: Severity::$severity, summary: $summary };)+
+        pub static $identifier: DataRule = DataRule {
+            code: $code,
+            name: $name,
+            severity: Severity::$severity,
+            summary: $summary,
+            explanation: $explanation,
+        };)+
 
         /// The rules about node tables, in the order of their codes.
         pub static DATA_RULES: &[&DataRule] = &[$(&$identifier),+];
@@ -35,16 +42,26 @@ macro_rules! data_rules {
 }
 
 data_rules! {
-    MISSING_COLUMN = "D001" "missing-column" Error "a column that an output needs is not there";
-    MALFORMED_CELL = "D002" "malformed-cell" Error "a cell is no number, or a row has too few or too many cells";
-    NON_FINITE = "D003" "non-finite" Warning "a cell is NaN or infinite, and so may be the results of its row";
-    UNKNOWN_INTERACTION = "D004" "unknown-interaction" Error "the deck does not define the interaction";
-    DUPLICATE_COLUMN = "D005" "duplicate-column" Error "two headers mean the same column";
-    TIME_NOT_ASCENDING = "D006" "time-not-ascending" Error "time does not rise from one row of a node to its next";
-    BEYOND_TABLE = "D007" "beyond-table" Note "rows lie outside the range of a table";
-    NEGATIVE_AREA = "D008" "negative-area" Error "an area is below zero";
-    NEGATIVE_PROPERTY = "D009" "negative-property" Error "a characteristic length or a bulk permeability is below zero";
-    USER_FAULT = "D010" "user-subroutine-fault" Error "a user subroutine gives what is no conductance";
+    MISSING_COLUMN = "D001" "missing-column" Error "a column that an output needs is not there"
+        "The finding names the column and the output that needs it. Give the column, or ask for other outputs with `--outputs`; `inpact plan` lists what each output reads.";
+    MALFORMED_CELL = "D002" "malformed-cell" Error "a cell is no number, or a row has too few or too many cells"
+        "Numbers have a decimal point and no separators of thousands; an empty cell is a missing number. A row must have as many cells as the header.";
+    NON_FINITE = "D003" "non-finite" Warning "a cell is NaN or infinite, and so may be the results of its row"
+        "Such a row is evaluated: what the number does not reach is right, what it reaches is NaN or infinite. Where the number was meant to be missing, leave the cell empty.";
+    UNKNOWN_INTERACTION = "D004" "unknown-interaction" Error "the deck does not define the interaction"
+        "Names are compared as Abaqus does, without regard to case and blanks unless they are quoted. Mend the name in the table, or define the *SURFACE INTERACTION in the deck.";
+    DUPLICATE_COLUMN = "D005" "duplicate-column" Error "two headers mean the same column"
+        "Some columns have several names, such as `clearance` and `copen`. Keep one of the two.";
+    TIME_NOT_ASCENDING = "D006" "time-not-ascending" Error "time does not rise from one row of a node to its next"
+        "Histories add up from one row of a node to its next, so times of a node must rise from row to row. Sort the table by time, or give each step of a restarted analysis a table of its own.";
+    BEYOND_TABLE = "D007" "beyond-table" Note "rows lie outside the range of a table"
+        "The value at the end of the table is kept, as the manual says, and not extrapolated. Extend the table in the deck if the range is meant to be reached.";
+    NEGATIVE_AREA = "D008" "negative-area" Error "an area is below zero"
+        "An area is that of the slave node, zero or more. Mend its sign.";
+    NEGATIVE_PROPERTY = "D009" "negative-property" Error "a characteristic length or a bulk permeability is below zero"
+        "A characteristic element length and a bulk permeability are zero or more. Mend the sign.";
+    USER_FAULT = "D010" "user-subroutine-fault" Error "a user subroutine gives what is no conductance"
+        "Its conductance and the derivatives must be numbers, and the conductance not below zero. The finding says in which row it was what; mend the routine.";
 }
 
 /// One finding in a node table.

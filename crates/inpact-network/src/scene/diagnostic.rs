@@ -5,10 +5,15 @@ use inpact_validation::Severity;
 
 /// Declares the rules and the list of them.
 macro_rules! scene_rules {
-    ($($identifier:ident = $code:literal $name:literal $summary:literal;)+) => {
+    ($($identifier:ident = $code:literal $name:literal $summary:literal $explanation:literal;)+) => {
         $(#[doc = $summary]
-        pub static $identifier: DataRule =
-            DataRule { code: $code, name: $name, severity: Severity::Error, summary: $summary };)+
+        pub static $identifier: DataRule = DataRule {
+            code: $code,
+            name: $name,
+            severity: Severity::Error,
+            summary: $summary,
+            explanation: $explanation,
+        };)+
 
         /// The rules about scenes, in the order of their codes.
         pub static SCENE_RULES: &[&DataRule] = &[$(&$identifier),+];
@@ -16,13 +21,22 @@ macro_rules! scene_rules {
 }
 
 scene_rules! {
-    MALFORMED_SCENE = "D011" "malformed-scene" "the scene file is no TOML, or has a key or a value that a scene has not";
-    DUPLICATE_NODE = "D012" "duplicate-node" "two nodes of a scene have one name";
-    UNKNOWN_NODE = "D013" "unknown-node" "a link or an interface names a node that the scene does not define";
-    UNUSABLE_NUMBER = "D014" "unusable-number" "a number of a scene is below zero, NaN or infinite where it must not be";
-    MALFORMED_TIME = "D015" "malformed-time" "the time of a scene, or of a course, does not go forward";
-    FLOATING_BODY = "D016" "floating-body" "nothing holds the level of a body: it has no path to a fixed value";
-    CONTRADICTORY_VALUES = "D017" "contradictory-values" "nodes that infinite conductances make one are fixed at different values";
-    MISSING_QUANTITY = "D018" "missing-quantity" "an interface of a scene lacks what its law depends on";
-    NOT_CONVERGED = "D019" "not-converged" "the equations of a scene were not solved";
+    MALFORMED_SCENE = "D011" "malformed-scene" "the scene file is no TOML, or has a key or a value that a scene has not"
+        "The finding has the line, and for a misspelt key the nearest that exists. `schema/scene.schema.json` describes every key to an editor, docs/scenes.md to a person.";
+    DUPLICATE_NODE = "D012" "duplicate-node" "two nodes of a scene have one name"
+        "A node is told by its name, in the scene file and in all tables beside it. Rename one of the two, or give all that is known of the node in one entry.";
+    UNKNOWN_NODE = "D013" "unknown-node" "a link or an interface names a node that the scene does not define"
+        "Define it with `[[node]]`, with a row of a table of nodes, or mend the name; names are compared letter by letter.";
+    UNUSABLE_NUMBER = "D014" "unusable-number" "a number of a scene is below zero, NaN or infinite where it must not be"
+        "Conductances, capacities and lengths are zero or more, areas above zero; only a conductance may be `inf`, which makes its two nodes one.";
+    MALFORMED_TIME = "D015" "malformed-time" "the time of a scene, or of a course, does not go forward"
+        "A transient has a start before its end and one of `step` and `tolerance`; the points of a course rise in time.";
+    FLOATING_BODY = "D016" "floating-body" "nothing holds the level of a body: it has no path to a fixed value"
+        "Only differences of its values count, so that any level of it would do, and a source in it has nowhere to go. The finding names the nodes. Fix the value of one of them, join the body to another, or, in a transient, give a node of it a capacity. An interface whose conductance is zero, an open gap for instance, joins nothing.";
+    CONTRADICTORY_VALUES = "D017" "contradictory-values" "nodes that infinite conductances make one are fixed at different values"
+        "An infinite conductance makes its two nodes one, which cannot have two values. Take away one of the fixed values, or give the conductance that is really there.";
+    MISSING_QUANTITY = "D018" "missing-quantity" "an interface of a scene lacks what its law depends on"
+        "The law of the interaction depends on it, and nothing in the scene tells it. The finding says what to give, and where.";
+    NOT_CONVERGED = "D019" "not-converged" "the equations of a scene were not solved"
+        "The finding says for each field how far the equations are from balance and at which node. What helps: values to begin with under `[initial]` that are near the solution, shorter increments in a transient, and a look at the tables: a conductance that falls steeply with temperature, or a current that heats what conducts it, may have no steady state.";
 }

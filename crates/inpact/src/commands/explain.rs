@@ -45,15 +45,18 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// The rules about data: node tables, then scenes.
-fn data_rules() -> impl Iterator<Item = &'static DataRule> {
-    DATA_RULES.iter().chain(SCENE_RULES).copied()
+/// The rules about data, and where they are found: node tables, then scenes.
+fn data_rules() -> impl Iterator<Item = (&'static DataRule, &'static str)> {
+    let of_nodes = DATA_RULES.iter().map(|rule| (*rule, "node tables, by `eval`, `plan` and `tradeoff`"));
+    let of_scenes =
+        SCENE_RULES.iter().map(|rule| (*rule, "scenes and the tables beside them, by `solve` and `tradeoff --scene`"));
+    of_nodes.chain(of_scenes)
 }
 
 fn all_pages() -> String {
     let grammar = Grammar::builtin();
     let rules = RULES.iter().map(|rule| (rule.code, page::of_rule(rule)));
-    let rules = rules.chain(data_rules().map(|rule| (rule.code, page::of_data_rule(rule))));
+    let rules = rules.chain(data_rules().map(|(rule, found)| (rule.code, page::of_data_rule(rule, found))));
     let rules: BTreeMap<&str, String> = rules.collect();
     let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
     rules.into_values().chain(keywords).collect::<Vec<_>>().join("\n")
@@ -64,8 +67,8 @@ fn page_of(what: &str) -> Result<String, Failure> {
     if let Some(rule) = RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
         return Ok(page::of_rule(rule));
     }
-    if let Some(rule) = data_rules().find(|rule| is_meant(rule.code, rule.name)) {
-        return Ok(page::of_data_rule(rule));
+    if let Some(rule) = data_rules().find(|(rule, _)| is_meant(rule.code, rule.name)) {
+        return Ok(page::of_data_rule(rule.0, rule.1));
     }
     let grammar = Grammar::builtin();
     let words = what.trim_start_matches('*');
@@ -79,7 +82,7 @@ fn page_of(what: &str) -> Result<String, Failure> {
         }
         None => {
             let rules = RULES.iter().flat_map(|rule| [rule.code, rule.name]);
-            let rules = rules.chain(data_rules().flat_map(|rule| [rule.code, rule.name]));
+            let rules = rules.chain(data_rules().flat_map(|(rule, _)| [rule.code, rule.name]));
             let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));
             let keywords = grammar.nearest_keywords(words, 3).into_iter().map(|keyword| format!("*{keyword}"));
             let near: Vec<String> = rules.chain(keywords).collect();
