@@ -26,7 +26,9 @@ pub(crate) fn of_rule(rule: &Rule) -> String {
 /// The page of a rule about data, which is found where `found` says.
 pub(crate) fn of_data_rule(rule: &DataRule, found: &str) -> String {
     let DataRule { code, name, severity, summary, explanation } = rule;
-    format!("# {code} {name}\n\nSeverity: {severity}. Found in {found}.\n\nWhat is wrong: {summary}.\n\n{explanation}\n")
+    format!(
+        "# {code} {name}\n\nSeverity: {severity}. Found in {found}.\n\nWhat is wrong: {summary}.\n\n{explanation}\n"
+    )
 }
 
 /// The page of a keyword.

@@ -1,8 +1,9 @@
 //! Orders in which unknowns are eliminated so that few entries fill in.
 //!
 //! Approximate minimum degree is cheap and, in two dimensions, as good as any. In three dimensions nested dissection leaves half the entries and a third of the operations,
-//! and costs more to find: it is tried where the factor by minimum degree would cost more than that.
+//! and costs more to find: it is tried where the factor by minimum degree would cost more than that, and taken at once where the network is plainly one of three dimensions.
 
+use super::sets::index;
 use arael_faer::nd::{Graph, NdParams, order_graph};
 use faer::Side;
 use faer::perm::PermRef;
@@ -16,6 +17,12 @@ use faer::sparse::linalg::cholesky::{
 /// Measured: 1e6 unknowns in two dimensions need 1.4e4 for each, and dissection takes five times as long as the factor it would save a tenth of;
 /// 46³ in three need 6e5, and dissection takes a tenth of the factor it saves half of.
 const WORTH_DISSECTING: f64 = 1e5;
+
+/// Entries below the diagonal for each unknown from which a network may be one of three dimensions: a grid in the plane has two, one in space three.
+const NEIGHBOURS_IN_SPACE: f64 = 2.5;
+
+/// A network is one of three dimensions where its levels have so many times the square root of all unknowns: grids in the plane have at most as many as that root, 46³ in space have 2.3 times as many.
+const WIDTH_IN_SPACE: f64 = 1.5;
 
 /// The order and the structure of a factor.
 #[derive(Debug)]
@@ -36,18 +43,27 @@ pub enum Ordering {
 impl Analysis {
     /// Analyses the lower triangle of a symmetric matrix; `None` where memory runs out.
     pub(crate) fn of(pattern: SymbolicSparseColMatRef<'_, u32>) -> Option<Self> {
-        let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd, Ordering::MinimumDegree)?;
-        if by_degree.operations() < WORTH_DISSECTING * pattern.ncols() as f64 {
-            return Some(by_degree);
+        let count = pattern.ncols() as f64;
+        let may_be_in_space = (pattern.row_idx().len() as f64) > (1.0 + NEIGHBOURS_IN_SPACE) * count;
+        let mut graph = may_be_in_space.then(|| graph_of(pattern));
+        let mut by_degree = None;
+        if !graph.as_ref().is_some_and(is_in_space) {
+            let analysis = Self::ordered(pattern, SymmetricOrdering::Amd, Ordering::MinimumDegree)?;
+            if analysis.operations() < WORTH_DISSECTING * count {
+                return Some(analysis);
+            }
+            by_degree = Some(analysis);
         }
-        let forward = dissection(pattern);
+        let graph = graph.get_or_insert_with(|| graph_of(pattern));
+        let forward: Vec<u32> = order_graph(graph, NdParams::default()).into_iter().map(index).collect();
         let mut inverse = vec![0; forward.len()];
         for (place, &unknown) in (0..).zip(&forward) {
             inverse[unknown as usize] = place;
         }
         let order = SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, forward.len()));
         let dissected = Self::ordered(pattern, order, Ordering::NestedDissection)?;
-        Some(if dissected.operations() < by_degree.operations() { dissected } else { by_degree })
+        let is_better = |of: &Self| of.operations() <= dissected.operations();
+        Some(by_degree.filter(is_better).unwrap_or(dissected))
     }
 
     fn ordered(
@@ -85,12 +101,40 @@ impl Analysis {
     }
 }
 
-/// The unknowns in the order of a nested dissection.
-fn dissection(pattern: SymbolicSparseColMatRef<'_, u32>) -> Vec<u32> {
+/// Which unknowns are neighbours.
+fn graph_of(pattern: SymbolicSparseColMatRef<'_, u32>) -> Graph {
     let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
     let column = |column: usize| {
         rows[starts[column] as usize..starts[column + 1] as usize].iter().map(move |&row| (row as usize, column))
     };
-    let graph = Graph::from_edges(pattern.ncols(), (0..pattern.ncols()).flat_map(column));
-    order_graph(&graph, NdParams::default()).into_iter().map(super::sets::index).collect()
+    Graph::from_edges(pattern.ncols(), (0..pattern.ncols()).flat_map(column))
+}
+
+/// Whether most of a network is plainly one of three dimensions, by the width of its levels: the unknowns at one distance from an outermost one.
+fn is_in_space(graph: &Graph) -> bool {
+    let (outermost, ..) = walk(graph, 0);
+    let (_, levels, reached) = walk(graph, outermost);
+    let width = reached as f64 / levels as f64;
+    2 * reached > graph.nodes() && width > WIDTH_IN_SPACE * (reached as f64).sqrt()
+}
+
+/// Walks outward from an unknown, level by level: the last that is reached, how many levels there are, how many unknowns in them.
+fn walk(graph: &Graph, from: usize) -> (usize, usize, usize) {
+    let mut is_reached = vec![false; graph.nodes()];
+    is_reached[from] = true;
+    let mut reached = vec![from];
+    let (mut levels, mut begin) = (0, 0);
+    while begin < reached.len() {
+        levels += 1;
+        let end = reached.len();
+        for place in begin..end {
+            for &other in graph.neighbours(reached[place]) {
+                if !std::mem::replace(&mut is_reached[other], true) {
+                    reached.push(other);
+                }
+            }
+        }
+        begin = end;
+    }
+    (reached[reached.len() - 1], levels, reached.len())
 }
