@@ -269,7 +269,7 @@ pub(crate) fn pore(
             let [along_pore_pressure, along_temperature] = [slopes[0], slopes[1]].map(finite);
             let slopes = [(along_pore_pressure, means[0]), (along_temperature, means[1])];
             let conductance = corrected(conductance, &slopes);
-            PoreElement::Finite(Conducts { conductance, along_pore_pressure, along_temperature, ..Conducts::default() })
+            PoreElement::Finite(Conducts { conductance, along_temperature, along_pore_pressure, ..Conducts::default() })
         }
     };
     (element, [into_slave, into_master])

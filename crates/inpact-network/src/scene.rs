@@ -7,6 +7,7 @@ mod diagnostic;
 mod file;
 mod read;
 mod tables;
+mod usable;
 
 pub use course::Course;
 pub use diagnostic::{

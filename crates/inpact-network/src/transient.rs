@@ -182,10 +182,10 @@ impl March<'_, '_> {
     fn local_error(&self, before: &State, after: &State, rates: &[Vec<f64>; 2]) -> f64 {
         let duration = after.time - before.time;
         let mut largest = 0.0_f64;
-        for place in 0..STORING.len() {
-            let changes = rates[place].iter().zip(&self.rates[place]).map(|(now, before)| (now - before).abs());
+        for ((rates, rates_before), range) in rates.iter().zip(&self.rates).zip(&self.ranges) {
+            let changes = rates.iter().zip(rates_before).map(|(now, before)| (now - before).abs());
             let error = 0.5 * duration * changes.fold(0.0, f64::max);
-            if let Some([least, greatest]) = self.ranges[place].filter(|[least, greatest]| least < greatest) {
+            if let Some([least, greatest]) = range.filter(|[least, greatest]| least < greatest) {
                 largest = largest.max(error / (greatest - least));
             }
         }

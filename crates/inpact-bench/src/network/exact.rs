@@ -176,7 +176,7 @@ fn eliminate(mut rows: Vec<Vec<BigInt>>) -> (Vec<BigInt>, BigInt) {
                 row[column] = (&row[column] * &pivot_row[pivot] - product) / &before;
             }
         }
-        before = pivot_row[pivot].clone();
+        before.clone_from(&pivot_row[pivot]);
     }
     let mut tops = vec![BigInt::zero(); count];
     for row in (0..count).rev() {

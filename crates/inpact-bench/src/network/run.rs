@@ -11,6 +11,7 @@ use std::time::Instant;
 /// A grid that is not solved.
 pub fn run(grid: Grid, method: Method, tolerance: Option<f64>, rounds: usize) -> Result<String, LinearFailure> {
     let network = grid.network();
+    let base = memory("VmRSS:").unwrap_or(f64::NAN);
     let mut best: Option<(f64, inpact_network::linear::LinearReport)> = None;
     for _ in 0..rounds {
         let start = Instant::now();
@@ -27,7 +28,7 @@ pub fn run(grid: Grid, method: Method, tolerance: Option<f64>, rounds: usize) ->
             line,
             "{{\"size\":{:?},\"contrast\":{:e},\"unknowns\":{},\"solver\":\"{:?}\",\"whole\":{whole:.4},\"set_up\":{:.4},\
              \"order\":{:.4},\"factor\":{:.4},\"solve\":{:.4},\"entries\":{},\"ordering\":\"{:?}\",\"solves\":{},\
-             \"iterations\":{},\"residual\":{:e},\"error\":{:e},\"condition\":{:e},\"peak_mib\":{:.1}}}",
+             \"iterations\":{},\"residual\":{:e},\"error\":{:e},\"condition\":{:e},\"base_mib\":{base:.1},\"peak_mib\":{:.1}}}",
             grid.size,
             grid.contrast,
             report.unknowns,
@@ -43,16 +44,16 @@ pub fn run(grid: Grid, method: Method, tolerance: Option<f64>, rounds: usize) ->
             report.quality.residual,
             report.quality.error,
             report.quality.condition,
-            peak_memory().unwrap_or(f64::NAN),
+            memory("VmHWM:").unwrap_or(f64::NAN),
         );
     }
     Ok(line)
 }
 
-/// The largest memory this process has had, in MiB; where the system tells.
-fn peak_memory() -> Option<f64> {
+/// The memory of this process, now (`VmRSS:`) or at most so far (`VmHWM:`), in MiB; where the system tells.
+fn memory(key: &str) -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let line = status.lines().find(|line| line.starts_with(key))?;
     let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(kib / 1024.0)
 }

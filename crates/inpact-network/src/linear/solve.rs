@@ -265,7 +265,7 @@ impl Solver {
         }
         if edges.form.count() == 0 {
             let refined = refine(core, edges, &mut Nothing, self.tolerance)?;
-            return Ok(found(core, edges, refined.jumps, refined.balance));
+            return Ok(found(core, edges, &refined.jumps, refined.balance));
         }
         let pattern = self.pattern(core, edges);
         let matrix = pattern.matrix(core, edges);
@@ -311,7 +311,7 @@ impl Solver {
         };
         let Refined { jumps, balance, quality } = refined;
         report.quality = quality;
-        Ok(found(core, edges, jumps, balance))
+        Ok(found(core, edges, &jumps, balance))
     }
 
     /// The pattern of some edges with its analysis, those of the network before where they are the same.
@@ -359,9 +359,9 @@ fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolut
 }
 
 /// What jumps along the forest say.
-fn found(core: &Core, edges: &Edges, jumps: Vec<Wide>, balance: Balance) -> CoreFound {
-    let hanging = edges.hanging(core, &jumps);
-    CoreFound { values: edges.values(core, &jumps), flows: balance.into_flows(), hanging: Some(hanging) }
+fn found(core: &Core, edges: &Edges, jumps: &[Wide], balance: Balance) -> CoreFound {
+    let hanging = edges.hanging(core, jumps);
+    CoreFound { values: edges.values(core, jumps), flows: balance.into_flows(), hanging: Some(hanging) }
 }
 
 /// The solution in terms of the network.

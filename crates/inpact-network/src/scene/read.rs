@@ -6,6 +6,7 @@ use super::course::Course;
 use super::diagnostic::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE, UNUSABLE_NUMBER};
 use super::file::{self, Condition, InterfaceEntry, LinkEntry, NodeEntry, ProcedureName, SceneFile, TimeEntry};
 use super::tables;
+use super::usable::{Unusable, unusable_numbers};
 use super::{Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, Steps, TimeSpan};
 use crate::linear::index;
 use inpact_evaluation::nodes::{DataDiagnostic, DataRule, Findings, Place};
@@ -377,7 +378,7 @@ impl<'a> Reader<'a> {
         };
         for unusable in unusable_numbers(&interface) {
             let Unusable { key, value, .. } = &unusable;
-            self.report(&UNUSABLE_NUMBER, line, format!("`{key}` of {label} is {value:?}"), &unusable.help());
+            self.report(&UNUSABLE_NUMBER, line, format!("`{key}` of {label} is {value:?}"), unusable.help());
         }
         if slave == master {
             self.report(&MALFORMED_SCENE, line, format!("{label} joins a node to itself"), "name two nodes");
@@ -469,44 +470,4 @@ fn time_span(entry: TimeEntry) -> Result<TimeSpan, (String, &'static str)> {
         }
     };
     Ok(TimeSpan { start, end, steps })
-}
-
-/// A number that cannot be used.
-pub(super) struct Unusable {
-    pub(super) key: String,
-    pub(super) value: f64,
-    /// What it must be.
-    pub(super) must_be: &'static str,
-}
-
-/// The numbers of an interface that cannot be used.
-pub(super) fn unusable_numbers(interface: &SceneInterface) -> Vec<Unusable> {
-    let SceneInterface { area, characteristic_length, bulk_permeabilities, .. } = interface;
-    let above_zero = |value: f64| value > 0.0 && value.is_finite();
-    let not_negative = |value: f64| value >= 0.0 && value.is_finite();
-    let given = [
-        ("area", Some(*area), above_zero as fn(f64) -> bool, "above zero"),
-        ("char_length", *characteristic_length, not_negative, "of zero or above"),
-        ("perm_s", bulk_permeabilities[0], not_negative, "of zero or above"),
-        ("perm_m", bulk_permeabilities[1], not_negative, "of zero or above"),
-        ("temperature", interface.temperature, f64::is_finite, ""),
-        ("mass_flow", interface.mass_flow, f64::is_finite, ""),
-        ("shear", interface.shear, f64::is_finite, ""),
-        ("slip_rate", interface.slip_rate, f64::is_finite, ""),
-        ("clearance_rate", interface.clearance_rate, f64::is_finite, ""),
-    ];
-    let unusable = |(key, value, is_usable, must_be): (&str, Option<f64>, fn(f64) -> bool, &'static str)| {
-        let value = value.filter(|value| !is_usable(*value))?;
-        Some(Unusable { key: key.to_owned(), value, must_be })
-    };
-    let fields = interface.field_variables.iter().zip(1..).filter(|(value, _)| !value.is_finite());
-    let of_field = |(&value, number): (&f64, i32)| Unusable { key: format!("fv{number}"), value, must_be: "" };
-    given.into_iter().filter_map(unusable).chain(fields.map(of_field)).collect()
-}
-
-impl Unusable {
-    /// What to give instead.
-    pub(super) fn help(&self) -> String {
-        format!("give a finite number {}", self.must_be).trim_end().to_owned()
-    }
 }

@@ -11,7 +11,8 @@
 
 use super::course::Course;
 use super::diagnostic::UNUSABLE_NUMBER;
-use super::read::{CheckedCondition, Unusable, unusable_numbers};
+use super::read::CheckedCondition;
+use super::usable::{Unusable, unusable_numbers};
 use super::{Field, SceneInterface};
 use csv::StringRecord;
 use inpact_evaluation::nodes::{
