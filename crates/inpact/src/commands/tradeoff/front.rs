@@ -17,9 +17,10 @@ mod tests {
 
     #[test]
     fn what_is_slower_and_no_more_exact_is_beaten() {
-        assert_eq!(front(&[(1.0, 1e-3), (2.0, 1e-9), (3.0, 1e-6), (4.0, 0.0), (5.0, 0.0)]), [
-            true, true, false, true, false
-        ]);
+        assert_eq!(
+            front(&[(1.0, 1e-3), (2.0, 1e-9), (3.0, 1e-6), (4.0, 0.0), (5.0, 0.0)]),
+            [true, true, false, true, false]
+        );
     }
 
     #[test]
