@@ -40,7 +40,8 @@ fn distance_of_values(found: &FieldState, wanted: &FieldState) -> f64 {
     differences.map(|difference| if difference == 0.0 { 0.0 } else { difference / size }).fold(0.0, f64::max)
 }
 
-/// A flow that is zero but for rounding has no digits to compare: its rounding is a part of what its conductance would let through at the values of its ends, and of what flows there.
+/// A flow that is zero but for rounding has no digits to compare. Its rounding is a part of what its conductance would let through at the values of its ends,
+/// and a part of what passes through the quieter of them: what a strong conductance leads to a quiet end is known with all its digits.
 fn distance_of_flows(
     problem: &Problem<'_>,
     field: Field,
@@ -56,28 +57,46 @@ fn distance_of_flows(
         let of = &scene.interfaces[row as usize];
         ([of.slave, of.master], conductance)
     });
-    let ends: Vec<([usize; 2], f64)> = of_links
-        .chain(of_rows)
-        .map(|(ends, conductance)| (ends.map(|node| nodes.place[node as usize] as usize), conductance))
-        .collect();
+    let of_nodes =
+        |ends: [u32; 2], of: &[f64]| -> [f64; 2] { ends.map(|node| of[nodes.place[node as usize] as usize]) };
     let values: Vec<f64> = wanted.values().collect();
+    let through = through(problem, field, nodes, wanted);
     let flows = |of: &FieldState| of.solution.flows.iter().map(|flow| flow.to_f64()).collect::<Vec<f64>>();
-    let (found, wanted) = (flows(found), flows(wanted));
-    let mut through = vec![0.0_f64; values.len()];
-    for ((ends, _), flow) in ends.iter().zip(&wanted) {
-        for &end in ends {
-            through[end] = through[end].max(flow.abs());
-        }
-    }
     let mut largest = 0.0_f64;
-    for (&(ends, conductance), (found, wanted)) in ends.iter().zip(found.into_iter().zip(wanted)) {
-        let most = |of: &[f64]| of[ends[0]].abs().max(of[ends[1]].abs());
-        // An infinite conductance between values of zero lets through what flows there.
-        let rounding = NOTHING * most(&through).min(conductance * most(&values));
+    for ((ends, conductance), (found, wanted)) in
+        of_links.chain(of_rows).zip(flows(found).into_iter().zip(flows(wanted)))
+    {
+        let [one, other] = of_nodes(ends, &values).map(f64::abs);
+        let quieter = of_nodes(ends, &through).into_iter().fold(f64::INFINITY, f64::min);
+        // Between values of zero an infinite conductance lets through whatever passes there.
+        let rounding = NOTHING * quieter.min(conductance * one.max(other));
         let difference = (found - wanted).abs();
         if rounding < difference {
             largest = largest.max(difference / found.abs().max(wanted.abs()));
         }
     }
     largest
+}
+
+/// The largest part of the balance of each node; of nodes that are held, or store something, there is no bound.
+fn through(problem: &Problem<'_>, field: Field, nodes: &FieldNodes, state: &FieldState) -> Vec<f64> {
+    let (scene, conditions) = (problem.scene, problem.scene.conditions(field));
+    let mut through: Vec<f64> = state.sources.iter().map(|source| source.abs()).collect();
+    let of_links = nodes.links.iter().map(|&link| scene.links[link as usize].nodes);
+    let of_rows = nodes.rows.iter().map(|&row| {
+        let of = &scene.interfaces[row as usize];
+        [of.slave, of.master]
+    });
+    for (ends, flow) in of_links.chain(of_rows).zip(&state.solution.flows) {
+        for end in ends {
+            let part = &mut through[nodes.place[end as usize] as usize];
+            *part = part.max(flow.to_f64().abs());
+        }
+    }
+    for (node, part) in nodes.nodes.iter().zip(&mut through) {
+        if conditions.fixed.contains_key(node) || conditions.capacities.contains_key(node) {
+            *part = f64::INFINITY;
+        }
+    }
+    through
 }

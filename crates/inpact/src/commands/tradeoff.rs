@@ -25,8 +25,8 @@ const LEAST_ERROR: f64 = f64::EPSILON / 4.0;
 pub(crate) struct TradeoffArguments {
     #[command(flatten)]
     table: Option<SceneArguments>,
-    /// Measure the solvers on a scene, as `solve` solves it, instead of the modes on a deck and its node table; `-` reads standard input.
-    #[arg(long, value_name = "SCENE", conflicts_with = "SceneArguments")]
+    /// Measure the solvers on a scene, which names its deck, instead of the modes on a deck and its node table; `-` reads standard input.
+    #[arg(long, value_name = "SCENE", conflicts_with_all = OF_TABLE)]
     scene: Option<PathBuf>,
     /// Where to write the result, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
@@ -48,6 +48,20 @@ pub(crate) struct TradeoffArguments {
     #[command(flatten)]
     reading: DeckArguments,
 }
+
+/// What only the modes on a node table know; named one by one, so that a message names those that were given.
+const OF_TABLE: [&str; 10] = [
+    "deck",
+    "nodes",
+    "interaction",
+    "procedure",
+    "threads",
+    "accuracy",
+    "tolerance",
+    "tolerance_relative",
+    "outputs",
+    "derivatives",
+];
 
 /// Both ways to say what is measured on.
 const USAGE: &str = "\

@@ -16,6 +16,8 @@ pub(super) struct Measured {
     pub(super) entries: Vec<Entry>,
     /// What did not solve the scene, and why.
     pub(super) failed: Vec<(Subject, String)>,
+    /// How many unknowns the usual solver had in all fields together.
+    pub(super) unknowns: usize,
 }
 
 /// A solver at a tolerance.
@@ -46,6 +48,8 @@ pub(super) struct Found {
     /// The same; where there is no estimate, nothing.
     pub(super) estimate: Option<f64>,
     pub(super) condition: Option<f64>,
+    /// Unknowns of all fields of a state.
+    pub(super) unknowns: usize,
     pub(super) newton_steps: usize,
     /// Networks that were solved, with the corrections and iterations of all.
     pub(super) work: Work,
@@ -60,15 +64,12 @@ pub(super) struct Found {
 /// The failure of the usual solver: such a scene has no solution to compare with.
 pub(super) fn measure(prepared: &SolvableScene, problem: &Problem<'_>, rounds: u32) -> Result<Measured, Failed> {
     let usual = USUAL.solve(problem)?;
-    let reference = reference(problem, &usual);
+    let reference = reference(prepared, problem, &usual);
     let (mut entries, mut failed) = (Vec::new(), Vec::new());
     for subject in subjects() {
         match subject.solve(problem) {
             Ok(solved) => entries.push(Entry::new(subject, &solved, problem, &reference)),
-            Err(Failed { why, after }) => {
-                let reasons = prepared.findings(&why, after.as_ref()).into_iter().map(|finding| finding.message);
-                failed.push((subject, reasons.collect::<Vec<String>>().join("; ")));
-            }
+            Err(failure) => failed.push((subject, failure.reason(prepared))),
         }
     }
     take_times(problem, &mut entries, rounds);
@@ -77,7 +78,8 @@ pub(super) fn measure(prepared: &SolvableScene, problem: &Problem<'_>, rounds: u
     for (entry, on_front) in entries.iter_mut().zip(front(&places)) {
         entry.on_front = on_front;
     }
-    Ok(Measured { reference, rounds, entries, failed })
+    let unknowns = Found::new(USUAL.method, &usual).unknowns;
+    Ok(Measured { reference, rounds, entries, failed, unknowns })
 }
 
 fn take_times(problem: &Problem<'_>, entries: &mut [Entry], rounds: u32) {
@@ -117,7 +119,7 @@ impl Entry {
             time: f64::INFINITY,
             phases: solved.work.phases,
             distance: distances.fold(Distance::default(), Distance::max),
-            is_reference: subject == reference.subject || found.methods.last() == Some(&reference.subject.method),
+            is_reference: reference.is_found_by(found.methods.last().copied(), subject.tolerance),
             found,
             on_front: false,
         }
@@ -129,14 +131,16 @@ impl Found {
         let mut found = Self { methods: vec![asked], work: solved.work, ..Self::default() };
         let mut has_estimates = true;
         for state in &solved.states {
-            let (mut entries, mut bytes) = (0, 0);
+            let (mut unknowns, mut entries, mut bytes) = (0, 0, 0);
             for (field, linear) in linear_reports(state) {
                 found.take(field, linear);
                 has_estimates &= linear.method != Method::Elimination;
+                unknowns += linear.unknowns;
                 entries += linear.factor_entries;
                 bytes += linear.factor_entries * if linear.method == Method::Mixed { 4 } else { 8 };
             }
             found.newton_steps += state.reports.iter().map(|stage| stage.iterations).sum::<usize>();
+            found.unknowns = found.unknowns.max(unknowns);
             found.factor_entries = found.factor_entries.max(entries);
             found.factor_bytes = found.factor_bytes.max(bytes);
         }

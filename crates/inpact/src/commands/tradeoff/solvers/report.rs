@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 /// A table for a person.
 pub(super) fn text(measured: &Measured, prepared: &SolvableScene) -> String {
-    let mut text = format!("{} with {}: {}\n", prepared.name, prepared.deck_name, size(prepared));
+    let mut text = format!("{} with {}: {}\n", prepared.name, prepared.deck_name, size(measured, prepared));
     text += &format!("{}; {}\n", what(measured, prepared), how(measured));
     text += &format!("reference: {}\n", reference(measured));
     text += "errors are differences from the reference: of nodes as parts of the range of their field's values, of flows through links and interfaces as parts of the flow; \
@@ -20,6 +20,9 @@ pub(super) fn text(measured: &Measured, prepared: &SolvableScene) -> String {
     let mut widths = WIDTHS;
     widths[1] = rows.iter().map(|row| row[1].chars().count()).fold(widths[1], usize::max);
     text.extend(rows.iter().map(|row| line(row, widths, TEXTS)));
+    if measured.unknowns == 0 {
+        text += "  no unknowns: nodes that only pass on what flows through them are taken out, and nothing is left to any solver\n";
+    }
     let mut given_up: Vec<(String, String)> = Vec::new();
     for Entry { subject, found, .. } in &measured.entries {
         for (field, method, why) in &found.given_up {
@@ -89,10 +92,15 @@ pub(super) fn name(subject: Subject) -> String {
     format!("{} {}", method_name(subject.method), subject.tolerance_text())
 }
 
-fn size(prepared: &SolvableScene) -> String {
+fn size(measured: &Measured, prepared: &SolvableScene) -> String {
     let scene = &prepared.scene;
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
-    let counts = [(scene.nodes.len(), "node"), (scene.links.len(), "link"), (scene.interfaces.len(), "interface")];
+    let counts = [
+        (scene.nodes.len(), "node"),
+        (scene.links.len(), "link"),
+        (scene.interfaces.len(), "interface"),
+        (measured.unknowns, "unknown"),
+    ];
     counts.map(|(number, what)| count(number, what)).join(", ")
 }
 
@@ -174,6 +182,7 @@ pub(super) fn json(measured: &Measured, prepared: &SolvableScene) -> String {
         "nodes": scene.nodes.len(),
         "links": scene.links.len(),
         "interfaces": scene.interfaces.len(),
+        "unknowns": measured.unknowns,
         "times": reference.states.iter().map(|state| state.time).collect::<Vec<f64>>(),
         "rounds": measured.rounds,
         "reference": {
