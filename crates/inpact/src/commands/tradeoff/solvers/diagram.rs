@@ -1,6 +1,6 @@
 //! The work–precision diagram: error of the nodes' values against time, and the Pareto front.
 
-use super::measure::Measured;
+use super::measure::{Entry, Measured};
 use super::report::{how, name, what};
 use crate::chart::{Chart, Point};
 use crate::commands::solvable::{SolvableScene, method_name};
@@ -9,7 +9,9 @@ use crate::commands::tradeoff::cells::file_name;
 
 /// The diagram of all solvers.
 pub(super) fn chart(measured: &Measured, prepared: &SolvableScene) -> Chart {
-    let points = measured.entries.iter().map(|entry| {
+    // What is on the front is drawn last: it must not be hidden.
+    let (front, others): (Vec<&Entry>, Vec<&Entry>) = measured.entries.iter().partition(|entry| entry.on_front);
+    let points = others.into_iter().chain(front).map(|entry| {
         let (name, methods) = (name(entry.subject), &entry.found.methods);
         let fallback = methods.iter().skip(1).map(|method| format!(", then {}", method_name(*method)));
         Point {
