@@ -187,8 +187,9 @@ fn direct_is_right_at_any_contrast() {
     let mut scenes: Vec<String> = Vec::new();
     for folder in ["decks/scenes", "decks/scenes/ccx"] {
         for entry in std::fs::read_dir(root().join(folder)).expect("a folder") {
-            let name = entry.expect("readable").file_name().to_string_lossy().into_owned();
-            if name.ends_with(".toml") && name != "inpact.toml" {
+            let path = entry.expect("readable").path();
+            let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+            if path.extension().is_some_and(|extension| extension == "toml") && name != "inpact.toml" {
                 scenes.push(format!("{folder}/{name}"));
             }
         }

@@ -15,6 +15,7 @@ pub struct Distance {
 
 impl Distance {
     /// The larger of two distances.
+    #[must_use]
     pub fn max(self, other: Self) -> Self {
         Self { values: self.values.max(other.values), flows: self.flows.max(other.flows) }
     }

@@ -13,7 +13,7 @@ use crate::settings::DeckArguments;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings};
 use inpact_evaluation::plan::Choices;
 use inpact_network::scene::{self, Scene, SceneFiles};
-use inpact_network::{Problem, SolveFailure, State};
+use inpact_network::{Problem, SolveFailure};
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::check;
@@ -82,9 +82,9 @@ impl SolvableScene {
         problem
     }
 
-    /// What there is to say of a failure after the last state that was found.
-    pub(crate) fn findings(&self, failure: &SolveFailure, last: Option<&State>) -> Vec<DataDiagnostic> {
-        let after = last.filter(|_| self.scene.is_transient()).map(|state| state.time);
+    /// What there is to say of a failure after the time of the last state that was found.
+    pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<DataDiagnostic> {
+        let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
     }
 }

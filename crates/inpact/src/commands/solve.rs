@@ -109,7 +109,7 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         Ok(report) => report,
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
-            say_data_findings(prepared.findings(&failure, last.as_ref()), format);
+            say_data_findings(prepared.findings(&failure, last.map(|state| state.time)), format);
             return Ok(Outcome::HasErrors);
         }
     };

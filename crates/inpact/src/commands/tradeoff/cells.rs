@@ -10,8 +10,8 @@ pub(super) fn line<const COLUMNS: usize>(cells: &[String; COLUMNS], widths: [usi
 }
 
 /// The mark of what is on the Pareto front.
-pub(super) fn star(is_on_front: &bool) -> String {
-    if *is_on_front { "*" } else { "" }.to_owned()
+pub(super) fn star(is_on_front: bool) -> String {
+    if is_on_front { "*" } else { "" }.to_owned()
 }
 
 /// An error as a part of something, in two digits.

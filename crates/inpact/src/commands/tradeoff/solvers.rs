@@ -28,7 +28,7 @@ pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
     let measured = match measure::measure(&prepared, &problem, arguments.rounds) {
         Ok(measured) => measured,
         Err(failed) => {
-            say_data_findings(prepared.findings(&failed.why, failed.after.as_ref()), format);
+            say_data_findings(prepared.findings(&failed.why, failed.after), format);
             return Ok(None);
         }
     };

@@ -182,3 +182,34 @@ impl Found {
 fn linear_reports(state: &State) -> impl Iterator<Item = (Field, &LinearReport)> {
     state.reports.iter().flat_map(|stage| stage.fields.iter().copied().zip(&stage.linear))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use inpact_network::linear::{NoSolution, Quality, Shortcoming};
+
+    /// A report of a method that was reached by giving up others.
+    fn report(method: Method, given_up: &[Method]) -> LinearReport {
+        let why = Shortcoming::NoSolution(NoSolution::Iterations);
+        LinearReport {
+            method,
+            unknowns: 1,
+            quality: Quality { error: 1e-20, condition: 3.0, ..Quality::default() },
+            given_up: given_up.iter().map(|method| (*method, why)).collect(),
+            ..LinearReport::default()
+        }
+    }
+
+    #[test]
+    fn what_was_given_up_is_told_in_its_order() {
+        let mut found = Found { methods: vec![Method::Iterative], ..Found::default() };
+        found.take(Field::Potential, &report(Method::Iterative, &[]));
+        assert_eq!(found.methods_text(), "iterative");
+        for _ in 0..2 {
+            found.take(Field::Temperature, &report(Method::Direct, &[Method::Iterative]));
+        }
+        assert_eq!(found.methods_text(), "iterative, then direct");
+        let why = "the iterations did not converge".to_owned();
+        assert_eq!(found.given_up, [(Field::Temperature, Method::Iterative, why)]);
+    }
+}

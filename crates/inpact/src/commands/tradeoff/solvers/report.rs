@@ -68,7 +68,7 @@ fn cells(entry: &Entry) -> [String; 16] {
     let milliseconds = |seconds: f64| format!("{:.4}", 1e3 * seconds);
     let estimated = |number: Option<f64>| number.map_or("none".to_owned(), error);
     [
-        star(on_front),
+        star(*on_front),
         found.methods_text(),
         subject.tolerance_text(),
         milliseconds(*time),

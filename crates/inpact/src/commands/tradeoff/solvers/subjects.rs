@@ -18,10 +18,10 @@ pub(super) struct Solved {
     pub(super) work: Work,
 }
 
-/// Why a solver found nothing, and the last state before.
+/// Why a solver found nothing, and the time of the last state before.
 pub(super) struct Failed {
     pub(super) why: SolveFailure,
-    pub(super) after: Option<State>,
+    pub(super) after: Option<f64>,
 }
 
 /// What the others are compared with.
@@ -68,7 +68,7 @@ pub(super) fn reference(prepared: &SolvableScene, problem: &Problem<'_>, usual: 
 impl Failed {
     /// Why, for a person.
     pub(super) fn reason(&self, prepared: &SolvableScene) -> String {
-        let findings = prepared.findings(&self.why, self.after.as_ref()).into_iter();
+        let findings = prepared.findings(&self.why, self.after).into_iter();
         findings.map(|finding| finding.message).collect::<Vec<String>>().join("; ")
     }
 }
@@ -92,7 +92,7 @@ impl Subject {
         });
         match begun {
             Ok(()) => Ok(Solved { states, work: equations.work() }),
-            Err(why) => Err(Failed { why, after: states.pop() }),
+            Err(why) => Err(Failed { why, after: states.last().map(|state| state.time) }),
         }
     }
 

@@ -23,7 +23,7 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
         for entry in &group.entries {
             let Entry { time, errors, bound, bytes, .. } = entry;
             let cells = [
-                star(&entry.on_front),
+                star(entry.on_front),
                 entry.mode.to_owned(),
                 entry.form.clone(),
                 format!("{time:.2}"),
