@@ -2,14 +2,17 @@
 
 use crate::problem::{FieldNodes, Problem};
 use crate::scene::Field;
-use crate::state::{FieldState, NOTHING, State};
+use crate::state::{FieldState, State};
+
+/// Below that part of what flows around it a flow is what refinement in 106 bits leaves of zero.
+const NOTHING: f64 = 1e-20;
 
 /// How far a state is from another, as numbers are printed: those that print alike are alike.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
     /// The largest difference of a node's value, as a part of the range of the other state's values of that field; where that is one value, as a part of its magnitude.
     pub values: f64,
-    /// The largest difference of a flow through a link or an interface, as a part of the larger of the two; differences that are the rounding of 106 bits are none.
+    /// The largest difference of a flow through a link or an interface, as a part of the larger of the two; differences below 1e-20 of what flows around it are none.
     pub flows: f64,
 }
 
@@ -41,8 +44,8 @@ fn distance_of_values(found: &FieldState, wanted: &FieldState) -> f64 {
     differences.map(|difference| if difference == 0.0 { 0.0 } else { difference / size }).fold(0.0, f64::max)
 }
 
-/// A flow that is zero but for rounding has no digits to compare. Its rounding is a part of what its conductance would let through at the values of its ends,
-/// and a part of what passes through the quieter of them: what a strong conductance leads to a quiet end is known with all its digits.
+/// A flow that is zero but for rounding has no digits to compare. What rounding makes of it is a small part of what its conductance would let through at the
+/// values of its ends, and of what passes through the quieter of them: what a strong conductance leads to a quiet end is known with all its digits.
 fn distance_of_flows(
     problem: &Problem<'_>,
     field: Field,

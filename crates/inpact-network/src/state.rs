@@ -150,7 +150,7 @@ impl State {
 }
 
 /// Below that part of a turnover a sum is its rounding.
-pub(crate) const NOTHING: f64 = 1e-27;
+const NOTHING: f64 = 1e-27;
 
 /// The number nearest to one in 106 bits; none is 0, not −0.
 fn number(wide: Wide) -> f64 {
