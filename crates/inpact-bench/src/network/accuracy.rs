@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 /// The largest relative errors over some networks.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Worst {
-    /// Of a node's value.
+    /// Of a node's value; infinite where a network was not solved.
     pub value: f64,
     /// Of the jump across a link.
     pub jump: f64,
@@ -17,7 +17,7 @@ pub struct Worst {
     pub flow: f64,
     /// How many networks there were.
     pub networks: u32,
-    /// How many of them are beyond the range of f64 and refused as such.
+    /// How many of them are refused, as a value or a flow is beyond the range of f64; one that is refused without that is an infinite error.
     pub refused: u32,
     /// The most corrections that one of them took.
     pub solves: usize,
@@ -40,7 +40,8 @@ pub fn worst(kind: Kind, seeds: std::ops::Range<u64>, methods: &[Method]) -> Vec
             worst.networks += 1;
             match Solver::new(method, LAST_DIGIT).solve(&network) {
                 Ok(solution) => worst.take(&network, &solution, &exact),
-                Err(_) => worst.refused += 1,
+                Err(_) if exact.is_beyond_range() => worst.refused += 1,
+                Err(_) => worst.value = f64::INFINITY,
             }
         }
     }

@@ -199,6 +199,23 @@ impl Fraction {
     }
 }
 
+/// Two to this power is beyond the range of f64.
+const BEYOND: i64 = 1024;
+
+impl Exact {
+    /// Whether a value or a flow is larger than any f64.
+    pub fn is_beyond_range(&self) -> bool {
+        self.values.iter().chain(self.flows.iter().flatten()).any(Fraction::is_beyond_range)
+    }
+}
+
+impl Fraction {
+    /// Whether it is larger than any f64.
+    fn is_beyond_range(&self) -> bool {
+        self.top.magnitude() >= shifted(self.bottom.clone(), BEYOND).magnitude()
+    }
+}
+
 /// The relative error of a value; zero where both are below what an f64 has digits for.
 pub fn relative_error(value: f64, exact: &Fraction) -> f64 {
     if !value.is_finite() {

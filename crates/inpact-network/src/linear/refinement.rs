@@ -11,11 +11,14 @@ use super::factor::{NoSolution, Solves};
 use super::matrix::{scaled_flows, shift, unscale};
 use inpact_evaluation::numbers::Wide;
 
-/// The most steps of a refinement: twenty bring a body without any flow from rounding down to zero, flows that differ by hundreds of decades take some more.
-const MOST_STEPS: usize = 60;
+/// The most steps of a refinement: a body without any flow comes down from rounding to zero by some sixteen decades a step, through all six hundred of f64 if need be.
+const MOST_STEPS: usize = 100;
 
 /// Steps without gain after which a refinement gives up.
 const PATIENCE: usize = 24;
+
+/// A step has gained something where the largest flow that is missing falls by this factor.
+const FALLS: f64 = 1e-3;
 
 /// What came of a refinement.
 #[derive(Debug)]
@@ -74,7 +77,8 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
             if !is_first && quality.error <= tolerance && quality.residual <= tolerance {
                 return Ok(Refined { jumps, balance, quality });
             }
-            if progress.is_idle(quality.residual) || quality.solves >= MOST_STEPS {
+            let largest = balance.missing().map(f64::abs).fold(0.0, f64::max);
+            if progress.is_idle(quality.residual, largest) || quality.solves >= MOST_STEPS {
                 return Err(GaveUp::Stalled(quality));
             }
         }
@@ -100,12 +104,13 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
 struct Progress {
     change: f64,
     best: f64,
+    least: f64,
     idle: usize,
 }
 
 impl Default for Progress {
     fn default() -> Self {
-        Self { change: f64::INFINITY, best: f64::INFINITY, idle: 0 }
+        Self { change: f64::INFINITY, best: f64::INFINITY, least: f64::INFINITY, idle: 0 }
     }
 }
 
@@ -117,11 +122,13 @@ impl Progress {
         if before.is_finite() { change * contraction } else { change }
     }
 
-    /// Whether too many steps have gained nothing, now that this is left.
-    fn is_idle(&mut self, residual: f64) -> bool {
+    /// Whether too many steps have gained nothing, now that this share of a balance and this flow, the largest of all, are missing.
+    fn is_idle(&mut self, residual: f64, largest: f64) -> bool {
         let left = residual + self.change;
-        if left < 0.5 * self.best {
-            self.best = left;
+        // A flow that ought to be zero is missing as a whole until it is, however small it has become.
+        if left < 0.5 * self.best || largest < FALLS * self.least {
+            self.best = self.best.min(left);
+            self.least = self.least.min(largest);
             self.idle = 0;
         } else {
             self.idle += 1;
