@@ -229,3 +229,21 @@ fn entry_json(entry: &Entry) -> Value {
         "reference": is_reference,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::subjects::{Reference, USUAL};
+    use super::*;
+
+    #[test]
+    fn what_failed_has_its_reason_in_the_last_column() {
+        let reference = Reference { subject: USUAL, reason: String::new(), states: Vec::new() };
+        let failed = vec![(USUAL, "no reason, or two".to_owned())];
+        let measured = Measured { reference, rounds: 1, entries: Vec::new(), failed, unknowns: 1 };
+        let csv = csv(&measured);
+        let (header, line) = csv.split_once('\n').expect("a header");
+        let before = line.strip_suffix(",\"no reason, or two\"\n").expect("the reason");
+        assert!(before.starts_with("direct,1.3877787807814457e-17,"), "{line}");
+        assert_eq!(before.split(',').count() + 1, header.split(',').count());
+    }
+}
