@@ -24,4 +24,5 @@ mod solve_published;
 mod solve_transient;
 mod solve_wrong;
 mod tradeoff;
+mod tradeoff_scene;
 mod write;

@@ -22,6 +22,7 @@
 //! Nothing here opens files or prints.
 
 mod assembly;
+mod distance;
 mod interface;
 mod knowledge;
 pub mod linear;
@@ -34,6 +35,7 @@ pub mod tables;
 pub mod transient;
 
 pub use assembly::{RowFault, RowFaultReason};
+pub use distance::Distance;
 pub use problem::Problem;
 pub use solve::{Equations, SolveFailure};
 pub use state::{FieldBalance, StageReport, State};

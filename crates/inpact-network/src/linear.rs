@@ -27,6 +27,7 @@ mod series;
 mod sets;
 mod solve;
 mod strength;
+mod work;
 
 pub(crate) use self::core::{Core, NONE, Origins};
 pub(crate) use edges::{Balance, Edges};
@@ -38,4 +39,5 @@ pub use refinement::Quality;
 pub(crate) use relative::Form;
 pub(crate) use series::Series;
 pub(crate) use sets::{Sets, index};
-pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Phases, Shortcoming, Solver};
+pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Shortcoming, Solver};
+pub use work::{Phases, Work};

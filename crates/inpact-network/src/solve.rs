@@ -2,7 +2,7 @@
 
 use crate::assembly::{Capacities, Currents, RowFault, RowTerms, add_heat, network, row_terms, sources};
 use crate::knowledge::{Increment, Knowledge};
-use crate::linear::{LinearFailure, LinearSolution, Method, Shortcoming, Solver, Unsolvable};
+use crate::linear::{LinearFailure, LinearSolution, Method, Shortcoming, Solver, Unsolvable, Work};
 use crate::newton::{Iterated, Newton};
 use crate::problem::{FieldNodes, Problem, Stage};
 use crate::scene::Field;
@@ -69,6 +69,13 @@ impl<'a> Equations<'a> {
     /// What is solved.
     pub fn problem(&self) -> &'a Problem<'a> {
         self.problem
+    }
+
+    /// What all linear networks that were solved so far took.
+    pub fn work(&self) -> Work {
+        let mut work = Work::default();
+        self.solvers.iter().for_each(|solver| work += solver.work());
+        work
     }
 
     /// The steady state.

@@ -56,6 +56,23 @@ pub fn run<E: From<SolveFailure>>(
     Ok(march.report)
 }
 
+/// Solves what a scene begins with: its steady state, or the state at the start of its transient and the one an increment later; `take` gets each as it is found.
+///
+/// # Errors
+/// The first failure, after the states before it, or what `take` returns.
+pub fn begin<E: From<SolveFailure>>(
+    equations: &mut Equations<'_>,
+    mut take: impl FnMut(State) -> Result<(), E>,
+) -> Result<(), E> {
+    let Procedure::Transient(span) = equations.problem().scene.procedure else {
+        return take(equations.steady()?);
+    };
+    let start = equations.start(span.start)?;
+    take(start.clone())?;
+    let (Steps::Given(length) | Steps::ByError { first: length, .. }) = span.steps;
+    take(equations.step(&start, (span.start + length).min(span.end))?)
+}
+
 /// A transient on its way.
 struct March<'a, 'p> {
     problem: &'p Problem<'p>,

@@ -13,3 +13,4 @@ pub(crate) mod tradeoff;
 
 mod laws;
 mod scene;
+mod solvable;

@@ -45,7 +45,7 @@ enum Command {
     Plan(commands::plan::PlanArguments),
     /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
     Solve(commands::solve::SolveArguments),
-    /// Measure what accuracy costs on a deck and its node data: time and error of every mode.
+    /// Measure what accuracy costs: time and error of every mode on a deck and its node data, or of every solver on a scene.
     Tradeoff(commands::tradeoff::TradeoffArguments),
     /// Explain a rule or a keyword.
     Explain(commands::explain::ExplainArguments),

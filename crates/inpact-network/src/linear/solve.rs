@@ -15,6 +15,7 @@ use super::refinement::{GaveUp, Quality, Refined, refine};
 use super::relative::Form;
 use super::series::Series;
 use super::sets::index;
+use super::work::{Phases, Work};
 use inpact_evaluation::numbers::Wide;
 use std::sync::Arc;
 use std::time::Instant;
@@ -45,6 +46,7 @@ pub struct Solver {
     method: Method,
     tolerance: f64,
     kept: Option<Kept>,
+    work: Work,
 }
 
 /// What is kept from one network to the next.
@@ -127,19 +129,6 @@ pub struct LinearReport {
     pub phases: Phases,
 }
 
-/// How long the parts of a solution took, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Phases {
-    /// Leaving out what can be left out, choosing unknowns, assembling.
-    pub set_up: f64,
-    /// Ordering and analysing; nothing where that was kept.
-    pub order: f64,
-    /// Factoring; nothing where that was kept.
-    pub factor: f64,
-    /// Solving and refining.
-    pub solve: f64,
-}
-
 /// Why a method was given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shortcoming {
@@ -173,7 +162,12 @@ pub(super) struct CoreFound {
 impl Solver {
     /// A solver that is content with an estimated relative error of `tolerance` in every flow; [`LAST_DIGIT`] is as good as f64 can tell.
     pub fn new(method: Method, tolerance: f64) -> Self {
-        Self { method, tolerance, kept: None }
+        Self { method, tolerance, kept: None, work: Work::default() }
+    }
+
+    /// What all networks that it has solved took.
+    pub fn work(&self) -> Work {
+        self.work
     }
 
     /// Solves a network.
@@ -189,6 +183,7 @@ impl Solver {
         report.merged = origins.merged;
         let Phases { order, factor, solve, .. } = report.phases;
         report.phases.set_up = start.elapsed().as_secs_f64() - order - factor - solve;
+        self.work += Work::of(&report);
         let method = report.method;
         let mut solution = put_together(network, &core, &origins, found, report);
         if !solution.values.iter().chain(&solution.flows).all(|number| number.to_f64().is_finite()) {

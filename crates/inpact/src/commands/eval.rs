@@ -3,9 +3,11 @@
 mod summary;
 
 use self::summary::Summary;
+use super::laws::LawArguments;
 use super::scene::{FindingFormat, READ_AHEAD, Scene, SceneArguments, say_data_findings};
 use crate::failure::{Failure, Outcome, say};
 use crate::files::{self, ResultFile};
+use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, Tally};
@@ -20,6 +22,10 @@ use std::time::Instant;
 pub(crate) struct EvalArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    laws: LawArguments,
+    #[command(flatten)]
+    reading: DeckArguments,
     /// Where to write the result, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -61,7 +67,8 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::refuse_overwriting(arguments.output.as_deref(), &arguments.scene.inputs())?;
     let format = arguments.format;
-    let Some(mut scene) = arguments.scene.prepare(format)? else { return Ok(Outcome::HasErrors) };
+    let prepared = arguments.scene.prepare(&arguments.laws, &arguments.reading, format)?;
+    let Some(mut scene) = prepared else { return Ok(Outcome::HasErrors) };
     if scene.deck_has_errors {
         return Ok(Outcome::HasErrors);
     }

@@ -1,8 +1,10 @@
 //! `inpact plan`: a deck and a node table in, what an evaluation of them would do out.
 
+use super::laws::LawArguments;
 use super::scene::{FindingFormat, Scene, SceneArguments};
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
     CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, FormPlan, GovernedBy, InteractionPlan, Node,
@@ -17,6 +19,10 @@ use std::path::PathBuf;
 pub(crate) struct PlanArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    laws: LawArguments,
+    #[command(flatten)]
+    reading: DeckArguments,
     /// Where to write the plan, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -38,7 +44,8 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Text => FindingFormat::Concise,
         PlanFormat::Json => FindingFormat::Json,
     };
-    let prepared = arguments.scene.threads()?.install(|| arguments.scene.prepare(findings))?;
+    let PlanArguments { scene, laws, reading, .. } = arguments;
+    let prepared = scene.threads()?.install(|| scene.prepare(laws, reading, findings))?;
     let Some(scene) = prepared else { return Ok(Outcome::HasErrors) };
     let text = match arguments.format {
         PlanFormat::Text => format!("plan for {} on {}: {}", scene.deck_name, scene.nodes_name, scene.plan),

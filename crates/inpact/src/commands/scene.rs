@@ -40,8 +40,6 @@ pub(crate) struct SceneArguments {
     /// Steady state or transient, instead of what the deck's procedures say.
     #[arg(long, value_enum)]
     procedure: Option<Procedure>,
-    #[command(flatten)]
-    laws: LawArguments,
     /// Use so many threads, instead of all cores; the results are the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -60,8 +58,6 @@ pub(crate) struct SceneArguments {
     /// Give the slopes of conductances and permeability as well; with `--outputs` name those that are wanted there.
     #[arg(long, conflicts_with = "outputs")]
     derivatives: bool,
-    #[command(flatten)]
-    reading: DeckArguments,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -116,19 +112,24 @@ impl SceneArguments {
     }
 
     /// Reads deck and node table and makes the plan; `None` after saying what is wrong with the node table.
-    pub(crate) fn prepare(&self, format: FindingFormat) -> Result<Option<Scene>, Failure> {
+    pub(crate) fn prepare(
+        &self,
+        laws: &LawArguments,
+        reading: &DeckArguments,
+        format: FindingFormat,
+    ) -> Result<Option<Scene>, Failure> {
         let is_standard = |path: &Path| path.as_os_str() == STANDARD_STREAM;
         if is_standard(&self.deck) && is_standard(&self.nodes) {
             return Err(Failure::Usage("deck and node table cannot both be read from standard input".to_owned()));
         }
-        let settings = self.reading.settings(&self.deck)?;
+        let settings = reading.settings(&self.deck)?;
         let grammar = settings.grammar;
         let deck = input::read_deck(&self.deck, Keep::Interpreted, &settings)?;
         let (model, problems) = model::read(&deck, grammar);
         if model.interactions.is_empty() {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
-        let choices = self.choices(&model, grammar.dialect())?;
+        let choices = self.choices(laws, &model, grammar.dialect())?;
         let nodes_name = self.nodes.display().to_string();
         let mut nodes = NodesInput::open(&self.nodes)?;
         let (surveyed, findings) = self.survey(&mut nodes, &model, &choices)?;
@@ -177,7 +178,7 @@ impl SceneArguments {
         }
     }
 
-    fn choices(&self, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
+    fn choices(&self, laws: &LawArguments, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
         let regime = self.procedure.map(|procedure| match procedure {
             Procedure::Steady => Regime::SteadyState,
             Procedure::Transient => Regime::Transient,
@@ -187,7 +188,7 @@ impl SceneArguments {
             derivatives: self.derivatives(),
             accuracy: self.accuracy(),
             outputs: self.outputs.clone(),
-            ..self.laws.choices(model, dialect, regime)?
+            ..laws.choices(model, dialect, regime)?
         })
     }
 

@@ -1,26 +1,33 @@
-//! `inpact tradeoff`: what accuracy costs on a user's own deck and node table, as a work–precision diagram.
+//! `inpact tradeoff`: what accuracy costs on a user's own data, as a work–precision diagram.
 //!
-//! Every mode evaluates the tables that the plan has in force, folded as the plan folds them, on the rows that reach them.
-//! Columns stay in memory, the rounds of all modes are interleaved, and the least time of each counts.
+//! `tables` measures the modes of evaluation on a deck and its node table, `solvers` the linear solvers on a scene; their files have the same names.
 
-mod diagram;
-mod measure;
-mod modes;
-mod report;
-mod subjects;
+mod cells;
+mod front;
+mod rounds;
+mod solvers;
+mod tables;
 
-use super::scene::{FindingFormat, SceneArguments, say_data_findings};
+use super::laws::LawArguments;
+use super::scene::{FindingFormat, SceneArguments};
 use crate::chart::Chart;
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
-use inpact_evaluation::nodes::Findings;
 use std::path::{Path, PathBuf};
 
+/// No f64 is closer to every number than half an ulp: errors below are drawn there, since zero has no logarithm.
+const LEAST_ERROR: f64 = f64::EPSILON / 4.0;
+
 #[derive(Debug, Args)]
+#[command(override_usage = USAGE)]
 pub(crate) struct TradeoffArguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    table: Option<SceneArguments>,
+    /// Measure the solvers on a scene, which names its deck, instead of the modes on a deck and its node table; `-` reads standard input.
+    #[arg(long, value_name = "SCENE", conflicts_with_all = OF_TABLE)]
+    scene: Option<PathBuf>,
     /// Where to write the result, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -31,12 +38,35 @@ pub(crate) struct TradeoffArguments {
     #[arg(long, value_name = "FILE", value_parser = picture)]
     plot: Option<Picture>,
     /// Of a longer node table, take so many rows at most, evenly spread.
-    #[arg(long, value_name = "ROWS", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "ROWS", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "scene")]
     sample: u64,
-    /// How often each mode is timed.
+    /// How often each mode, or each solver, is timed.
     #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     rounds: u32,
+    #[command(flatten)]
+    laws: LawArguments,
+    #[command(flatten)]
+    reading: DeckArguments,
 }
+
+/// What only the modes on a node table know; named one by one, so that a message names those that were given.
+const OF_TABLE: [&str; 10] = [
+    "deck",
+    "nodes",
+    "interaction",
+    "procedure",
+    "threads",
+    "accuracy",
+    "tolerance",
+    "tolerance_relative",
+    "outputs",
+    "derivatives",
+];
+
+/// Both ways to say what is measured on.
+const USAGE: &str = "\
+inpact tradeoff [OPTIONS] --nodes <FILE> <DECK>
+       inpact tradeoff [OPTIONS] --scene <SCENE>";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum TradeoffFormat {
@@ -61,43 +91,44 @@ enum PictureKind {
     Png,
 }
 
+/// What was measured, as it is shown.
+struct Shown {
+    /// In the format that was asked for.
+    text: String,
+    chart: Chart,
+}
+
+impl TradeoffFormat {
+    fn of_findings(self) -> FindingFormat {
+        match self {
+            Self::Json => FindingFormat::Json,
+            Self::Text | Self::Csv => FindingFormat::Concise,
+        }
+    }
+}
+
+impl TradeoffArguments {
+    /// The files that are measured on.
+    fn inputs(&self) -> Vec<&Path> {
+        let of_table = self.table.iter().flat_map(SceneArguments::inputs);
+        of_table.chain(self.scene.as_deref()).collect()
+    }
+}
+
 pub(crate) fn run(arguments: &TradeoffArguments) -> Result<Outcome, Failure> {
     let targets = [arguments.output.as_deref(), arguments.plot.as_ref().map(|plot| plot.path.as_path())];
     for target in targets {
-        files::refuse_overwriting(target, &arguments.scene.inputs())?;
+        files::refuse_overwriting(target, &arguments.inputs())?;
     }
-    let format = match arguments.format {
-        TradeoffFormat::Json => FindingFormat::Json,
-        TradeoffFormat::Text | TradeoffFormat::Csv => FindingFormat::Concise,
+    let shown = match (&arguments.scene, &arguments.table) {
+        (Some(scene), _) => solvers::measured(scene, arguments)?,
+        (None, Some(table)) => tables::measured(table, arguments)?,
+        (None, None) => return Err(Failure::Usage(format!("nothing to measure on\n\nUsage: {USAGE}"))),
     };
-    let threads = arguments.scene.threads()?;
-    let Some(mut scene) = threads.install(|| arguments.scene.prepare(format))? else { return Ok(Outcome::HasErrors) };
-    if scene.deck_has_errors {
-        return Ok(Outcome::HasErrors);
-    }
-    let mut findings = Findings::new(&scene.nodes_name);
-    let nodes_path = arguments.scene.nodes_path();
-    let sample = threads.install(|| subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings))?;
-    let has_errors = findings.has_errors();
-    say_data_findings(findings.into_list(), format);
-    if has_errors {
-        return Ok(Outcome::HasErrors);
-    }
-    if sample.subjects.is_empty() {
-        let message = format!("no table of `{}` varies on these rows: there is nothing to trade", scene.deck_name);
-        return Err(Failure::Data(message));
-    }
-    let measured = measure::measure(&sample, arguments.rounds);
-    let names = report::Names { deck: &scene.deck_name, nodes: &scene.nodes_name };
-    let text = match arguments.format {
-        TradeoffFormat::Text => report::text(&measured, names),
-        TradeoffFormat::Csv => report::csv(&measured),
-        TradeoffFormat::Json => report::json(&measured, names),
-    };
+    let Some(Shown { text, chart }) = shown else { return Ok(Outcome::HasErrors) };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
     if let Some(picture) = &arguments.plot {
-        let drawn = draw(&diagram::chart(&measured, names), picture.kind)?;
-        files::write_result(Some(&picture.path), &drawn)?;
+        files::write_result(Some(&picture.path), &draw(&chart, picture.kind)?)?;
     }
     Ok(Outcome::Clean)
 }

@@ -1,7 +1,7 @@
 //! The result table of the interfaces of a solved scene: its rows as a node table, evaluated as `eval` evaluates one.
 
 use super::super::scene::{FindingFormat, say_data_findings};
-use super::SolvableScene;
+use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_evaluation::compile::compile;

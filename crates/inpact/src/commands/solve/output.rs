@@ -2,7 +2,8 @@
 
 use super::super::scene::FindingFormat;
 use super::summary::balances;
-use super::{SolvableScene, SolveArguments, interfaces};
+use super::{SolveArguments, interfaces};
+use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::{ResultFile, STANDARD_STREAM};
 use clap::ValueEnum;

@@ -1,6 +1,6 @@
 //! What there is to say of a solution: what was solved, how, and how well it balances.
 
-use super::failures::{method_name, shortcoming};
+use crate::commands::solvable::{method_name, shortcoming};
 use inpact_network::linear::{LinearReport, Method, Ordering, Quality};
 use inpact_network::scene::Field;
 use inpact_network::transient::TransientReport;

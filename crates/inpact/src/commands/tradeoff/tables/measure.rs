@@ -2,9 +2,10 @@
 
 use super::modes::{Copied, MODES, Mode, Numbers, Prepared, share_of_copy};
 use super::subjects::{Sample, Subject};
+use crate::commands::tradeoff::front::front;
+use crate::commands::tradeoff::rounds::least_times;
 use inpact_evaluation::accuracy::ErrorBound;
 use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
-use std::time::Instant;
 
 /// Fewer rows than that are repeated, so that a run takes long enough to be timed.
 const LEAST_ROWS: usize = 1 << 16;
@@ -98,35 +99,25 @@ fn repeated(subject: &Subject) -> Subject {
 }
 
 fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
-    let mut modes: Vec<(&Mode, Prepared<'_>, f64)> = Vec::new();
+    let mut modes: Vec<(&Mode, Prepared<'_>)> = Vec::new();
     let mut refused = Vec::new();
     for mode in MODES {
         match (mode.of)(repeated) {
-            Ok(prepared) => modes.push((mode, prepared, f64::INFINITY)),
+            Ok(prepared) => modes.push((mode, prepared)),
             Err(reason) => refused.push((mode.name, reason)),
         }
     }
     let (mut doubles, mut singles) = (Copied::doubles(repeated), Copied::singles(repeated));
-    let (mut copy, mut copy_of_singles) = (f64::INFINITY, f64::INFINITY);
     let rows = repeated.rows();
-    // One round more: the first fills caches and is not counted.
-    for round in 0..=rounds {
-        let is_counted = round > 0;
-        let time = |run: &mut dyn FnMut(), least: &mut f64| {
-            let start = Instant::now();
-            run();
-            let taken = start.elapsed().as_secs_f64() * 1e9 / rows as f64;
-            if is_counted {
-                *least = least.min(taken);
-            }
-        };
-        time(&mut || doubles.run(), &mut copy);
-        time(&mut || singles.run(), &mut copy_of_singles);
-        for (_, prepared, least) in &mut modes {
-            time(&mut || prepared.run.run(), least);
-        }
+    let mut runs: Vec<Box<dyn FnMut() + '_>> = vec![Box::new(|| doubles.run()), Box::new(|| singles.run())];
+    for (_, prepared) in &mut modes {
+        runs.push(Box::new(|| prepared.run.run()));
     }
-    let entries = modes.into_iter().map(|(mode, prepared, time)| Entry {
+    // The first round fills caches and is not counted.
+    least_times(1, &mut runs);
+    let times: Vec<f64> = least_times(rounds, &mut runs).iter().map(|time| time * 1e9 / rows as f64).collect();
+    drop(runs);
+    let entries = modes.into_iter().zip(&times[2..]).map(|((mode, prepared), &time)| Entry {
         mode: mode.name,
         time,
         errors: errors(subject, &prepared),
@@ -141,8 +132,8 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
         rows: subject.rows(),
         rows_of_a_run: rows,
         table_rows: subject.table.row_count(),
-        copy: copy * share_of_copy(repeated),
-        copy_of_singles: copy_of_singles * share_of_copy(repeated),
+        copy: times[0] * share_of_copy(repeated),
+        copy_of_singles: times[1] * share_of_copy(repeated),
         entries: entries.collect(),
         refused,
     }
@@ -235,10 +226,7 @@ fn all_of(groups: &[Group]) -> Group {
 /// Marks the entries that no other beats.
 fn mark_front(entries: &mut [Entry]) {
     let places: Vec<(f64, f64)> = entries.iter().map(|entry| (entry.time, entry.errors.largest)).collect();
-    for (entry, (time, error)) in entries.iter_mut().zip(&places) {
-        let beats = |(other_time, other_error): &(f64, f64)| {
-            other_time <= time && other_error <= error && (other_time < time || other_error < error)
-        };
-        entry.on_front = !places.iter().any(beats);
+    for (entry, on_front) in entries.iter_mut().zip(front(&places)) {
+        entry.on_front = on_front;
     }
 }

@@ -2,6 +2,7 @@
 
 use super::measure::{Entry, Group, Measured};
 use super::modes::Numbers;
+use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
 use serde_json::{Value, json};
 
 /// What the deck and the node table are called.
@@ -18,11 +19,11 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
              * marks the Pareto front\n";
     for group in &measured.groups {
         text += &format!("\n{} ({})\n", group.name, size(group));
-        text += &line(&HEADER.map(str::to_owned));
+        text += &line(&HEADER.map(str::to_owned), WIDTHS, TEXTS);
         for entry in &group.entries {
             let Entry { time, errors, bound, bytes, .. } = entry;
-            text += &line(&[
-                if entry.on_front { "*" } else { "" }.to_owned(),
+            let cells = [
+                star(entry.on_front),
                 entry.mode.to_owned(),
                 entry.form.clone(),
                 format!("{time:.2}"),
@@ -35,7 +36,8 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
                 ulps(errors.largest_ulp),
                 ulps(errors.rms_ulp),
                 format!("{bytes:.0}"),
-            ]);
+            ];
+            text += &line(&cells, WIDTHS, TEXTS);
         }
         for (mode, form, time) in copies(group) {
             let mut cells = [const { String::new() }; 13];
@@ -45,9 +47,9 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
                 format!("{time:.2}"),
                 format!("{:.3e}", 1e9 / time),
             ]);
-            text += &line(&cells);
+            text += &line(&cells, WIDTHS, TEXTS);
         }
-        for (modes, reason) in refusals(group) {
+        for (modes, reason) in by_reason(&group.refused) {
             text += &format!("  refused: {}: {reason}\n", modes.join(", "));
         }
     }
@@ -70,6 +72,10 @@ const HEADER: [&str; 13] = [
     "bytes/row",
 ];
 
+/// The widths of the columns, of which the first are texts.
+const WIDTHS: [usize; 13] = [1, 11, 13, 8, 9, 10, 8, 8, 8, 8, 8, 8, 9];
+const TEXTS: usize = 3;
+
 /// The rooflines of a group: their names, what is copied, the time of a row.
 fn copies(group: &Group) -> Vec<(&'static str, &'static str, f64)> {
     let mut copies = vec![("copy", "f64 columns", group.copy)];
@@ -77,18 +83,6 @@ fn copies(group: &Group) -> Vec<(&'static str, &'static str, f64)> {
         copies.push(("copy f32", "f32 columns", group.copy_of_singles));
     }
     copies
-}
-
-/// The modes that were refused, by the reason.
-fn refusals(group: &Group) -> Vec<(Vec<&'static str>, &str)> {
-    let mut refusals: Vec<(Vec<&'static str>, &str)> = Vec::new();
-    for (mode, reason) in &group.refused {
-        match refusals.iter_mut().find(|(_, of)| of == reason) {
-            Some((modes, _)) => modes.push(mode),
-            None => refusals.push((vec![mode], reason)),
-        }
-    }
-    refusals
 }
 
 /// How it was measured.
@@ -108,20 +102,6 @@ fn count(rows: u64) -> String {
 fn size(group: &Group) -> String {
     let rows = format!("{} points, reached by {}", group.table_rows, count(group.rows as u64));
     if group.rows_of_a_run == group.rows { rows } else { format!("{rows}, repeated to {}", group.rows_of_a_run) }
-}
-
-fn line(cells: &[String; 13]) -> String {
-    const WIDTHS: [usize; 13] = [1, 11, 13, 8, 9, 10, 8, 8, 8, 8, 8, 8, 9];
-    let mut line = String::new();
-    for (number, (cell, width)) in cells.iter().zip(WIDTHS).enumerate() {
-        line += &if number < 3 { format!("{cell:<width$} ") } else { format!("{cell:>width$} ") };
-    }
-    format!("{}\n", line.trim_end())
-}
-
-/// An error as a part of a value, in two digits.
-fn error(error: f64) -> String {
-    if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") }
 }
 
 /// An error in ulp.
@@ -165,11 +145,6 @@ pub(super) fn csv(measured: &Measured) -> String {
         }
     }
     text
-}
-
-/// A text in quotes, where commas or quotes in it would be taken for the table's.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 /// For another program; a number that is not finite is null.

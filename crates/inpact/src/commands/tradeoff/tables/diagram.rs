@@ -4,9 +4,8 @@ use super::measure::Measured;
 use super::modes::Numbers;
 use super::report::{Names, how};
 use crate::chart::{Chart, Point};
-
-/// No f64 is closer to every number than half an ulp: errors below are drawn there, since zero has no logarithm.
-const LEAST_ERROR: f64 = f64::EPSILON / 4.0;
+use crate::commands::tradeoff::LEAST_ERROR;
+use crate::commands::tradeoff::cells::file_name;
 
 /// The diagram of all tables together.
 pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
@@ -41,8 +40,4 @@ fn short(time: f64) -> String {
         ..100.0 => format!("{time:.1}"),
         _ => format!("{time:.0}"),
     }
-}
-
-fn file_name(path: &str) -> &str {
-    path.rsplit(['/', '\\']).next().unwrap_or(path)
 }

@@ -1,0 +1,109 @@
+//! A scene that can be solved, with its deck: what `solve` and `tradeoff --scene` have in common, and what they say where it is wrong.
+
+mod failures;
+
+pub(crate) use failures::{method_name, shortcoming};
+
+use super::laws::LawArguments;
+use super::scene::{FindingFormat, say_data_findings, say_deck_findings};
+use crate::failure::Failure;
+use crate::files::{self, STANDARD_STREAM};
+use crate::input;
+use crate::settings::DeckArguments;
+use inpact_evaluation::nodes::{DataDiagnostic, Findings};
+use inpact_evaluation::plan::Choices;
+use inpact_network::scene::{self, Scene, SceneFiles};
+use inpact_network::{Problem, SolveFailure};
+use inpact_parser::deck::Keep;
+use inpact_parser::model::{self, Model, Name, Regime};
+use inpact_validation::check;
+use std::path::Path;
+
+/// A scene with the model of its deck.
+pub(crate) struct SolvableScene {
+    pub(crate) scene: Scene,
+    pub(crate) model: Model,
+    pub(crate) choices: Choices,
+    pub(crate) name: String,
+    pub(crate) deck_name: String,
+}
+
+impl SolvableScene {
+    /// Reads a scene and its deck; `None` after saying what is wrong with them.
+    pub(crate) fn read(
+        path: &Path,
+        laws: &LawArguments,
+        reading: &DeckArguments,
+        format: FindingFormat,
+    ) -> Result<Option<Self>, Failure> {
+        let name = path.display().to_string();
+        let folder =
+            if path.as_os_str() == STANDARD_STREAM { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
+        let text = files::read_bytes(path)?;
+        let Ok(text) = String::from_utf8(text) else {
+            return Err(Failure::Data(format!("`{name}` is no scene: it is not UTF-8")));
+        };
+        let mut files = FilesBeside { folder, failure: None };
+        let (scene, found) = scene::read(&text, &name, &mut files);
+        say_data_findings(found, format);
+        if let Some(failure) = files.failure {
+            return Err(failure);
+        }
+        let Some(scene) = scene else { return Ok(None) };
+        let deck_path = folder.join(&scene.deck);
+        let settings = reading.settings(&deck_path)?;
+        let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
+        let grammar = settings.grammar;
+        let (model, problems) = model::read(&deck, grammar);
+        let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
+        let choices = laws.choices(&model, grammar.dialect(), Some(regime))?;
+        let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
+        let mut names: Vec<&Name> = Vec::new();
+        for interface in &scene.interfaces {
+            let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
+            if let Some(name) = interface.interaction.as_ref().or(only)
+                && !names.contains(&name)
+            {
+                names.push(name);
+            }
+        }
+        if say_deck_findings(&found, (&deck, grammar, &model), &names, format) {
+            return Ok(None);
+        }
+        let deck_name = deck_path.display().to_string();
+        Ok(Some(Self { scene, model, choices, name, deck_name }))
+    }
+
+    /// What is solved; `None` after saying what is missing.
+    pub(crate) fn problem(&self, format: FindingFormat) -> Option<Problem<'_>> {
+        let mut findings = Findings::new(&self.name);
+        let problem = Problem::new(&self.scene, &self.model, &self.choices, &mut findings);
+        say_data_findings(findings.into_list(), format);
+        problem
+    }
+
+    /// What there is to say of a failure after the time of the last state that was found.
+    pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<DataDiagnostic> {
+        let after = after.filter(|_| self.scene.is_transient());
+        failures::findings(failure, &self.scene, (&self.name, after))
+    }
+}
+
+/// The files beside a scene.
+struct FilesBeside<'a> {
+    folder: &'a Path,
+    /// The first file that could not be read.
+    failure: Option<Failure>,
+}
+
+impl SceneFiles for FilesBeside<'_> {
+    fn read(&mut self, name: &str) -> Option<Vec<u8>> {
+        match files::read_bytes(&self.folder.join(name)) {
+            Ok(bytes) => Some(bytes),
+            Err(failure) => {
+                self.failure.get_or_insert(failure);
+                None
+            }
+        }
+    }
+}

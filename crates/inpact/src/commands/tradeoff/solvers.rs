@@ -1,0 +1,41 @@
+//! The linear solvers on a scene.
+//!
+//! Every solver solves the scene at tolerances from the last digit to a thousandth, each time with nothing kept from before:
+//! a steady scene whole, Newton's iteration included, of a transient the state at its start and one increment.
+//! The rounds of all solvers are interleaved, and the least time of each counts.
+
+mod diagram;
+mod measure;
+mod report;
+mod subjects;
+
+use super::{Shown, TradeoffArguments, TradeoffFormat};
+use crate::commands::scene::say_data_findings;
+use crate::commands::solvable::SolvableScene;
+use crate::failure::Failure;
+use std::path::Path;
+
+/// Measures on a scene; `None` after saying what is wrong with it, as `solve` says it.
+pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
+    let format = arguments.format.of_findings();
+    let prepared = SolvableScene::read(path, &arguments.laws, &arguments.reading, format)?;
+    let Some(prepared) = prepared else { return Ok(None) };
+    let Some(problem) = prepared.problem(format) else { return Ok(None) };
+    if problem.solved_fields().is_empty() {
+        let message = format!("no field of `{}` is solved for: there is nothing to trade", prepared.name);
+        return Err(Failure::Data(message));
+    }
+    let measured = match measure::measure(&prepared, &problem, arguments.rounds) {
+        Ok(measured) => measured,
+        Err(failed) => {
+            say_data_findings(prepared.findings(&failed.why, failed.after), format);
+            return Ok(None);
+        }
+    };
+    let text = match arguments.format {
+        TradeoffFormat::Text => report::text(&measured, &prepared),
+        TradeoffFormat::Csv => report::csv(&measured),
+        TradeoffFormat::Json => report::json(&measured, &prepared),
+    };
+    Ok(Some(Shown { text, chart: diagram::chart(&measured, &prepared) }))
+}

@@ -1,0 +1,103 @@
+//! What is measured: solvers at tolerances, and the reference they are compared with.
+
+use crate::commands::solvable::SolvableScene;
+use inpact_network::linear::{LAST_DIGIT, Method, Work};
+use inpact_network::{Equations, Problem, SolveFailure, State, transient};
+
+/// A solver at a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Subject {
+    pub(super) method: Method,
+    pub(super) tolerance: f64,
+}
+
+/// What a solver found.
+pub(super) struct Solved {
+    /// The steady state; of a transient the state at its start and the one an increment later.
+    pub(super) states: Vec<State>,
+    pub(super) work: Work,
+}
+
+/// Why a solver found nothing, and the time of the last state before.
+pub(super) struct Failed {
+    pub(super) why: SolveFailure,
+    pub(super) after: Option<f64>,
+}
+
+/// What the others are compared with.
+pub(super) struct Reference {
+    pub(super) subject: Subject,
+    /// Why it is this one, for a person.
+    pub(super) reason: String,
+    pub(super) states: Vec<State>,
+}
+
+/// How `solve` solves where nothing else is asked for.
+pub(super) const USUAL: Subject = Subject { method: Method::Direct, tolerance: LAST_DIGIT };
+
+/// The exact solver, which is slow.
+const EXACT: Subject = Subject { method: Method::Elimination, tolerance: LAST_DIGIT };
+
+const METHODS: [Method; 3] = [Method::Direct, Method::Mixed, Method::Iterative];
+const TOLERANCES: [f64; 5] = [LAST_DIGIT, 1e-12, 1e-9, 1e-6, 1e-3];
+
+/// Up to so many nodes the reference is the elimination: in three dimensions that takes it a quarter of a second, and some times as long where Newton's iteration asks for several.
+const MOST_NODES: usize = 1000;
+
+/// All solvers at all tolerances.
+pub(super) fn subjects() -> impl Iterator<Item = Subject> {
+    METHODS.into_iter().flat_map(|method| TOLERANCES.map(|tolerance| Subject { method, tolerance }))
+}
+
+/// The reference for a scene of which the usual solution is known.
+pub(super) fn reference(prepared: &SolvableScene, problem: &Problem<'_>, usual: &Solved) -> Reference {
+    let nodes = problem.scene().nodes.len();
+    let direct = |reason| Reference { subject: USUAL, reason, states: usual.states.clone() };
+    if MOST_NODES < nodes {
+        return direct(format!("elimination would be slow on more than {MOST_NODES} nodes"));
+    }
+    match EXACT.solve(problem) {
+        Ok(Solved { states, .. }) => {
+            let reason = "without subtraction, in 106 bits".to_owned();
+            Reference { subject: EXACT, reason, states }
+        }
+        Err(failed) => direct(failed.reason(prepared)),
+    }
+}
+
+impl Failed {
+    /// Why, for a person.
+    pub(super) fn reason(&self, prepared: &SolvableScene) -> String {
+        let findings = prepared.findings(&self.why, self.after).into_iter();
+        findings.map(|finding| finding.message).collect::<Vec<String>>().join("; ")
+    }
+}
+
+impl Reference {
+    /// Whether a method at a tolerance is the reference itself; an elimination has no use for a tolerance.
+    pub(super) fn is_found_by(&self, method: Option<Method>, tolerance: f64) -> bool {
+        let Subject { method: own, tolerance: own_tolerance } = self.subject;
+        method == Some(own) && (own == Method::Elimination || tolerance == own_tolerance)
+    }
+}
+
+impl Subject {
+    /// Solves a scene as far as it is measured, with nothing kept from before.
+    pub(super) fn solve(self, problem: &Problem<'_>) -> Result<Solved, Failed> {
+        let mut equations = Equations::new(problem, self.method, self.tolerance);
+        let mut states = Vec::new();
+        let begun = transient::begin(&mut equations, |state| {
+            states.push(state);
+            Ok(())
+        });
+        match begun {
+            Ok(()) => Ok(Solved { states, work: equations.work() }),
+            Err(why) => Err(Failed { why, after: states.last().map(|state| state.time) }),
+        }
+    }
+
+    /// Its tolerance, as a person would say it.
+    pub(super) fn tolerance_text(self) -> String {
+        if self.tolerance == LAST_DIGIT { "last digit".to_owned() } else { format!("{:e}", self.tolerance) }
+    }
+}

@@ -1,0 +1,43 @@
+//! The modes of evaluation on the tables of a deck.
+//!
+//! Every mode evaluates the tables that the plan has in force, folded as the plan folds them, on the rows that reach them.
+//! Columns stay in memory, the rounds of all modes are interleaved, and the least time of each counts.
+
+mod diagram;
+mod measure;
+mod modes;
+mod report;
+mod subjects;
+
+use super::{Shown, TradeoffArguments, TradeoffFormat};
+use crate::commands::scene::{SceneArguments, say_data_findings};
+use crate::failure::Failure;
+use inpact_evaluation::nodes::Findings;
+
+/// Measures on a deck and its node table; `None` after saying what is wrong with them.
+pub(super) fn measured(table: &SceneArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
+    let format = arguments.format.of_findings();
+    let threads = table.threads()?;
+    let prepared = threads.install(|| table.prepare(&arguments.laws, &arguments.reading, format))?;
+    let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
+    let mut findings = Findings::new(&scene.nodes_name);
+    let nodes_path = table.nodes_path();
+    let sample = threads.install(|| subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings))?;
+    let has_errors = findings.has_errors();
+    say_data_findings(findings.into_list(), format);
+    if has_errors {
+        return Ok(None);
+    }
+    if sample.subjects.is_empty() {
+        let message = format!("no table of `{}` varies on these rows: there is nothing to trade", scene.deck_name);
+        return Err(Failure::Data(message));
+    }
+    let measured = measure::measure(&sample, arguments.rounds);
+    let names = report::Names { deck: &scene.deck_name, nodes: &scene.nodes_name };
+    let text = match arguments.format {
+        TradeoffFormat::Text => report::text(&measured, names),
+        TradeoffFormat::Csv => report::csv(&measured),
+        TradeoffFormat::Json => report::json(&measured, names),
+    };
+    Ok(Some(Shown { text, chart: diagram::chart(&measured, names) }))
+}
