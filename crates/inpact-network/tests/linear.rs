@@ -6,7 +6,7 @@ use inpact_evaluation::numbers::Wide;
 use inpact_network::linear::{
     LAST_DIGIT, LinearFailure, LinearNetwork, Link, Method, Shortcoming, Solver, Store, Unsolvable,
 };
-use linear_support::{METHODS, failure, jumps, network, rounded, solutions, solve, worst_balance};
+use linear_support::{Balanced, METHODS, failure, jumps, network, rounded, solutions, solve, worst_balance};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -351,7 +351,7 @@ fn the_methods_agree() {
                     let distance = distance(&rounded(of), &rounded(other));
                     assert!(distance <= f64::EPSILON, "{method:?} {size:?} {contrast}: {distance}");
                 }
-                let missing = worst_balance(&network, solution);
+                let missing = worst_balance(&network, solution, Balanced::Nodes);
                 assert!(missing <= f64::EPSILON, "{method:?} {size:?} {contrast}: {missing}");
             }
         }
@@ -453,7 +453,7 @@ fn the_tolerance_is_kept() {
             let solution = Solver::new(method, tolerance).solve(&grid).expect("a solution");
             let quality = solution.report.quality;
             assert!(quality.residual <= tolerance && quality.error <= tolerance, "{method:?}: {quality:?}");
-            let missing = worst_balance(&grid, &solution);
+            let missing = worst_balance(&grid, &solution, Balanced::Nodes);
             assert!(missing <= tolerance, "{method:?} within {tolerance}: {missing}");
             let distance = distance(&rounded(&solution.flows), &rounded(&exact.flows));
             assert!(distance <= tolerance, "{method:?} within {tolerance}: {distance}");

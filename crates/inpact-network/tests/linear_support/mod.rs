@@ -46,25 +46,60 @@ pub fn jumps(network: &LinearNetwork, solution: &LinearSolution) -> Vec<f64> {
     (0..network.links.len()).map(|link| solution.jump(network, link).to_f64()).collect()
 }
 
-/// The largest share of its flows that is missing in the balance of a node that is not held, in 106 bits.
-pub fn worst_balance(network: &LinearNetwork, solution: &LinearSolution) -> f64 {
-    let mut missing: Vec<Wide> = network.sources.iter().map(|&source| Wide::new(source)).collect();
-    let mut magnitudes: Vec<f64> = network.sources.iter().map(|source| source.abs()).collect();
+/// What has to balance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Balanced {
+    /// Every node.
+    Nodes,
+    /// All nodes together that infinite conductances make one.
+    Clusters,
+}
+
+/// The largest share of its flows that is missing in a balance without a held node, in 106 bits.
+///
+/// What 106 bits lose of the largest flow of the network counts as nothing.
+pub fn worst_balance(network: &LinearNetwork, solution: &LinearSolution, what: Balanced) -> f64 {
+    let cluster = clusters(network, what);
+    let mut missing = vec![Wide::ZERO; network.nodes()];
+    let mut magnitudes = vec![0.0; network.nodes()];
     let mut leave = |node: u32, flow: Wide| {
-        missing[node as usize] -= flow;
-        magnitudes[node as usize] += flow.to_f64().abs();
+        missing[cluster[node as usize]] -= flow;
+        magnitudes[cluster[node as usize]] += flow.to_f64().abs();
     };
+    for (node, &source) in (0..).zip(&network.sources) {
+        leave(node, -Wide::new(source));
+    }
     for (link, &flow) in network.links.iter().zip(&solution.flows) {
-        leave(link.nodes[0], flow);
-        leave(link.nodes[1], -flow);
+        let [a, b] = link.nodes;
+        if what == Balanced::Nodes || link.conductance.is_finite() {
+            leave(a, flow);
+            leave(b, -flow);
+        }
     }
     for (store, &flow) in network.stores.iter().zip(&solution.stored) {
         leave(store.node, flow);
     }
-    let free = (0..network.nodes()).filter(|&node| network.held[node].is_none());
-    let share = |node: usize| match missing[node].is_zero() {
-        true => 0.0,
-        false => missing[node].to_f64().abs() / magnitudes[node],
+    let nothing = magnitudes.iter().copied().fold(0.0, f64::max) / (1_u128 << 100) as f64;
+    let mut is_held = vec![false; network.nodes()];
+    network.held.iter().zip(&cluster).for_each(|(held, &cluster)| is_held[cluster] |= held.is_some());
+    let free = (0..network.nodes()).filter(|&node| !is_held[node]);
+    let share = |node: usize| match missing[node].to_f64().abs() {
+        missing if missing <= nothing => 0.0,
+        missing => missing / magnitudes[node],
     };
     free.map(share).fold(0.0, f64::max)
+}
+
+/// The first node of those that have to balance together with each node.
+fn clusters(network: &LinearNetwork, what: Balanced) -> Vec<usize> {
+    let mut cluster: Vec<usize> = (0..network.nodes()).collect();
+    let is_one = |link: &&Link| what == Balanced::Clusters && link.conductance == f64::INFINITY;
+    for _ in 0..network.nodes() {
+        for link in network.links.iter().filter(is_one) {
+            let [a, b] = link.nodes.map(|node| node as usize);
+            let first = cluster[a].min(cluster[b]);
+            (cluster[a], cluster[b]) = (first, first);
+        }
+    }
+    cluster
 }
