@@ -9,6 +9,53 @@ use inpact_network::scene::{Scene, SceneFiles, read};
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{self, Model};
+use proptest::prelude::*;
+use std::fmt::Write as _;
+
+/// A scene with something in every place.
+pub const SCENE: &str = "\
+deck = \"deck.inp\"
+joule_heat_fraction = 0.25
+[initial]
+temperature = 20.0
+pore_pressure = 1.5
+[[node]]
+name = \"hot\"
+potential = { fixed = 2.0 }
+temperature = { fixed = 100.0 }
+[[node]]
+name = \"middle\"
+temperature = { source = -3.0, capacity = 5.0, initial = 30.0 }
+pore_pressure = {}
+[[node]]
+name = \"cold\"
+potential = { source = 0.5 }
+[[link]]
+nodes = [\"hot\", \"middle\"]
+electrical = 3.0
+thermal = inf
+[[link]]
+nodes = [\"middle\", \"cold\"]
+hydraulic = 0.0
+joule_heat_fraction = 1.0
+[[interface]]
+interaction = \"joint 1\"
+slave = \"middle\"
+master = \"cold\"
+area = 0.5
+clearance = 0.25
+pressure = -1.0
+closed = true
+fv = [1.0, -2.0]
+temperature = 40.0
+mass_flow = 6.0
+shear = 7.0
+slip_rate = -8.0
+clearance_rate = 9.0
+char_length = 0.0
+perm_s = 10.0
+perm_m = 11.0
+";
 
 /// Files by their names.
 pub struct Files<'a>(pub &'a [(&'a str, &'a [u8])]);
@@ -59,4 +106,32 @@ pub fn problem<'a>(scene: &'a Scene, model: &Model) -> (Option<Problem<'a>>, Vec
     let mut findings = Findings::new("scene.toml");
     let problem = Problem::new(scene, model, &Choices::default(), &mut findings);
     (problem, findings.into_list().iter().map(line).collect())
+}
+
+/// Findings below what they are about.
+pub fn show(shown: &mut String, findings: &[String]) {
+    for line in findings {
+        let _ = writeln!(shown, "  {line}");
+    }
+}
+
+/// Bytes of a scene exchanged, left out, doubled or cut off.
+pub fn mutated(text: &'static str) -> impl Strategy<Value = String> {
+    let place = any::<prop::sample::Index>();
+    let what = prop_oneof![
+        Just(String::new()),
+        "[ -~\n]{1,3}",
+        prop::sample::select(&["nan", "-inf", "1e999", "[[", "]]", "\"", "{}", "= 3", "\u{0}", "ü", "-0.0"][..])
+            .prop_map(str::to_owned),
+    ];
+    prop::collection::vec((place, 0_usize..12, what), 1..4).prop_map(move |changes| {
+        let mut text = text.to_owned();
+        for (place, length, what) in changes {
+            let starts: Vec<usize> = text.char_indices().map(|(start, _)| start).chain([text.len()]).collect();
+            let from = place.index(starts.len());
+            let to = (from + length).min(starts.len() - 1);
+            text.replace_range(starts[from]..starts[to], &what);
+        }
+        text
+    })
 }
