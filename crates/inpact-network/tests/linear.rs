@@ -219,6 +219,21 @@ fn blind_ends() {
     }
 }
 
+/// A square of links behind the node through which all flows is a blind end as well: what is left in it is below the range of f64.
+#[test]
+fn blind_squares() {
+    for [a, b, c, d] in [[1.0, 1.0, 1.0, 1.0], [0.3, 7.0, 0.02, 1.5], [1e-3, 1e3, 2.0, 0.7]] {
+        let square = [(1, 3, a), (3, 4, b), (4, 5, c), (5, 1, d), (3, 5, 0.4)];
+        let links = [&[(0, 1, 2.0), (1, 2, 6.0)][..], &square].concat();
+        for (method, solution) in solutions(&network(6, &[(0, 9.0), (2, 1.0)], &links)) {
+            assert_eq!(rounded(&solution.values), [9.0, 3.0, 1.0, 3.0, 3.0, 3.0], "{method:?}");
+            let flows = rounded(&solution.flows);
+            assert_eq!(flows[..2], [12.0, 12.0], "{method:?}");
+            assert!(flows[2..].iter().all(|flow| flow.abs() <= 1e-300), "{method:?}: {flows:?}");
+        }
+    }
+}
+
 /// What flows into a held node from outside is taken up by what holds it.
 #[test]
 fn a_source_at_a_held_node_changes_nothing() {
