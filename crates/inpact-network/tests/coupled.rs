@@ -101,9 +101,10 @@ impl Table {
         };
         let of_group = |group: usize| between(first, self.firsts, self.values[group]);
         let [start, middle, end] = self.temperatures;
-        match temperature < middle {
-            true => between(temperature, [start, middle], [of_group(0), of_group(1)]),
-            false => between(temperature, [middle, end], [of_group(1), of_group(2)]),
+        if temperature < middle {
+            between(temperature, [start, middle], [of_group(0), of_group(1)])
+        } else {
+            between(temperature, [middle, end], [of_group(1), of_group(2)])
         }
     }
 }
