@@ -1,68 +1,16 @@
-//! Scenes whose conductances depend on what is solved for: balances that are added up here, and answers in closed form.
+//! Random scenes whose conductances depend on what is solved for: their balances, added up from what is told of a state.
 
 mod scene_support;
+mod seeded;
 
 use inpact_network::linear::{LAST_DIGIT, Method};
-use inpact_network::scene::{Conditions, Course, Field, Procedure, Scene, SceneInterface, SceneLink};
+use inpact_network::scene::{Conditions, Course, Field, Procedure, Scene, SceneInterface, SceneLink, Steps, TimeSpan};
 use inpact_network::{Equations, Problem, SolveFailure, State};
 use inpact_parser::model::Name;
-use scene_support::{model_of, problem, scene};
+use scene_support::{model_of, problem};
+use seeded::{Random, Spread};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-
-/// Random numbers, the same in every run (splitmix64).
-struct Random {
-    state: u64,
-    spread: Spread,
-}
-
-/// Over how many decades conductances and areas go.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Spread {
-    /// Three.
-    Moderate,
-    /// Seven.
-    Wide,
-}
-
-impl Random {
-    fn of(seed: u64, spread: Spread) -> Self {
-        Self { state: seed, spread }
-    }
-
-    fn unit(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A number of few digits, as decks have them.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        ((low + (high - low) * self.unit()) * 1000.0).round() / 1000.0
-    }
-
-    /// A number from 0.03 to 30, or from 0.001 to 10000.
-    fn magnitude(&mut self) -> f64 {
-        let exponent = match self.spread {
-            Spread::Moderate => self.between(-1.5, 1.5),
-            Spread::Wide => self.between(-3.0, 4.0),
-        };
-        (10_f64.powf(exponent) * 1000.0).round() / 1000.0
-    }
-
-    fn below(&mut self, limit: u32) -> u32 {
-        // Truncated towards zero, as is meant.
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let number = (self.unit() * f64::from(limit)) as u32;
-        number
-    }
-
-    fn is(&mut self, share: f64) -> bool {
-        self.unit() < share
-    }
-}
 
 /// A table over a first variable, clearance or pressure, from 0 on, and the mean temperature.
 struct Table {
@@ -346,6 +294,86 @@ fn steep_scenes_balance_where_they_are_solved() {
     assert!(solved >= SCENES * 95 / 100, "{solved} of {SCENES}");
 }
 
+/// In an increment the heat of a current is that of a drop which goes linearly from its start to its end: a third of a² + a b + b².
+fn mean_square(before: f64, after: f64) -> f64 {
+    (before * before + before * after + after * after) / 3.0
+}
+
+/// What heat is missing at each node over an increment, and the magnitudes of what was added up: flows at its end, heat of currents, what is stored.
+fn heat_of_increment(problem: &Problem<'_>, [before, after]: [&State; 2], joints: &[Joint; 2]) -> Vec<(f64, f64)> {
+    let scene = problem.scene();
+    let mut nodes = vec![(0.0, 0.0); scene.nodes.len()];
+    let mut add = |node: u32, parts: &[f64]| {
+        nodes[node as usize].0 += parts.iter().sum::<f64>();
+        nodes[node as usize].1 += parts.iter().map(|part| part.abs()).sum::<f64>();
+    };
+    let conditions = scene.conditions(Field::Temperature);
+    conditions.sources.iter().for_each(|(&node, source)| add(node, &[source.at(after.time)]));
+    for (&node, capacity) in &conditions.capacities {
+        let [old, new] = [before, after].map(|state| state.value(problem, Field::Temperature, node).expect("solved"));
+        let rate = capacity / (after.time - before.time);
+        add(node, &[rate * old, -rate * new]);
+    }
+    let drops = |flow: &dyn Fn(&State) -> Option<f64>| [before, after].map(|state| flow(state).expect("both fields"));
+    for (number, link) in (0..).zip(&scene.links) {
+        let flow = after.link_flow(problem, Field::Temperature, number).expect("every link conducts heat");
+        add(link.nodes[0], &[-flow]);
+        add(link.nodes[1], &[flow]);
+        if link.conductances[0] > 0.0 {
+            let [a, b] = drops(&|state| state.link_flow(problem, Field::Potential, number))
+                .map(|flow| flow / link.conductances[0]);
+            let heat = link.joule_heat_fraction * link.conductances[0] * mean_square(a, b);
+            link.nodes.into_iter().for_each(|node| add(node, &[0.5 * heat]));
+        }
+    }
+    for (number, row) in (0..).zip(&scene.interfaces) {
+        let flow = after.row_flow(problem, Field::Temperature, number).expect("a law of both fields");
+        let [a, b] = drops(&|state| state.row_jump(problem, Field::Potential, number));
+        let current = after.row_flow(problem, Field::Potential, number).expect("a law of both fields");
+        let joint = joint_of(row, joints);
+        let heat = if b == 0.0 { 0.0 } else { joint.fraction * current / b * mean_square(a, b) };
+        add(row.slave, &[-flow, joint.slave_weight * heat]);
+        add(row.master, &[flow, (1.0 - joint.slave_weight) * heat]);
+    }
+    nodes
+}
+
+/// Increments of different lengths, with a voltage or a current that follows time.
+#[test]
+fn random_transients_balance() {
+    for seed in 0..100 {
+        let mut random = Random::of(seed, Spread::Moderate);
+        let joints = [(); 2].map(|()| Joint::random(&mut random));
+        let model = model_of(&(joints[0].deck("ONE") + &joints[1].deck("TWO")));
+        let mut scene = random_scene(&mut random);
+        scene.procedure = Procedure::Transient(TimeSpan { start: 1.0, end: 4.0, steps: Steps::Given(1.0) });
+        scene.initial_temperature = Some(random.between(0.0, 100.0));
+        for node in 1..u32::try_from(scene.nodes.len()).expect("few nodes") {
+            if random.is(0.7) {
+                scene.conditions[1].capacities.insert(node, random.magnitude());
+            }
+        }
+        let ramp = Course::through(vec![[1.0, random.between(-3.0, 3.0)], [3.0, random.between(-3.0, 3.0)]]);
+        let [potential, ..] = &mut scene.conditions;
+        let drive = if potential.fixed.contains_key(&2) { &mut potential.fixed } else { &mut potential.sources };
+        drive.insert(2, ramp);
+        let (problem, findings) = problem(&scene, &model);
+        let problem = problem.unwrap_or_else(|| panic!("seed {seed}: {findings:?}"));
+        let mut equations = Equations::new(&problem, Method::Direct, LAST_DIGIT);
+        let mut state = equations.start(1.0).unwrap_or_else(|failure| panic!("seed {seed}: {failure:?}"));
+        for time in [1.01, 1.5, 2.5, 4.0] {
+            let next = equations.step(&state, time).unwrap_or_else(|failure| panic!("seed {seed}: {failure:?}"));
+            for ((missing, magnitude), name) in
+                heat_of_increment(&problem, [&state, &next], &joints).into_iter().zip(&scene.nodes).skip(1)
+            {
+                assert!(missing.abs() <= 1e-12 * magnitude, "seed {seed}, {time}, {name}: {missing} of {magnitude}");
+            }
+            state = next;
+        }
+        assert_eq!(state.increment, 4);
+    }
+}
+
 /// The methods solve one set of equations.
 #[test]
 fn the_methods_find_the_same_state() {
@@ -364,120 +392,6 @@ fn the_methods_find_the_same_state() {
                 let [a, b] = [&direct, &state]
                     .map(|state| state.value(&problem, Field::Temperature, node).expect("every node has one"));
                 assert!((a - b).abs() <= 1e-9 * a.abs().max(1.0), "seed {seed} {method:?}: {a} and {b}");
-            }
-        }
-    }
-}
-
-/// The steady temperature or potential of a node.
-fn solve(deck: &str, text: &str, of: &[(Field, u32)]) -> Vec<f64> {
-    let (model, scene) = (model_of(deck), scene(text));
-    let (problem, findings) = problem(&scene, &model);
-    let problem = problem.unwrap_or_else(|| panic!("{findings:?}"));
-    let state = Equations::new(&problem, Method::Direct, LAST_DIGIT)
-        .steady()
-        .unwrap_or_else(|failure| panic!("{failure:?}: {deck}{text}"));
-    of.iter().map(|&(field, node)| state.value(&problem, field, node).expect("a field that is solved")).collect()
-}
-
-/// Where solutions begin: anywhere near, or far away.
-const STARTS: [Option<f64>; 6] = [None, Some(0.0), Some(350.0), Some(-1e4), Some(1e6), Some(1e12)];
-
-fn initial(start: Option<f64>) -> String {
-    start.map_or(String::new(), |start| format!("[initial]\ntemperature = {start:?}\n"))
-}
-
-/// Heat through a body of conductance g to a face s, and through an interface whose conductance is a + b θ̄ to a held face m:
-/// g (h - s) = (a + b (s + m) / 2) (s - m), so that b/2 s² + (a + g) s = g h + a m + b/2 m².
-#[test]
-fn a_thermal_conductance_linear_in_temperature_makes_a_quadratic() {
-    let mut random = Random::of(7, Spread::Moderate);
-    for _ in 0..40 {
-        let [a, g] = [(); 2].map(|()| random.magnitude());
-        let b = random.between(0.001, 0.2);
-        let [h, m] = [random.between(0.0, 400.0), random.between(0.0, 400.0)];
-        let deck = format!(
-            "*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE\n{a:?}, 0., 0.\n{a:?}, 1., 0.\n{0:?}, 0., 1000.\n{0:?}, 1., 1000.\n",
-            a + 1000.0 * b
-        );
-        // The slope that the deck has, after a sum that was rounded.
-        let b = (a + 1000.0 * b - a) / 1000.0;
-        let right = g * h + a * m + 0.5 * b * m * m;
-        let exact = 2.0 * right / ((a + g) + ((a + g).powi(2) + 2.0 * b * right).sqrt());
-        for start in STARTS {
-            let text = format!(
-                "deck = \"a\"\n{}[[node]]\nname = \"h\"\ntemperature = {{ fixed = {h:?} }}\n[[node]]\nname = \"s\"\n\
-                 [[node]]\nname = \"m\"\ntemperature = {{ fixed = {m:?} }}\n[[link]]\nnodes = [\"h\", \"s\"]\nthermal = {g:?}\n\
-                 [[interface]]\nslave = \"s\"\nmaster = \"m\"\narea = 1.0\nclearance = 0.5\n",
-                initial(start)
-            );
-            let found = solve(&deck, &text, &[(Field::Temperature, 1)])[0];
-            assert!((found - exact).abs() <= 1e-12 * exact, "{start:?}: {found} and {exact}\n{deck}{text}");
-        }
-    }
-}
-
-/// A voltage v across an interface that conducts less as it warms by x: v² (c - d x) = g x, where g leads to the room.
-#[test]
-fn a_voltage_across_a_conductance_that_falls_with_temperature() {
-    let mut random = Random::of(8, Spread::Moderate);
-    for _ in 0..40 {
-        let (c, v, g) = (random.magnitude(), random.between(0.1, 5.0), random.magnitude());
-        // It has fallen to a thousandth at 1000 above the room.
-        let d = c * 0.999 / 1000.0;
-        let exact = 20.0 + v * v * c / (g + v * v * d);
-        let deck = format!(
-            "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n{c:?}, 0., 20.\n{c:?}, 1., 20.\n{0:?}, 0., 1020.\n{0:?}, 1., 1020.\n\
-             *GAP HEAT GENERATION\n1., 0.5\n",
-            c - 1000.0 * d
-        );
-        for start in STARTS {
-            let text = format!(
-                "deck = \"a\"\n{}[[node]]\nname = \"s\"\npotential = {{ fixed = {v:?} }}\n[[node]]\nname = \"m\"\npotential = {{ fixed = 0.0 }}\n\
-                 [[node]]\nname = \"room\"\ntemperature = {{ fixed = 20.0 }}\n\
-                 [[link]]\nnodes = [\"s\", \"room\"]\nthermal = {1:?}\n[[link]]\nnodes = [\"m\", \"room\"]\nthermal = {1:?}\n\
-                 [[interface]]\nslave = \"s\"\nmaster = \"m\"\narea = 1.0\nclosed = true\npressure = 0.5\n",
-                initial(start),
-                0.5 * g
-            );
-            let found = solve(&deck, &text, &[(Field::Temperature, 0), (Field::Temperature, 1)]);
-            for face in found {
-                assert!((face - exact).abs() <= 1e-11 * exact, "{start:?}: {face} and {exact}\n{deck}{text}");
-            }
-        }
-    }
-}
-
-/// Two interfaces one behind the other, both at rows of their tables where slopes change: 20 flow through conductances of 2 and 4 at the mean
-/// temperatures of 80 and 40, from 85 to 75 and from 42.5 to 37.5, with bodies of 20/15, 20/32.5 and 20/17.5 before, between and behind them.
-#[test]
-fn two_interfaces_at_rows_of_their_tables() {
-    for [below, above] in [[1.0, 9.0], [0.5, 2.0], [2.0, 0.5]] {
-        let deck = format!(
-            "*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE, PRESSURE\n{below:?}, 0., 0.\n{below:?}, 1., 0.\n2., 0., 80.\n2., 1., 80.\n{above:?}, 0., 200.\n{above:?}, 1., 200.\n\
-             *SURFACE INTERACTION, NAME=B\n*GAP CONDUCTANCE, PRESSURE\n{above:?}, 0., 0.\n{above:?}, 1., 0.\n4., 0., 40.\n4., 1., 40.\n{below:?}, 0., 200.\n{below:?}, 1., 200.\n"
-        );
-        let mut text = String::new();
-        for name in ["a", "b", "c", "d"] {
-            let _ = writeln!(text, "[[node]]\nname = \"{name}\"");
-        }
-        for (name, value) in [("hot", 100.0), ("cold", 20.0)] {
-            let _ = writeln!(text, "[[node]]\nname = \"{name}\"\ntemperature = {{ fixed = {value:?} }}");
-        }
-        for (nodes, fall) in [(["hot", "a"], 15.0), (["b", "c"], 32.5), (["d", "cold"], 17.5)] {
-            let _ = writeln!(text, "[[link]]\nnodes = {nodes:?}\nthermal = {:?}", 20.0 / fall);
-        }
-        for (name, slave, master) in [("A", "a", "b"), ("B", "d", "c")] {
-            let _ = writeln!(
-                text,
-                "[[interface]]\ninteraction = \"{name}\"\nslave = \"{slave}\"\nmaster = \"{master}\"\narea = 1.0\nclosed = true\npressure = 0.25"
-            );
-        }
-        for start in STARTS {
-            let text = format!("deck = \"a\"\n{}{text}", initial(start));
-            let found = solve(&deck, &text, &[0, 1, 2, 3].map(|node| (Field::Temperature, node)));
-            for (found, exact) in found.into_iter().zip([85.0, 75.0, 42.5, 37.5]) {
-                assert!((found - exact).abs() <= 1e-12 * exact, "{below} {above} {start:?}: {found} and {exact}");
             }
         }
     }

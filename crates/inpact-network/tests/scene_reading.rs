@@ -6,7 +6,10 @@ use inpact_network::scene::{Course, Field, Procedure, SCENE_RULES, SceneLink, St
 use inpact_parser::model::Name;
 use proptest::prelude::*;
 use scene_support::{SCENE, model_of, mutated, problem, read_with, refused, scene, show};
+use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::path::Path;
 
 fn changed(from: &str, to: &str) -> String {
     assert!(SCENE.contains(from), "{from}");
@@ -53,6 +56,39 @@ fn every_key_has_its_place() {
     assert_eq!((row.temperature, row.mass_flow, row.shear), (Some(40.0), Some(6.0), Some(7.0)));
     assert_eq!((row.slip_rate, row.clearance_rate, row.characteristic_length), (Some(-8.0), Some(9.0), Some(0.0)));
     assert_eq!((row.bulk_permeabilities, &row.place), ([Some(10.0), Some(11.0)], &(25, None)));
+}
+
+/// The keys of every table of a schema.
+fn keys_of(schema: &Value, keys: &mut BTreeSet<String>) {
+    match schema {
+        Value::Object(entries) => {
+            if let Some(Value::Object(properties)) = entries.get("properties") {
+                keys.extend(properties.keys().cloned());
+            }
+            entries.values().for_each(|value| keys_of(value, keys));
+        }
+        Value::Array(values) => values.iter().for_each(|value| keys_of(value, keys)),
+        _ => {}
+    }
+}
+
+/// A scene that has every key of the committed schema is read.
+#[test]
+fn every_key_of_the_schema_can_be_read() {
+    let text = timed(
+        "joule_heat_fraction = 0.25\ntime = { start = 0.0, end = 1.0, tolerance = 0.1, first_step = 0.1 }",
+    ) + "[[node_file]]\nfile = \"n\"\n[[link_file]]\nfile = \"k.mtx\"\nconducts = \"electrical\"\nprefix = \"n\"\n[[interface_file]]\nfile = \"r\"\n";
+    let (scene, findings) = read_with(&text, &[]);
+    assert!(scene.is_some(), "{findings:?}");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema/scene.schema.json");
+    let schema = std::fs::read_to_string(path).expect("the schema is committed");
+    let mut keys = BTreeSet::new();
+    keys_of(&serde_json::from_str(&schema).expect("a schema is JSON"), &mut keys);
+    // The other way to give the length of increments.
+    assert!(keys.remove("step") && keys.len() > 30, "{keys:?}");
+    let words: BTreeSet<&str> = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    let missing: Vec<&String> = keys.iter().filter(|key| !words.contains(key.as_str())).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
 
 #[test]
