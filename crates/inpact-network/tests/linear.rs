@@ -1,0 +1,477 @@
+//! Linear networks with answers that are known: by hand, by symmetry, or by another method.
+
+mod linear_support;
+
+use inpact_evaluation::numbers::Wide;
+use inpact_network::linear::{
+    LAST_DIGIT, LinearFailure, LinearNetwork, Link, Method, Shortcoming, Solver, Store, Unsolvable,
+};
+use linear_support::{Balanced, METHODS, failure, jumps, network, rounded, solutions, solve, worst_balance};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+/// What a few operations in 106 bits lose.
+const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
+
+/// Resistances of a half, a third and a sixth are one.
+#[test]
+fn conductances_in_series() {
+    let chain = network(4, &[(0, 12.0), (3, 0.0)], &[(0, 1, 2.0), (2, 1, 3.0), (2, 3, 6.0)]);
+    for (method, solution) in solutions(&chain) {
+        assert_eq!(rounded(&solution.values), [12.0, 6.0, 2.0, 0.0], "{method:?}");
+        assert_eq!(rounded(&solution.flows), [12.0, -12.0, 12.0], "{method:?}");
+        assert_eq!(jumps(&chain, &solution), [6.0, -4.0, 2.0], "{method:?}");
+        assert_eq!((solution.report.taken_out, solution.report.unknowns), (2, 0), "{method:?}");
+    }
+}
+
+#[test]
+fn conductances_side_by_side() {
+    let beam = network(2, &[(0, 10.0), (1, 4.0)], &[(0, 1, 1.0), (1, 0, 2.0), (0, 1, 3.5), (0, 1, 0.0)]);
+    for (method, solution) in solutions(&beam) {
+        assert_eq!(rounded(&solution.flows), [6.0, -12.0, 21.0, 0.0], "{method:?}");
+        assert_eq!(jumps(&beam, &solution), [6.0, -6.0, 6.0, 6.0], "{method:?}");
+    }
+    let joined = network(3, &[(0, 10.0), (2, 4.0)], &[(0, 1, 1.0), (1, 0, 2.0), (1, 2, 3.0)]);
+    for (method, solution) in solutions(&joined) {
+        assert_eq!(rounded(&solution.values), [10.0, 7.0, 4.0], "{method:?}");
+        assert_eq!(rounded(&solution.flows), [3.0, -6.0, 9.0], "{method:?}");
+    }
+}
+
+/// A bridge between the middles of two arms; the other arm divides as the first one does.
+fn bridge(across: f64, last: f64) -> LinearNetwork {
+    let arms = [(0, 1, 1.0), (1, 3, 2.0), (0, 2, 3.0), (2, 3, last)];
+    network(4, &[(0, 9.0), (3, 0.0)], &[&arms[..], &[(1, 2, across)]].concat())
+}
+
+#[test]
+fn nothing_flows_through_a_balanced_bridge() {
+    for across in [0.0, 1e-300, 1e-9, 1.0, 5.0, 1e9, 1e300, f64::INFINITY] {
+        for (method, solution) in solutions(&bridge(across, 6.0)) {
+            assert_eq!(rounded(&solution.values), [9.0, 3.0, 3.0, 0.0], "{across} {method:?}");
+            let (flows, jump) = (rounded(&solution.flows), jumps(&bridge(across, 6.0), &solution)[4]);
+            assert_eq!(flows[..4], [6.0, 6.0, 18.0, 18.0], "{across} {method:?}");
+            // Of a strong bridge what the tolerance leaves of the arms' balance.
+            let nothing = LAST_DIGIT * 6.0;
+            assert!(jump.abs() <= nothing && flows[4].abs() <= nothing, "{across} {method:?}: {jump} {flows:?}");
+            if matches!(method, Method::Direct | Method::Iterative) && across < 1e9 {
+                assert_eq!((flows[4], jump), (0.0, 0.0), "{across} {method:?}");
+            }
+        }
+    }
+}
+
+/// A balance that is off by the last digit of f64 is a jump as small, between values near 3: it is as exact as those are in 106 bits.
+#[test]
+fn a_bridge_that_is_off_by_the_last_digit() {
+    let exact = |value: f64| BigRational::from_float(value).expect("finite");
+    for across in [1e-9, 1.0, 1e9] {
+        let last = 6.0_f64.next_up();
+        // Nodes 1 and 2: (3 + c) x - c y = 9 and (3 + l + c) y - c x = 27.
+        let [c, l] = [across, last].map(exact);
+        let (a, d) = (exact(3.0) + &c, exact(3.0) + l + &c);
+        let determinant = &a * &d - &c * &c;
+        let [x, y] = [exact(9.0) * &d + exact(27.0) * &c, exact(27.0) * &a + exact(9.0) * &c];
+        let jump = ((x - y) / determinant).to_f64().expect("in range");
+        assert!(0.0 < jump && jump < 1e-15, "{jump}");
+        for (method, solution) in solutions(&bridge(across, last)) {
+            let found = jumps(&bridge(across, last), &solution)[4];
+            assert!((found - jump).abs() <= ROUNDING * 3.0, "{across} {method:?}: {found} and {jump}");
+            assert_eq!(found * across, solution.flows[4].to_f64(), "{across} {method:?}");
+        }
+    }
+}
+
+/// The flow of each link follows from the values next to it: 100 and 0 are held, so that the main nodes are at 50.
+#[test]
+fn all_magnitudes_in_one_network() {
+    let links = [
+        (0, 2, 1.0),
+        (2, 1, 1.0),
+        // Another node of the same value, from which next to nothing flows.
+        (2, 3, f64::INFINITY),
+        (3, 1, 1e-300),
+        // A node at the hot end.
+        (0, 4, 1e300),
+        (4, 1, 1e-300),
+        // A short cut, and one that is cut.
+        (0, 1, 1e300),
+        (0, 1, 0.0),
+        // A blind end behind next to nothing.
+        (2, 5, 1e-300),
+    ];
+    let all = network(6, &[(0, 100.0), (1, 0.0)], &links);
+    for method in [Method::Direct, Method::Mixed, Method::Iterative] {
+        let solution = solve(&all, method).expect("a solution");
+        assert_eq!(rounded(&solution.values), [100.0, 0.0, 50.0, 50.0, 100.0, 50.0], "{method:?}");
+        let flows = [50.0, 50.0, 50.0 * 1e-300, 50.0 * 1e-300, 1e-298, 1e-298, 1e302, 0.0, 0.0];
+        for (link, (found, flow)) in rounded(&solution.flows).into_iter().zip(flows).enumerate() {
+            assert!((found - flow).abs() <= f64::EPSILON * flow, "{method:?}, link {link}: {found:e} and {flow:e}");
+        }
+        let jumps = jumps(&all, &solution);
+        assert_eq!((jumps[2], jumps[6], jumps[7], jumps[8]), (0.0, 100.0, 100.0, 0.0), "{method:?}");
+        assert_eq!(solution.report.merged, 1, "{method:?}");
+    }
+}
+
+/// What flows through infinite conductances is not told by Kirchhoff's laws where they form a ring; they share it as equal ones would.
+#[test]
+fn a_ring_of_infinite_conductances_shares_its_flow() {
+    let infinite = f64::INFINITY;
+    let ring = network(4, &[(3, 0.0)], &[(0, 1, infinite), (0, 2, infinite), (2, 1, infinite), (1, 3, 1.0)]);
+    let ring = LinearNetwork { sources: vec![3.0, 0.0, 0.0, 0.0], ..ring };
+    for (method, solution) in solutions(&ring) {
+        assert_eq!(rounded(&solution.values), [3.0, 3.0, 3.0, 0.0], "{method:?}");
+        assert_eq!(rounded(&solution.flows), [2.0, 1.0, 1.0, 3.0], "{method:?}");
+        assert_eq!(jumps(&ring, &solution), [0.0, 0.0, 0.0, 3.0], "{method:?}");
+        assert_eq!((solution.report.merged, solution.report.shared), (2, 1), "{method:?}");
+    }
+    let pair = network(3, &[(0, 8.0), (2, 0.0)], &[(0, 1, infinite), (1, 0, infinite), (1, 2, 0.5)]);
+    for (method, solution) in solutions(&pair) {
+        assert_eq!(rounded(&solution.flows), [2.0, -2.0, 4.0], "{method:?}");
+        assert_eq!((solution.report.merged, solution.report.shared), (1, 1), "{method:?}");
+    }
+}
+
+/// Without a ring all flows are determined.
+#[test]
+fn a_tree_of_infinite_conductances() {
+    let infinite = f64::INFINITY;
+    let links = [(0, 1, infinite), (1, 2, infinite), (3, 1, infinite), (2, 4, 1.0), (4, 3, 3.0)];
+    let tree = network(5, &[(0, 5.0), (4, 1.0)], &links);
+    for (method, solution) in solutions(&tree) {
+        assert_eq!(rounded(&solution.flows), [16.0, 4.0, -12.0, 4.0, -12.0], "{method:?}");
+        assert_eq!((solution.report.merged, solution.report.shared), (3, 0), "{method:?}");
+    }
+}
+
+#[test]
+fn nodes_that_are_one_may_be_held_at_one_value() {
+    let infinite = f64::INFINITY;
+    for [first, last] in [[7.0, 7.0], [0.0, -0.0]] {
+        let held = network(4, &[(0, first), (2, last)], &[(0, 1, infinite), (1, 2, infinite), (1, 3, 1.0)]);
+        for (method, solution) in solutions(&held) {
+            assert_eq!(rounded(&solution.values), [first; 4], "{method:?}");
+            assert_eq!(rounded(&solution.flows), [0.0; 3], "{method:?}");
+        }
+    }
+}
+
+#[test]
+fn nodes_that_are_one_cannot_be_held_at_two_values() {
+    let infinite = f64::INFINITY;
+    let links = [(0, 1, infinite), (3, 1, infinite), (3, 4, infinite), (2, 4, 1.0)];
+    let held = [(0, 7.0), (2, 1.0), (4, 7.0_f64.next_up())];
+    let contradiction = Unsolvable::Contradiction { nodes: [0, 4], values: [7.0, 7.0_f64.next_up()] };
+    assert_eq!(failure(&network(5, &held, &links)), LinearFailure::Unsolvable(contradiction));
+    // As soon as one conductance is finite, however large, it is a network as any other.
+    let links = [(0, 1, infinite), (3, 1, 1e300), (3, 4, infinite), (2, 4, 1.0)];
+    assert!(solve(&network(5, &held, &links), Method::Direct).is_ok());
+}
+
+#[test]
+fn what_floats_is_named_body_by_body() {
+    let links = [(0, 1, 1.0), (2, 3, 1e-300), (3, 6, f64::INFINITY), (1, 2, 0.0), (4, 7, 0.0)];
+    let bodies = |bodies: &[&[u32]]| {
+        LinearFailure::Unsolvable(Unsolvable::Floating(bodies.iter().map(|body| body.to_vec()).collect()))
+    };
+    let mut floating = network(8, &[(0, 1.0)], &links);
+    assert_eq!(failure(&floating), bodies(&[&[2, 3, 6], &[4], &[5], &[7]]));
+    // A source is no level; a store is one, but not if it takes up nothing.
+    floating.sources[4] = 1.0;
+    floating.stores.push(Store { node: 6, conductance: 1e-300, before: Wide::new(3.0) });
+    floating.stores.push(Store { node: 5, conductance: 0.0, before: Wide::new(3.0) });
+    assert_eq!(failure(&floating), bodies(&[&[4], &[5], &[7]]));
+    floating.held[5] = Some(0.0);
+    floating.links.extend([Link { nodes: [7, 4], conductance: 1e300 }, Link { nodes: [4, 0], conductance: 2.0 }]);
+    for (method, solution) in solutions(&floating) {
+        assert_eq!(rounded(&solution.values), [1.0, 1.0, 3.0, 3.0, 1.5, 0.0, 3.0, 1.5], "{method:?}");
+    }
+}
+
+#[test]
+fn no_nodes_are_solved_and_no_links_too() {
+    for (_, solution) in solutions(&LinearNetwork::of_nodes(0)) {
+        assert!(solution.values.is_empty() && solution.flows.is_empty());
+    }
+    for (_, solution) in solutions(&network(2, &[(0, 1.0), (1, -2.0)], &[])) {
+        assert_eq!(rounded(&solution.values), [1.0, -2.0]);
+    }
+}
+
+/// A blind end has the value of what it hangs on, whatever it is made of, and nothing flows into it.
+#[test]
+fn blind_ends() {
+    for conductance in [1e-300, 1.0, 1e300, f64::INFINITY] {
+        let links = [(0, 1, 1.0), (1, 2, 2.0), (1, 3, conductance), (3, 4, 0.7), (3, 5, conductance)];
+        let ends = network(6, &[(0, 9.0), (2, 0.0)], &links);
+        for (method, solution) in solutions(&ends) {
+            assert_eq!(rounded(&solution.values), [9.0, 3.0, 0.0, 3.0, 3.0, 3.0], "{conductance} {method:?}");
+            assert_eq!(rounded(&solution.flows), [6.0, 6.0, 0.0, 0.0, 0.0], "{conductance} {method:?}");
+        }
+    }
+    let mut driven = network(3, &[(0, 1.0)], &[(0, 1, 0.5), (2, 1, 0.25)]);
+    driven.sources[2] = 2.0;
+    for (method, solution) in solutions(&driven) {
+        assert_eq!(rounded(&solution.values), [1.0, 5.0, 13.0], "{method:?}");
+        assert_eq!(rounded(&solution.flows), [-2.0, 2.0], "{method:?}");
+    }
+}
+
+/// A square of links behind the node through which all flows is a blind end as well: what is left in it is below the range of f64.
+#[test]
+fn blind_squares() {
+    for [a, b, c, d] in [[1.0, 1.0, 1.0, 1.0], [0.3, 7.0, 0.02, 1.5], [1e-3, 1e3, 2.0, 0.7]] {
+        let square = [(1, 3, a), (3, 4, b), (4, 5, c), (5, 1, d), (3, 5, 0.4)];
+        let links = [&[(0, 1, 2.0), (1, 2, 6.0)][..], &square].concat();
+        for (method, solution) in solutions(&network(6, &[(0, 9.0), (2, 1.0)], &links)) {
+            assert_eq!(rounded(&solution.values), [9.0, 3.0, 1.0, 3.0, 3.0, 3.0], "{method:?}");
+            let flows = rounded(&solution.flows);
+            assert_eq!(flows[..2], [12.0, 12.0], "{method:?}");
+            assert!(flows[2..].iter().all(|flow| flow.abs() <= 1e-300), "{method:?}: {flows:?}");
+        }
+    }
+}
+
+/// What flows into a held node from outside is taken up by what holds it.
+#[test]
+fn a_source_at_a_held_node_changes_nothing() {
+    let quiet = network(3, &[(0, 4.0), (2, 1.0)], &[(0, 1, 1.0), (1, 2, 2.0)]);
+    let mut driven = quiet.clone();
+    driven.sources[0] = 1e6;
+    for method in METHODS {
+        let [quiet, driven] = [&quiet, &driven].map(|network| solve(network, method).expect("a solution"));
+        assert_eq!((quiet.values, quiet.flows), (driven.values, driven.flows), "{method:?}");
+    }
+}
+
+/// 2 (x - 10) + 3 x = 0.
+#[test]
+fn a_store_gives_what_flows() {
+    let mut room = network(2, &[(1, 0.0)], &[(0, 1, 3.0)]);
+    room.stores.push(Store { node: 0, conductance: 2.0, before: Wide::new(10.0) });
+    for (method, solution) in solutions(&room) {
+        assert_eq!(rounded(&solution.values), [4.0, 0.0], "{method:?}");
+        assert_eq!(rounded(&solution.stored), [-12.0], "{method:?}");
+        assert_eq!(rounded(&solution.flows), [12.0], "{method:?}");
+    }
+}
+
+/// Two bodies that nothing else holds keep what they have together: 3 · 20 + 1 · 60 in 4.
+#[test]
+fn stores_hold_a_level_of_their_own() {
+    for conductance in [1e300, f64::INFINITY] {
+        let mut bodies = network(2, &[], &[(1, 0, conductance)]);
+        bodies.stores.push(Store { node: 0, conductance: 3.0, before: Wide::new(20.0) });
+        bodies.stores.push(Store { node: 1, conductance: 1.0, before: Wide::new(60.0) });
+        for (method, solution) in solutions(&bodies) {
+            assert_eq!(rounded(&solution.values), [30.0, 30.0], "{conductance} {method:?}");
+            assert_eq!(rounded(&solution.stored), [30.0, -30.0], "{conductance} {method:?}");
+            assert_eq!(rounded(&solution.flows), [30.0], "{conductance} {method:?}");
+        }
+    }
+}
+
+/// A node that has all digits of 106 bits from the increment before gives them on.
+#[test]
+fn what_was_before_counts_with_all_its_digits() {
+    let before = Wide::new(1.0) + Wide::new(1e-20);
+    let mut room = network(2, &[(1, 1.0)], &[(0, 1, 1.0)]);
+    room.stores.push(Store { node: 0, conductance: 1.0, before });
+    for (method, solution) in solutions(&room) {
+        assert_eq!(solution.values[0], Wide::new(1.0) + Wide::new(0.5e-20), "{method:?}");
+        assert!((solution.flows[0].to_f64() - 0.5e-20).abs() <= 1e-30, "{method:?}: {:?}", solution.flows);
+    }
+}
+
+/// What no f64 holds is refused, and no method answers otherwise.
+#[test]
+fn numbers_beyond_the_range_are_refused() {
+    let overflows = |network: &LinearNetwork| {
+        for method in METHODS {
+            let failure = solve(network, method).expect_err("beyond the range");
+            let LinearFailure::NotSolved(tried) = failure else { panic!("{failure:?}") };
+            assert_eq!(tried.last().map(|(_, why)| *why), Some(Shortcoming::Overflow), "{method:?}: {tried:?}");
+        }
+    };
+    // A potential.
+    let mut lone = network(2, &[(1, 0.0)], &[(0, 1, 1e-300)]);
+    lone.sources[0] = 1e300;
+    overflows(&lone);
+    // A flow.
+    overflows(&network(2, &[(0, 1e200), (1, 0.0)], &[(0, 1, 1e200)]));
+    // A sum of flows that is not beyond the range each.
+    let mut sum = network(4, &[(0, 0.0)], &[(0, 1, 1.0), (1, 2, 1.0), (1, 3, 1.0)]);
+    (sum.sources[2], sum.sources[3]) = (1.7e308, 1.7e308);
+    overflows(&sum);
+    // The same, of a node that is made one.
+    let mut one = network(3, &[(0, 0.0)], &[(0, 1, 1.0), (1, 2, f64::INFINITY)]);
+    (one.sources[1], one.sources[2]) = (1.7e308, 1.7e308);
+    overflows(&one);
+}
+
+/// A grid whose links are as irregular as 7-digit fractions make them, and an interface across it; two sides are held.
+fn grid([nx, ny, nz]: [u32; 3], contrast: f64) -> LinearNetwork {
+    let free = nx * ny * nz;
+    let number = |x: u32, y: u32, z: u32| x + nx * (y + ny * z);
+    let mut links = Vec::new();
+    for z in 0..nz {
+        for y in 0..ny {
+            for x in 0..nx {
+                let here = number(x, y, z);
+                let mut join = |there: u32, factor: f64| {
+                    let irregular = f64::from((here * 7919 + there * 104_729) % 1009) / 1009.0;
+                    links.push((here, there, (0.5 + irregular) * factor));
+                };
+                if x + 1 < nx {
+                    join(number(x + 1, y, z), if x + 1 == nx / 2 { contrast } else { 1.0 });
+                }
+                if y + 1 < ny {
+                    join(number(x, y + 1, z), 1.0);
+                }
+                if z + 1 < nz {
+                    join(number(x, y, z + 1), 1.0);
+                }
+                if x == 0 {
+                    join(free, 1.0);
+                }
+                if x + 1 == nx {
+                    join(free + 1, 1.0);
+                }
+            }
+        }
+    }
+    let nodes = free as usize + 2;
+    network(nodes, &[(nodes - 2, 100.0), (nodes - 1, 50.0)], &links)
+}
+
+/// The largest relative distance of two lists of numbers.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let relative = |(a, b): (&f64, &f64)| if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()) };
+    a.iter().zip(b).map(relative).fold(0.0, f64::max)
+}
+
+/// In two dimensions and in three, whatever the interface conducts: the same values and flows by all four methods, none of them by way of another.
+#[test]
+fn the_methods_agree() {
+    for size in [[12, 9, 1], [6, 5, 5]] {
+        for contrast in [0.0, 1e-30, 1.0, 1e8, 1e100, f64::INFINITY] {
+            let network = grid(size, contrast);
+            let found = solutions(&network);
+            let (_, reference) = &found[0];
+            for (method, solution) in &found {
+                assert_eq!((solution.report.method, &solution.report.given_up), (*method, &vec![]), "{contrast}");
+                for (of, other) in [(&solution.values, &reference.values), (&solution.flows, &reference.flows)] {
+                    let distance = distance(&rounded(of), &rounded(other));
+                    assert!(distance <= f64::EPSILON, "{method:?} {size:?} {contrast}: {distance}");
+                }
+                let missing = worst_balance(&network, solution, Balanced::Nodes);
+                assert!(missing <= f64::EPSILON, "{method:?} {size:?} {contrast}: {missing}");
+            }
+        }
+    }
+}
+
+/// A grid without corners that are taken out has as many unknowns as free nodes.
+#[test]
+fn the_report_says_what_was_solved_and_how_well() {
+    let grid = grid([8, 7, 1], 1.0);
+    for (method, solution) in solutions(&grid) {
+        let report = &solution.report;
+        assert_eq!((report.method, report.unknowns, report.taken_out), (method, 56, 0), "{method:?}");
+        assert_eq!((report.merged, report.shared, report.levels), (0, 0, 1), "{method:?}");
+        assert_eq!(report.given_up, [], "{method:?}");
+        assert!(report.quality.residual <= LAST_DIGIT.max(f64::EPSILON), "{method:?}: {report:?}");
+        let has_factor = matches!(method, Method::Direct | Method::Mixed);
+        assert_eq!(report.ordering.is_some(), has_factor, "{method:?}");
+        // At least the lower triangle of the matrix: 56 of the diagonal, 7 · 7 and 8 · 6 links.
+        assert_eq!(report.factor_entries >= 56 + 49 + 48, has_factor, "{method:?}: {report:?}");
+        assert_eq!(report.iterations > 0, method == Method::Iterative, "{method:?}: {report:?}");
+        if method != Method::Elimination {
+            assert!(report.quality.error <= LAST_DIGIT && report.quality.solves >= 2, "{method:?}: {report:?}");
+            // The extreme eigenvalues of such a grid are some 8 and some (π / 8)² / 2.
+            assert!((10.0..1e4).contains(&report.quality.condition), "{method:?}: {report:?}");
+        }
+    }
+}
+
+/// Where strengths fall into levels, unknowns are jumps from other unknowns.
+#[test]
+fn the_report_counts_levels_and_jumps() {
+    let report = solve(&grid([8, 7, 1], 1e100), Method::Direct).expect("a solution").report;
+    assert_eq!((report.unknowns, report.levels), (56, 2));
+    // One of the two sides of each strong link.
+    assert_eq!(report.relative, 7);
+    let report = solve(&grid([8, 7, 1], f64::INFINITY), Method::Direct).expect("a solution").report;
+    assert_eq!((report.unknowns, report.merged, report.levels), (49, 7, 1));
+}
+
+/// What a solver keeps from one network to the next changes nothing: other values, other conductances, other links.
+#[test]
+fn a_solver_that_was_used_before_gives_what_a_new_one_gives() {
+    let first = grid([9, 6, 1], 1e6);
+    let mut values = first.clone();
+    values.held[55] = Some(-3.0);
+    values.sources[20] = 1.5;
+    let mut conductances = values.clone();
+    conductances.links[30].conductance *= 3.0;
+    let mut levels = conductances.clone();
+    levels.links[31].conductance = 1e40;
+    let mut links = levels.clone();
+    links.links.push(Link { nodes: [3, 40], conductance: 0.3 });
+    let mut reversed = links.clone();
+    reversed.links.reverse();
+    let smaller = grid([3, 3, 1], 1.0);
+    for method in METHODS {
+        let mut solver = Solver::new(method, LAST_DIGIT);
+        for (number, network) in [&first, &first, &values, &conductances, &levels, &links, &reversed, &smaller, &first]
+            .into_iter()
+            .enumerate()
+        {
+            let kept = solver.solve(network).expect("a solution");
+            let new = solve(network, method).expect("a solution");
+            assert_eq!((&kept.values, &kept.flows), (&new.values, &new.flows), "{method:?}, network {number}");
+            assert_eq!(jumps(network, &kept), jumps(network, &new), "{method:?}, network {number}");
+            assert_eq!(kept.report.quality, new.report.quality, "{method:?}, network {number}");
+        }
+    }
+}
+
+/// After a network that has no solution the next one has its own.
+#[test]
+fn a_failure_leaves_nothing_behind() {
+    let grid = grid([5, 5, 1], 1.0);
+    let mut floating = grid.clone();
+    floating.held.fill(None);
+    let mut beyond = grid.clone();
+    beyond.sources[3] = f64::MAX;
+    beyond.sources[4] = f64::MAX;
+    for method in METHODS {
+        let mut solver = Solver::new(method, LAST_DIGIT);
+        for failing in [&floating, &beyond] {
+            assert!(solver.solve(failing).is_err(), "{method:?}");
+            let after = solver.solve(&grid).expect("a solution");
+            let new = solve(&grid, method).expect("a solution");
+            assert_eq!((after.values, after.flows), (new.values, new.flows), "{method:?}");
+        }
+    }
+}
+
+/// A solver that is content with less has balances within what it was asked for.
+#[test]
+fn the_tolerance_is_kept() {
+    let grid = grid([10, 10, 1], 1e3);
+    let exact = solve(&grid, Method::Direct).expect("a solution");
+    for tolerance in [1e-2, 1e-6, 1e-12] {
+        for method in METHODS {
+            let solution = Solver::new(method, tolerance).solve(&grid).expect("a solution");
+            let quality = solution.report.quality;
+            assert!(quality.residual <= tolerance && quality.error <= tolerance, "{method:?}: {quality:?}");
+            let missing = worst_balance(&grid, &solution, Balanced::Nodes);
+            assert!(missing <= tolerance, "{method:?} within {tolerance}: {missing}");
+            let distance = distance(&rounded(&solution.flows), &rounded(&exact.flows));
+            assert!(distance <= tolerance, "{method:?} within {tolerance}: {distance}");
+        }
+    }
+}
