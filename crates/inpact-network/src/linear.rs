@@ -4,11 +4,11 @@
 //!
 //! 1. `bodies` refuses bodies without a path to a known value and names their nodes.
 //! 2. `core` merges nodes that infinite conductances join, and drops what conducts nothing.
-//! 3. `series` takes out nodes that only pass on what flows through them.
+//! 3. `still` takes out parts into which nothing can flow, `series` nodes that only pass on what flows through them.
 //! 4. `strength` and `relative` choose the unknowns by the strengths of the conductances: plain where they are alike, jumps where they are not.
 //! 5. `matrix` assembles, `ordering` orders, `factor` factors in f64 or f32, `iterative` does without a factor.
 //! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; what does not get there is tried again by a safer method, at last by `elimination`.
-//! 7. `series`, `infinite` and `hanging` put back what was left out: values, the flows through infinite conductances, jumps that no flow tells.
+//! 7. `series`, `still`, `infinite` and `hanging` put back what was left out: values, the flows through infinite conductances, jumps that no flow tells.
 
 mod bodies;
 mod core;
@@ -26,6 +26,7 @@ mod relative;
 mod series;
 mod sets;
 mod solve;
+mod still;
 mod strength;
 mod work;
 
@@ -40,4 +41,5 @@ pub(crate) use relative::Form;
 pub(crate) use series::Series;
 pub(crate) use sets::{Sets, index};
 pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Shortcoming, Solver};
+pub(crate) use still::Still;
 pub use work::{Phases, Work};

@@ -183,6 +183,50 @@ impl Edges {
         self.elements.iter().map(|&number| change_of(number)).fold(0.0, f64::max)
     }
 
+    /// Makes nothing of the flows that rounding hides, and gives the largest part of another that rounding may have done.
+    ///
+    /// What flows along the forest is what all below it need, so that it is known as well as the balances there: less well than to 106 bits where large flows nearly cancel in one.
+    /// Other flows are as open as the jumps along the forest that make theirs.
+    pub(crate) fn settle(&self, core: &Core, balance: &mut Balance) -> f64 {
+        let steps = self.ways.as_ref().map(|_| self.open_steps(core, balance));
+        let mut largest = 0.0_f64;
+        for (place, &number) in self.elements.iter().enumerate() {
+            let conductance = core.elements[number as usize].conductance.to_f64();
+            let mut open = balance.roundings[number as usize];
+            if let (Some(ways), Some(steps)) = (&self.ways, &steps) {
+                let of_step = |&(step, _): &(u32, bool)| {
+                    scale_by_power(conductance, -self.form.scale(step)) * steps[step as usize]
+                };
+                open += ways.of_element(place).iter().map(of_step).sum::<f64>();
+            }
+            let flow = &mut balance.flows[number as usize];
+            let magnitude = flow.to_f64().abs();
+            if magnitude <= open {
+                *flow = Wide::ZERO;
+            } else {
+                largest = largest.max(open / magnitude);
+            }
+        }
+        largest
+    }
+
+    /// How far rounding leaves each jump along the forest open.
+    fn open_steps(&self, core: &Core, balance: &Balance) -> Vec<f64> {
+        let form = &self.form;
+        let mut open = balance.rounding_of_residuals.clone();
+        for &unknown in form.order.iter().rev() {
+            let above = form.hangs_on[unknown as usize];
+            if above != NONE {
+                open[above as usize] += open[unknown as usize];
+            }
+        }
+        for (unknown, open) in (0..).zip(&mut open) {
+            let element = &core.elements[form.hangs_by[unknown as usize] as usize];
+            *open /= scale_by_power(element.conductance.to_f64(), -form.scale(unknown));
+        }
+        open
+    }
+
     /// How the nodes of the unknowns hang on known values.
     pub(super) fn hanging(&self, core: &Core, jumps: &[Wide]) -> Hanging {
         let form = &self.form;
@@ -219,12 +263,6 @@ impl Edges {
 }
 
 impl Balance {
-    /// The flows; none where no more than rounding is.
-    pub(crate) fn into_flows(self) -> Vec<Wide> {
-        let cells = self.flows.into_iter().zip(self.roundings);
-        cells.map(|(flow, rounding)| if flow.to_f64().abs() <= rounding { Wide::ZERO } else { flow }).collect()
-    }
-
     /// What is missing in each equation; nothing where no more than rounding is.
     pub(crate) fn missing(&self) -> impl Iterator<Item = f64> {
         self.residuals.iter().zip(&self.rounding_of_residuals).map(|(residual, &rounding)| {

@@ -13,10 +13,10 @@ use inpact_evaluation::numbers::Wide;
 
 /// Finds the flows through the infinite conductances of a network that is solved otherwise.
 pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution) -> Result<(), LinearFailure> {
-    let missing = missing(network, solution);
+    let (missing, magnitudes) = missing(network, solution);
     let is_infinite = |number: &usize| network.links[*number].conductance == f64::INFINITY;
     let infinite: Vec<usize> = (0..network.links.len()).filter(is_infinite).collect();
-    let is_reference = references(network, &infinite);
+    let is_reference = references(network, &infinite, &magnitudes);
     let mut number = vec![NONE; network.nodes()];
     let (mut free, mut sources) = (0, Vec::new());
     for node in infinite.iter().flat_map(|&link| network.links[link].nodes) {
@@ -45,8 +45,8 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
     Ok(())
 }
 
-/// What flows into each node by everything but infinite conductances; nothing where no more than rounding is.
-fn missing(network: &LinearNetwork, solution: &LinearSolution) -> Vec<Wide> {
+/// What flows into each node by everything but infinite conductances, nothing where no more than rounding is; and the magnitudes of that added up.
+fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<Wide>, Vec<f64>) {
     let mut missing: Vec<Wide> = network.sources.iter().map(|&source| Wide::new(source)).collect();
     let mut magnitudes: Vec<f64> = network.sources.iter().map(|source| source.abs()).collect();
     let mut add = |node: u32, flow: Wide| {
@@ -60,28 +60,35 @@ fn missing(network: &LinearNetwork, solution: &LinearSolution) -> Vec<Wide> {
     for (store, &flow) in network.stores.iter().zip(&solution.stored) {
         add(store.node, -flow);
     }
-    let cells = missing.into_iter().zip(magnitudes);
-    cells.map(|(flow, magnitude)| if flow.to_f64().abs() <= ROUNDING * magnitude { Wide::ZERO } else { flow }).collect()
+    for (flow, magnitude) in missing.iter_mut().zip(&magnitudes) {
+        if flow.to_f64().abs() <= ROUNDING * magnitude {
+            *flow = Wide::ZERO;
+        }
+    }
+    (missing, magnitudes)
 }
 
-/// Which nodes the others of their cluster are counted from: those that are held, or one.
-fn references(network: &LinearNetwork, infinite: &[usize]) -> Vec<bool> {
+/// Which nodes the others of their cluster are counted from: those that are held, or the one with the largest flows.
+///
+/// What the balance of a cluster has left within its tolerance ends up there, where it is least beside what flows.
+fn references(network: &LinearNetwork, infinite: &[usize], magnitudes: &[f64]) -> Vec<bool> {
     let mut sets = Sets::new(network.nodes());
     for &link in infinite {
         let [a, b] = network.links[link].nodes;
         sets.join(a, b);
     }
-    let mut has_reference = vec![false; network.nodes()];
     let mut is_reference: Vec<bool> = network.held.iter().map(Option::is_some).collect();
-    for node in (0..index(network.nodes())).filter(|&node| network.held[node as usize].is_some()) {
-        has_reference[sets.of(node) as usize] = true;
-    }
+    let mut reference = vec![NONE; network.nodes()];
     for node in 0..index(network.nodes()) {
-        let root = sets.of(node) as usize;
-        if !has_reference[root] {
-            has_reference[root] = true;
-            is_reference[node as usize] = true;
+        let best = &mut reference[sets.of(node) as usize];
+        let is_better = |best: u32| {
+            let rank = |node: u32| (is_reference[node as usize], magnitudes[node as usize]);
+            rank(best) < rank(node)
+        };
+        if *best == NONE || is_better(*best) {
+            *best = node;
         }
     }
+    reference.into_iter().filter(|&node| node != NONE).for_each(|node| is_reference[node as usize] = true);
     is_reference
 }

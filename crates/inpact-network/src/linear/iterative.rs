@@ -86,6 +86,10 @@ impl Solves for ConjugateGradients {
         solved
     }
 
+    fn is_even(&self) -> bool {
+        false
+    }
+
     fn norm(&self) -> f64 {
         self.norm
     }

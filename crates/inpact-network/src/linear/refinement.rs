@@ -3,7 +3,9 @@
 //! The balance of each unknown is taken in edge form and in 106 bits, the rough solver gives a correction, and so on.
 //! Each step gains as many digits as the solver is good for. The largest relative change of a flow in the last step, times the factor by which the changes shrink,
 //! is an estimate of the error that is left; a solution is taken only when that and the balances are within the tolerance.
-//! A balance is not better than its rounding: what is left of it below that is no reason to go on.
+//! Conjugate gradients stop when most is corrected, so that small flows may be wrong and not change: there condition × residual is an estimate as well, and the larger of both counts.
+//! A balance is not better than its rounding: what is left of it below that is no reason to go on. What rounding may have done to a flow counts as its error;
+//! a flow that is no more than that is none.
 
 use super::core::Core;
 use super::edges::{Balance, Edges};
@@ -73,9 +75,13 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
         }
         if quality.solves > 0 {
             quality.error = progress.error_after(edges.change_of_flows(core, &balance, &changes));
+            if !solver.is_even() {
+                // Small flows may not have changed at all; what is missing in their balances tells.
+                quality.error = quality.error.max(quality.condition * quality.residual);
+            }
             let is_first = quality.solves == 1;
             if !is_first && quality.error <= tolerance && quality.residual <= tolerance {
-                return Ok(Refined { jumps, balance, quality });
+                break;
             }
             let largest = balance.missing().map(f64::abs).fold(0.0, f64::max);
             if progress.is_idle(quality.residual, largest) || quality.solves >= MOST_STEPS {
@@ -84,7 +90,8 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
         }
         let Some(shift) = shift(form, balance.missing()) else {
             // Every balance is at its rounding.
-            return Ok(Refined { jumps, balance, quality });
+            quality.error = 0.0;
+            break;
         };
         changes = scaled_flows(form, balance.missing(), shift);
         solver.solve(&mut changes).map_err(GaveUp::Solver)?;
@@ -97,6 +104,8 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
             *jump += Wide::new(change);
         }
     }
+    quality.error = quality.error.max(edges.settle(core, &mut balance));
+    Ok(Refined { jumps, balance, quality })
 }
 
 /// How the steps get on.

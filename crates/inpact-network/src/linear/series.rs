@@ -10,6 +10,7 @@ use super::core::{Core, Element, NONE};
 use super::hanging::Hanging;
 use super::sets::index;
 use super::solve::{CoreFound, SMALL};
+use super::still::Still;
 use inpact_evaluation::numbers::Wide;
 
 /// What was taken out, in order.
@@ -34,22 +35,31 @@ struct Step {
 }
 
 impl Series {
-    /// Takes out of a core every free node with one or two conductances, but for those that have to stay.
-    pub(crate) fn take_out(core: &mut Core, stays: &dyn Fn(u32) -> bool) -> Self {
+    /// Takes out of a core what is still, and every free node with one or two conductances, but for those that have to stay.
+    pub(crate) fn take_out(core: &mut Core, still: &Still, stays: &dyn Fn(u32) -> bool) -> Self {
+        let is_still = |&end: &u32| still.is_still(end);
         let mut series = Self {
             steps: Vec::new(),
-            is_there: vec![true; core.elements.len()],
-            is_free: vec![true; core.free as usize],
+            is_there: core.elements.iter().map(|element| !element.ends.iter().any(is_still)).collect(),
+            is_free: (0..core.free).map(|node| !still.is_still(node)).collect(),
         };
         let mut degrees = vec![0_u32; core.free as usize];
-        for end in core.elements.iter().flat_map(|element| element.ends) {
+        let there = core.elements.iter().zip(&series.is_there).filter_map(|(of, is_there)| is_there.then_some(of));
+        for end in there.flat_map(|element| element.ends) {
             if let Some(degree) = degrees.get_mut(end as usize) {
                 *degree += 1;
             }
         }
         let is_due = |(node, degree): (u32, &u32)| (1..=2).contains(degree) && !stays(node);
         if (0..).zip(&degrees).any(is_due) {
-            Walk { incident: Incident::of(core, &degrees), degrees, core, series: &mut series, stays }.run();
+            Walk {
+                incident: Incident::of(core, &series.is_there, &degrees),
+                degrees,
+                core,
+                series: &mut series,
+                stays,
+            }
+            .run();
         }
         series
     }
@@ -126,7 +136,7 @@ struct Incident {
 }
 
 impl Incident {
-    fn of(core: &Core, degrees: &[u32]) -> Self {
+    fn of(core: &Core, is_there: &[bool], degrees: &[u32]) -> Self {
         let mut start = Vec::with_capacity(degrees.len() + 1);
         let mut sum = 0;
         start.push(0);
@@ -136,7 +146,7 @@ impl Incident {
         }));
         let mut next: Vec<u32> = start[..degrees.len()].to_vec();
         let mut elements = vec![NONE; sum as usize];
-        for (number, element) in core.elements.iter().enumerate() {
+        for (number, element) in core.elements.iter().enumerate().filter(|(number, _)| is_there[*number]) {
             for end in element.ends {
                 if let Some(next) = next.get_mut(end as usize) {
                     elements[*next as usize] = index(number);

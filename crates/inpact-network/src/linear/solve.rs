@@ -15,6 +15,7 @@ use super::refinement::{GaveUp, Quality, Refined, refine};
 use super::relative::Form;
 use super::series::Series;
 use super::sets::index;
+use super::still::Still;
 use super::work::{Phases, Work};
 use inpact_evaluation::numbers::Wide;
 use std::sync::Arc;
@@ -86,6 +87,12 @@ impl LinearSolution {
         self.jump_at(link, network.links[link].conductance)
     }
 
+    /// Whether all of it is in the range of f64.
+    fn is_finite(&self) -> bool {
+        let all = self.values.iter().chain(&self.flows).chain(&self.stored);
+        all.into_iter().all(|number| number.to_f64().is_finite())
+    }
+
     /// The jump across a link of this conductance.
     pub(crate) fn jump_at(&self, link: usize, conductance: f64) -> Wide {
         if conductance == f64::INFINITY {
@@ -113,6 +120,8 @@ pub struct LinearReport {
     pub merged: usize,
     /// How many nodes were taken out as they only pass on what flows through them.
     pub taken_out: usize,
+    /// How many nodes have the value of another as nothing flows between the two.
+    pub still: usize,
     /// How many infinite conductances there are beyond those that determine how they share their flow; they share it as equal ones would.
     pub shared: usize,
     /// The order of elimination, where there was a factor.
@@ -185,29 +194,36 @@ impl Solver {
         report.phases.set_up = start.elapsed().as_secs_f64() - order - factor - solve;
         self.work += Work::of(&report);
         let method = report.method;
+        let overflow = || LinearFailure::NotSolved(vec![(method, Shortcoming::Overflow)]);
         let mut solution = put_together(network, &core, &origins, found, report);
-        if !solution.values.iter().chain(&solution.flows).all(|number| number.to_f64().is_finite()) {
-            return Err(LinearFailure::NotSolved(vec![(method, Shortcoming::Overflow)]));
+        if !solution.is_finite() {
+            return Err(overflow());
         }
         if origins.merged > 0 {
             infinite::find_flows(network, &mut solution)?;
+            if !solution.is_finite() {
+                return Err(overflow());
+            }
         }
         Ok(solution)
     }
 
     /// Solves a core, in which all conductances are finite and every node has a path to a known value.
     pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<(CoreFound, LinearReport), LinearFailure> {
-        let series = Series::take_out(core, &|_| false);
+        let still = Still::find(core);
+        let series = Series::take_out(core, &still, &|_| false);
         let form = Form::choose(core, &series.is_there, &series.is_free);
         let mut report = LinearReport {
             unknowns: form.count(),
             relative: form.relative(),
             levels: form.scales.len(),
             taken_out: series.count(),
+            still: still.count(),
             ..LinearReport::default()
         };
         let mut found = self.solve_form(core, &series, form, &mut report)?;
         series.put_back(core, &mut found);
+        still.put_back(core, &mut found);
         Ok((found, report))
     }
 
@@ -356,7 +372,7 @@ fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolut
 /// What jumps along the forest say.
 fn found(core: &Core, edges: &Edges, jumps: &[Wide], balance: Balance) -> CoreFound {
     let hanging = edges.hanging(core, jumps);
-    CoreFound { values: edges.values(core, jumps), flows: balance.into_flows(), hanging: Some(hanging) }
+    CoreFound { values: edges.values(core, jumps), flows: balance.flows, hanging: Some(hanging) }
 }
 
 /// The solution in terms of the network.

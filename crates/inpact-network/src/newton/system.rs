@@ -2,7 +2,7 @@
 
 use crate::assembly::{Capacities, HeatTerm, RowTerms, network};
 use crate::knowledge::Knowledge;
-use crate::linear::{Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, index};
+use crate::linear::{Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, Still, index};
 use crate::problem::FieldNodes;
 use crate::scene::Field;
 use inpact_evaluation::numbers::{Wide, scale_by_power};
@@ -61,7 +61,7 @@ impl<'a> System<'a> {
                 *stays |= *source != 0.0;
             }
         }
-        let series = Series::take_out(&mut core, &|node| stays[node as usize]);
+        let series = Series::take_out(&mut core, &Still::default(), &|node| stays[node as usize]);
         let form = Form::choose(&core, &series.is_there, &series.is_free);
         let edges = Edges::new(&core, form, &series.is_there);
         let mut system = Self { field, nodes, core, origins, edges, jumps: Vec::new(), start };
