@@ -38,6 +38,9 @@ const MOST_STEPS: usize = 60;
 /// What equations take up at first, as a multiple of what their slopes amount to: in a second attempt more.
 const FIRST_TAKEN_UP: [f64; 2] = [1.0, 10.0];
 
+/// What is taken up grows by this factor where a step goes back.
+const GOING_BACK: f64 = 4.0;
+
 /// Balances that are met so well are near a solution.
 const AT_REST: f64 = 1e-6;
 
@@ -146,6 +149,7 @@ impl<'a> Newton<'a> {
     fn creep(&mut self, knowledge: &mut Knowledge<'a>, mut taken_up: f64) -> Result<usize, RowFault> {
         let mut states = self.evaluate(knowledge)?;
         let mut worst = self.worst(&states);
+        let mut previous: Vec<f64> = Vec::new();
         for step in 0..MOST_CREEPING_STEPS {
             if worst <= AT_REST || !worst.is_finite() {
                 return Ok(step);
@@ -155,7 +159,10 @@ impl<'a> Newton<'a> {
             self.go(&start, &direction, 1.0);
             states = self.evaluate(knowledge)?;
             let before = std::mem::replace(&mut worst, self.worst(&states));
-            taken_up *= (worst / before).clamp(0.5, 2.0);
+            // A step that goes back where the one before came from has shown that one to be too long.
+            let goes_back = direction.iter().zip(&previous).map(|(now, before)| now * before).sum::<f64>() < 0.0;
+            taken_up *= if goes_back { GOING_BACK } else { (worst / before).clamp(0.5, 2.0) };
+            previous = direction;
         }
         Ok(MOST_CREEPING_STEPS)
     }

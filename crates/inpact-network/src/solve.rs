@@ -14,6 +14,9 @@ const CONSISTENT: f64 = 1e-14;
 /// Conductances that come no nearer are taken within this distance; the report says how near they are.
 const CONSISTENT_ENOUGH: f64 = 1e-10;
 
+/// Equations of which no larger share is missing are not named when others are not met.
+const MET: f64 = 1e-10;
+
 /// How often a nonlinear stage is solved with the conductances of its own solution before Newton's iteration.
 const FIRST_PASSES: usize = 2;
 
@@ -208,7 +211,10 @@ impl<'a> Equations<'a> {
             .iter()
             .zip(&iterated.missing)
             .map(|(&field, &(share, node))| (field, share, Some(node).filter(|node| *node != crate::linear::NONE)));
-        Err(SolveFailure::NotConverged { steps, worst: worst.collect() })
+        let worst: Vec<(Field, f64, Option<u32>)> = worst.collect();
+        let is_unmet = |(_, share, _): &(Field, f64, Option<u32>)| !(*share <= MET);
+        let unmet: Vec<_> = worst.iter().copied().filter(is_unmet).collect();
+        Err(SolveFailure::NotConverged { steps, worst: if unmet.is_empty() { worst } else { unmet } })
     }
 
     fn iterate(

@@ -186,19 +186,25 @@ impl Edges {
     /// Makes nothing of the flows that rounding hides, and gives the largest part of another that rounding may have done.
     ///
     /// What flows along the forest is what all below it need, so that it is known as well as the balances there: less well than to 106 bits where large flows nearly cancel in one.
-    /// Other flows are as open as the jumps along the forest that make theirs.
-    pub(crate) fn settle(&self, core: &Core, balance: &mut Balance) -> f64 {
-        let steps = self.ways.as_ref().map(|_| self.open_steps(core, balance));
+    /// Other flows are as open as the jumps along the forest that make theirs. Solving has spread what is open by up to the condition of the matrix.
+    /// Where ways along the forest are too many to be kept, only the flows' own rounding is looked at, and zeros may come out as some 1e-30 of what flows around them.
+    pub(crate) fn settle(&self, core: &Core, condition: f64, balance: &mut Balance) -> f64 {
+        let Some(ways) = &self.ways else {
+            for (flow, &rounding) in balance.flows.iter_mut().zip(&balance.roundings) {
+                if flow.to_f64().abs() <= rounding {
+                    *flow = Wide::ZERO;
+                }
+            }
+            return 0.0;
+        };
+        let steps = self.open_steps(core, condition, balance);
         let mut largest = 0.0_f64;
         for (place, &number) in self.elements.iter().enumerate() {
             let conductance = core.elements[number as usize].conductance.to_f64();
-            let mut open = balance.roundings[number as usize];
-            if let (Some(ways), Some(steps)) = (&self.ways, &steps) {
-                let of_step = |&(step, _): &(u32, bool)| {
-                    scale_by_power(conductance, -self.form.scale(step)) * steps[step as usize]
-                };
-                open += ways.of_element(place).iter().map(of_step).sum::<f64>();
-            }
+            let of_step =
+                |&(step, _): &(u32, bool)| scale_by_power(conductance, -self.form.scale(step)) * steps[step as usize];
+            let of_steps: f64 = ways.of_element(place).iter().map(of_step).sum();
+            let open = balance.roundings[number as usize] + of_steps;
             let flow = &mut balance.flows[number as usize];
             let magnitude = flow.to_f64().abs();
             if magnitude <= open {
@@ -211,9 +217,9 @@ impl Edges {
     }
 
     /// How far rounding leaves each jump along the forest open.
-    fn open_steps(&self, core: &Core, balance: &Balance) -> Vec<f64> {
+    fn open_steps(&self, core: &Core, condition: f64, balance: &Balance) -> Vec<f64> {
         let form = &self.form;
-        let mut open = balance.rounding_of_residuals.clone();
+        let mut open: Vec<f64> = balance.rounding_of_residuals.iter().map(|rounding| condition * rounding).collect();
         for &unknown in form.order.iter().rev() {
             let above = form.hangs_on[unknown as usize];
             if above != NONE {

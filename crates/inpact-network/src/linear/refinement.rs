@@ -8,7 +8,7 @@
 //! a flow that is no more than that is none.
 
 use super::core::Core;
-use super::edges::{Balance, Edges};
+use super::edges::{Balance, Edges, ROUNDING};
 use super::factor::{NoSolution, Solves};
 use super::matrix::{scaled_flows, shift, unscale};
 use inpact_evaluation::numbers::Wide;
@@ -90,7 +90,7 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
         }
         let Some(shift) = shift(form, balance.missing()) else {
             // Every balance is at its rounding.
-            quality.error = 0.0;
+            quality.error = ROUNDING * quality.condition;
             break;
         };
         changes = scaled_flows(form, balance.missing(), shift);
@@ -104,7 +104,7 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
             *jump += Wide::new(change);
         }
     }
-    quality.error = quality.error.max(edges.settle(core, &mut balance));
+    quality.error = quality.error.max(edges.settle(core, quality.condition.max(1.0), &mut balance));
     Ok(Refined { jumps, balance, quality })
 }
 

@@ -31,7 +31,7 @@ pub enum Method {
     Mixed,
     /// Conjugate gradients with an incomplete factor: memory of a few entries a node.
     Iterative,
-    /// Elimination without subtraction in 106 bits: slow, and exact to the last digit at any contrast.
+    /// Elimination without subtraction in 106 bits: slow, and exact at any contrast but where a jump leaves the range of f64 or steps of both signs nearly cancel, which it refuses.
     Elimination,
 }
 
