@@ -39,7 +39,7 @@ clearance = 0.0
 pressure = 0.0
 ";
 
-const CASES: [(&str, &str, &str); 18] = [
+const CASES: [(&str, &str, &str); 20] = [
     // What the scene has, what stands there instead, and what the message must say.
     (
         "nodes = [\"hot\", \"middle\"]",
@@ -52,12 +52,18 @@ const CASES: [(&str, &str, &str); 18] = [
         "the scene defines no node `midle` (is `middle` meant?",
     ),
     ("master = \"cold\"", "master = \"clod\"", "is `cold` meant?"),
-    ("thermal = 1.0", "thremal = 1.0", "unknown field `thremal`"),
-    ("fixed = 20.0", "fixt = 20.0", "unknown field `fixt`"),
+    ("thermal = 1.0", "thremal = 1.0", "there is no key `thremal` here (is `thermal` meant?"),
+    (
+        "temperature = { fixed = 20.0 }",
+        "temperature = 20.0",
+        "`20.0` stands where there should be a table such as { fixed = 1.0 }",
+    ),
+    ("[\"hot\", \"middle\"]", "[\"hot\", \"middle\", \"cold\"]", "stands where there should be the names of two nodes"),
+    ("fixed = 20.0", "fixt = 20.0", "there is no key `fixt` here"),
     ("thermal = 1.0", "thermal = -1.0", "`thermal` of the link of `hot` and `middle` is -1.0"),
-    ("thermal = 1.0", "thermal = nan", "`thermal` of the link of `hot` and `middle` is NaN"),
+    ("thermal = 1.0", "thermal = nan", "`thermal` of the link of `hot` and `middle` is nan"),
     ("thermal = 1.0\n", "", "the link of `hot` and `middle` conducts nothing"),
-    ("area = 0.5\n", "", "missing field `area`"),
+    ("area = 0.5\n", "", "`area` is missing"),
     ("\"JOINT\"", "\"JIONT\"", "the deck defines no interaction `JIONT`"),
     ("fixed = 20.0", "fixed = 20.0, source = 1.0", "the temperature of `cold` has `fixed` and `source`"),
     (
@@ -65,12 +71,16 @@ const CASES: [(&str, &str, &str); 18] = [
         "fixed = [[0.0, 20.0], [0.0, 30.0]]",
         "the times of `fixed` of `temperature` of `cold` do not ascend",
     ),
-    ("fixed = 20.0", "fixed = \"warm\"", "expected a number, or points of time and value"),
+    (
+        "fixed = 20.0",
+        "fixed = \"warm\"",
+        "`\"warm\"` stands where there should be a number, or points of time and value",
+    ),
     ("name = \"middle\"", "name = \"middle\"\n[[node]]\nname = \"middle\"", "node `middle` is defined twice"),
     ("[[link]]", "[time]\nend = 1.0\nstep = 0.5\n[[link]]", "a steady state has no `time`"),
     ("deck = \"deck.inp\"", "deck = \"deck.inp\"\nprocedure = \"transient\"", "a transient needs `time`"),
-    ("deck = \"deck.inp\"", "deck = \"deck.inp\"\nprocedure = \"static\"", "unknown variant `static`"),
-    ("deck = \"deck.inp\"\n", "", "missing field `deck`"),
+    ("deck = \"deck.inp\"", "deck = \"deck.inp\"\nprocedure = \"static\"", "`static` is none of `steady`, `transient`"),
+    ("deck = \"deck.inp\"\n", "", "`deck` is missing"),
 ];
 
 fn changed(from: &str, to: &str) -> String {
