@@ -164,7 +164,7 @@ fn an_area_is_above_zero_and_the_message_says_so() {
     for area in ["0.0", "-0.5"] {
         let run = solve(DECK, &changed("area = 0.5", &format!("area = {area}")));
         assert_eq!((run.code, run.output.as_str()), (1, ""));
-        let place = format!("scene.toml:13: error[D014] `area` of the interface of `middle` and `cold` is {area}");
+        let place = format!("scene.toml:17: error[D014] `area` of the interface of `middle` and `cold` is {area}");
         assert!(run.errors.starts_with(&place) && run.errors.contains("above zero"), "{}", run.errors);
     }
 }
@@ -222,7 +222,7 @@ fn an_interaction_has_to_be_named_where_there_are_two() {
 fn every_mistake_of_the_scene_is_told_at_once() {
     let scene = changed("thermal = 1.0", "thermal = -1.0").replace("master = \"cold\"", "master = \"clod\"");
     let run = solve(DECK, &scene.replace("area = 0.5", "area = -0.5"));
-    for message in ["scene.toml:12: error[D014]", "scene.toml:16: error[D013]", "scene.toml:13: error[D014]"] {
+    for message in ["scene.toml:12: error[D014]", "scene.toml:16: error[D013]", "scene.toml:17: error[D014]"] {
         assert!(run.errors.contains(message), "{message}: {}", run.errors);
     }
 }
@@ -258,6 +258,29 @@ fn what_cannot_be_read_and_wrong_usage_end_with_2() {
     let told = |arguments: &[&str]| folder.inpact(arguments).errors;
     assert!(told(&["solve", "nothing.toml"]).contains("cannot read `nothing.toml`"));
     assert!(told(&["solve", "no-deck.toml"]).contains("cannot read `nothing.inp`"));
+}
+
+/// What the scene file refuses, a table refuses; what a person reads has the line, the words and what to do.
+#[test]
+fn errors_in_tables_end_with_1() {
+    let tables = [
+        ("node_file", "node,temperature_fixed,temperature_source\nfar,1,2\nhot,,\n"),
+        (
+            "link_file",
+            "node_1,node_2,thermal,joule_heat_fraction\nhot,midle,1,\nhot,cold,1,5\nhot,hot,1,\nhot,cold,,\n",
+        ),
+        ("interface_file", "slave,master,area,clearance\nhot,cold,1,nan\nhot,cold,,0\nhot,clod,1,0\nhot,hot,1,0\n"),
+        ("interface_file", "slave,master,area,fv4294967295\nhot,cold,1,1\n"),
+    ];
+    let mut shown = String::new();
+    for (kind, table) in tables {
+        let scene = format!("{SCENE}[[{kind}]]\nfile = \"table.csv\"\n");
+        let folder = Folder::with(&[("deck.inp", DECK), ("scene.toml", &scene), ("table.csv", table)]);
+        let run = folder.inpact(&["solve", "scene.toml"]);
+        assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
+        shown += &run.errors;
+    }
+    insta::assert_snapshot!(shown);
 }
 
 #[test]

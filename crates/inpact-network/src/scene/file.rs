@@ -42,7 +42,7 @@ pub(crate) struct SceneFile {
     #[serde(default, rename = "node_file")]
     #[cfg_attr(test, schemars(with = "Vec<FileEntry>"))]
     pub(crate) node_files: Entries<FileEntry>,
-    /// Further links, in tables or Matrix Market files.
+    /// Further links, in tables or Matrix Market files; tables name nodes that the scene defines, unless it defines none.
     #[serde(default, rename = "link_file")]
     #[cfg_attr(test, schemars(with = "Vec<LinkFileEntry>"))]
     pub(crate) link_files: Entries<LinkFileEntry>,
@@ -183,7 +183,7 @@ pub(crate) struct InterfaceEntry {
     pub(crate) pressure: Option<Spanned<Course>>,
     /// Whether it is closed; otherwise it is where the clearance is not above zero or the contact pressure is not zero.
     pub(crate) closed: Option<bool>,
-    /// Field variables from number 1 on, averages of both sides.
+    /// Field variables from number 1 on, averages of both sides; a thousand at most.
     #[serde(default)]
     #[cfg_attr(test, schemars(with = "Vec<f64>"))]
     pub(crate) fv: List<Number>,
@@ -220,7 +220,7 @@ pub(crate) struct FileEntry {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct LinkFileEntry {
-    /// Its name, relative to the scene file; `.mtx` is a Matrix Market file.
+    /// Its name, relative to the scene file; `.mtx` is a Matrix Market file, whose rows are nodes.
     #[cfg_attr(test, schemars(with = "String"))]
     pub(crate) file: Spanned<String>,
     /// Of a Matrix Market file, what its numbers conduct.

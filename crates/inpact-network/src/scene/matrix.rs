@@ -63,7 +63,7 @@ fn read(bytes: &[u8]) -> Result<Entries, Wrong> {
     let (size_line, size) =
         lines.next().ok_or_else(|| wrong(1, "the size of the matrix is missing", "write rows, columns and entries"))?;
     let (rows, count) = parse_size(size).map_err(|(message, help)| wrong(size_line, message, help))?;
-    let (mut entries, mut diagonal): (Vec<([u32; 2], f64)>, Vec<(u32, f64)>) = (Vec::new(), Vec::new());
+    let (mut entries, mut diagonal) = (Vec::new(), Vec::new());
     let (mut first_positive, mut first_negative, mut first_diagonal) = (None, None, None);
     for (line, text) in lines {
         let (ends, value) = parse_entry(text, rows).map_err(|refusal| (line, refusal))?;

@@ -244,7 +244,11 @@ fn interface_of(row: &Row<'_, InterfaceColumn>) -> Result<SceneInterface, Refusa
     interface.interaction = (!name.is_empty()).then(|| Name::new(name));
     for &(place, column) in row.columns {
         let InterfaceColumn::Of(column) = column else { continue };
-        let Some(value) = row.number(place, key_of(column))? else {
+        let number = row.number(place, key_of(column)).map_err(|refusal| match column {
+            Column::Closed => refusal.with_help("write 1 where it is closed and 0 where it is open"),
+            _ => refusal,
+        });
+        let Some(value) = number? else {
             if column == Column::Area {
                 let message = format!("`{}` of row {} is empty", &row.headers[place], row.number);
                 let help = "give the area of the slave node";

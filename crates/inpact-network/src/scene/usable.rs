@@ -22,6 +22,10 @@ impl Refusal {
     pub(super) fn at(self, column: &str) -> Self {
         Self { column: Some(column.to_owned()), ..self }
     }
+
+    pub(super) fn with_help(self, help: &str) -> Self {
+        Self { help: help.to_owned(), ..self }
+    }
 }
 
 /// What a number must do.
