@@ -39,7 +39,7 @@ clearance = 0.0
 pressure = 0.0
 ";
 
-const CASES: [(&str, &str, &str); 18] = [
+const CASES: [(&str, &str, &str); 20] = [
     // What the scene has, what stands there instead, and what the message must say.
     (
         "nodes = [\"hot\", \"middle\"]",
@@ -52,12 +52,18 @@ const CASES: [(&str, &str, &str); 18] = [
         "the scene defines no node `midle` (is `middle` meant?",
     ),
     ("master = \"cold\"", "master = \"clod\"", "is `cold` meant?"),
-    ("thermal = 1.0", "thremal = 1.0", "unknown field `thremal`"),
-    ("fixed = 20.0", "fixt = 20.0", "unknown field `fixt`"),
+    ("thermal = 1.0", "thremal = 1.0", "there is no key `thremal` here (is `thermal` meant?"),
+    (
+        "temperature = { fixed = 20.0 }",
+        "temperature = 20.0",
+        "`20.0` stands where there should be a table such as { fixed = 1.0 }",
+    ),
+    ("[\"hot\", \"middle\"]", "[\"hot\", \"middle\", \"cold\"]", "stands where there should be the names of two nodes"),
+    ("fixed = 20.0", "fixt = 20.0", "there is no key `fixt` here"),
     ("thermal = 1.0", "thermal = -1.0", "`thermal` of the link of `hot` and `middle` is -1.0"),
-    ("thermal = 1.0", "thermal = nan", "`thermal` of the link of `hot` and `middle` is NaN"),
+    ("thermal = 1.0", "thermal = nan", "`thermal` of the link of `hot` and `middle` is nan"),
     ("thermal = 1.0\n", "", "the link of `hot` and `middle` conducts nothing"),
-    ("area = 0.5\n", "", "missing field `area`"),
+    ("area = 0.5\n", "", "`area` is missing"),
     ("\"JOINT\"", "\"JIONT\"", "the deck defines no interaction `JIONT`"),
     ("fixed = 20.0", "fixed = 20.0, source = 1.0", "the temperature of `cold` has `fixed` and `source`"),
     (
@@ -65,12 +71,16 @@ const CASES: [(&str, &str, &str); 18] = [
         "fixed = [[0.0, 20.0], [0.0, 30.0]]",
         "the times of `fixed` of `temperature` of `cold` do not ascend",
     ),
-    ("fixed = 20.0", "fixed = \"warm\"", "expected a number, or points of time and value"),
+    (
+        "fixed = 20.0",
+        "fixed = \"warm\"",
+        "`\"warm\"` stands where there should be a number, or points of time and value",
+    ),
     ("name = \"middle\"", "name = \"middle\"\n[[node]]\nname = \"middle\"", "node `middle` is defined twice"),
     ("[[link]]", "[time]\nend = 1.0\nstep = 0.5\n[[link]]", "a steady state has no `time`"),
     ("deck = \"deck.inp\"", "deck = \"deck.inp\"\nprocedure = \"transient\"", "a transient needs `time`"),
-    ("deck = \"deck.inp\"", "deck = \"deck.inp\"\nprocedure = \"static\"", "unknown variant `static`"),
-    ("deck = \"deck.inp\"\n", "", "missing field `deck`"),
+    ("deck = \"deck.inp\"", "deck = \"deck.inp\"\nprocedure = \"static\"", "`static` is none of `steady`, `transient`"),
+    ("deck = \"deck.inp\"\n", "", "`deck` is missing"),
 ];
 
 fn changed(from: &str, to: &str) -> String {
@@ -154,7 +164,7 @@ fn an_area_is_above_zero_and_the_message_says_so() {
     for area in ["0.0", "-0.5"] {
         let run = solve(DECK, &changed("area = 0.5", &format!("area = {area}")));
         assert_eq!((run.code, run.output.as_str()), (1, ""));
-        let place = format!("scene.toml:13: error[D014] `area` of the interface of `middle` and `cold` is {area}");
+        let place = format!("scene.toml:17: error[D014] `area` of the interface of `middle` and `cold` is {area}");
         assert!(run.errors.starts_with(&place) && run.errors.contains("above zero"), "{}", run.errors);
     }
 }
@@ -212,7 +222,7 @@ fn an_interaction_has_to_be_named_where_there_are_two() {
 fn every_mistake_of_the_scene_is_told_at_once() {
     let scene = changed("thermal = 1.0", "thermal = -1.0").replace("master = \"cold\"", "master = \"clod\"");
     let run = solve(DECK, &scene.replace("area = 0.5", "area = -0.5"));
-    for message in ["scene.toml:12: error[D014]", "scene.toml:16: error[D013]", "scene.toml:13: error[D014]"] {
+    for message in ["scene.toml:12: error[D014]", "scene.toml:16: error[D013]", "scene.toml:17: error[D014]"] {
         assert!(run.errors.contains(message), "{message}: {}", run.errors);
     }
 }
@@ -248,6 +258,29 @@ fn what_cannot_be_read_and_wrong_usage_end_with_2() {
     let told = |arguments: &[&str]| folder.inpact(arguments).errors;
     assert!(told(&["solve", "nothing.toml"]).contains("cannot read `nothing.toml`"));
     assert!(told(&["solve", "no-deck.toml"]).contains("cannot read `nothing.inp`"));
+}
+
+/// What the scene file refuses, a table refuses; what a person reads has the line, the words and what to do.
+#[test]
+fn errors_in_tables_end_with_1() {
+    let tables = [
+        ("node_file", "node,temperature_fixed,temperature_source\nfar,1,2\nhot,,\n"),
+        (
+            "link_file",
+            "node_1,node_2,thermal,joule_heat_fraction\nhot,midle,1,\nhot,cold,1,5\nhot,hot,1,\nhot,cold,,\n",
+        ),
+        ("interface_file", "slave,master,area,clearance\nhot,cold,1,nan\nhot,cold,,0\nhot,clod,1,0\nhot,hot,1,0\n"),
+        ("interface_file", "slave,master,area,fv4294967295\nhot,cold,1,1\n"),
+    ];
+    let mut shown = String::new();
+    for (kind, table) in tables {
+        let scene = format!("{SCENE}[[{kind}]]\nfile = \"table.csv\"\n");
+        let folder = Folder::with(&[("deck.inp", DECK), ("scene.toml", &scene), ("table.csv", table)]);
+        let run = folder.inpact(&["solve", "scene.toml"]);
+        assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
+        shown += &run.errors;
+    }
+    insta::assert_snapshot!(shown);
 }
 
 #[test]

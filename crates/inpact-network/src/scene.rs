@@ -5,9 +5,12 @@
 mod course;
 mod diagnostic;
 mod file;
+mod matrix;
 mod read;
 mod tables;
 mod usable;
+mod values;
+mod words;
 
 pub use course::Course;
 pub use diagnostic::{

@@ -134,14 +134,40 @@ fn a_text_that_is_no_scene() {
         "deck = \"a.inp\"\n[[nodes]]\nname = \"a\"\n",
         "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemprature = { fixed = 1.0 }\n",
         "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = { fixed = \"1.0\" }\n",
+        "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = 1.0\n",
+        "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = [1.0, 0.0, 2.0, 3.0]\n",
+        "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = { fixed = [[0.0, 1.0, 2.0]] }\n",
+        "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = { fixed = 1.0, fixed = 2.0 }\n",
+        "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = { fixed = 1.0, initail = 2.0 }\n",
+        "deck = \"a.inp\"\n[[node]]\nname = \"a\"\ntemperature = { fixed = 1.0, capacity = true }\n",
+        "deck = \"a.inp\"\n[node]\nname = \"a\"\n",
+        "deck = \"a.inp\"\nnode = [\"a\"]\n",
         "deck = \"a.inp\"\n[[node]]\ntemperature = { fixed = 1.0 }\n",
         "deck = \"a.inp\"\n[[node]]\nname = 7\n",
         "deck = \"a.inp\"\n[[link]]\nnodes = [\"a\"]\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = [\"a\", \"b\", \"c\"]\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = [\"a\", \"b\", 7]\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = [\"a\",\n7]\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = []\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = \"a\"\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = [\n\"a\",\n\"b\",\n\"c\"]\n",
         "deck = \"a.inp\"\n[[link]]\nthermal = 1.0\n",
+        "deck = \"a.inp\"\n[[link]]\nnodes = [\"a\", \"b\"]\nthermal = \"1.0\"\n",
         "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nsecondary = \"a\"\nmaster = \"b\"\narea = 1.0\n",
         "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\narea = 1.0\nclosed = 1\n",
         "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\narea = 1.0\nfv = 1.0\n",
+        "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\nmain = \"b\"\narea = 1.0\n",
+        "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\n",
+        "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\narea = 1.0\nfv = [1.0, \"x\"]\n",
+        "deck = \"a.inp\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\naera = 1.0\n",
         "deck = \"a.inp\"\n[initial]\ntemperatur = 1.0\n",
+        "deck = \"a.inp\"\ninitial = [20.0, 1.0]\n",
+        "deck = \"a.inp\"\n[initial]\n[initial]\n",
+        "deck = \"a.inp\"\ntime = 1.0\n",
+        "deck = \"a.inp\"\nnode_file = \"a.csv\"\n",
+        "deck = \"a.inp\"\nnode_file = [[\"a.csv\"]]\n",
+        "deck = \"a.inp\"\n[[link_file]]\nfile = \"a.mtx\"\nconducts = \"termal\"\n",
+        "deck = \"a.inp\"\n\"unknown field `a`, expected `b\" = 1\n",
         "deck = \"a.inp\"\n[[node_file]]\nname = \"a.csv\"\n",
         "deck = \"a.inp\"\n[[link_file]]\nfile = \"a.mtx\"\nconducts = \"heat\"\n",
         "deck = \"a.inp\"\nprocedure = \"dynamic\"\n",
@@ -164,6 +190,9 @@ fn what_does_not_fit_together() {
         ("[\"hot\", \"middle\"]", "[\"hot\", \"hot\"]"),
         ("electrical = 3.0\nthermal = inf\n", ""),
         ("slave = \"middle\"", "slave = \"cold\""),
+        ("slave = \"middle\"", "slave = \"\""),
+        ("[\"hot\", \"middle\"]", "[\"hot\", \"\"]"),
+        ("name = \"hot\"", "name = \"\""),
         ("name = \"cold\"", "name = \"hot\""),
         ("[\"hot\", \"middle\"]", "[\"Hot\", \"middel\"]"),
         ("[\"hot\", \"middle\"]", "[\"hot\", \"elsewhere\"]"),
@@ -191,6 +220,8 @@ fn numbers_that_cannot_be_used() {
         ("joule_heat_fraction = 1.0", "joule_heat_fraction = -0.5"),
         ("area = 0.5", "area = 0.0"),
         ("area = 0.5", "area = inf"),
+        ("area = 0.5", "area = 1e999"),
+        ("area = 0.5", "area = -1_0e0"),
         ("clearance = 0.25", "clearance = nan"),
         ("pressure = -1.0", "pressure = inf"),
         ("fv = [1.0, -2.0]", "fv = [1.0, nan]"),
@@ -203,7 +234,20 @@ fn numbers_that_cannot_be_used() {
         ("perm_s = 10.0", "perm_s = -1.0"),
         ("perm_m = 11.0", "perm_m = inf"),
     ]);
+    let time = "time = { end = 1.0, step = 0.1 }";
+    let text = timed(time).replace("pressure = -1.0", "pressure = [[0.0, 1.0], [0.5, inf]]");
+    let mut shown = shown + "pressure = [[0.0, 1.0], [0.5, inf]]\n";
+    show(&mut shown, &refused(&text));
     insta::assert_snapshot!(shown);
+}
+
+/// A deck has at most a thousand field variables.
+#[test]
+fn as_many_field_variables_as_a_deck_can_have() {
+    let many = |count: usize| changed("fv = [1.0, -2.0]", &format!("fv = {:?}", vec![1.0; count]));
+    assert_eq!(scene(&many(1000)).interfaces[0].field_variables.len(), 1000);
+    let found = refused(&many(1001));
+    assert!(found.len() == 1 && found[0].contains("D011") && found[0].contains("has 1001 numbers"), "{found:?}");
 }
 
 /// D015.

@@ -44,15 +44,64 @@ fn a_table_of_nodes() {
     assert_eq!(scene.node_lines.get(&3), None);
 }
 
-/// A table of links may name nodes that nothing else names: they are new ones.
 #[test]
 fn a_table_of_links() {
     let (scene, findings) =
-        link_file("node_1,node_2,thermal,electrical,joule_heat_fraction\nhot,cold,inf,,\nnew,hot,,2.5,0.5\n");
+        link_file("node_1,node_2,thermal,electrical,joule_heat_fraction\nhot,cold,inf,,\nmiddle,hot,,2.5,0.5\n");
     let scene = scene.unwrap_or_else(|| panic!("{findings:?}"));
-    assert_eq!(scene.nodes, ["hot", "middle", "cold", "new"]);
+    assert_eq!(scene.nodes, ["hot", "middle", "cold"]);
     let link = |nodes, conductances, joule_heat_fraction| SceneLink { nodes, conductances, joule_heat_fraction };
-    assert_eq!(scene.links[2..], [link([0, 2], [0.0, f64::INFINITY, 0.0], 0.25), link([3, 0], [2.5, 0.0, 0.0], 0.5)]);
+    assert_eq!(scene.links[2..], [link([0, 2], [0.0, f64::INFINITY, 0.0], 0.25), link([1, 0], [2.5, 0.0, 0.0], 0.5)]);
+}
+
+/// The names of the nodes at both ends of each link.
+fn ends_of(scene: &Scene) -> Vec<String> {
+    let names = |link: &SceneLink| link.nodes.map(|node| scene.nodes[node as usize].clone()).join("-");
+    scene.links.iter().map(names).collect()
+}
+
+/// Where the scene defines no node, tables of links do; where it defines one, a name that it does not is a slip.
+#[test]
+fn tables_of_links_define_nodes_only_where_nothing_else_does() {
+    let entries = "[[link_file]]\nfile = \"l\"\n[[link_file]]\nfile = \"m.mtx\"\nconducts = \"thermal\"\n";
+    let matrix = format!("{MATRIX}2 2 1\n2 1 3\n");
+    let files: [(&str, &[u8]); 3] =
+        [("l", b"node_1,node_2,thermal\na,1,1\n"), ("m.mtx", matrix.as_bytes()), ("n", b"node\na\n")];
+    let with = |start: &str| {
+        let (scene, findings) = read_with(&format!("deck = \"deck.inp\"\n{start}{entries}"), &files);
+        scene.map_or_else(|| findings.clone(), |scene| ends_of(&scene))
+    };
+    assert_eq!(with(""), ["a-1", "2-1"]);
+    // Rows of a matrix are nodes in any case, and all else may name them, be it written before.
+    assert_eq!(with("[[node]]\nname = \"a\"\n"), ["a-1", "2-1"]);
+    assert_eq!(
+        with("[[node]]\nname = \"a\"\n[[link]]\nnodes = [\"2\", \"a\"]\nthermal = 1.0\n"),
+        ["2-a", "a-1", "2-1"]
+    );
+    assert_eq!(with("[[node_file]]\nfile = \"n\"\n"), ["a-1", "2-1"]);
+    let [unknown] = &with("[[node]]\nname = \"ab\"\n")[..] else { panic!("one finding") };
+    assert!(unknown.starts_with("l:2 row 1 column node_1: Error[D013 unknown-node] the scene defines no node `a`"));
+    // A table of nodes that is refused may define it.
+    let (_, findings) = read_with(
+        &format!("deck = \"deck.inp\"\n[[node_file]]\nfile = \"n\"\n{entries}"),
+        &[("n", b"node,x\na,1\n"), files[0], files[1]],
+    );
+    assert_eq!(findings.iter().filter(|line| line.contains("D013")).count(), 0, "{findings:?}");
+    // And so may a matrix.
+    let (_, findings) = beside(entries, &[("l", "node_1,node_2,thermal\nhot,1,1\n"), ("m.mtx", "")]);
+    assert_eq!(findings.len(), 1, "{findings:?}");
+}
+
+/// A million names that are not known take no comparison with a million names each.
+#[test]
+fn what_was_meant_is_asked_for_a_few() {
+    let names = |letter: char| (0..30_000).map(move |number| format!("{letter}{number}"));
+    let nodes: String = "node\n".to_owned() + &names('n').collect::<Vec<_>>().join("\n");
+    let links: String = names('m').map(|name| format!("{name},hot,1\n")).collect();
+    let entries = "[[node_file]]\nfile = \"n\"\n[[link_file]]\nfile = \"l\"\n";
+    let (_, findings) = beside(entries, &[("n", &nodes), ("l", &format!("node_1,node_2,thermal\n{links}"))]);
+    assert_eq!((findings.len(), findings[0].contains("is `n0` meant?")), (20, true), "{findings:?}");
+    assert!(findings[19].ends_with("29980 more findings of this rule in this table are not shown"), "{findings:?}");
 }
 
 #[test]
@@ -97,6 +146,10 @@ fn tables_that_are_not_right() {
                 "node,temperature_capacity\na,-1\n",
                 "node\nhot\n",
                 "node\na\n\"a\"\n",
+                "node,temprature_fixed,pore_presure_fixed\na,1,1\n",
+                "node,temperature_fixed,temperature_source,temperature_capacity\na,1,2,\nb,1,,3\nc,,2,3\n",
+                "node,potential_fixed\n,1\n",
+                "node,temperature_fixed\na,1e999\n",
             ],
         ),
         (
@@ -107,6 +160,12 @@ fn tables_that_are_not_right() {
                 "node_1,node_2,thermal\na,b,-1\na,b,nan\na,b,1e\n",
                 "node_1,node_2,joule_heat_fraction\na,b,inf\na,b,-1\n",
                 "node_1,node_2,thermal\na,a,1\n",
+                "node_1,node_2,thermal\nhot,middel,1\nelsewhere,hot,1\n",
+                "node_1,node_2,thermal,joule_heat_fraction\nhot,cold,1,5\nhot,cold,1,1\n",
+                "node_1,node_2,thermal,electrical\nhot,cold,,\nhot,cold,0,\n",
+                "node_1,node_2\nhot,cold\n",
+                "node_1,Node_2,thermal\nhot,,1\n,hot,1\n",
+                "node_1,node_2,thremal\nhot,cold,1\n",
                 "node_1,node_2,thermal\na,b\n",
             ],
         ),
@@ -120,7 +179,14 @@ fn tables_that_are_not_right() {
                 "slave,master,area\nhot,clod,1\nhto,cold,1\n",
                 "slave,master,area\nhot,cold,0\nhot,cold,-1\nhot,cold,inf\n",
                 "slave,master,area,fv1,char_length\nhot,cold,1,nan,1\nhot,cold,1,1,-1\n",
-                "slave,master,area,closed\nhot,cold,1,yes\n",
+                "slave,master,area,closed\nhot,cold,1,yes\nhot,cold,1,nan\n",
+                "slave,master,area,clearance,pressure\nhot,cold,1,nan,inf\nhot,cold,1,1,-inf\nhot,cold,1,,\n",
+                "slave,master,area\nhot,hot,1\n",
+                "slave,main,CNAREA\nhot,cold,\n,cold,1\nhot,,1\n",
+                "slave,master,area,fv1000\nhot,cold,1,7\nhot,cloud,1,7\n",
+                "slave,master,area,fv1001\nhot,cold,1,7\n",
+                "slave,master,area,fv4294967295\nhot,cold,1,7\n",
+                "slave,master,are,temprature\nhot,cold,1,7\n",
             ],
         ),
     ];
@@ -142,7 +208,10 @@ fn a_table_that_is_not_utf_8() {
     let files: [(&str, &[u8]); 1] = [("nodes.csv", b"node\na\nk\xFCrzer\nb\n")];
     let (scene, findings) = read_with(&format!("{SCENE}[[node_file]]\nfile = \"nodes.csv\"\n"), &files);
     assert!(scene.is_none());
-    assert_eq!(findings, ["nodes.csv:3: Error[D002 malformed-cell] the row is not UTF-8"]);
+    assert_eq!(
+        findings,
+        ["nodes.csv:3: Error[D002 malformed-cell] the row is not UTF-8\n    help: save the table as UTF-8"]
+    );
 }
 
 /// A node may be in the table that was refused: that it is not known is not said as well.
@@ -197,6 +266,19 @@ fn matrices_of_conductances_and_assembled_ones() {
     assert_eq!(links_of(&format!("{MATRIX}2 2 2\n1 1 0\n2 1 4\n")), [("n2-n1".to_owned(), 4.0)]);
 }
 
+/// No room is made for rows that have no entries, be they as many as there can be.
+#[test]
+fn a_matrix_takes_as_much_room_as_its_entries() {
+    let most = u32::MAX;
+    assert_eq!(links_of(&format!("{MATRIX}{most} {most} 0\n")), []);
+    let last = format!("n{most}-n1");
+    assert_eq!(links_of(&format!("{MATRIX}{most} {most} 1\n{most} 1 2\n")), [(last.clone(), 2.0)]);
+    let assembled = format!("{MATRIX}{most} {most} 3\n1 1 2\n{most} 1 -2\n{most} {most} 2\n");
+    assert_eq!(links_of(&assembled), [(last, 2.0)]);
+    let (_, findings) = matrix(&assembled.replace("-2", "-1"));
+    assert!(findings.len() == 1 && findings[0].contains("row 1 adds up to 1.0"), "{findings:?}");
+}
+
 #[test]
 fn matrices_that_are_not_right() {
     let mut shown = String::new();
@@ -211,10 +293,16 @@ fn matrices_that_are_not_right() {
         MATRIX.to_owned(),
         format!("{MATRIX}2 2\n"),
         format!("{MATRIX}2 2 -1\n"),
+        format!("{MATRIX}2 x 2 1\n2 1 1.0\n"),
+        format!("{MATRIX}5000000000 5000000000 0\n"),
         format!("{MATRIX}2 3 1\n2 1 1.0\n"),
         format!("{MATRIX}2 2 1\n3 1 1.0\n"),
         format!("{MATRIX}2 2 1\n2 0 1.0\n"),
+        format!("{MATRIX}2 2 1\n2 -1 1.0\n"),
+        format!("{MATRIX}2 2 1\n2 1.5 1.0\n"),
+        format!("{MATRIX}2 2 1\n2 1 one\n"),
         format!("{MATRIX}2 2 1\n2 1 inf\n"),
+        format!("{MATRIX}2 2 1\n2 1 1e999\n"),
         format!("{MATRIX}2 2 1\n2 1\n"),
         format!("{MATRIX}2 2 1\n2 1 1.0 0.0\n"),
         format!("{MATRIX}2 2 2\n2 1 1.0\n"),
@@ -223,6 +311,7 @@ fn matrices_that_are_not_right() {
         format!("{MATRIX}2 2 2\n1 1 1.0\n2 1 1.0\n"),
         format!("{MATRIX}2 2 3\n1 1 1.0\n2 1 -1.0\n2 2 2.0\n"),
         format!("{MATRIX}2 2 1\n2 1 -1.0\n"),
+        format!("{MATRIX}2 2 3\n1 1 1e308\n1 1 1e308\n2 1 -1.0\n"),
     ];
     for text in &cases {
         let (scene, findings) = matrix(text);

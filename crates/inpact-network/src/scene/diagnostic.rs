@@ -21,14 +21,14 @@ macro_rules! scene_rules {
 }
 
 scene_rules! {
-    MALFORMED_SCENE = "D011" "malformed-scene" "the scene file is no TOML, or has a key or a value that a scene has not"
-        "The finding has the line, and for a misspelt key the nearest that exists. `schema/scene.schema.json` describes every key to an editor, docs/scenes.md to a person.";
+    MALFORMED_SCENE = "D011" "malformed-scene" "a scene is no TOML, has a key or a value that a scene has not, or entries that do not fit together"
+        "Tables beside the scene file are held to the same: a node has a name and is not held and fed at once, a link or an interface joins two nodes, a link conducts something, an interface has an area. The finding has the line, and for a misspelt key the nearest that exists. `schema/scene.schema.json` describes every key to an editor, docs/scenes.md to a person.";
     DUPLICATE_NODE = "D012" "duplicate-node" "two nodes of a scene have one name"
         "A node is told by its name, in the scene file and in all tables beside it. Rename one of the two, or give all that is known of the node in one entry.";
     UNKNOWN_NODE = "D013" "unknown-node" "a link or an interface names a node that the scene does not define"
-        "Define it with `[[node]]`, with a row of a table of nodes, or mend the name; names are compared letter by letter.";
+        "Define it with `[[node]]`, with a row of a table of nodes, or mend the name; names are compared letter by letter. A table of links defines nodes only where the scene has neither `[[node]]` nor a table of nodes; the rows of a Matrix Market file are nodes in any case.";
     UNUSABLE_NUMBER = "D014" "unusable-number" "a number of a scene is below zero, NaN or infinite where it must not be"
-        "Conductances, capacities and lengths are zero or more, areas above zero; only a conductance may be `inf`, which makes its two nodes one.";
+        "Conductances, capacities and lengths are zero or more, areas above zero, shares from 0 to 1; only a conductance may be `inf`, which makes its two nodes one.";
     MALFORMED_TIME = "D015" "malformed-time" "the time of a scene, or of a course, does not go forward"
         "A transient has a start before its end and one of `step` and `tolerance`; the points of a course rise in time.";
     FLOATING_BODY = "D016" "floating-body" "nothing holds the level of a body: it has no path to a fixed value"

@@ -2,6 +2,7 @@
 //!
 //! The form is a contract; its JSON Schema is committed (`schema/scene.schema.json`).
 
+use super::values::{Entries, Entry, Keyed, List, Number, Pair};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -18,34 +19,37 @@ pub(crate) struct SceneFile {
     pub(crate) procedure: ProcedureName,
     /// The time of a transient.
     #[cfg_attr(test, schemars(with = "Option<TimeEntry>"))]
-    pub(crate) time: Option<Spanned<TimeEntry>>,
+    pub(crate) time: Option<Spanned<Keyed<TimeEntry>>>,
     /// Values at the start of a transient of nodes with a capacity, and where a nonlinear solution begins.
     #[serde(default)]
-    pub(crate) initial: InitialEntry,
+    #[cfg_attr(test, schemars(with = "InitialEntry"))]
+    pub(crate) initial: Keyed<InitialEntry>,
     /// The share of the energy dissipated in links that becomes heat in their nodes, where a link gives none; 0 unless given.
-    #[serde(default)]
-    pub(crate) joule_heat_fraction: f64,
+    pub(crate) joule_heat_fraction: Option<Number>,
     /// The nodes.
     #[serde(default, rename = "node")]
     #[cfg_attr(test, schemars(with = "Vec<NodeEntry>"))]
-    pub(crate) nodes: Vec<Spanned<NodeEntry>>,
+    pub(crate) nodes: Entries<NodeEntry>,
     /// Lumped bulk conductances.
     #[serde(default, rename = "link")]
     #[cfg_attr(test, schemars(with = "Vec<LinkEntry>"))]
-    pub(crate) links: Vec<Spanned<LinkEntry>>,
+    pub(crate) links: Entries<LinkEntry>,
     /// The interfaces.
     #[serde(default, rename = "interface")]
     #[cfg_attr(test, schemars(with = "Vec<InterfaceEntry>"))]
-    pub(crate) interfaces: Vec<Spanned<InterfaceEntry>>,
+    pub(crate) interfaces: Entries<InterfaceEntry>,
     /// Further nodes, in tables of comma-separated values.
     #[serde(default, rename = "node_file")]
-    pub(crate) node_files: Vec<FileEntry>,
-    /// Further links, in tables or Matrix Market files.
+    #[cfg_attr(test, schemars(with = "Vec<FileEntry>"))]
+    pub(crate) node_files: Entries<FileEntry>,
+    /// Further links, in tables or Matrix Market files; tables name nodes that the scene defines, unless it defines none.
     #[serde(default, rename = "link_file")]
-    pub(crate) link_files: Vec<LinkFileEntry>,
+    #[cfg_attr(test, schemars(with = "Vec<LinkFileEntry>"))]
+    pub(crate) link_files: Entries<LinkFileEntry>,
     /// Further interfaces, in tables of comma-separated values.
     #[serde(default, rename = "interface_file")]
-    pub(crate) interface_files: Vec<FileEntry>,
+    #[cfg_attr(test, schemars(with = "Vec<FileEntry>"))]
+    pub(crate) interface_files: Entries<FileEntry>,
 }
 
 /// Steady state or transient.
@@ -61,32 +65,31 @@ pub(crate) enum ProcedureName {
 }
 
 /// The time of a transient: one of `step` and `tolerance`.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct TimeEntry {
-    /// When it starts.
-    #[serde(default)]
-    pub(crate) start: f64,
+    /// When it starts; 0 unless given.
+    pub(crate) start: Option<Number>,
     /// When it ends.
-    pub(crate) end: f64,
+    pub(crate) end: Number,
     /// The length of every increment; the last may be shorter.
-    pub(crate) step: Option<f64>,
+    pub(crate) step: Option<Number>,
     /// Increments are as long as their estimated local error stays within this share of the range of the values.
-    pub(crate) tolerance: Option<f64>,
+    pub(crate) tolerance: Option<Number>,
     /// The length of the first increment with `tolerance`, instead of a thousandth of the whole.
-    pub(crate) first_step: Option<f64>,
+    pub(crate) first_step: Option<Number>,
 }
 
 /// Values to begin with.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct InitialEntry {
     /// Of all temperatures that are not given by node; also the temperature of interfaces where no temperature is solved for.
-    pub(crate) temperature: Option<f64>,
+    pub(crate) temperature: Option<Number>,
     /// Of all pore pressures that are not given by node.
-    pub(crate) pore_pressure: Option<f64>,
+    pub(crate) pore_pressure: Option<Number>,
 }
 
 /// A node.
@@ -99,13 +102,13 @@ pub(crate) struct NodeEntry {
     pub(crate) name: Spanned<String>,
     /// What is known of its electric potential.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
-    pub(crate) potential: Option<Spanned<Condition>>,
+    pub(crate) potential: Option<Spanned<Keyed<Condition>>>,
     /// What is known of its temperature.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
-    pub(crate) temperature: Option<Spanned<Condition>>,
+    pub(crate) temperature: Option<Spanned<Keyed<Condition>>>,
     /// What is known of its pore pressure.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
-    pub(crate) pore_pressure: Option<Spanned<Condition>>,
+    pub(crate) pore_pressure: Option<Spanned<Keyed<Condition>>>,
 }
 
 /// What is known of one field at a node.
@@ -114,13 +117,15 @@ pub(crate) struct NodeEntry {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct Condition {
     /// The value it is held at.
-    pub(crate) fixed: Option<Course>,
+    #[cfg_attr(test, schemars(with = "Option<Course>"))]
+    pub(crate) fixed: Option<Spanned<Course>>,
     /// What flows in from outside: current, heat, volume of fluid per time.
-    pub(crate) source: Option<Course>,
+    #[cfg_attr(test, schemars(with = "Option<Course>"))]
+    pub(crate) source: Option<Spanned<Course>>,
     /// What it takes up per change of the value: heat capacity, storage of pore fluid.
-    pub(crate) capacity: Option<f64>,
+    pub(crate) capacity: Option<Number>,
     /// Its value at the start of a transient.
-    pub(crate) initial: Option<f64>,
+    pub(crate) initial: Option<Number>,
 }
 
 /// A number, or one that follows time: linear between points of time and value, constant before and after them.
@@ -141,18 +146,15 @@ pub(crate) enum Course {
 pub(crate) struct LinkEntry {
     /// The two nodes; flows are positive from the first to the second.
     #[cfg_attr(test, schemars(with = "[String; 2]"))]
-    pub(crate) nodes: Spanned<[String; 2]>,
+    pub(crate) nodes: Spanned<Pair>,
     /// Current per potential.
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
-    pub(crate) electrical: Option<Spanned<f64>>,
+    pub(crate) electrical: Option<Number>,
     /// Heat per time and temperature.
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
-    pub(crate) thermal: Option<Spanned<f64>>,
+    pub(crate) thermal: Option<Number>,
     /// Volume of fluid per time and pressure.
-    #[cfg_attr(test, schemars(with = "Option<f64>"))]
-    pub(crate) hydraulic: Option<Spanned<f64>>,
+    pub(crate) hydraulic: Option<Number>,
     /// The share of the energy its current dissipates that becomes heat, half of it in either node.
-    pub(crate) joule_heat_fraction: Option<f64>,
+    pub(crate) joule_heat_fraction: Option<Number>,
 }
 
 /// A slave node, the point of the master surface opposite to it, and what governs both.
@@ -172,32 +174,35 @@ pub(crate) struct InterfaceEntry {
     #[cfg_attr(test, schemars(with = "String"))]
     pub(crate) master: Spanned<String>,
     /// The area of the slave node.
-    pub(crate) area: f64,
+    pub(crate) area: Number,
     /// Clearance, open > 0.
-    pub(crate) clearance: Option<Course>,
+    #[cfg_attr(test, schemars(with = "Option<Course>"))]
+    pub(crate) clearance: Option<Spanned<Course>>,
     /// Contact pressure.
-    pub(crate) pressure: Option<Course>,
+    #[cfg_attr(test, schemars(with = "Option<Course>"))]
+    pub(crate) pressure: Option<Spanned<Course>>,
     /// Whether it is closed; otherwise it is where the clearance is not above zero or the contact pressure is not zero.
     pub(crate) closed: Option<bool>,
-    /// Field variables from number 1 on, averages of both sides.
+    /// Field variables from number 1 on, averages of both sides; a thousand at most.
     #[serde(default)]
-    pub(crate) fv: Vec<f64>,
+    #[cfg_attr(test, schemars(with = "Vec<f64>"))]
+    pub(crate) fv: List<Number>,
     /// The mean temperature, where no temperature is solved for.
-    pub(crate) temperature: Option<f64>,
+    pub(crate) temperature: Option<Number>,
     /// The mean of the magnitudes of the mass flow rates of both sides.
-    pub(crate) mass_flow: Option<f64>,
+    pub(crate) mass_flow: Option<Number>,
     /// Frictional shear stress.
-    pub(crate) shear: Option<f64>,
+    pub(crate) shear: Option<Number>,
     /// Rate of relative slip.
-    pub(crate) slip_rate: Option<f64>,
+    pub(crate) slip_rate: Option<Number>,
     /// Rate of the clearance; otherwise from its course.
-    pub(crate) clearance_rate: Option<f64>,
+    pub(crate) clearance_rate: Option<Number>,
     /// The characteristic element length, default of both cutoffs of pore fluid flow.
-    pub(crate) char_length: Option<f64>,
+    pub(crate) char_length: Option<Number>,
     /// The bulk permeability behind the slave surface, for the shares of gap filling.
-    pub(crate) perm_s: Option<f64>,
+    pub(crate) perm_s: Option<Number>,
     /// The bulk permeability behind the master surface.
-    pub(crate) perm_m: Option<f64>,
+    pub(crate) perm_m: Option<Number>,
 }
 
 /// A table beside the scene file.
@@ -215,7 +220,7 @@ pub(crate) struct FileEntry {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct LinkFileEntry {
-    /// Its name, relative to the scene file; `.mtx` is a Matrix Market file.
+    /// Its name, relative to the scene file; `.mtx` is a Matrix Market file, whose rows are nodes.
     #[cfg_attr(test, schemars(with = "String"))]
     pub(crate) file: Spanned<String>,
     /// Of a Matrix Market file, what its numbers conduct.
@@ -236,6 +241,27 @@ pub(crate) enum Conducts {
     Thermal,
     /// Pore fluid.
     Hydraulic,
+}
+
+/// Says how entries are told of.
+macro_rules! entries {
+    ($($entry:ty: $one:literal, $many:literal;)+) => {
+        $(impl Entry for $entry {
+            const ONE: &'static str = $one;
+            const MANY: &'static str = $many;
+        })+
+    };
+}
+
+entries! {
+    TimeEntry: "a table such as { end = 1.0, step = 0.1 }", "tables such as { end = 1.0, step = 0.1 }";
+    InitialEntry: "a table such as { temperature = 20.0 }", "tables such as { temperature = 20.0 }";
+    Condition: "a table such as { fixed = 1.0 }", "tables such as { fixed = 1.0 }";
+    NodeEntry: "an entry under [[node]]", "entries under [[node]]";
+    LinkEntry: "an entry under [[link]]", "entries under [[link]]";
+    InterfaceEntry: "an entry under [[interface]]", "entries under [[interface]]";
+    FileEntry: "an entry with `file`", "entries with `file`, each under a heading in double brackets";
+    LinkFileEntry: "an entry under [[link_file]]", "entries under [[link_file]]";
 }
 
 #[cfg(test)]

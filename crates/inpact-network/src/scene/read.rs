@@ -3,15 +3,17 @@
 //! Every problem found is reported, with its line; a scene with errors is not given.
 
 use super::course::Course;
-use super::diagnostic::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE, UNUSABLE_NUMBER};
-use super::file::{self, Condition, InterfaceEntry, LinkEntry, NodeEntry, ProcedureName, SceneFile, TimeEntry};
-use super::tables;
-use super::usable::{Unusable, unusable_numbers};
-use super::{Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, Steps, TimeSpan};
+use super::diagnostic::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE};
+use super::file::{
+    self, Condition, InterfaceEntry, LinkEntry, LinkFileEntry, NodeEntry, ProcedureName, SceneFile, TimeEntry,
+};
+use super::usable::{self, Given, Refusal};
+use super::values::{Keyed, Number, Pair};
+use super::words::{meant_or, told};
+use super::{Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, Steps, TimeSpan, matrix, tables};
 use crate::linear::index;
 use inpact_evaluation::nodes::{DataDiagnostic, DataRule, Findings, Place};
-use inpact_parser::grammar::nearest_names;
-use inpact_parser::model::Name;
+use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
 use std::collections::{BTreeMap, HashMap};
 use toml::Spanned;
 
@@ -30,9 +32,8 @@ pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene
         Ok(file) => reader.take(file, files),
         Err(error) => {
             let line = error.span().map(|span| reader.line(span.start));
-            // Some messages of the parser have several lines.
-            let message = error.message().lines().collect::<Vec<_>>().join("; ");
-            reader.findings.report(&MALFORMED_SCENE, Place { line, ..Place::default() }, message, "");
+            let (message, help) = told(&error, text);
+            reader.findings.report(&MALFORMED_SCENE, Place { line, ..Place::default() }, message, help);
         }
     }
     let Reader { scene, findings, mut found, .. } = reader;
@@ -42,6 +43,9 @@ pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene
     (if has_errors { None } else { scene }, all)
 }
 
+/// How many names are compared with unknown ones at most, so that a table of a million of them takes no longer than one that is right.
+const MOST_COMPARISONS: usize = 1_000_000;
+
 /// A scene in the making.
 pub(super) struct Reader<'a> {
     text: &'a str,
@@ -49,9 +53,15 @@ pub(super) struct Reader<'a> {
     line_starts: Vec<usize>,
     scene: Option<Scene>,
     numbers: HashMap<String, u32>,
+    /// The scene file and the tables of nodes, by their names.
+    sources: Vec<String>,
+    /// Which of the sources defines each node, and in which line; of the nodes that no source but a link names, nothing.
+    origins: Vec<(usize, u64)>,
     is_steady: bool,
-    /// Whether a table of nodes was refused, so that nodes are not known that it may define.
+    /// Whether a node or a file was refused that may define more, so that what is not known may be there.
     lacks_nodes: bool,
+    /// How many names are still compared with unknown ones, to find what was meant.
+    comparisons: usize,
     pub(super) findings: Findings,
     /// What was found in tables.
     found: Vec<DataDiagnostic>,
@@ -65,8 +75,11 @@ impl<'a> Reader<'a> {
             line_starts: std::iter::once(0).chain(starts).collect(),
             scene: None,
             numbers: HashMap::new(),
+            sources: vec![name.to_owned()],
+            origins: Vec::new(),
             is_steady: true,
             lacks_nodes: false,
+            comparisons: MOST_COMPARISONS,
             findings: Findings::new(name),
             found: Vec::new(),
         }
@@ -85,89 +98,154 @@ impl<'a> Reader<'a> {
         self.findings.report(rule, Place { line: Some(line), ..Place::default() }, message, help);
     }
 
+    fn refuse(&mut self, line: u64, refusal: Refusal) {
+        let Refusal { rule, column, message, help } = refusal;
+        self.findings.report(rule, Place { line: Some(line), row: None, column }, message, help);
+    }
+
+    /// A number as it is written.
+    fn written(&self, number: &Number) -> &'a str {
+        self.text.get(number.span()).unwrap_or_default()
+    }
+
+    /// The value of a key; reports one that cannot be used.
+    fn value(&mut self, key: &str, number: Option<&Number>, what: impl FnOnce() -> String) -> Option<f64> {
+        let number = number?;
+        let line = self.line(number.span().start);
+        if let Err(refusal) = usable::number(key, number.value(), self.written(number), what) {
+            self.refuse(line, refusal);
+        }
+        Some(number.value())
+    }
+
     fn take(&mut self, file: SceneFile, files: &mut dyn SceneFiles) {
         let procedure = self.procedure(&file);
         self.is_steady = file.procedure == ProcedureName::Steady;
-        self.check_fraction(file.joule_heat_fraction, 1, "`joule_heat_fraction`");
-        for (value, what) in [
-            (file.initial.temperature.unwrap_or(0.0), "`initial.temperature`"),
-            (file.initial.pore_pressure.unwrap_or(0.0), "`initial.pore_pressure`"),
-        ] {
-            self.check_finite(value, 1, what);
-        }
+        let key = "joule_heat_fraction";
+        let fraction = self.value(key, file.joule_heat_fraction.as_ref(), || format!("`{key}`")).unwrap_or(0.0);
+        let Keyed(entry) = file.initial;
+        let mut initial = |key: &str, number: Option<&Number>| self.value(key, number, || format!("`initial.{key}`"));
         let mut scene = Scene {
             deck: file.deck.into_inner(),
             procedure,
-            initial_temperature: file.initial.temperature,
-            initial_pore_pressure: file.initial.pore_pressure,
+            initial_temperature: initial("temperature", entry.temperature.as_ref()),
+            initial_pore_pressure: initial("pore_pressure", entry.pore_pressure.as_ref()),
             nodes: Vec::new(),
             node_lines: BTreeMap::new(),
             conditions: std::array::from_fn(|_| Conditions::default()),
             links: Vec::new(),
             interfaces: Vec::new(),
         };
-        for node in file.nodes {
-            self.take_node(node.into_inner(), &mut scene);
+        for node in file.nodes.0 {
+            self.take_node(node.into_inner().0, &mut scene);
         }
-        for entry in &file.node_files {
-            let is_whole = self.take_file(&entry.file, files, |reader, text, findings| {
-                tables::nodes(text, findings, &mut |row| {
-                    let number = reader
-                        .define(&row.name, &mut scene)
-                        .map_err(|_| (&DUPLICATE_NODE, format!("node `{}` is defined twice", row.name)))?;
-                    for (field, condition) in Field::ALL.into_iter().zip(row.conditions) {
-                        put_condition(&mut scene, field, number, condition);
-                    }
-                    Ok(())
-                });
-            });
-            self.lacks_nodes |= !is_whole;
+        for entry in file.node_files.0 {
+            self.take_node_file(&entry.into_inner().0.file, files, &mut scene);
         }
-        for link in file.links {
+        // Where the scene names nodes, another name in a table of links is a slip; rows of a matrix have no names but their numbers.
+        let links_define_nodes = scene.nodes.is_empty() && !self.lacks_nodes;
+        let link_files: Vec<LinkFileEntry> = file.link_files.0.into_iter().map(|entry| entry.into_inner().0).collect();
+        // First, so that all links and interfaces can name their nodes.
+        let mut matrices: Vec<Option<Vec<SceneLink>>> =
+            link_files.iter().map(|entry| self.take_matrix(entry, fraction, files, &mut scene)).collect();
+        for link in file.links.0 {
             let line = self.line_of(&link);
-            self.take_link(link.into_inner(), line, file.joule_heat_fraction, &mut scene);
+            self.take_link(link.into_inner().0, line, fraction, &mut scene);
         }
-        for entry in &file.link_files {
-            let is_matrix = entry.file.as_ref().to_ascii_lowercase().ends_with(".mtx");
-            self.take_file(&entry.file, files, |reader, text, findings| {
-                let default = file.joule_heat_fraction;
-                if is_matrix {
-                    let conducts = entry.conducts.map(field_of);
-                    tables::matrix(text, conducts, findings, &mut |ends: [u32; 2], conductances| {
-                        let nodes = ends.map(|end| reader.number_or_new(&format!("{}{end}", entry.prefix), &mut scene));
-                        scene.links.push(SceneLink { nodes, conductances, joule_heat_fraction: default });
-                    });
-                } else {
-                    tables::links(text, findings, &mut |row| {
-                        let nodes = row.nodes.map(|name| reader.number_or_new(&name, &mut scene));
-                        let joule_heat_fraction = row.joule_heat_fraction.unwrap_or(default);
-                        scene.links.push(SceneLink { nodes, conductances: row.conductances, joule_heat_fraction });
-                    });
-                }
-            });
+        for (entry, links) in link_files.iter().zip(&mut matrices) {
+            match links {
+                Some(links) => scene.links.append(links),
+                None => self.take_link_file(&entry.file, links_define_nodes, fraction, files, &mut scene),
+            }
         }
-        for interface in file.interfaces {
+        for interface in file.interfaces.0 {
             let line = self.line_of(&interface);
-            self.take_interface(interface.into_inner(), line, &mut scene);
+            self.take_interface(interface.into_inner().0, line, &mut scene);
         }
-        for entry in &file.interface_files {
-            let name = entry.file.as_ref().clone();
-            self.take_file(&entry.file, files, |reader, text, findings| {
-                tables::interfaces(text, findings, &mut |row, line| {
-                    let [slave, master] = [&row.slave, &row.master].map(|name| reader.numbers.get(name).copied());
-                    if reader.lacks_nodes && (slave.is_none() || master.is_none()) {
-                        return Ok(());
-                    }
-                    let unknown = |name: &str| (&UNKNOWN_NODE, format!("the scene defines no node `{name}`"));
-                    let slave = slave.ok_or_else(|| unknown(&row.slave))?;
-                    let master = master.ok_or_else(|| unknown(&row.master))?;
-                    let place = (line, Some(name.clone()));
-                    scene.interfaces.push(SceneInterface { slave, master, place, ..row.interface });
-                    Ok(())
-                });
-            });
+        for entry in file.interface_files.0 {
+            self.take_interface_file(&entry.into_inner().0.file, files, &mut scene);
         }
         self.scene = Some(scene);
+    }
+
+    fn take_node_file(&mut self, name: &Spanned<String>, files: &mut dyn SceneFiles, scene: &mut Scene) {
+        let source = self.sources.len();
+        self.sources.push(name.as_ref().clone());
+        let is_whole = self.take_file(name, files, |reader, text, findings| {
+            tables::nodes(text, findings, &mut |row| {
+                let number = reader.define_at(&row.name, (source, row.line), scene)?;
+                for (field, condition) in Field::ALL.into_iter().zip(row.conditions) {
+                    put_condition(scene, field, number, condition);
+                }
+                Ok(())
+            });
+        });
+        self.lacks_nodes |= !is_whole;
+    }
+
+    /// The links of a matrix, whose rows are nodes; `None` for a table.
+    fn take_matrix(
+        &mut self,
+        entry: &LinkFileEntry,
+        joule_heat_fraction: f64,
+        files: &mut dyn SceneFiles,
+        scene: &mut Scene,
+    ) -> Option<Vec<SceneLink>> {
+        if !entry.file.as_ref().to_ascii_lowercase().ends_with(".mtx") {
+            return None;
+        }
+        let mut links = Vec::new();
+        let is_whole = self.take_file(&entry.file, files, |reader, text, findings| {
+            matrix::matrix(text, entry.conducts.map(field_of), findings, &mut |ends: [u32; 2], conductances| {
+                let nodes = ends.map(|end| reader.number_or_new(&format!("{}{end}", entry.prefix), scene));
+                links.push(SceneLink { nodes, conductances, joule_heat_fraction });
+            });
+        });
+        self.lacks_nodes |= !is_whole;
+        Some(links)
+    }
+
+    fn take_link_file(
+        &mut self,
+        name: &Spanned<String>,
+        defines_nodes: bool,
+        default: f64,
+        files: &mut dyn SceneFiles,
+        scene: &mut Scene,
+    ) {
+        let is_whole = self.take_file(name, files, |reader, text, findings| {
+            tables::links(text, findings, &mut |row| {
+                let mut numbers = [None; 2];
+                for (end, name) in row.nodes.iter().enumerate() {
+                    numbers[end] = if defines_nodes {
+                        Some(reader.number_or_new(name, scene))
+                    } else {
+                        reader.known(name, scene).map_err(|refusal| (end, refusal))?
+                    };
+                }
+                if let [Some(first), Some(second)] = numbers {
+                    let joule_heat_fraction = row.joule_heat_fraction.unwrap_or(default);
+                    let (nodes, conductances) = ([first, second], row.conductances);
+                    scene.links.push(SceneLink { nodes, conductances, joule_heat_fraction });
+                }
+                Ok(())
+            });
+        });
+        self.lacks_nodes |= defines_nodes && !is_whole;
+    }
+
+    fn take_interface_file(&mut self, name: &Spanned<String>, files: &mut dyn SceneFiles, scene: &mut Scene) {
+        self.take_file(name, files, |reader, text, findings| {
+            tables::interfaces(text, findings, &mut |row| {
+                let slave = reader.known(&row.slave, scene).map_err(|refusal| (0, refusal))?;
+                let master = reader.known(&row.master, scene).map_err(|refusal| (1, refusal))?;
+                if let (Some(slave), Some(master)) = (slave, master) {
+                    let place = (row.interface.place.0, Some(name.as_ref().clone()));
+                    scene.interfaces.push(SceneInterface { slave, master, place, ..row.interface });
+                }
+                Ok(())
+            });
+        });
     }
 
     /// Reads a table beside the scene file; whether nothing is wrong with it.
@@ -200,37 +278,72 @@ impl<'a> Reader<'a> {
                 Procedure::Steady
             }
             (ProcedureName::Transient, Some(time)) => {
-                let line = self.line_of(time);
-                match time_span(*time.as_ref()) {
-                    Ok(span) => Procedure::Transient(span),
-                    Err((message, help)) => {
+                let Keyed(entry) = time.as_ref();
+                self.time_span(entry).map_or_else(
+                    |(number, message, help)| {
+                        let line = number.map_or_else(|| self.line_of(time), |number| self.line(number.span().start));
                         self.report(&MALFORMED_TIME, line, message, help);
                         Procedure::Steady
-                    }
-                }
+                    },
+                    Procedure::Transient,
+                )
             }
         }
+    }
+
+    /// The time of a transient; or the number that is wrong, what is wrong, and what to do.
+    fn time_span<'n>(&self, entry: &'n TimeEntry) -> Result<TimeSpan, (Option<&'n Number>, String, &'static str)> {
+        let TimeEntry { start, end, step, tolerance, first_step } = entry;
+        for (name, number) in [("start", start.as_ref()), ("end", Some(end))] {
+            if let Some(number) = number.filter(|number| !number.value().is_finite()) {
+                return Err((Some(number), format!("`{name}` is {}", self.written(number)), "give a finite time"));
+            }
+        }
+        let (from, to) = (start.as_ref().map_or(0.0, Number::value), end.value());
+        if to <= from {
+            let from = start.as_ref().map_or("0.0", |start| self.written(start));
+            let message = format!("the time goes from {from} to {}", self.written(end));
+            return Err((Some(end), message, "let `end` be later than `start`"));
+        }
+        let positive = |number: &'n Option<Number>, name: &str| match number {
+            Some(number) if !(number.value() > 0.0 && number.value().is_finite()) => {
+                Err((Some(number), format!("`{name}` is {}", self.written(number)), "give a finite number above zero"))
+            }
+            number => Ok(number.as_ref().map(Number::value)),
+        };
+        let given = (positive(step, "step")?, positive(tolerance, "tolerance")?, positive(first_step, "first_step")?);
+        let steps = match given {
+            (Some(step), None, None) => Steps::Given(step),
+            (Some(_), None, Some(_)) => {
+                let message = "`first_step` stands beside `step`".to_owned();
+                return Err((first_step.as_ref(), message, "leave one of the two out"));
+            }
+            (None, Some(tolerance), first) => Steps::ByError { tolerance, first: first.unwrap_or(1e-3 * (to - from)) },
+            _ => {
+                let help = "give `step` for increments of one length, or `tolerance` for increments by their error";
+                return Err((None, "`time` needs one of `step` and `tolerance`".to_owned(), help));
+            }
+        };
+        Ok(TimeSpan { start: from, end: to, steps })
     }
 
     fn take_node(&mut self, entry: NodeEntry, scene: &mut Scene) {
         let line = self.line_of(&entry.name);
         let name = entry.name.into_inner();
-        let number = match self.define(&name, scene) {
+        if let Err(refusal) = usable::node_name(&name, || "`name`".to_owned()) {
+            self.lacks_nodes = true;
+            return self.refuse(line, refusal);
+        }
+        let number = match self.define_at(&name, (0, line), scene) {
             Ok(number) => number,
-            Err(number) => {
-                let before =
-                    scene.node_lines.get(&number).map_or(String::new(), |line| format!(", first in line {line}"));
-                let help = "give every node a name of its own";
-                self.report(&DUPLICATE_NODE, line, format!("node `{name}` is defined twice{before}"), help);
-                return;
-            }
+            Err(refusal) => return self.refuse(line, refusal),
         };
         scene.node_lines.insert(number, line);
         let conditions = [entry.potential, entry.temperature, entry.pore_pressure];
         for (field, condition) in Field::ALL.into_iter().zip(conditions) {
             let Some(condition) = condition else { continue };
             let line = self.line_of(&condition);
-            if let Some(condition) = self.checked(field, condition.into_inner(), line, &name) {
+            if let Some(condition) = self.checked(field, condition.into_inner().0, line, &name) {
                 put_condition(scene, field, number, condition);
             }
         }
@@ -238,150 +351,134 @@ impl<'a> Reader<'a> {
 
     /// A condition whose numbers can be used.
     fn checked(&mut self, field: Field, condition: Condition, line: u64, node: &str) -> Option<CheckedCondition> {
-        let key = field.key();
         // What is named carries the field, be there nothing to say of it.
         let is_named_only = condition == Condition::default();
         let Condition { fixed, source, capacity, initial } = condition;
-        let source = if is_named_only { Some(file::Course::Constant(0.0)) } else { source };
-        if fixed.is_some() && (source.is_some() || capacity.is_some()) {
-            let other = if source.is_some() { "source" } else { "capacity" };
-            let help = "what is held takes up whatever flows there: leave one of the two out";
-            let message = format!("the {field} of `{node}` has `fixed` and `{other}`");
-            self.report(&MALFORMED_SCENE, line, message, help);
-            return None;
-        }
-        if field == Field::Potential && (capacity.is_some() || initial.is_some()) {
-            let help = "currents are steady at every instant (direct current), as in Abaqus";
-            self.report(
-                &MALFORMED_SCENE,
-                line,
-                format!("the potential of `{node}` cannot have a capacity or an initial value"),
-                help,
-            );
-            return None;
-        }
-        if let Some(capacity) = capacity.filter(|capacity| !(*capacity >= 0.0 && capacity.is_finite())) {
-            let message = format!("`capacity` of `{key}` of `{node}` is {capacity:?}");
-            self.report(&UNUSABLE_NUMBER, line, message, "give a finite number of zero or above");
-        }
-        if let Some(initial) = initial {
-            self.check_finite(initial, line, &format!("`initial` of `{key}` of `{node}`"));
-        }
-        let mut course = |course: Option<file::Course>, what: &str| {
-            self.course(course?, line, &format!("`{what}` of `{key}` of `{node}`"))
+        let given = Given {
+            fixed: fixed.is_some(),
+            source: source.is_some(),
+            capacity: capacity.is_some(),
+            initial: initial.is_some(),
         };
-        Some(CheckedCondition { fixed: course(fixed, "fixed"), source: course(source, "source"), capacity, initial })
+        if let Err(refusal) = usable::condition(field, given, node) {
+            self.refuse(line, refusal);
+            return None;
+        }
+        let label = format!("`{}` of `{node}`", field.key());
+        let capacity = self.value("capacity", capacity.as_ref(), || format!("`capacity` of {label}"));
+        let initial = self.value("initial", initial.as_ref(), || format!("`initial` of {label}"));
+        let fixed = self.course("fixed", fixed, &label);
+        let source = self.course("source", source, &label);
+        let source = if is_named_only { Some(Course::constant(0.0)) } else { source };
+        Some(CheckedCondition { fixed, source, capacity, initial })
     }
 
-    fn course(&mut self, course: file::Course, line: u64, what: &str) -> Option<Course> {
-        let course = match course {
-            file::Course::Constant(value) => Course::constant(value),
-            file::Course::Points(points) => {
-                let is_ascending = points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-                let is_finite = points.iter().all(|point| point[0].is_finite());
-                if points.is_empty() || !is_ascending || !is_finite {
-                    let help = "give points [time, value] whose times ascend";
-                    self.report(&MALFORMED_TIME, line, format!("the times of {what} do not ascend"), help);
-                    return None;
-                }
-                if self.is_steady {
-                    let help = "give a number, or write procedure = \"transient\"";
-                    self.report(
-                        &MALFORMED_TIME,
-                        line,
-                        format!("{what} follows time, and a steady state has none"),
-                        help,
-                    );
-                    return None;
-                }
-                Course::through(points)
+    /// The course that a key of something gives; reports one that cannot be used.
+    fn course(&mut self, key: &str, course: Option<Spanned<file::Course>>, label: &str) -> Option<Course> {
+        let course = course?;
+        let (span, line) = (course.span(), self.line_of(&course));
+        let what = format!("`{key}` of {label}");
+        let points = match course.into_inner() {
+            file::Course::Constant(value) => {
+                let written = self.text.get(span).unwrap_or_default();
+                let refused =
+                    usable::number(key, value, written, || what).map_err(|refusal| self.refuse(line, refusal));
+                return refused.is_ok().then(|| Course::constant(value));
             }
+            file::Course::Points(points) => points,
         };
-        let values: Vec<f64> = course.values().collect();
-        values.iter().all(|&value| self.check_finite(value, line, what)).then_some(course)
-    }
-
-    fn check_fraction(&mut self, value: f64, line: u64, what: &str) {
-        if !(0.0..=1.0).contains(&value) {
-            let help = "give a share of the energy dissipated, from 0 to 1";
-            self.report(&UNUSABLE_NUMBER, line, format!("{what} is {value:?}"), help);
-        }
-    }
-
-    fn check_finite(&mut self, value: f64, line: u64, what: &str) -> bool {
-        if !value.is_finite() {
-            self.report(&UNUSABLE_NUMBER, line, format!("{what} is {value:?}"), "give a finite number");
-        }
-        value.is_finite()
+        let pairs = points.iter().zip(points.iter().skip(1));
+        let late = pairs.map(|(before, after)| (before[0], after[0])).find(|(before, after)| after <= before);
+        let time = points.iter().map(|point| point[0]).find(|time| !time.is_finite());
+        let message = if points.is_empty() {
+            format!("{what} has no points")
+        } else if let Some(time) = time {
+            format!("a time of {what} is {time:?}, which is not finite")
+        } else if let Some((before, after)) = late {
+            format!("the times of {what} do not ascend: {after:?} stands behind {before:?}")
+        } else if self.is_steady {
+            let help = "give a number, or write procedure = \"transient\"";
+            self.report(&MALFORMED_TIME, line, format!("{what} follows time, and a steady state has none"), help);
+            return None;
+        } else {
+            let unusable = points.iter().find_map(|&[time, value]| {
+                usable::number(key, value, &format!("{value:?}"), || format!("{what} at time {time:?}")).err()
+            });
+            return match unusable {
+                Some(refusal) => {
+                    self.refuse(line, refusal);
+                    None
+                }
+                None => Some(Course::through(points)),
+            };
+        };
+        let help = "give a number, or points of time and value whose times ascend, such as [[0.0, 20.0], [1.0, 80.0]]";
+        self.report(&MALFORMED_TIME, line, message, help);
+        None
     }
 
     fn take_link(&mut self, entry: LinkEntry, line: u64, default: f64, scene: &mut Scene) {
         let at = self.line_of(&entry.nodes);
-        let names = entry.nodes.into_inner();
-        let numbers = [0, 1].map(|end| self.number(&names[end], at, scene));
+        let Pair(names) = entry.nodes.into_inner();
+        let numbers = [0, 1].map(|end| self.number(&names[end], at, "a name in `nodes`", scene));
         let label = format!("the link of `{}` and `{}`", names[0], names[1]);
-        if names[0] == names[1] {
-            self.report(&MALFORMED_SCENE, at, format!("{label} joins a node to itself"), "name two nodes");
-            return;
+        if let Err(refusal) = usable::joined([&names[0], &names[1]], "the link") {
+            return self.refuse(at, refusal);
         }
-        let given = [entry.electrical, entry.thermal, entry.hydraulic];
-        if given.iter().all(Option::is_none) {
-            let help = "give `electrical`, `thermal` or `hydraulic`";
-            self.report(&MALFORMED_SCENE, line, format!("{label} conducts nothing"), help);
+        let given = [&entry.electrical, &entry.thermal, &entry.hydraulic];
+        if let Err(refusal) = usable::conducting(given.iter().any(|conductance| conductance.is_some()), &label) {
+            self.refuse(line, refusal);
         }
-        for (field, conductance) in Field::ALL.into_iter().zip(&given) {
-            let Some(spanned) = conductance else { continue };
-            let conductance = *spanned.as_ref();
-            if conductance.is_nan() || conductance < 0.0 {
-                let (key, at) = (field.conductance_key(), self.line_of(spanned));
-                let help = "give a conductance of zero or above; `inf` makes both nodes one";
-                self.report(&UNUSABLE_NUMBER, at, format!("`{key}` of {label} is {conductance:?}"), help);
-            }
-        }
-        let fraction = entry.joule_heat_fraction.unwrap_or(default);
-        if entry.joule_heat_fraction.is_some() {
-            self.check_fraction(fraction, line, &format!("`joule_heat_fraction` of {label}"));
-        }
+        let conductances = Field::ALL.map(|field| {
+            let key = field.conductance_key();
+            let conductance = self.value(key, given[field.index()].as_ref(), || format!("`{key}` of {label}"));
+            conductance.unwrap_or(0.0)
+        });
+        let key = "joule_heat_fraction";
+        let fraction = self.value(key, entry.joule_heat_fraction.as_ref(), || format!("`{key}` of {label}"));
         if let [Some(first), Some(second)] = numbers {
-            scene.links.push(SceneLink {
-                nodes: [first, second],
-                conductances: given.map(|conductance| conductance.map_or(0.0, Spanned::into_inner)),
-                joule_heat_fraction: fraction,
-            });
+            let joule_heat_fraction = fraction.unwrap_or(default);
+            scene.links.push(SceneLink { nodes: [first, second], conductances, joule_heat_fraction });
         }
     }
 
     fn take_interface(&mut self, entry: InterfaceEntry, line: u64, scene: &mut Scene) {
-        let ends = [&entry.slave, &entry.master].map(|end| (self.line_of(end), end.as_ref().clone()));
-        let numbers = ends.clone().map(|(at, name)| self.number(&name, at, scene));
-        let [(_, slave), (_, master)] = ends;
+        let ends = [(&entry.slave, "`slave`"), (&entry.master, "`master`")];
+        let numbers = ends.map(|(name, what)| self.number(name.as_ref(), self.line_of(name), what, scene));
+        let [slave, master] = [entry.slave.as_ref(), entry.master.as_ref()];
         let label = format!("the interface of `{slave}` and `{master}`");
-        let clearance = entry.clearance.map(|course| self.course(course, line, &format!("`clearance` of {label}")));
-        let pressure = entry.pressure.map(|course| self.course(course, line, &format!("`pressure` of {label}")));
+        if entry.fv.0.len() > MOST_FIELD_VARIABLES {
+            let message = format!("`fv` of {label} has {} numbers", entry.fv.0.len());
+            let help = format!("a deck has {MOST_FIELD_VARIABLES} field variables at most");
+            self.report(&MALFORMED_SCENE, line, message, &help);
+        }
+        let mut field_variables = Vec::new();
+        for (number, position) in entry.fv.0.iter().zip(1..) {
+            field_variables.extend(self.value("fv", Some(number), || format!("`fv{position}` of {label}")));
+        }
+        let clearance = self.course("clearance", entry.clearance, &label);
+        let pressure = self.course("pressure", entry.pressure, &label);
+        let mut value = |key: &str, number: Option<&Number>| self.value(key, number, || format!("`{key}` of {label}"));
         let interface = SceneInterface {
             interaction: entry.interaction.map(|name| Name::new(name.as_ref())),
             slave: 0,
             master: 0,
-            area: entry.area,
-            clearance: clearance.flatten(),
-            pressure: pressure.flatten(),
+            area: value("area", Some(&entry.area)).unwrap_or_default(),
+            clearance,
+            pressure,
             closed: entry.closed,
-            field_variables: entry.fv,
-            temperature: entry.temperature,
-            mass_flow: entry.mass_flow,
-            shear: entry.shear,
-            slip_rate: entry.slip_rate,
-            clearance_rate: entry.clearance_rate,
-            characteristic_length: entry.char_length,
-            bulk_permeabilities: [entry.perm_s, entry.perm_m],
+            field_variables,
+            temperature: value("temperature", entry.temperature.as_ref()),
+            mass_flow: value("mass_flow", entry.mass_flow.as_ref()),
+            shear: value("shear", entry.shear.as_ref()),
+            slip_rate: value("slip_rate", entry.slip_rate.as_ref()),
+            clearance_rate: value("clearance_rate", entry.clearance_rate.as_ref()),
+            characteristic_length: value("char_length", entry.char_length.as_ref()),
+            bulk_permeabilities: [value("perm_s", entry.perm_s.as_ref()), value("perm_m", entry.perm_m.as_ref())],
             place: (line, None),
         };
-        for unusable in unusable_numbers(&interface) {
-            let Unusable { key, value, .. } = &unusable;
-            self.report(&UNUSABLE_NUMBER, line, format!("`{key}` of {label} is {value:?}"), unusable.help());
-        }
-        if slave == master {
-            self.report(&MALFORMED_SCENE, line, format!("{label} joins a node to itself"), "name two nodes");
+        if let Err(refusal) = usable::joined([slave, master], "the interface") {
+            self.refuse(line, refusal);
         } else if let [Some(slave), Some(master)] = numbers {
             scene.interfaces.push(SceneInterface { slave, master, ..interface });
         }
@@ -404,20 +501,42 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The number of a node that is named in a line.
-    fn number(&mut self, name: &str, line: u64, scene: &Scene) -> Option<u32> {
-        let found = self.numbers.get(name).copied();
-        if found.is_none() && !self.lacks_nodes {
-            let near = nearest_names(name.as_bytes(), scene.nodes.iter().map(String::as_str), 3);
-            let near: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
-            let help = if near.is_empty() {
-                "add a [[node]] of that name".to_owned()
-            } else {
-                format!("is {} meant? Otherwise add a [[node]] of that name", near.join(" or "))
-            };
-            self.report(&UNKNOWN_NODE, line, format!("the scene defines no node `{name}`"), &help);
+    /// The number of a new node that a source defines in a line.
+    fn define_at(&mut self, name: &str, (source, line): (usize, u64), scene: &mut Scene) -> Result<u32, Refusal> {
+        let number = self.define(name, scene).map_err(|number| {
+            let (first_source, first) = self.origins[number as usize];
+            let file =
+                if first_source == source { String::new() } else { format!(" of `{}`", self.sources[first_source]) };
+            let message = format!("node `{name}` is defined twice, first in line {first}{file}");
+            Refusal::new(&DUPLICATE_NODE, message, "give every node a name of its own")
+        })?;
+        self.origins.push((source, line));
+        Ok(number)
+    }
+
+    /// The number of a node that is named in a line of the scene file.
+    fn number(&mut self, name: &str, line: u64, what: &str, scene: &Scene) -> Option<u32> {
+        let is_named = usable::node_name(name, || what.to_owned());
+        let number = is_named.and_then(|()| self.known(name, scene));
+        number.unwrap_or_else(|refusal| {
+            self.refuse(line, refusal);
+            None
+        })
+    }
+
+    /// The number of a node; `None` where a file may define it that was refused.
+    fn known(&mut self, name: &str, scene: &Scene) -> Result<Option<u32>, Refusal> {
+        let number = self.numbers.get(name).copied();
+        if number.is_some() || self.lacks_nodes {
+            return Ok(number);
         }
-        found
+        let left = self.comparisons.checked_sub(scene.nodes.len());
+        self.comparisons = left.unwrap_or(self.comparisons);
+        let compared = if left.is_some() { &scene.nodes[..] } else { &[] };
+        let meant = meant_or(name, compared.iter().map(String::as_str), "");
+        let otherwise = if meant.is_empty() { "add" } else { " Otherwise add" };
+        let help = format!("{meant}{otherwise} a [[node]] of that name");
+        Err(Refusal::new(&UNKNOWN_NODE, format!("the scene defines no node `{name}`"), help))
     }
 }
 
@@ -444,30 +563,4 @@ fn field_of(conducts: file::Conducts) -> Field {
         file::Conducts::Thermal => Field::Temperature,
         file::Conducts::Hydraulic => Field::PorePressure,
     }
-}
-
-fn time_span(entry: TimeEntry) -> Result<TimeSpan, (String, &'static str)> {
-    let TimeEntry { start, end, step, tolerance, first_step } = entry;
-    if !(start < end && start.is_finite() && end.is_finite()) {
-        return Err((format!("the time goes from {start:?} to {end:?}"), "let `end` be later than `start`"));
-    }
-    let positive = |number: Option<f64>, name: &str| match number {
-        Some(number) if !(number > 0.0 && number.is_finite()) => {
-            Err((format!("`{name}` is {number:?}"), "give a finite number above zero"))
-        }
-        number => Ok(number),
-    };
-    let steps = match (positive(step, "step")?, positive(tolerance, "tolerance")?, positive(first_step, "first_step")?)
-    {
-        (Some(step), None, None) => Steps::Given(step),
-        (Some(_), None, Some(_)) => {
-            return Err(("`first_step` stands beside `step`".to_owned(), "leave one of the two out"));
-        }
-        (None, Some(tolerance), first) => Steps::ByError { tolerance, first: first.unwrap_or(1e-3 * (end - start)) },
-        _ => {
-            let help = "give `step` for increments of one length, or `tolerance` for increments by their error";
-            return Err(("`time` needs one of `step` and `tolerance`".to_owned(), help));
-        }
-    };
-    Ok(TimeSpan { start, end, steps })
 }

@@ -1,41 +1,35 @@
-//! The tables beside a scene file: nodes, links and interfaces as comma-separated values, links as a Matrix Market file.
+//! The tables beside a scene file: nodes, links and interfaces as comma-separated values.
 //!
 //! | table | columns |
 //! |---|---|
 //! | nodes | `node`; `potential_fixed`, `potential_source`; `temperature_fixed`, `temperature_source`, `temperature_capacity`, `temperature_initial`; the same with `pore_pressure_` |
 //! | links | `node_1`, `node_2`; `electrical`, `thermal`, `hydraulic`; `joule_heat_fraction` |
 //! | interfaces | `slave`, `master` (or `secondary`, `main`), `interaction`; and of a node table `area`, `clearance`, `pressure`, `closed`, `fv1` …, `temp` (or `temperature`), `mass_flow`, `shear`, `slip_rate`, `clearance_rate`, `char_length`, `perm_s`, `perm_m` |
-//!
-//! A Matrix Market file is `matrix coordinate real symmetric`. Its entries beside the diagonal are conductances between the nodes of row and column, or all of them the negative of those,
-//! as an assembled conductance matrix has them; the rows of such a matrix add up to zero.
 
 use super::course::Course;
-use super::diagnostic::UNUSABLE_NUMBER;
+use super::diagnostic::MALFORMED_SCENE;
 use super::read::CheckedCondition;
-use super::usable::{Unusable, unusable_numbers};
+use super::usable::{self, Given, Refusal};
+use super::words::{meant_or, quoted};
 use super::{Field, SceneInterface};
 use csv::StringRecord;
-use inpact_evaluation::nodes::{
-    Column, DUPLICATE_COLUMN, DataRule, Findings, MALFORMED_CELL, MISSING_COLUMN, Part, Place,
-};
-use inpact_parser::model::Name;
-use std::fmt;
-
-/// A row's refusal: the rule and the words.
-type Refusal = (&'static DataRule, String);
+use inpact_evaluation::nodes::{Column, DUPLICATE_COLUMN, Findings, MALFORMED_CELL, MISSING_COLUMN, Part, Place};
+use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
 
 const NODE_COLUMNS: &str = "a table of nodes has `node`, and of each field `potential_fixed`, `potential_source`, `temperature_fixed`, `temperature_source`, \
-                            `temperature_capacity`, `temperature_initial`, or the same with `pore_pressure_`";
+                            `temperature_capacity`, `temperature_initial`, `pore_pressure_fixed`, `pore_pressure_source`, `pore_pressure_capacity`, \
+                            `pore_pressure_initial`";
 
 const LINK_COLUMNS: &str =
     "a table of links has `node_1`, `node_2`, `electrical`, `thermal`, `hydraulic` and `joule_heat_fraction`";
 
-const INTERFACE_COLUMNS: &str = "a table of interfaces has `slave`, `master`, `interaction`, `area`, `clearance`, `pressure`, `closed`, `fv1` and so on, `temp`, \
+const INTERFACE_COLUMNS: &str = "a table of interfaces has `slave`, `master`, `interaction`, `area`, `clearance`, `pressure`, `closed`, `fv1` and so on up to number 1000, `temp`, \
                                  `mass_flow`, `shear`, `slip_rate`, `clearance_rate`, `char_length`, `perm_s` and `perm_m`";
 
 /// A row of a table of nodes.
 pub(super) struct NodeRow {
     pub(super) name: String,
+    pub(super) line: u64,
     pub(super) conditions: [CheckedCondition; 3],
 }
 
@@ -69,6 +63,18 @@ enum Quantity {
     Initial,
 }
 
+impl Quantity {
+    /// What the scene file calls it.
+    fn key(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Source => "source",
+            Self::Capacity => "capacity",
+            Self::Initial => "initial",
+        }
+    }
+}
+
 /// A column of a table of links.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum LinkColumn {
@@ -93,25 +99,18 @@ pub(super) fn nodes(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(
             return Some(NodeColumn::Name);
         }
         let field = Field::ALL.into_iter().find(|field| header.starts_with(&format!("{}_", field.key())))?;
-        let quantity = match &header[field.key().len() + 1..] {
-            "fixed" => Quantity::Fixed,
-            "source" => Quantity::Source,
-            "capacity" if field != Field::Potential => Quantity::Capacity,
-            "initial" if field != Field::Potential => Quantity::Initial,
-            _ => return None,
-        };
-        Some(NodeColumn::Of(field, quantity))
+        let all = [Quantity::Fixed, Quantity::Source, Quantity::Capacity, Quantity::Initial];
+        let of_field = if field == Field::Potential { &all[..2] } else { &all[..] };
+        let quantity = of_field.iter().find(|quantity| quantity.key() == &header[field.key().len() + 1..])?;
+        Some(NodeColumn::Of(field, *quantity))
     };
     let needed = [(NodeColumn::Name, "node")];
     each_row(bytes, findings, (NODE_COLUMNS, named), &needed, |row| {
+        let name = row.name(NodeColumn::Name)?;
         let mut conditions: [CheckedCondition; 3] = std::array::from_fn(|_| CheckedCondition::default());
         for &(place, column) in row.columns {
             let NodeColumn::Of(field, quantity) = column else { continue };
-            let Some(value) = row.number(place)? else { continue };
-            let is_usable = value.is_finite() && (quantity != Quantity::Capacity || value >= 0.0);
-            if !is_usable {
-                return Err(row.unusable(place, value));
-            }
+            let Some(value) = row.number(place, quantity.key())? else { continue };
             let condition = &mut conditions[field.index()];
             match quantity {
                 Quantity::Fixed => condition.fixed = Some(Course::constant(value)),
@@ -120,12 +119,25 @@ pub(super) fn nodes(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(
                 Quantity::Initial => condition.initial = Some(value),
             }
         }
-        take(NodeRow { name: row.text(NodeColumn::Name).to_owned(), conditions })
+        for (field, condition) in Field::ALL.into_iter().zip(&conditions) {
+            let given = Given {
+                fixed: condition.fixed.is_some(),
+                source: condition.source.is_some(),
+                capacity: condition.capacity.is_some(),
+                initial: condition.initial.is_some(),
+            };
+            usable::condition(field, given, &name)?;
+        }
+        take(NodeRow { name, line: row.line, conditions }).map_err(|refusal| row.about(NodeColumn::Name, refusal))
     });
 }
 
-/// Reads a table of links.
-pub(super) fn links(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(LinkRow)) {
+/// Reads a table of links; `take` says which end of a row it refuses.
+pub(super) fn links(
+    bytes: &[u8],
+    findings: &mut Findings,
+    take: &mut dyn FnMut(LinkRow) -> Result<(), (usize, Refusal)>,
+) {
     let named = |header: &str| match header {
         "node_1" => Some(LinkColumn::Node(0)),
         "node_2" => Some(LinkColumn::Node(1)),
@@ -138,38 +150,36 @@ pub(super) fn links(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(
     let needed = [(LinkColumn::Node(0), "node_1"), (LinkColumn::Node(1), "node_2")];
     each_row(bytes, findings, (LINK_COLUMNS, named), &needed, |row| {
         let mut link = LinkRow {
-            nodes: [0, 1].map(|end| row.text(LinkColumn::Node(end)).to_owned()),
+            nodes: [row.name(LinkColumn::Node(0))?, row.name(LinkColumn::Node(1))?],
             conductances: [0.0; 3],
             joule_heat_fraction: None,
         };
+        let mut has_conductance = false;
         for &(place, column) in row.columns {
-            if matches!(column, LinkColumn::Node(_)) {
-                continue;
-            }
-            let Some(value) = row.number(place)? else { continue };
-            let may_be_infinite = column != LinkColumn::JouleHeatFraction;
-            let is_usable = value >= 0.0 && (value.is_finite() || may_be_infinite);
-            if !is_usable {
-                return Err(row.unusable(place, value));
-            }
             match column {
-                LinkColumn::Conductance(field) => link.conductances[field.index()] = value,
-                _ => link.joule_heat_fraction = Some(value),
+                LinkColumn::Node(_) => {}
+                LinkColumn::Conductance(field) => {
+                    let Some(value) = row.number(place, field.conductance_key())? else { continue };
+                    link.conductances[field.index()] = value;
+                    has_conductance = true;
+                }
+                LinkColumn::JouleHeatFraction => {
+                    link.joule_heat_fraction = row.number(place, "joule_heat_fraction")?;
+                }
             }
         }
-        if link.nodes[0] == link.nodes[1] {
-            return Err((&UNUSABLE_NUMBER, format!("row {} joins `{}` to itself", row.number, link.nodes[0])));
-        }
-        take(link);
-        Ok(())
+        let what = format!("row {}", row.number);
+        usable::joined([&link.nodes[0], &link.nodes[1]], &what)?;
+        usable::conducting(has_conductance, &what)?;
+        take(link).map_err(|(end, refusal)| row.about(LinkColumn::Node(end), refusal))
     });
 }
 
-/// Reads a table of interfaces.
+/// Reads a table of interfaces; `take` says which side of a row it refuses.
 pub(super) fn interfaces(
     bytes: &[u8],
     findings: &mut Findings,
-    take: &mut dyn FnMut(InterfaceRow, u64) -> Result<(), Refusal>,
+    take: &mut dyn FnMut(InterfaceRow) -> Result<(), (usize, Refusal)>,
 ) {
     let named = |header: &str| match header {
         "slave" | "secondary" => Some(InterfaceColumn::Slave),
@@ -178,13 +188,14 @@ pub(super) fn interfaces(
         _ => {
             // As the scene file calls it.
             let column = Column::named(if header == "temperature" { "temp" } else { header })?;
+            // More than a deck can ask for would be room for nothing in every row.
+            let is_known = |number: u32| usize::try_from(number).is_ok_and(|number| number <= MOST_FIELD_VARIABLES);
             let is_of_interface = matches!(
                 column,
                 Column::Area
                     | Column::Clearance
                     | Column::Pressure
                     | Column::Closed
-                    | Column::FieldVariable(_, Part::Both)
                     | Column::Temperature(Part::Both)
                     | Column::MassFlow(Part::Both)
                     | Column::Shear
@@ -192,7 +203,7 @@ pub(super) fn interfaces(
                     | Column::ClearanceRate
                     | Column::CharacteristicLength
                     | Column::BulkPermeability(_)
-            );
+            ) || matches!(column, Column::FieldVariable(number, Part::Both) if is_known(number));
             is_of_interface.then_some(InterfaceColumn::Of(column))
         }
     };
@@ -202,15 +213,11 @@ pub(super) fn interfaces(
         (InterfaceColumn::Of(Column::Area), "area"),
     ];
     each_row(bytes, findings, (INTERFACE_COLUMNS, named), &needed, |row| {
+        let sides = [InterfaceColumn::Slave, InterfaceColumn::Master];
+        let [slave, master] = [row.name(sides[0])?, row.name(sides[1])?];
         let interface = interface_of(row)?;
-        if let Some(unusable) = unusable_numbers(&interface).first() {
-            let Unusable { key, value, .. } = unusable;
-            let message = format!("`{key}` of row {} is {value:?}: {}", row.number, unusable.help());
-            return Err((&UNUSABLE_NUMBER, message));
-        }
-        let [slave, master] =
-            [InterfaceColumn::Slave, InterfaceColumn::Master].map(|column| row.text(column).to_owned());
-        take(InterfaceRow { slave, master, interface }, row.line)
+        usable::joined([&slave, &master], &format!("row {}", row.number))?;
+        take(InterfaceRow { slave, master, interface }).map_err(|(side, refusal)| row.about(sides[side], refusal))
     });
 }
 
@@ -237,7 +244,18 @@ fn interface_of(row: &Row<'_, InterfaceColumn>) -> Result<SceneInterface, Refusa
     interface.interaction = (!name.is_empty()).then(|| Name::new(name));
     for &(place, column) in row.columns {
         let InterfaceColumn::Of(column) = column else { continue };
-        let Some(value) = row.number(place)? else { continue };
+        let number = row.number(place, key_of(column)).map_err(|refusal| match column {
+            Column::Closed => refusal.with_help("write 1 where it is closed and 0 where it is open"),
+            _ => refusal,
+        });
+        let Some(value) = number? else {
+            if column == Column::Area {
+                let message = format!("`{}` of row {} is empty", &row.headers[place], row.number);
+                let help = "give the area of the slave node";
+                return Err(Refusal::new(&MALFORMED_SCENE, message, help).at(&row.headers[place]));
+            }
+            continue;
+        };
         match column {
             Column::Area => interface.area = value,
             Column::Clearance => interface.clearance = Some(Course::constant(value)),
@@ -264,6 +282,17 @@ fn interface_of(row: &Row<'_, InterfaceColumn>) -> Result<SceneInterface, Refusa
     Ok(interface)
 }
 
+/// What the scene file calls a quantity of which not any finite number will do.
+fn key_of(column: Column) -> &'static str {
+    match column {
+        Column::Area => "area",
+        Column::CharacteristicLength => "char_length",
+        Column::BulkPermeability(Part::Slave) => "perm_s",
+        Column::BulkPermeability(_) => "perm_m",
+        _ => "",
+    }
+}
+
 /// A row of a table whose columns mean `C`.
 struct Row<'a, C> {
     record: &'a StringRecord,
@@ -281,20 +310,40 @@ impl<C: Copy + PartialEq> Row<'_, C> {
         place.and_then(|place| self.record.get(place)).unwrap_or_default()
     }
 
-    /// The number in a cell; `None` where it is empty.
-    fn number(&self, place: usize) -> Result<Option<f64>, Refusal> {
+    /// The name of a node.
+    fn name(&self, column: C) -> Result<String, Refusal> {
+        let name = self.text(column);
+        let what = || format!("`{}` of row {}", self.header(column), self.number);
+        usable::node_name(name, what).map_err(|refusal| self.about(column, refusal))?;
+        Ok(name.to_owned())
+    }
+
+    /// What the header calls a column; empty where there is none.
+    fn header(&self, column: C) -> &str {
+        let place = self.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
+        place.and_then(|place| self.headers.get(place)).unwrap_or_default()
+    }
+
+    /// A refusal that is about the cell of a column.
+    fn about(&self, column: C, refusal: Refusal) -> Refusal {
+        refusal.at(self.header(column))
+    }
+
+    /// The number in a cell, which is what the scene file gives by a key; `None` where it is empty.
+    fn number(&self, place: usize, key: &str) -> Result<Option<f64>, Refusal> {
         let text = self.record.get(place).unwrap_or_default();
         if text.is_empty() {
             return Ok(None);
         }
-        text.parse().map(Some).map_err(|_| {
-            let header = &self.headers[place];
-            (&MALFORMED_CELL as &DataRule, format!("`{header}` of row {} is `{text}`, which is no number", self.number))
-        })
-    }
-
-    fn unusable(&self, place: usize, value: f64) -> Refusal {
-        (&UNUSABLE_NUMBER, format!("`{}` of row {} is {value:?}", &self.headers[place], self.number))
+        let header = &self.headers[place];
+        let what = || format!("`{header}` of row {}", self.number);
+        let Ok(value) = text.parse() else {
+            let message = format!("{} is `{text}`, which is no number", what());
+            let help = "write a number with a decimal point, or leave the cell empty where nothing is known";
+            return Err(Refusal::new(&MALFORMED_CELL, message, help).at(header));
+        };
+        usable::number(key, value, text, what).map_err(|refusal| refusal.at(header))?;
+        Ok(Some(value))
     }
 }
 
@@ -315,9 +364,13 @@ fn each_row<C: Copy + PartialEq>(
     for (place, header) in headers.iter().enumerate() {
         let at = Place { line: Some(1), column: Some(header.to_owned()), ..Place::default() };
         match named(&header.to_ascii_lowercase()) {
-            None => findings.report(&MALFORMED_CELL, at, format!("such a table has no column `{header}`"), all_columns),
+            None => {
+                let help = meant_or(header, quoted(all_columns), all_columns);
+                findings.report(&MALFORMED_CELL, at, format!("such a table has no column `{header}`"), help);
+            }
             Some(column) if columns.iter().any(|(_, other)| *other == column) => {
-                findings.report(&DUPLICATE_COLUMN, at, format!("a second header means what `{header}` does"), "");
+                let message = format!("a second header means what `{header}` does");
+                findings.report(&DUPLICATE_COLUMN, at, message, "keep one of the two columns");
             }
             Some(column) => columns.push((place, column)),
         }
@@ -338,132 +391,21 @@ fn each_row<C: Copy + PartialEq>(
         };
         let line = record.position().map_or(0, csv::Position::line);
         let row = Row { record: &record, columns: &columns, headers: &headers, number, line };
-        if let Err((rule, message)) = take(&row) {
-            findings.report(rule, Place { row: Some(number), line: Some(line), column: None }, message, "");
+        if let Err(Refusal { rule, column, message, help }) = take(&row) {
+            findings.report(rule, Place { row: Some(number), line: Some(line), column }, message, help);
         }
     }
 }
 
 fn report_csv(error: &csv::Error, findings: &mut Findings) {
     let line = error.position().map(csv::Position::line);
-    let message = match error.kind() {
+    let (message, help) = match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            format!("the row has {len} cells where the header has {expected_len}")
+            let message = format!("the row has {len} cells where the header has {expected_len}");
+            (message, "leave a cell empty where nothing is known, and write a text with commas in quotes")
         }
-        csv::ErrorKind::Utf8 { .. } => "the row is not UTF-8".to_owned(),
-        _ => error.to_string(),
+        csv::ErrorKind::Utf8 { .. } => ("the row is not UTF-8".to_owned(), "save the table as UTF-8"),
+        _ => (error.to_string(), ""),
     };
-    findings.report(&MALFORMED_CELL, Place { line, ..Place::default() }, message, "");
-}
-
-/// Reads a Matrix Market file of conductances; the nodes of a link are the numbers of row and column, from 1.
-pub(super) fn matrix(
-    bytes: &[u8],
-    conducts: Option<Field>,
-    findings: &mut Findings,
-    take: &mut dyn FnMut([u32; 2], [f64; 3]),
-) {
-    let mut report = |line: usize, message: &dyn fmt::Display, help: &str| {
-        let place = Place { line: Some(line as u64), ..Place::default() };
-        findings.report(&MALFORMED_CELL, place, message.to_string(), help);
-    };
-    let Some(field) = conducts else {
-        let help = "add conducts = \"electrical\", \"thermal\" or \"hydraulic\" to [[link_file]]";
-        return report(1, &"a Matrix Market file does not say what it conducts", help);
-    };
-    match read_matrix(bytes) {
-        Err((line, message, help)) => report(line, &message, help),
-        Ok(Entries { sign, entries }) => {
-            for (ends, value) in entries {
-                let mut conductances = [0.0; 3];
-                conductances[field.index()] = sign * value;
-                take(ends, conductances);
-            }
-        }
-    }
-}
-
-/// The entries beside the diagonal, and by what they are multiplied to be conductances.
-struct Entries {
-    sign: f64,
-    entries: Vec<([u32; 2], f64)>,
-}
-
-/// A message with its line, and what to do.
-type Wrong = (usize, String, &'static str);
-
-/// Beyond this share of its diagonal the sum of a row is not zero.
-const ROW_SUM: f64 = 1e-9;
-
-fn read_matrix(bytes: &[u8]) -> Result<Entries, Wrong> {
-    let text = std::str::from_utf8(bytes).map_err(|_| (1, "the file is not UTF-8".to_owned(), ""))?;
-    let mut lines = text.lines().enumerate().map(|(number, line)| (number + 1, line.trim()));
-    let banner = lines.next().map(|(_, line)| line.to_ascii_lowercase()).unwrap_or_default();
-    let words: Vec<&str> = banner.split_whitespace().collect();
-    if !matches!(words[..], ["%%matrixmarket", "matrix", "coordinate", "real" | "integer", "symmetric"]) {
-        let help = "the first line must be `%%MatrixMarket matrix coordinate real symmetric`";
-        return Err((1, "the file is no symmetric Matrix Market file of real numbers".to_owned(), help));
-    }
-    let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('%'));
-    let (line, size) = lines.next().ok_or_else(|| (1, "the size of the matrix is missing".to_owned(), ""))?;
-    let size: Vec<u32> = size.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-    let [rows, columns, count] = size[..] else {
-        return Err((line, "the size of the matrix is not three whole numbers".to_owned(), ""));
-    };
-    if rows != columns {
-        return Err((line, format!("a matrix of {rows} rows and {columns} columns is not symmetric"), ""));
-    }
-    let (mut entries, mut sums, mut diagonals) = (Vec::new(), vec![0.0; rows as usize], vec![0.0; rows as usize]);
-    let (mut first_positive, mut first_negative) = (None, None);
-    let mut found = 0;
-    for (line, text) in lines {
-        found += 1;
-        let entry = parse_entry(text).filter(|(ends, _)| ends.iter().all(|end| (1..=rows).contains(end)));
-        let Some((ends, value)) = entry else {
-            return Err((
-                line,
-                format!("`{text}` is no entry of a matrix of {rows} rows"),
-                "write row, column and value",
-            ));
-        };
-        let [row, column] = ends.map(|end| end as usize - 1);
-        sums[row] += value;
-        if row == column {
-            diagonals[row] += value;
-            continue;
-        }
-        sums[column] += value;
-        let first = if value < 0.0 { &mut first_negative } else { &mut first_positive };
-        *first = first.or((value != 0.0).then_some(line));
-        entries.push((ends, value));
-    }
-    if found != count {
-        return Err((line, format!("the file says {count} entries and has {found}"), ""));
-    }
-    let sign = match (first_positive, first_negative) {
-        (Some(positive), Some(negative)) => {
-            let message = format!("entries beside the diagonal have both signs, in lines {positive} and {negative}");
-            let help = "give conductances, or an assembled matrix in which all of them are negative";
-            return Err((positive.max(negative), message, help));
-        }
-        (None, Some(_)) => -1.0,
-        _ => 1.0,
-    };
-    if sign > 0.0 && diagonals.iter().any(|diagonal| *diagonal != 0.0) {
-        let help = "leave the diagonal out, or give an assembled matrix, whose other entries are negative";
-        return Err((line, "a list of conductances has a diagonal".to_owned(), help));
-    }
-    let off = |(sum, diagonal): (&f64, &f64)| sign < 0.0 && sum.abs() > ROW_SUM * diagonal.abs();
-    if let Some(row) = sums.iter().zip(&diagonals).position(off) {
-        let message = format!("row {} does not add up to zero: it conducts to something outside the matrix", row + 1);
-        return Err((line, message, "make what is outside a node, and give the conductances to it as links"));
-    }
-    Ok(Entries { sign, entries })
-}
-
-fn parse_entry(text: &str) -> Option<([u32; 2], f64)> {
-    let mut words = text.split_whitespace();
-    let ends = [words.next()?.parse().ok()?, words.next()?.parse().ok()?];
-    let value: f64 = words.next()?.parse().ok()?;
-    (words.next().is_none() && value.is_finite()).then_some((ends, value))
+    findings.report(&MALFORMED_CELL, Place { line, ..Place::default() }, message, help);
 }

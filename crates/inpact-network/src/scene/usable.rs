@@ -1,12 +1,31 @@
-//! Which numbers of an interface can be used.
+//! What of a scene can be used: the one home of what the scene file and the tables beside it refuse alike.
 
-use super::SceneInterface;
+use super::Field;
+use super::diagnostic::{MALFORMED_SCENE, UNUSABLE_NUMBER};
+use inpact_evaluation::nodes::DataRule;
 
-/// A number that cannot be used.
-pub(super) struct Unusable {
-    pub(super) key: String,
-    pub(super) value: f64,
-    must: Must,
+/// Why something is not taken: the rule, the words, and what to do.
+pub(super) struct Refusal {
+    pub(super) rule: &'static DataRule,
+    /// What the header of a table calls the column, where it is about one cell.
+    pub(super) column: Option<String>,
+    pub(super) message: String,
+    pub(super) help: String,
+}
+
+impl Refusal {
+    pub(super) fn new(rule: &'static DataRule, message: String, help: impl Into<String>) -> Self {
+        Self { rule, column: None, message, help: help.into() }
+    }
+
+    /// About the cell of that column.
+    pub(super) fn at(self, column: &str) -> Self {
+        Self { column: Some(column.to_owned()), ..self }
+    }
+
+    pub(super) fn with_help(self, help: &str) -> Self {
+        Self { help: help.to_owned(), ..self }
+    }
 }
 
 /// What a number must do.
@@ -15,48 +34,100 @@ enum Must {
     BeFinite,
     NotBeNegative,
     ExceedZero,
-}
-
-/// The numbers of an interface that cannot be used.
-pub(super) fn unusable_numbers(interface: &SceneInterface) -> Vec<Unusable> {
-    let SceneInterface { area, characteristic_length, bulk_permeabilities, .. } = interface;
-    let given = [
-        ("area", Some(*area), Must::ExceedZero),
-        ("char_length", *characteristic_length, Must::NotBeNegative),
-        ("perm_s", bulk_permeabilities[0], Must::NotBeNegative),
-        ("perm_m", bulk_permeabilities[1], Must::NotBeNegative),
-        ("temperature", interface.temperature, Must::BeFinite),
-        ("mass_flow", interface.mass_flow, Must::BeFinite),
-        ("shear", interface.shear, Must::BeFinite),
-        ("slip_rate", interface.slip_rate, Must::BeFinite),
-        ("clearance_rate", interface.clearance_rate, Must::BeFinite),
-    ];
-    let given = given.into_iter().filter_map(|(key, value, must)| Some((key.to_owned(), value?, must)));
-    let of_field = |(&value, number): (&f64, i32)| (format!("fv{number}"), value, Must::BeFinite);
-    let all = given.chain(interface.field_variables.iter().zip(1..).map(of_field));
-    all.filter(|(_, value, must)| !must.allows(*value))
-        .map(|(key, value, must)| Unusable { key, value, must })
-        .collect()
+    Conduct,
+    BeShare,
 }
 
 impl Must {
+    /// What the number of a key of the scene file must do; columns of tables mean one of those.
+    fn of(key: &str) -> Self {
+        match key {
+            "area" => Self::ExceedZero,
+            "capacity" | "char_length" | "perm_s" | "perm_m" => Self::NotBeNegative,
+            "electrical" | "thermal" | "hydraulic" => Self::Conduct,
+            "joule_heat_fraction" => Self::BeShare,
+            _ => Self::BeFinite,
+        }
+    }
+
     fn allows(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::BeFinite => true,
-                Self::NotBeNegative => value >= 0.0,
-                Self::ExceedZero => value > 0.0,
-            }
+        match self {
+            Self::BeFinite => value.is_finite(),
+            Self::NotBeNegative => value >= 0.0 && value.is_finite(),
+            Self::ExceedZero => value > 0.0 && value.is_finite(),
+            Self::Conduct => value >= 0.0,
+            Self::BeShare => (0.0..=1.0).contains(&value),
+        }
+    }
+
+    /// What to give instead.
+    fn help(self) -> &'static str {
+        match self {
+            Self::BeFinite => "give a finite number",
+            Self::NotBeNegative => "give a finite number of zero or above",
+            Self::ExceedZero => "give a finite number above zero",
+            Self::Conduct => "give a conductance of zero or above; `inf` makes both nodes one",
+            Self::BeShare => "give a share of the energy dissipated, from 0 to 1",
+        }
     }
 }
 
-impl Unusable {
-    /// What to give instead.
-    pub(super) fn help(&self) -> &'static str {
-        match self.must {
-            Must::BeFinite => "give a finite number",
-            Must::NotBeNegative => "give a finite number of zero or above",
-            Must::ExceedZero => "give a finite number above zero",
-        }
+/// Whether the number of a key can be used; `written` is how it is written, `what` what a message calls it.
+pub(super) fn number(key: &str, value: f64, written: &str, what: impl FnOnce() -> String) -> Result<(), Refusal> {
+    let must = Must::of(key);
+    if must.allows(value) {
+        return Ok(());
     }
+    Err(Refusal::new(&UNUSABLE_NUMBER, format!("{} is {written}", what()), must.help()))
+}
+
+/// Whether a node can have such a name.
+pub(super) fn node_name(name: &str, what: impl FnOnce() -> String) -> Result<(), Refusal> {
+    if name.is_empty() {
+        return Err(Refusal::new(&MALFORMED_SCENE, format!("{} is empty", what()), "give the name of a node"));
+    }
+    Ok(())
+}
+
+/// What a condition says, be it what it may.
+#[derive(Clone, Copy)]
+pub(super) struct Given {
+    pub(super) fixed: bool,
+    pub(super) source: bool,
+    pub(super) capacity: bool,
+    pub(super) initial: bool,
+}
+
+/// Whether what is said of a field at a node fits together.
+pub(super) fn condition(field: Field, given: Given, node: &str) -> Result<(), Refusal> {
+    if given.fixed && (given.source || given.capacity) {
+        let other = if given.source { "source" } else { "capacity" };
+        let message = format!("the {field} of `{node}` has `fixed` and `{other}`");
+        let help = "what is held takes up whatever flows there: leave one of the two out";
+        return Err(Refusal::new(&MALFORMED_SCENE, message, help));
+    }
+    if field == Field::Potential && (given.capacity || given.initial) {
+        let message = format!("the potential of `{node}` cannot have a capacity or an initial value");
+        let help = "currents are steady at every instant (direct current), as in Abaqus";
+        return Err(Refusal::new(&MALFORMED_SCENE, message, help));
+    }
+    Ok(())
+}
+
+/// Whether a link or an interface joins two nodes.
+pub(super) fn joined(nodes: [&str; 2], what: &str) -> Result<(), Refusal> {
+    if nodes[0] == nodes[1] {
+        let message = format!("{what} joins `{}` to itself", nodes[0]);
+        return Err(Refusal::new(&MALFORMED_SCENE, message, "name two nodes"));
+    }
+    Ok(())
+}
+
+/// Whether a link has a conductance, be it zero.
+pub(super) fn conducting(has_conductance: bool, what: &str) -> Result<(), Refusal> {
+    if !has_conductance {
+        let help = "give `electrical`, `thermal` or `hydraulic`";
+        return Err(Refusal::new(&MALFORMED_SCENE, format!("{what} conducts nothing"), help));
+    }
+    Ok(())
 }
