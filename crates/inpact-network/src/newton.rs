@@ -10,7 +10,7 @@
 //! and a step that overshoots a knot is cut short or, where no step lessens anything, replaced by one with the conductances held, which needs no slope.
 //! Where that ends short of a solution the scene is followed through a time of its own: every node takes up some of what is missing, as a capacity would,
 //! less and less of it the better the balances are met (pseudo-transient continuation; Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
-//! That goes where warming up would lead, over hills that a search downwards does not leave.
+//! That goes where warming up would lead, over hills that a search downwards does not leave. Currents take no time: they are balanced anew after each step.
 //! What the iteration ends with is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
 
 mod system;
@@ -45,7 +45,7 @@ const GOING_BACK: f64 = 4.0;
 const AT_REST: f64 = 1e-6;
 
 /// The most steps through a time of its own.
-const MOST_CREEPING_STEPS: usize = 400;
+const MOST_CREEPING_STEPS: usize = 1000;
 
 /// A step is cut in halves that often before it is given up.
 const MOST_HALVES: i32 = 12;
@@ -158,6 +158,9 @@ impl<'a> Newton<'a> {
             let start = self.jumps();
             self.go(&start, &direction, 1.0);
             states = self.evaluate(knowledge)?;
+            if let Some(balanced) = self.balance_currents(knowledge, &states)? {
+                states = balanced;
+            }
             let before = std::mem::replace(&mut worst, self.worst(&states));
             // A step that goes back where the one before came from has shown that one to be too long.
             let goes_back = direction.iter().zip(&previous).map(|(now, before)| now * before).sum::<f64>() < 0.0;
@@ -165,6 +168,25 @@ impl<'a> Newton<'a> {
             previous = direction;
         }
         Ok(MOST_CREEPING_STEPS)
+    }
+
+    /// Balances the currents of the conductances as they are: they take no time to follow, and from potentials of other conductances any heat may come. `None` where there are none.
+    fn balance_currents(
+        &mut self,
+        knowledge: &mut Knowledge<'a>,
+        states: &[Evaluated],
+    ) -> Result<Option<Vec<Evaluated>>, RowFault> {
+        let Some(potential) = self.fields.iter().find(|system| system.field == Field::Potential) else {
+            return Ok(None);
+        };
+        let range = potential.start as usize..potential.start as usize + potential.edges.form.count();
+        let Some(mut direction) = self.direction(knowledge, states, Slopes::Held, 0.0) else { return Ok(None) };
+        for (_, change) in (0..).zip(&mut direction).filter(|(unknown, _)| !range.contains(unknown)) {
+            *change = 0.0;
+        }
+        let start = self.jumps();
+        self.go(&start, &direction, 1.0);
+        self.evaluate(knowledge).map(Some)
     }
 
     /// The largest share that is missing in a balance of any field.

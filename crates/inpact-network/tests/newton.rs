@@ -123,3 +123,50 @@ fn two_interfaces_at_rows_of_their_tables() {
         }
     }
 }
+
+/// A current through an interface that conducts a thousand times as well once it is warm, beside a node that hardly loses heat: the warmer it is the less heat there is,
+/// so that there is one mean temperature, which halving an interval finds.
+#[test]
+fn a_current_through_a_conductance_that_rises_within_two_degrees() {
+    const TABLE: [[f64; 2]; 3] = [[74.713, 0.27], [140.062, 24.717], [142.059, 318.42]];
+    let [room, cooling, current, area] = [3.358, -11.853, 0.811, 0.029];
+    let [fraction, slave_share] = [0.934, 0.456];
+    let conductance = |mean: f64| {
+        let on = |[[t, c], [u, d]]: [[f64; 2]; 2]| c + (d - c) * (mean - t) / (u - t);
+        match TABLE {
+            [first, ..] if mean <= first[0] => first[1],
+            [first, second, _] if mean <= second[0] => on([first, second]),
+            [_, second, third] if mean <= third[0] => on([second, third]),
+            [.., third] => third[1],
+        }
+    };
+    let means_to = |mean: f64| {
+        let heat = fraction * current * current / (area * conductance(mean));
+        let of_slave = room + slave_share * heat / 0.863;
+        let of_master = room + (cooling + (1.0 - slave_share) * heat) / 0.002;
+        0.5 * (of_slave + of_master)
+    };
+    let [mut low, mut high] = [0.0, 200.0];
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        *(if means_to(middle) > middle { &mut low } else { &mut high }) = middle;
+    }
+    let mut deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n".to_owned();
+    for [temperature, conductance] in TABLE {
+        let _ = writeln!(deck, "{conductance:?}, 0., {temperature:?}");
+    }
+    let _ = writeln!(deck, "*GAP HEAT GENERATION\n{fraction:?}, {slave_share:?}");
+    for start in STARTS {
+        let text = format!(
+            "deck = \"a\"\n{}[[node]]\nname = \"room\"\ntemperature = {{ fixed = {room:?} }}\n\
+             [[node]]\nname = \"m\"\npotential = {{ fixed = 0.0 }}\ntemperature = {{ source = {cooling:?} }}\n\
+             [[node]]\nname = \"s\"\npotential = {{ source = {current:?} }}\n\
+             [[link]]\nnodes = [\"m\", \"room\"]\nthermal = 0.002\n[[link]]\nnodes = [\"s\", \"room\"]\nthermal = 0.863\n\
+             [[interface]]\nslave = \"s\"\nmaster = \"m\"\narea = {area:?}\nclosed = true\npressure = 0.0\n",
+            initial(start)
+        );
+        let found = solve(&deck, &text, &[(Field::Temperature, 1), (Field::Temperature, 2)]);
+        let mean = 0.5 * (found[0] + found[1]);
+        assert!((mean - low).abs() <= 1e-9 * low, "{start:?}: {mean} and {low}");
+    }
+}
