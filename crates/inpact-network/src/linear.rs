@@ -28,6 +28,7 @@ mod sets;
 mod solve;
 mod still;
 mod strength;
+mod words;
 mod work;
 
 pub(crate) use self::core::{Core, NONE, Origins};

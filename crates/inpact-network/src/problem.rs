@@ -12,12 +12,13 @@ use crate::interface::{
     Contact, Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal, heat_of_friction,
 };
 use crate::linear::{NONE, Sets, index};
+use crate::scene::words::meant_or;
 use crate::scene::{Course, Field, MISSING_QUANTITY, Scene, SceneInterface};
 use inpact_evaluation::compile::InterfaceLaws;
 use inpact_evaluation::law::contact::ContactState;
 use inpact_evaluation::nodes::{Findings, Place, UNKNOWN_INTERACTION};
 use inpact_evaluation::plan::Choices;
-use inpact_parser::model::Model;
+use inpact_parser::model::{Model, Name};
 
 /// A scene with the laws of its deck.
 #[derive(Debug)]
@@ -396,5 +397,10 @@ fn report_unknown(row: &SceneInterface, model: &Model, findings: &mut Findings) 
         None => format!("`interaction` is missing, and the deck has {} interactions", model.interactions.len()),
     };
     let place = Place { line: row.place.1.is_none().then_some(row.place.0), ..Place::default() };
-    findings.report(&UNKNOWN_INTERACTION, place, message, format!("its interactions are {}", names.join(", ")));
+    let listed = format!("its interactions are {}", names.join(", "));
+    let help = match &row.interaction {
+        Some(name) => meant_or(name.canonical(), model.interactions.keys().map(Name::canonical), &listed),
+        None => listed,
+    };
+    findings.report(&UNKNOWN_INTERACTION, place, message, help);
 }

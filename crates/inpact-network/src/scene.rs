@@ -10,7 +10,7 @@ mod read;
 mod tables;
 mod usable;
 mod values;
-mod words;
+pub(crate) mod words;
 
 pub use course::Course;
 pub use diagnostic::{

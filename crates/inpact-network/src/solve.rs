@@ -212,7 +212,7 @@ impl<'a> Equations<'a> {
             .zip(&iterated.missing)
             .map(|(&field, &(share, node))| (field, share, Some(node).filter(|node| *node != crate::linear::NONE)));
         let worst: Vec<(Field, f64, Option<u32>)> = worst.collect();
-        let is_unmet = |(_, share, _): &(Field, f64, Option<u32>)| !(*share <= MET);
+        let is_unmet = |(_, share, _): &(Field, f64, Option<u32>)| share.is_nan() || MET < *share;
         let unmet: Vec<_> = worst.iter().copied().filter(is_unmet).collect();
         Err(SolveFailure::NotConverged { steps, worst: if unmet.is_empty() { worst } else { unmet } })
     }

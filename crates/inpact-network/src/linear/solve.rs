@@ -110,6 +110,8 @@ impl LinearSolution {
 pub struct LinearReport {
     /// The method that gave it.
     pub method: Method,
+    /// The relative error of a flow that was asked for.
+    pub tolerance: f64,
     /// How many unknowns were solved for.
     pub unknowns: usize,
     /// How many of them are jumps from another node.
@@ -219,6 +221,7 @@ impl Solver {
             levels: form.scales.len(),
             taken_out: series.count(),
             still: still.count(),
+            tolerance: self.tolerance,
             ..LinearReport::default()
         };
         let mut found = self.solve_form(core, &series, form, &mut report)?;

@@ -79,7 +79,7 @@ fn wrong_kind(message: &str, written: Option<&str>) -> Option<(String, String)> 
 }
 
 /// The question whether one of the names was meant, where one is near, and what else to do.
-pub(super) fn meant_or<'name>(written: &str, names: impl IntoIterator<Item = &'name str>, else_do: &str) -> String {
+pub(crate) fn meant_or<'name>(written: &str, names: impl IntoIterator<Item = &'name str>, else_do: &str) -> String {
     let near = nearest_names(written.as_bytes(), names, 3);
     if near.is_empty() {
         return else_do.to_owned();

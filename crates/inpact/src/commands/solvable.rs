@@ -2,8 +2,6 @@
 
 mod failures;
 
-pub(crate) use failures::{method_name, shortcoming};
-
 use super::laws::LawArguments;
 use super::scene::{FindingFormat, say_data_findings, say_deck_findings};
 use crate::failure::Failure;

@@ -1,7 +1,6 @@
 //! What to say of a scene that was not solved.
 
 use inpact_evaluation::nodes::{DataDiagnostic, Findings, Place, USER_FAULT};
-use inpact_network::linear::{Method, NoSolution, Quality, Shortcoming};
 use inpact_network::scene::{
     CONTRADICTORY_VALUES, FLOATING_BODY, Field, MISSING_QUANTITY, NOT_CONVERGED, Scene, UNUSABLE_NUMBER,
 };
@@ -66,7 +65,7 @@ pub(super) fn findings(
         }
         SolveFailure::NotSolved { field, tried } => {
             let tried: Vec<String> =
-                tried.iter().map(|(method, why)| format!("{}: {}", method_name(*method), shortcoming(why))).collect();
+                tried.iter().map(|(method, why)| format!("{method}: {why}")).collect();
             let message = format!("the equations of {field} were not solved{when} ({})", tried.join("; "));
             findings.report(&NOT_CONVERGED, Place::default(), message, "");
         }
@@ -100,28 +99,4 @@ fn names(scene: &Scene, nodes: &[u32]) -> String {
         nodes.iter().take(MOST_NAMED).map(|&node| format!("`{}`", scene.nodes[node as usize])).collect();
     let others = nodes.len() - named.len();
     if others == 0 { named.join(", ") } else { format!("{} and {others} more nodes", named.join(", ")) }
-}
-
-/// What a user calls a method.
-pub(crate) fn method_name(method: Method) -> &'static str {
-    match method {
-        Method::Direct => "direct",
-        Method::Mixed => "mixed",
-        Method::Iterative => "iterative",
-        Method::Elimination => "elimination",
-    }
-}
-
-/// Why a method was given up.
-pub(crate) fn shortcoming(why: &Shortcoming) -> String {
-    match why {
-        Shortcoming::NoSolution(NoSolution::Pivot) => "a pivot was not above zero".to_owned(),
-        Shortcoming::NoSolution(NoSolution::Memory) => "there is not enough memory".to_owned(),
-        Shortcoming::NoSolution(NoSolution::Iterations) => "the iterations did not converge".to_owned(),
-        Shortcoming::Stalled(Quality { residual, error, .. }) => {
-            format!("it came no nearer than a residual of {residual:.1e} and an error of {error:.1e}")
-        }
-        Shortcoming::Overflow => "a value or a flow is beyond the range of f64".to_owned(),
-        Shortcoming::TooLarge => "it would need too much memory".to_owned(),
-    }
 }

@@ -1,6 +1,5 @@
 //! What there is to say of a solution: what was solved, how, and how well it balances.
 
-use crate::commands::solvable::{method_name, shortcoming};
 use inpact_network::linear::{LinearReport, Method, Ordering, Quality};
 use inpact_network::scene::Field;
 use inpact_network::transient::TransientReport;
@@ -102,7 +101,10 @@ fn stage_lines(stage: &StageReport) -> Vec<String> {
     for (field, linear) in stage.fields.iter().zip(&stage.linear) {
         lines.push(format!("  {field}: {}", linear_text(linear)));
         for (method, why) in &linear.given_up {
-            lines.push(format!("    {} was given up: {}", method_name(*method), shortcoming(why)));
+            lines.push(format!("    {method} was given up: {why}"));
+        }
+        if linear.tolerance < linear.quality.error {
+            lines.push("    rounding leaves flows less exact where larger ones nearly cancel in them".to_owned());
         }
         if linear.shared > 0 {
             lines.push(format!(
@@ -125,11 +127,14 @@ fn linear_text(linear: &LinearReport) -> String {
     if linear.taken_out > 0 {
         parts.push(format!("{} taken out", count(linear.taken_out, "node")));
     }
+    if linear.still > 0 {
+        parts.push(format!("{} without flow", count(linear.still, "node")));
+    }
     let method = match (linear.method, linear.ordering) {
         (_, _) if linear.unknowns == 0 => "nothing to factor".to_owned(),
         (Method::Iterative, _) => format!("iterative, {}", count(linear.iterations, "iteration")),
-        (method, Some(Ordering::NestedDissection)) => format!("{}, nested dissection", method_name(method)),
-        (method, _) => method_name(method).to_owned(),
+        (method, Some(Ordering::NestedDissection)) => format!("{method}, nested dissection"),
+        (method, _) => method.to_string(),
     };
     let Quality { solves, residual, error, condition } = linear.quality;
     let quality = match (linear.unknowns, linear.method) {
@@ -151,8 +156,9 @@ fn linear_json(field: Field, linear: &LinearReport) -> Value {
         "levels": linear.levels,
         "merged": linear.merged,
         "taken_out": linear.taken_out,
+        "still": linear.still,
         "shared": linear.shared,
-        "solver": method_name(linear.method),
+        "solver": linear.method.to_string(),
         "ordering": linear.ordering.map(|ordering| match ordering {
             Ordering::MinimumDegree => "minimum degree",
             Ordering::NestedDissection => "nested dissection",
@@ -164,7 +170,7 @@ fn linear_json(field: Field, linear: &LinearReport) -> Value {
         "error": linear.quality.error,
         "condition": linear.quality.condition,
         "given_up": linear.given_up.iter().map(|(method, why)| {
-            json!({ "solver": method_name(*method), "reason": shortcoming(why) })
+            json!({ "solver": method.to_string(), "reason": why.to_string() })
         }).collect::<Vec<Value>>(),
     })
 }

@@ -3,7 +3,7 @@
 use super::measure::{Entry, Measured};
 use super::report::{how, name, what};
 use crate::chart::{Chart, Point};
-use crate::commands::solvable::{SolvableScene, method_name};
+use crate::commands::solvable::SolvableScene;
 use crate::commands::tradeoff::LEAST_ERROR;
 use crate::commands::tradeoff::cells::file_name;
 
@@ -13,7 +13,7 @@ pub(super) fn chart(measured: &Measured, prepared: &SolvableScene) -> Chart {
     let (front, others): (Vec<&Entry>, Vec<&Entry>) = measured.entries.iter().partition(|entry| entry.on_front);
     let points = others.into_iter().chain(front).map(|entry| {
         let (name, methods) = (name(entry.subject), &entry.found.methods);
-        let fallback = methods.iter().skip(1).map(|method| format!(", then {}", method_name(*method)));
+        let fallback = methods.iter().skip(1).map(|method| format!(", then {method}"));
         Point {
             x: 1e3 * entry.time,
             y: entry.distance.values.clamp(LEAST_ERROR, f64::MAX),
@@ -31,6 +31,6 @@ pub(super) fn chart(measured: &Measured, prepared: &SolvableScene) -> Chart {
         vertical: Vec::new(),
         horizontal: vec![(f64::EPSILON / 2.0, "½ ulp of the range".to_owned())],
         front_title: "Pareto front".to_owned(),
-        footnote: format!("{}; reference: {}", how(measured), method_name(measured.reference.subject.method)),
+        footnote: format!("{}; reference: {}", how(measured), measured.reference.subject.method),
     }
 }

@@ -1,7 +1,7 @@
 //! Times and errors of every solver.
 
 use super::subjects::{Failed, Reference, Solved, Subject, USUAL, reference, subjects};
-use crate::commands::solvable::{SolvableScene, method_name, shortcoming};
+use crate::commands::solvable::SolvableScene;
 use crate::commands::tradeoff::front::front;
 use crate::commands::tradeoff::rounds::least_times;
 use inpact_network::linear::{LinearReport, Method, Phases, Work};
@@ -153,7 +153,7 @@ impl Found {
     fn take(&mut self, field: Field, linear: &LinearReport) {
         for (method, why) in &linear.given_up {
             self.add_method(*method);
-            let of = (field, *method, shortcoming(why));
+            let of = (field, *method, why.to_string());
             if !self.given_up.contains(&of) {
                 self.given_up.push(of);
             }
@@ -174,7 +174,7 @@ impl Found {
 
     /// The solver, and those it was replaced by.
     pub(super) fn methods_text(&self) -> String {
-        let names: Vec<&str> = self.methods.iter().map(|method| method_name(*method)).collect();
+        let names: Vec<String> = self.methods.iter().map(ToString::to_string).collect();
         names.join(", then ")
     }
 }

@@ -2,7 +2,7 @@
 
 use super::measure::{Entry, Measured};
 use super::subjects::Subject;
-use crate::commands::solvable::{SolvableScene, method_name};
+use crate::commands::solvable::SolvableScene;
 use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
 use inpact_network::linear::Phases;
 use serde_json::{Value, json};
@@ -26,7 +26,7 @@ pub(super) fn text(measured: &Measured, prepared: &SolvableScene) -> String {
     let mut given_up: Vec<(String, String)> = Vec::new();
     for Entry { subject, found, .. } in &measured.entries {
         for (field, method, why) in &found.given_up {
-            given_up.push((name(*subject), format!("{} was given up for {field}: {why}", method_name(*method))));
+            given_up.push((name(*subject), format!("{method} was given up for {field}: {why}")));
         }
     }
     for (names, reason) in by_reason(&given_up) {
@@ -89,7 +89,7 @@ fn cells(entry: &Entry) -> [String; 16] {
 
 /// What a solver at a tolerance is called.
 pub(super) fn name(subject: Subject) -> String {
-    format!("{} {}", method_name(subject.method), subject.tolerance_text())
+    format!("{} {}", subject.method, subject.tolerance_text())
 }
 
 fn size(measured: &Measured, prepared: &SolvableScene) -> String {
@@ -123,7 +123,7 @@ pub(super) fn how(measured: &Measured) -> String {
 /// What it was compared with.
 fn reference(measured: &Measured) -> String {
     let reference = &measured.reference;
-    let mut text = format!("{} to the last digit ({})", method_name(reference.subject.method), reference.reason);
+    let mut text = format!("{} to the last digit ({})", reference.subject.method, reference.reason);
     let own: Vec<String> =
         measured.entries.iter().filter(|entry| entry.is_reference).map(|entry| name(entry.subject)).collect();
     if !own.is_empty() {
@@ -157,14 +157,14 @@ pub(super) fn csv(measured: &Measured) -> String {
         ];
         let counts = counts.map(|number| number.to_string()).join(",");
         let given_up =
-            found.given_up.iter().map(|(field, method, why)| format!("{field}: {}: {why}", method_name(*method)));
+            found.given_up.iter().map(|(field, method, why)| format!("{field}: {method}: {why}"));
         let given_up = quoted(&given_up.collect::<Vec<String>>().join("; "));
         let methods = quoted(&found.methods_text());
-        let (solver, tolerance) = (method_name(subject.method), subject.tolerance);
+        let (solver, tolerance) = (subject.method, subject.tolerance);
         text += &format!("{solver},{tolerance:?},{methods},{times},{estimates},{counts},{given_up},\n");
     }
     for (subject, reason) in &measured.failed {
-        let (solver, tolerance) = (method_name(subject.method), subject.tolerance);
+        let (solver, tolerance) = (subject.method, subject.tolerance);
         text += &format!("{solver},{tolerance:?}{}{}\n", ",".repeat(21), quoted(reason));
     }
     text
@@ -186,13 +186,13 @@ pub(super) fn json(measured: &Measured, prepared: &SolvableScene) -> String {
         "times": reference.states.iter().map(|state| state.time).collect::<Vec<f64>>(),
         "rounds": measured.rounds,
         "reference": {
-            "solver": method_name(reference.subject.method),
+            "solver": reference.subject.method.to_string(),
             "tolerance": reference.subject.tolerance,
             "reason": reference.reason,
         },
         "solvers": measured.entries.iter().map(entry_json).collect::<Vec<Value>>(),
         "failed": measured.failed.iter().map(|(subject, reason)| {
-            json!({ "solver": method_name(subject.method), "tolerance": subject.tolerance, "reason": reason })
+            json!({ "solver": subject.method.to_string(), "tolerance": subject.tolerance, "reason": reason })
         }).collect::<Vec<Value>>(),
     });
     format!("{document:#}\n")
@@ -201,11 +201,11 @@ pub(super) fn json(measured: &Measured, prepared: &SolvableScene) -> String {
 fn entry_json(entry: &Entry) -> Value {
     let Entry { subject, time, phases, distance, is_reference, found, on_front } = entry;
     json!({
-        "solver": method_name(subject.method),
+        "solver": subject.method.to_string(),
         "tolerance": subject.tolerance,
-        "methods": found.methods.iter().map(|method| method_name(*method)).collect::<Vec<&str>>(),
+        "methods": found.methods.iter().map(ToString::to_string).collect::<Vec<String>>(),
         "given_up": found.given_up.iter().map(|(field, method, why)| {
-            json!({ "field": field.key(), "solver": method_name(*method), "reason": why })
+            json!({ "field": field.key(), "solver": method.to_string(), "reason": why })
         }).collect::<Vec<Value>>(),
         "seconds": time,
         "phases": {
