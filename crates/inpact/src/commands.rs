@@ -11,6 +11,7 @@ pub(crate) mod shell;
 pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
+mod evaluable;
+mod findings;
 mod laws;
-mod scene;
 mod solvable;

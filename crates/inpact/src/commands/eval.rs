@@ -3,8 +3,9 @@
 mod summary;
 
 use self::summary::Summary;
+use super::evaluable::{Evaluable, EvaluableArguments, READ_AHEAD};
+use super::findings::{FindingFormat, say_data_findings};
 use super::laws::LawArguments;
-use super::scene::{FindingFormat, READ_AHEAD, Scene, SceneArguments, say_data_findings};
 use crate::failure::{Failure, Outcome, say};
 use crate::files::{self, ResultFile};
 use crate::settings::DeckArguments;
@@ -21,7 +22,7 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 pub(crate) struct EvalArguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    evaluable: EvaluableArguments,
     #[command(flatten)]
     laws: LawArguments,
     #[command(flatten)]
@@ -60,26 +61,26 @@ impl EvalArguments {
 }
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
-    arguments.scene.threads()?.install(|| run_on_threads(arguments))
+    arguments.evaluable.threads()?.install(|| run_on_threads(arguments))
 }
 
 fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    files::refuse_overwriting(arguments.output.as_deref(), &arguments.scene.inputs())?;
+    files::refuse_overwriting(arguments.output.as_deref(), &arguments.evaluable.inputs())?;
     let format = arguments.format;
-    let prepared = arguments.scene.prepare(&arguments.laws, &arguments.reading, format)?;
-    let Some(mut scene) = prepared else { return Ok(Outcome::HasErrors) };
-    if scene.deck_has_errors {
+    let prepared = arguments.evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
+    let Some(mut evaluable) = prepared else { return Ok(Outcome::HasErrors) };
+    if evaluable.deck_has_errors {
         return Ok(Outcome::HasErrors);
     }
-    if scene.plan.outputs.is_empty() {
-        return Err(nothing_to_evaluate(&scene, format));
+    if evaluable.plan.outputs.is_empty() {
+        return Err(nothing_to_evaluate(&evaluable, format));
     }
-    let mut findings = Findings::new(&scene.nodes_name);
-    let evaluated = evaluate(arguments, &mut scene, &mut findings);
+    let mut findings = Findings::new(&evaluable.nodes_name);
+    let evaluated = evaluate(arguments, &mut evaluable, &mut findings);
     say_data_findings(findings.into_list(), format);
     let (tally, rows_out) = evaluated?;
-    let summary = Summary { tally: &tally, plan: &scene.plan, rows_out, time: start.elapsed() };
+    let summary = Summary { tally: &tally, plan: &evaluable.plan, rows_out, time: start.elapsed() };
     match format {
         FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
         FindingFormat::Json => say(&summary.json()),
@@ -88,10 +89,14 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
 }
 
 /// Evaluates the node table batch by batch; gives the counts and the number of rows written.
-fn evaluate(arguments: &EvalArguments, scene: &mut Scene, findings: &mut Findings) -> Result<(Tally, u64), Failure> {
-    let nodes_path = arguments.scene.nodes_path();
+fn evaluate(
+    arguments: &EvalArguments,
+    evaluable: &mut Evaluable,
+    findings: &mut Findings,
+) -> Result<(Tally, u64), Failure> {
+    let nodes_path = arguments.evaluable.nodes_path();
     let unreadable = |error| Failure::read(nodes_path, error);
-    let Scene { model, plan, choices, nodes_name, nodes, .. } = scene;
+    let Evaluable { model, plan, choices, nodes_name, nodes, .. } = evaluable;
     let laws = compile(model, plan, choices);
     let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
@@ -146,15 +151,15 @@ fn write(
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
-fn nothing_to_evaluate(scene: &Scene, format: FindingFormat) -> Failure {
-    let mut findings = Findings::new(&scene.nodes_name);
-    scene.plan.report_missing(&mut findings);
+fn nothing_to_evaluate(evaluable: &Evaluable, format: FindingFormat) -> Failure {
+    let mut findings = Findings::new(&evaluable.nodes_name);
+    evaluable.plan.report_missing(&mut findings);
     say_data_findings(findings.into_list(), format);
-    let reasons = scene.plan.interactions.iter().flat_map(|interaction| {
+    let reasons = evaluable.plan.interactions.iter().flat_map(|interaction| {
         let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
         others.map(move |left_out| format!("{} of `{}`: {}", left_out.what, interaction.name, left_out.reason))
     });
     let reasons: Vec<String> = reasons.collect();
     let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join("; ")) };
-    Failure::Data(format!("nothing of `{}` can be evaluated on these rows{reasons}", scene.deck_name))
+    Failure::Data(format!("nothing of `{}` can be evaluated on these rows{reasons}", evaluable.deck_name))
 }

@@ -1,7 +1,8 @@
 //! `inpact plan`: a deck and a node table in, what an evaluation of them would do out.
 
+use super::evaluable::{Evaluable, EvaluableArguments};
+use super::findings::FindingFormat;
 use super::laws::LawArguments;
-use super::scene::{FindingFormat, Scene, SceneArguments};
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::settings::DeckArguments;
@@ -18,7 +19,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub(crate) struct PlanArguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    evaluable: EvaluableArguments,
     #[command(flatten)]
     laws: LawArguments,
     #[command(flatten)]
@@ -44,19 +45,19 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Text => FindingFormat::Concise,
         PlanFormat::Json => FindingFormat::Json,
     };
-    let PlanArguments { scene, laws, reading, .. } = arguments;
-    let prepared = scene.threads()?.install(|| scene.prepare(laws, reading, findings))?;
-    let Some(scene) = prepared else { return Ok(Outcome::HasErrors) };
+    let PlanArguments { evaluable, laws, reading, .. } = arguments;
+    let prepared = evaluable.threads()?.install(|| evaluable.prepare(laws, reading, findings))?;
+    let Some(evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     let text = match arguments.format {
-        PlanFormat::Text => format!("plan for {} on {}: {}", scene.deck_name, scene.nodes_name, scene.plan),
-        PlanFormat::Json => as_json(&scene),
+        PlanFormat::Text => format!("plan for {} on {}: {}", evaluable.deck_name, evaluable.nodes_name, evaluable.plan),
+        PlanFormat::Json => as_json(&evaluable),
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
-    Ok(if scene.deck_has_errors { Outcome::HasErrors } else { Outcome::Clean })
+    Ok(if evaluable.deck_has_errors { Outcome::HasErrors } else { Outcome::Clean })
 }
 
-fn as_json(scene: &Scene) -> String {
-    let Plan { rows, governed_by, interactions, unused, columns, outputs, .. } = &scene.plan;
+fn as_json(evaluable: &Evaluable) -> String {
+    let Plan { rows, governed_by, interactions, unused, columns, outputs, .. } = &evaluable.plan;
     let columns = columns.iter().map(|column| {
         let (role, reason) = match &column.role {
             ColumnRole::Key => ("key", None),
@@ -72,12 +73,12 @@ fn as_json(scene: &Scene) -> String {
             "range": column.range.map(|(least, greatest)| [least, greatest]),
         })
     });
-    let outline = scene.plan.outline();
-    let keys = scene.plan.keys().iter().map(ToString::to_string);
+    let outline = evaluable.plan.outline();
+    let keys = evaluable.plan.keys().iter().map(ToString::to_string);
     let document = json!({
         "schema": "inpact/plan/1",
-        "deck": scene.deck_name,
-        "nodes": scene.nodes_name,
+        "deck": evaluable.deck_name,
+        "nodes": evaluable.nodes_name,
         "rows": rows,
         "governed_by": match governed_by {
             GovernedBy::Chosen(_) => "choice",

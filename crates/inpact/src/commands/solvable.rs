@@ -2,8 +2,8 @@
 
 mod failures;
 
+use super::findings::{FindingFormat, say_data_findings, say_deck_findings};
 use super::laws::LawArguments;
-use super::scene::{FindingFormat, say_data_findings, say_deck_findings};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;

@@ -5,8 +5,9 @@ mod output;
 mod summary;
 
 use self::output::{Outputs, StateFormat};
+use super::evaluable::tolerance;
+use super::findings::{FindingFormat, say_data_findings};
 use super::laws::LawArguments;
-use super::scene::{FindingFormat, say_data_findings, tolerance};
 use super::solvable::SolvableScene;
 use crate::failure::{Failure, Outcome, say};
 use crate::files::{self, STANDARD_STREAM};

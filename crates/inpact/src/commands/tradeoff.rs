@@ -8,8 +8,9 @@ mod rounds;
 mod solvers;
 mod tables;
 
+use super::evaluable::EvaluableArguments;
+use super::findings::FindingFormat;
 use super::laws::LawArguments;
-use super::scene::{FindingFormat, SceneArguments};
 use crate::chart::Chart;
 use crate::failure::{Failure, Outcome};
 use crate::files;
@@ -24,7 +25,7 @@ const LEAST_ERROR: f64 = f64::EPSILON / 4.0;
 #[command(override_usage = USAGE)]
 pub(crate) struct TradeoffArguments {
     #[command(flatten)]
-    table: Option<SceneArguments>,
+    table: Option<EvaluableArguments>,
     /// Measure the solvers on a scene, which names its deck, instead of the modes on a deck and its node table; `-` reads standard input.
     #[arg(long, value_name = "SCENE", conflicts_with_all = OF_TABLE)]
     scene: Option<PathBuf>,
@@ -110,7 +111,7 @@ impl TradeoffFormat {
 impl TradeoffArguments {
     /// The files that are measured on.
     fn inputs(&self) -> Vec<&Path> {
-        let of_table = self.table.iter().flat_map(SceneArguments::inputs);
+        let of_table = self.table.iter().flat_map(EvaluableArguments::inputs);
         of_table.chain(self.scene.as_deref()).collect()
     }
 }

@@ -64,8 +64,7 @@ pub(super) fn findings(
             }
         }
         SolveFailure::NotSolved { field, tried } => {
-            let tried: Vec<String> =
-                tried.iter().map(|(method, why)| format!("{method}: {why}")).collect();
+            let tried: Vec<String> = tried.iter().map(|(method, why)| format!("{method}: {why}")).collect();
             let message = format!("the equations of {field} were not solved{when} ({})", tried.join("; "));
             findings.report(&NOT_CONVERGED, Place::default(), message, "");
         }

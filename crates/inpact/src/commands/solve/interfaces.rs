@@ -1,6 +1,6 @@
 //! The result table of the interfaces of a solved scene: its rows as a node table, evaluated as `eval` evaluates one.
 
-use super::super::scene::{FindingFormat, say_data_findings};
+use super::super::findings::{FindingFormat, say_data_findings};
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;

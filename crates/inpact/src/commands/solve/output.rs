@@ -1,6 +1,6 @@
 //! The results of solving, written as they come.
 
-use super::super::scene::FindingFormat;
+use super::super::findings::FindingFormat;
 use super::summary::balances;
 use super::{SolveArguments, interfaces};
 use crate::commands::solvable::SolvableScene;

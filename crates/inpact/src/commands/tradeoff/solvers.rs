@@ -10,7 +10,7 @@ mod report;
 mod subjects;
 
 use super::{Shown, TradeoffArguments, TradeoffFormat};
-use crate::commands::scene::say_data_findings;
+use crate::commands::findings::say_data_findings;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use std::path::Path;

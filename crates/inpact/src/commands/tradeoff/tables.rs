@@ -10,12 +10,13 @@ mod report;
 mod subjects;
 
 use super::{Shown, TradeoffArguments, TradeoffFormat};
-use crate::commands::scene::{SceneArguments, say_data_findings};
+use crate::commands::evaluable::EvaluableArguments;
+use crate::commands::findings::say_data_findings;
 use crate::failure::Failure;
 use inpact_evaluation::nodes::Findings;
 
 /// Measures on a deck and its node table; `None` after saying what is wrong with them.
-pub(super) fn measured(table: &SceneArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
+pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     let format = arguments.format.of_findings();
     let threads = table.threads()?;
     let prepared = threads.install(|| table.prepare(&arguments.laws, &arguments.reading, format))?;

@@ -156,8 +156,7 @@ pub(super) fn csv(measured: &Measured) -> String {
             usize::from(*is_reference),
         ];
         let counts = counts.map(|number| number.to_string()).join(",");
-        let given_up =
-            found.given_up.iter().map(|(field, method, why)| format!("{field}: {method}: {why}"));
+        let given_up = found.given_up.iter().map(|(field, method, why)| format!("{field}: {method}: {why}"));
         let given_up = quoted(&given_up.collect::<Vec<String>>().join("; "));
         let methods = quoted(&found.methods_text());
         let (solver, tolerance) = (subject.method, subject.tolerance);

@@ -1,6 +1,6 @@
 //! What is measured: the tables in force and, as columns, the coordinates of the rows that reach them.
 
-use crate::commands::scene::{READ_AHEAD, Scene};
+use crate::commands::evaluable::{Evaluable, READ_AHEAD};
 use crate::failure::Failure;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Coordinates, TableReads, TabulatedQuantity};
@@ -14,7 +14,7 @@ use std::path::Path;
 pub(super) struct Subject {
     /// The interaction and what the table is.
     pub(super) name: String,
-    /// The table as it is evaluated: folded along the axes on which the scene has one value.
+    /// The table as it is evaluated: folded along the axes on which all rows have one value.
     pub(super) table: PiecewiseTable,
     /// One column an axis; of axes that make no difference the columns are empty.
     pub(super) columns: Vec<Vec<f64>>,
@@ -44,12 +44,12 @@ impl Subject {
 
 /// Reads the node table and keeps, of at most `most` rows, the coordinates that tables in force are read at.
 pub(super) fn gather(
-    scene: &mut Scene,
+    evaluable: &mut Evaluable,
     nodes_path: &Path,
     most: u64,
     findings: &mut Findings,
 ) -> Result<Sample, Failure> {
-    let Scene { model, plan, choices, nodes, .. } = scene;
+    let Evaluable { model, plan, choices, nodes, .. } = evaluable;
     let laws = compile(model, plan, choices);
     let mut coordinates = Coordinates::new(model, plan, &laws);
     let one_of = plan.rows.div_ceil(most).max(1);

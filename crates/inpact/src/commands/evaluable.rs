@@ -1,24 +1,21 @@
-//! A scene: a deck, a node table and the choices between them; what `eval` and `plan` have in common.
+//! A deck and a node table that can be evaluated, and the choices between them: what `eval`, `plan` and `tradeoff` have in common.
 
+use super::findings::{FindingFormat, say_data_findings, say_deck_findings};
 use super::laws::LawArguments;
-use crate::failure::{Failure, say};
+use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
-use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::nodes::{DataDiagnostic, Findings, NodeReader};
-use inpact_evaluation::plan::{
-    Choices, Derivatives, Plan, Survey, SurveyByNode, concerning, make, survey, survey_by_node,
-};
+use inpact_evaluation::nodes::{Findings, NodeReader};
+use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, SurveyByNode, make, survey, survey_by_node};
 use inpact_evaluation::results::Output;
-use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::grammar::{Dialect, Grammar};
+use inpact_parser::deck::Keep;
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{self, Model, Name, Regime};
-use inpact_validation::{Diagnostic, Severity, check};
+use inpact_validation::check;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use serde::Serialize;
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -27,7 +24,7 @@ use std::path::{Path, PathBuf};
 pub(crate) const READ_AHEAD: usize = 2;
 
 #[derive(Debug, Args)]
-pub(crate) struct SceneArguments {
+pub(crate) struct EvaluableArguments {
     /// The deck or fragment; `-` reads standard input.
     #[arg(value_name = "DECK")]
     deck: PathBuf,
@@ -76,17 +73,8 @@ enum AccuracyChoice {
     Fast,
 }
 
-/// How what is found is printed on standard error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FindingFormat {
-    /// A line each.
-    Concise,
-    /// A JSON object a line.
-    Json,
-}
-
-/// A scene that can be evaluated, or shown.
-pub(crate) struct Scene {
+/// A node table that can be evaluated, with its deck and plan.
+pub(crate) struct Evaluable {
     pub(crate) model: Model,
     pub(crate) choices: Choices,
     pub(crate) plan: Plan,
@@ -105,8 +93,8 @@ pub(crate) enum NodesInput {
     Spooled(File),
 }
 
-impl SceneArguments {
-    /// The files a scene is read from.
+impl EvaluableArguments {
+    /// The files that are read.
     pub(crate) fn inputs(&self) -> [&Path; 2] {
         [&self.deck, &self.nodes]
     }
@@ -117,7 +105,7 @@ impl SceneArguments {
         laws: &LawArguments,
         reading: &DeckArguments,
         format: FindingFormat,
-    ) -> Result<Option<Scene>, Failure> {
+    ) -> Result<Option<Evaluable>, Failure> {
         let is_standard = |path: &Path| path.as_os_str() == STANDARD_STREAM;
         if is_standard(&self.deck) && is_standard(&self.nodes) {
             return Err(Failure::Usage("deck and node table cannot both be read from standard input".to_owned()));
@@ -148,7 +136,7 @@ impl SceneArguments {
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &names, format);
         let deck_name = self.deck.display().to_string();
-        Ok(Some(Scene { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
+        Ok(Some(Evaluable { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
 
     /// Reads the node table for the first time; a second time only if the rows of its nodes do not stand together.
@@ -254,82 +242,6 @@ impl NodesInput {
             }
         }
     }
-}
-
-/// Says what the check found in some interactions, notes left out; true if there are errors.
-pub(crate) fn say_deck_findings(
-    found: &[Diagnostic],
-    (deck, grammar, model): (&Deck, &Grammar, &Model),
-    names: &[&Name],
-    format: FindingFormat,
-) -> bool {
-    let concerning = concerning(found, deck, grammar, model, names);
-    let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
-    let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
-    let format = match format {
-        FindingFormat::Concise => Format::Concise,
-        FindingFormat::Json => Format::Json,
-    };
-    let text = render::diagnostics(&shown, deck, format, Style::Plain);
-    text.lines().for_each(say);
-    let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
-    let elsewhere = errors(found) - errors(&shown);
-    if elsewhere > 0 && format == Format::Concise {
-        let errors = if elsewhere == 1 { "1 error".to_owned() } else { format!("{elsewhere} errors") };
-        say(&format!("{errors} elsewhere in the deck: see `inpact check`"));
-    }
-    errors(&shown) > 0
-}
-
-/// Says what is wrong with a node table.
-pub(crate) fn say_data_findings(found: Vec<DataDiagnostic>, format: FindingFormat) {
-    for found in found {
-        say(&match format {
-            FindingFormat::Concise => concise(&found),
-            FindingFormat::Json => json(&found),
-        });
-    }
-}
-
-/// `file:line: severity[CODE] message`, and what to do.
-fn concise(found: &DataDiagnostic) -> String {
-    let DataDiagnostic { code, severity, message, file, .. } = found;
-    let line = found.place.line.map_or_else(String::new, |line| format!(":{line}"));
-    let help = found.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
-    format!("{file}{line}: {severity}[{code}] {message}{help}")
-}
-
-/// The fields of a finding in a deck; instead of a column and a span a row and the name of its cell's column.
-fn json(found: &DataDiagnostic) -> String {
-    #[derive(Serialize)]
-    struct Record<'a> {
-        code: &'a str,
-        name: &'a str,
-        severity: &'a str,
-        file: &'a str,
-        line: Option<u64>,
-        column: Option<u64>,
-        span: Option<[u64; 2]>,
-        row: Option<u64>,
-        field: Option<&'a str>,
-        message: &'a str,
-        help: Option<&'a str>,
-    }
-    let record = Record {
-        code: found.code,
-        name: found.name,
-        severity: found.severity.word(),
-        file: &found.file,
-        line: found.place.line,
-        column: None,
-        span: None,
-        row: found.place.row,
-        field: found.place.column.as_deref(),
-        message: &found.message,
-        help: found.help.as_deref(),
-    };
-    // A record of strings and numbers has no reason to fail.
-    serde_json::to_string(&record).unwrap_or_default()
 }
 
 fn output_named(text: &str) -> Result<Output, String> {

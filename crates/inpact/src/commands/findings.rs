@@ -1,0 +1,97 @@
+//! What was found in decks and in data, on standard error.
+
+use crate::failure::say;
+use crate::render::{self, Format, Style};
+use clap::ValueEnum;
+use inpact_evaluation::nodes::DataDiagnostic;
+use inpact_evaluation::plan::concerning;
+use inpact_parser::deck::Deck;
+use inpact_parser::grammar::Grammar;
+use inpact_parser::model::{Model, Name};
+use inpact_validation::{Diagnostic, Severity};
+use serde::Serialize;
+
+/// How what is found is printed on standard error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FindingFormat {
+    /// A line each.
+    Concise,
+    /// A JSON object a line.
+    Json,
+}
+
+/// Says what the check found in some interactions, notes left out; true if there are errors.
+pub(crate) fn say_deck_findings(
+    found: &[Diagnostic],
+    (deck, grammar, model): (&Deck, &Grammar, &Model),
+    names: &[&Name],
+    format: FindingFormat,
+) -> bool {
+    let concerning = concerning(found, deck, grammar, model, names);
+    let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
+    let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
+    let format = match format {
+        FindingFormat::Concise => Format::Concise,
+        FindingFormat::Json => Format::Json,
+    };
+    let text = render::diagnostics(&shown, deck, format, Style::Plain);
+    text.lines().for_each(say);
+    let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
+    let elsewhere = errors(found) - errors(&shown);
+    if elsewhere > 0 && format == Format::Concise {
+        let errors = if elsewhere == 1 { "1 error".to_owned() } else { format!("{elsewhere} errors") };
+        say(&format!("{errors} elsewhere in the deck: see `inpact check`"));
+    }
+    errors(&shown) > 0
+}
+
+/// Says what is wrong with a node table.
+pub(crate) fn say_data_findings(found: Vec<DataDiagnostic>, format: FindingFormat) {
+    for found in found {
+        say(&match format {
+            FindingFormat::Concise => concise(&found),
+            FindingFormat::Json => json(&found),
+        });
+    }
+}
+
+/// `file:line: severity[CODE] message`, and what to do.
+fn concise(found: &DataDiagnostic) -> String {
+    let DataDiagnostic { code, severity, message, file, .. } = found;
+    let line = found.place.line.map_or_else(String::new, |line| format!(":{line}"));
+    let help = found.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
+    format!("{file}{line}: {severity}[{code}] {message}{help}")
+}
+
+/// The fields of a finding in a deck; instead of a column and a span a row and the name of its cell's column.
+fn json(found: &DataDiagnostic) -> String {
+    #[derive(Serialize)]
+    struct Record<'a> {
+        code: &'a str,
+        name: &'a str,
+        severity: &'a str,
+        file: &'a str,
+        line: Option<u64>,
+        column: Option<u64>,
+        span: Option<[u64; 2]>,
+        row: Option<u64>,
+        field: Option<&'a str>,
+        message: &'a str,
+        help: Option<&'a str>,
+    }
+    let record = Record {
+        code: found.code,
+        name: found.name,
+        severity: found.severity.word(),
+        file: &found.file,
+        line: found.place.line,
+        column: None,
+        span: None,
+        row: found.place.row,
+        field: found.place.column.as_deref(),
+        message: &found.message,
+        help: found.help.as_deref(),
+    };
+    // A record of strings and numbers has no reason to fail.
+    serde_json::to_string(&record).unwrap_or_default()
+}
