@@ -167,12 +167,22 @@ impl Edges {
 
     /// The largest relative change of a flow when the unknowns change by `changes`; flows at their rounding count with what they are known to.
     pub(crate) fn change_of_flows(&self, core: &Core, balance: &Balance, changes: &[f64]) -> f64 {
-        let change_of = |number: u32| {
+        self.largest_change(core, balance, |unknown, sign| sign * changes[unknown])
+    }
+
+    /// The same when each unknown changes by what is missing in its equation, in the direction that is worst for each flow.
+    pub(crate) fn missing_in_flows(&self, core: &Core, balance: &Balance) -> f64 {
+        let missing: Vec<f64> = balance.missing().map(f64::abs).collect();
+        self.largest_change(core, balance, |unknown, _| missing[unknown])
+    }
+
+    fn largest_change(&self, core: &Core, balance: &Balance, change_of: impl Fn(usize, f64) -> f64) -> f64 {
+        let relative_change = |number: u32| {
             let element = &core.elements[number as usize];
             let conductance = element.conductance.to_f64();
             let mut change = 0.0;
             self.form.on_way(self.form.ends(core, element), |unknown, sign| {
-                change += sign * scale_by_power(conductance, -self.form.scale(unknown)) * changes[unknown as usize];
+                change += scale_by_power(conductance, -self.form.scale(unknown)) * change_of(unknown as usize, sign);
             });
             if change == 0.0 {
                 return 0.0;
@@ -180,7 +190,7 @@ impl Edges {
             let flow = balance.flows[number as usize].to_f64().abs();
             change.abs() / flow.max(balance.roundings[number as usize] / f64::EPSILON)
         };
-        self.elements.iter().map(|&number| change_of(number)).fold(0.0, f64::max)
+        self.elements.iter().map(|&number| relative_change(number)).fold(0.0, f64::max)
     }
 
     /// Makes nothing of the flows that rounding hides, and gives the largest part of another that rounding may have done.

@@ -3,7 +3,8 @@
 //! The balance of each unknown is taken in edge form and in 106 bits, the rough solver gives a correction, and so on.
 //! Each step gains as many digits as the solver is good for. The largest relative change of a flow in the last step, times the factor by which the changes shrink,
 //! is an estimate of the error that is left; a solution is taken only when that and the balances are within the tolerance.
-//! Conjugate gradients stop when most is corrected, so that small flows may be wrong and not change: there condition × residual is an estimate as well, and the larger of both counts.
+//! After the first step nothing tells by which factor: there the estimate is what is missing in the balances, as a part of the flows, times the condition.
+//! Conjugate gradients stop when most is corrected, so that small flows may be wrong and not change: there the larger of both estimates counts.
 //! A balance is not better than its rounding: what is left of it below that is no reason to go on. What rounding may have done to a flow counts as its error;
 //! a flow that is no more than that is none.
 
@@ -74,13 +75,13 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
             return Err(GaveUp::Overflow);
         }
         if quality.solves > 0 {
-            quality.error = progress.error_after(edges.change_of_flows(core, &balance, &changes));
-            if !solver.is_even() {
-                // Small flows may not have changed at all; what is missing in their balances tells.
-                quality.error = quality.error.max(quality.condition * quality.residual);
-            }
             let is_first = quality.solves == 1;
-            if !is_first && quality.error <= tolerance && quality.residual <= tolerance {
+            quality.error = progress.error_after(edges.change_of_flows(core, &balance, &changes));
+            if is_first || !solver.is_even() {
+                let by_balance = quality.condition * edges.missing_in_flows(core, &balance);
+                quality.error = if is_first { by_balance } else { quality.error.max(by_balance) };
+            }
+            if quality.error <= tolerance && quality.residual <= tolerance {
                 break;
             }
             let largest = balance.missing().map(f64::abs).fold(0.0, f64::max);
