@@ -18,6 +18,9 @@ use faer::sparse::linalg::cholesky::{
 /// 46³ in three need 6e5, and dissection takes a tenth of the factor it saves half of.
 const WORTH_DISSECTING: f64 = 1e5;
 
+/// Fewer unknowns are ordered by minimum degree first, which may be good enough: from 22³ on it is not.
+const LEAST_IN_SPACE: usize = 10_000;
+
 /// Entries below the diagonal for each unknown from which a network may be one of three dimensions: a grid in the plane has two, one in space three.
 const NEIGHBOURS_IN_SPACE: f64 = 2.5;
 
@@ -44,7 +47,8 @@ impl Analysis {
     /// Analyses the lower triangle of a symmetric matrix; `None` where memory runs out.
     pub(crate) fn of(pattern: SymbolicSparseColMatRef<'_, u32>) -> Option<Self> {
         let count = pattern.ncols() as f64;
-        let may_be_in_space = (pattern.row_idx().len() as f64) > (1.0 + NEIGHBOURS_IN_SPACE) * count;
+        let may_be_in_space =
+            LEAST_IN_SPACE <= pattern.ncols() && (pattern.row_idx().len() as f64) > (1.0 + NEIGHBOURS_IN_SPACE) * count;
         let mut graph = may_be_in_space.then(|| graph_of(pattern));
         let mut by_degree = None;
         if !graph.as_ref().is_some_and(is_in_space) {

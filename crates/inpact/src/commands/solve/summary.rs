@@ -83,6 +83,9 @@ impl Summary<'_> {
     }
 }
 
+/// What rounding to f64 loses.
+const HALF_A_DIGIT: f64 = 0.5 * f64::EPSILON;
+
 fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
@@ -103,7 +106,7 @@ fn stage_lines(stage: &StageReport) -> Vec<String> {
         for (method, why) in &linear.given_up {
             lines.push(format!("    {method} was given up: {why}"));
         }
-        if linear.tolerance < linear.quality.error {
+        if linear.tolerance.max(HALF_A_DIGIT) < linear.quality.error {
             lines.push("    rounding leaves flows less exact where larger ones nearly cancel in them".to_owned());
         }
         if linear.shared > 0 {
