@@ -21,6 +21,7 @@ mod solve;
 mod solve_ccx;
 mod solve_nonlinear;
 mod solve_published;
+mod solve_silent;
 mod solve_transient;
 mod solve_wrong;
 mod tradeoff;

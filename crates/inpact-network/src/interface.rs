@@ -283,8 +283,9 @@ fn variables(first: &[f64], field_variables: &[f64]) -> Vec<f64> {
 /// A conductance with what its variables have lost to rounding.
 fn corrected(conductance: f64, slopes: &[(f64, Mean)]) -> f64 {
     let lost: f64 = slopes.iter().map(|(slope, mean)| slope * mean.lost).sum();
-    // A table that falls to zero there stays at zero.
-    if conductance == 0.0 { 0.0 } else { (conductance + lost).max(0.0) }
+    let sum = conductance + lost;
+    // A table that falls to zero there stays at zero; what is no number stays none.
+    if conductance == 0.0 || sum < 0.0 { 0.0 } else { sum }
 }
 
 /// A slope that can be used; at a jump there may be none.
@@ -351,6 +352,7 @@ pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> D
     let mut dependence = Dependence { clearance: state != ContactState::Closed, ..Dependence::default() };
     let law = laws.pore.as_ref().map(|law| &law.permeability);
     if let Some(inpact_evaluation::law::pore::Permeability::Finite(table)) = law {
+        dependence.clearance = true;
         dependence.pressure = matters(table, 0) && state == ContactState::Closed;
         dependence.pore_pressure = matters(table, 1);
         dependence.temperature = matters(table, 2);
