@@ -8,9 +8,8 @@
 //! - a field whose conductances depend on no other is solved before those that depend on it; fields that depend on each other are solved together;
 //! - a field that depends on nothing unsolved is linear: it takes one solve, no Newton.
 
-use crate::interface::{
-    Contact, Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal, heat_of_friction,
-};
+use crate::dependence::{Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal};
+use crate::interface::{Contact, heat_of_friction};
 use crate::linear::{NONE, Sets, index};
 use crate::scene::words::meant_or;
 use crate::scene::{Course, Field, MISSING_QUANTITY, Scene, SceneInterface};
@@ -440,20 +439,6 @@ impl<'a> Problem<'a> {
         let of = &self.scene.interfaces[row];
         let heat = self.laws_of(row).and_then(|laws| heat_of_friction(laws, of));
         heat.map_or([0.0; 2], |heat| [heat.slave * of.area, heat.master * of.area])
-    }
-}
-
-impl Dependence {
-    fn or(mut self, other: Self) -> Self {
-        self.clearance |= other.clearance;
-        self.pressure |= other.pressure;
-        self.temperature |= other.temperature;
-        self.mass_flow |= other.mass_flow;
-        self.pore_pressure |= other.pore_pressure;
-        self.fields.extend(other.fields);
-        self.fields.sort_unstable();
-        self.fields.dedup();
-        self
     }
 }
 
