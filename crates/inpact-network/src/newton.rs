@@ -17,7 +17,7 @@ mod system;
 
 use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sources};
 use crate::knowledge::Knowledge;
-use crate::linear::{LinearSolution, NONE, each_part, index};
+use crate::linear::{LinearSolution, NONE, each_part, index, largest_or_nan};
 use crate::scene::Field;
 use faer::Col;
 use faer::prelude::Solve;
@@ -191,8 +191,7 @@ impl<'a> Newton<'a> {
 
     /// The largest share that is missing in a balance of any field.
     fn worst(&self, states: &[Evaluated]) -> f64 {
-        let shares = self.fields.iter().zip(states).map(|(of, at)| of.worst(at));
-        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+        largest_or_nan(self.fields.iter().zip(states).map(|(of, at)| of.worst(at)))
     }
 
     fn jumps(&self) -> Vec<Vec<Wide>> {

@@ -8,6 +8,7 @@ use super::factor::{Factor, NoSolution, Solves};
 use super::hanging::Hanging;
 use super::infinite;
 use super::iterative::ConjugateGradients;
+use super::largest::largest_or_nan;
 use super::matrix::Pattern;
 use super::network::{LinearNetwork, Link, Unsolvable};
 use super::ordering::{Analysis, Ordering};
@@ -361,7 +362,7 @@ fn worst_share(core: &Core, series: &Series, flows: &[Wide]) -> f64 {
     let cells = missing.iter().zip(&magnitudes).zip(&series.is_free).filter_map(|(of, is_free)| is_free.then_some(of));
     let shares =
         cells.map(|(missing, magnitude)| if missing.is_zero() { 0.0 } else { missing.to_f64().abs() / magnitude });
-    shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+    largest_or_nan(shares)
 }
 
 /// What is in `place`, made first where there is nothing.

@@ -2,7 +2,9 @@
 
 use crate::assembly::{Capacities, HeatTerm, RowTerms, network};
 use crate::knowledge::Knowledge;
-use crate::linear::{Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, Still, index};
+use crate::linear::{
+    Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, Still, index, largest_or_nan,
+};
 use crate::problem::FieldNodes;
 use crate::scene::Field;
 use inpact_evaluation::numbers::{Wide, scale_by_power};
@@ -166,7 +168,7 @@ impl<'a> System<'a> {
         let shares = state.balance.missing().zip(scales.iter().zip(&state.balance.magnitudes)).map(
             |(missing, (scale, magnitude))| if missing == 0.0 { 0.0 } else { missing.abs() / scale.max(*magnitude) },
         );
-        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+        largest_or_nan(shares)
     }
 
     /// The largest value of a field, from whatever it is counted; of potentials, on which nothing depends but by their jumps, the largest jump.
