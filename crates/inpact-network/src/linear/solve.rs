@@ -148,7 +148,7 @@ pub enum Shortcoming {
     NoSolution(NoSolution),
     /// It came no nearer than this.
     Stalled(Quality),
-    /// A flow is beyond the range of f64.
+    /// A flow is beyond the range of f64, or what a rough factor made of it.
     Overflow,
     /// The filled network would be too large.
     TooLarge,
@@ -251,10 +251,11 @@ impl Solver {
             };
             report.given_up.push((method, shortcoming));
             method = match (method, shortcoming) {
-                (_, Shortcoming::Overflow) | (Method::Elimination, _) => {
+                (Method::Direct, Shortcoming::Overflow) | (Method::Elimination, _) => {
                     return Err(LinearFailure::NotSolved(std::mem::take(&mut report.given_up)));
                 }
                 (Method::Direct, _) => Method::Elimination,
+                // A rough factor may have left the range of numbers by itself, that of f32 before all.
                 (Method::Mixed | Method::Iterative, _) => Method::Direct,
             };
         }
