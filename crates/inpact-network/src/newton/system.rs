@@ -112,7 +112,7 @@ impl<'a> System<'a> {
             Field::Temperature => &mut knowledge.temperatures,
             Field::PorePressure => &mut knowledge.pore_pressures,
         };
-        let values = self.edges.values(&self.core, &self.jumps);
+        let values = self.values();
         let form = &self.edges.form;
         for (&node, &number) in self.nodes.nodes.iter().zip(&self.origins.number) {
             if !self.core.is_free(number) {
@@ -180,11 +180,7 @@ impl<'a> System<'a> {
         if self.field == Field::Potential {
             return of_jumps;
         }
-        self.edges
-            .values(&self.core, &self.jumps)
-            .into_iter()
-            .chain(self.core.known.iter().copied())
-            .fold(of_jumps, largest)
+        self.values().into_iter().chain(self.core.known.iter().copied()).fold(of_jumps, largest)
     }
 
     /// Where most is missing, as a share of the largest flow, and the node of the scene.
@@ -225,12 +221,16 @@ impl<'a> System<'a> {
         self.jumps = jumps.iter().zip(changes).map(|(jump, change)| *jump + Wide::new(change)).collect();
     }
 
-    /// The jump of values between two nodes of the scene.
-    pub(super) fn jump_of_values(&self, slave: u32, master: u32) -> f64 {
-        let values = self.edges.values(&self.core, &self.jumps);
+    /// The values of the nodes of its core.
+    pub(super) fn values(&self) -> Vec<Wide> {
+        self.edges.values(&self.core, &self.jumps)
+    }
+
+    /// The jump of these values between two nodes of the scene.
+    pub(super) fn jump_of_values(&self, values: &[Wide], slave: u32, master: u32) -> f64 {
         let value = |node: u32| {
             let number = self.origins.number[self.nodes.place[node as usize] as usize];
-            self.core.value(&values, number)
+            self.core.value(values, number)
         };
         (value(slave) - value(master)).to_f64()
     }
