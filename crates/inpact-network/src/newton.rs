@@ -17,13 +17,14 @@ mod system;
 
 use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sources};
 use crate::knowledge::Knowledge;
-use crate::linear::{LinearSolution, NONE, each_part, index};
+use crate::linear::{LinearSolution, NONE, each_part, index, largest_or_nan};
 use crate::scene::Field;
 use faer::Col;
 use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
+use std::cell::LazyCell;
 use system::{Evaluated, System};
 
 /// Below that share of its flows a balance is met.
@@ -191,8 +192,7 @@ impl<'a> Newton<'a> {
 
     /// The largest share that is missing in a balance of any field.
     fn worst(&self, states: &[Evaluated]) -> f64 {
-        let shares = self.fields.iter().zip(states).map(|(of, at)| of.worst(at));
-        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+        largest_or_nan(self.fields.iter().zip(states).map(|(of, at)| of.worst(at)))
     }
 
     fn jumps(&self) -> Vec<Vec<Wide>> {
@@ -344,8 +344,14 @@ impl<'a> Newton<'a> {
         knowledge: &Knowledge<'_>,
         entries: &mut Vec<Triplet<u32, u32, f64>>,
     ) {
+        // What no flow tells takes the values of all nodes: they are put together once, where a row asks for them.
+        let values = LazyCell::new(|| system.values());
         for (place, &row) in system.nodes.rows.iter().enumerate() {
             let (conducts, of) = (state.terms.slopes[place], knowledge.row(row));
+            let slopes = [conducts.along_temperature, conducts.along_pore_pressure];
+            if slopes.iter().chain(&conducts.radiation_slopes).all(|slope| *slope == 0.0) {
+                continue;
+            }
             let flow = system.nodes.links.len() + place;
             let element = system.origins.of_link[flow];
             if element == NONE {
@@ -355,7 +361,7 @@ impl<'a> Newton<'a> {
             let jump = if conductance > 0.0 {
                 (state.flows[flow] / Wide::new(conductance)).to_f64()
             } else {
-                system.jump_of_values(of.slave, of.master)
+                system.jump_of_values(&values, of.slave, of.master)
             };
             let common = 0.5 * conducts.along_temperature * jump * of.area;
             let radiation = conducts.radiation_slopes.map(|slope| slope * of.area);

@@ -409,13 +409,11 @@ impl<'a> Problem<'a> {
         let has_temperature = self.field(Field::Temperature).is_some();
         let start = self.start();
         let mut couplings = Couplings::default();
-        for (row, of, laws) in self.rows_of(Field::Potential) {
+        for (_, of, laws) in self.rows_of(Field::Potential) {
             let needs = Self::dependence(of, laws, Field::Potential, start);
             couplings.potential_on_temperature |= needs.temperature && has_temperature;
-            let is_heated = self.field(Field::Temperature).is_some_and(|field| field.rows.contains(&index(row)))
-                || self.receives_heat(of);
             couplings.temperature_on_potential |=
-                has_temperature && is_heated && laws.heat_generation.is_some_and(|heat| heat.fraction != 0.0);
+                self.receives_heat(of) && laws.heat_generation.is_some_and(|heat| heat.fraction != 0.0);
         }
         let heats = |link: &crate::scene::SceneLink| link.joule_heat_fraction > 0.0 && link.conductances[0] > 0.0;
         couplings.temperature_on_potential |= has_temperature && self.scene.links.iter().any(heats);

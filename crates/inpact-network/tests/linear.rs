@@ -373,6 +373,22 @@ fn numbers_beyond_the_range_are_refused() {
     overflows(&stored);
 }
 
+/// Conductances at the lower end of f64 make a factor in f32 overflow and nothing else: half of the flow goes either way, and the one in f64 finds it.
+#[test]
+fn what_only_a_rough_factor_overflows_is_solved() {
+    let (weak, value) = (f64::from_bits(2), 1e70);
+    let mut triangle = network(3, &[(0, 0.0)], &[(0, 1, weak), (0, 2, weak), (1, 2, 1e-129)]);
+    triangle.sources[1] = 2.0 * value * weak;
+    let half = value * weak;
+    for (method, solution) in solutions(&triangle) {
+        assert_eq!(rounded(&solution.values), [0.0, value, value], "{method:?}");
+        assert_eq!(rounded(&solution.flows), [-half, -half, half], "{method:?}");
+        if method == Method::Mixed {
+            assert_eq!(solution.report.given_up, [(Method::Mixed, Shortcoming::Overflow)]);
+        }
+    }
+}
+
 /// A grid whose links are as irregular as 7-digit fractions make them, and an interface across it; two sides are held.
 fn grid([nx, ny, nz]: [u32; 3], contrast: f64) -> LinearNetwork {
     let free = nx * ny * nz;

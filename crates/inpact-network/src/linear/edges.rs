@@ -5,6 +5,7 @@
 
 use super::core::{Core, NONE};
 use super::hanging::Hanging;
+use super::largest::largest_or_nan;
 use super::relative::Form;
 use super::sets::index;
 use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
@@ -293,8 +294,7 @@ impl Balance {
             .missing()
             .zip(&self.magnitudes)
             .map(|(missing, &magnitude)| if missing == 0.0 { 0.0 } else { missing.abs() / magnitude });
-        // NaN must not be passed over.
-        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+        largest_or_nan(shares)
     }
 
     fn reset(&mut self, elements: usize, sources: &[Wide]) {

@@ -8,6 +8,7 @@ use super::factor::{Factor, NoSolution, Solves};
 use super::hanging::Hanging;
 use super::infinite;
 use super::iterative::ConjugateGradients;
+use super::largest::largest_or_nan;
 use super::matrix::Pattern;
 use super::network::{LinearNetwork, Link, Unsolvable};
 use super::ordering::{Analysis, Ordering};
@@ -147,7 +148,7 @@ pub enum Shortcoming {
     NoSolution(NoSolution),
     /// It came no nearer than this.
     Stalled(Quality),
-    /// A flow is beyond the range of f64.
+    /// A flow is beyond the range of f64, or what a rough factor made of it.
     Overflow,
     /// The filled network would be too large.
     TooLarge,
@@ -250,10 +251,11 @@ impl Solver {
             };
             report.given_up.push((method, shortcoming));
             method = match (method, shortcoming) {
-                (_, Shortcoming::Overflow) | (Method::Elimination, _) => {
+                (Method::Direct, Shortcoming::Overflow) | (Method::Elimination, _) => {
                     return Err(LinearFailure::NotSolved(std::mem::take(&mut report.given_up)));
                 }
                 (Method::Direct, _) => Method::Elimination,
+                // A rough factor may have left the range of numbers by itself, that of f32 before all.
                 (Method::Mixed | Method::Iterative, _) => Method::Direct,
             };
         }
@@ -361,7 +363,7 @@ fn worst_share(core: &Core, series: &Series, flows: &[Wide]) -> f64 {
     let cells = missing.iter().zip(&magnitudes).zip(&series.is_free).filter_map(|(of, is_free)| is_free.then_some(of));
     let shares =
         cells.map(|(missing, magnitude)| if missing.is_zero() { 0.0 } else { missing.to_f64().abs() / magnitude });
-    shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+    largest_or_nan(shares)
 }
 
 /// What is in `place`, made first where there is nothing.

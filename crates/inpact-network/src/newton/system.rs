@@ -2,7 +2,9 @@
 
 use crate::assembly::{Capacities, HeatTerm, RowTerms, network};
 use crate::knowledge::Knowledge;
-use crate::linear::{Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, Still, index};
+use crate::linear::{
+    Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, Still, index, largest_or_nan,
+};
 use crate::problem::FieldNodes;
 use crate::scene::Field;
 use inpact_evaluation::numbers::{Wide, scale_by_power};
@@ -110,7 +112,7 @@ impl<'a> System<'a> {
             Field::Temperature => &mut knowledge.temperatures,
             Field::PorePressure => &mut knowledge.pore_pressures,
         };
-        let values = self.edges.values(&self.core, &self.jumps);
+        let values = self.values();
         let form = &self.edges.form;
         for (&node, &number) in self.nodes.nodes.iter().zip(&self.origins.number) {
             if !self.core.is_free(number) {
@@ -166,7 +168,7 @@ impl<'a> System<'a> {
         let shares = state.balance.missing().zip(scales.iter().zip(&state.balance.magnitudes)).map(
             |(missing, (scale, magnitude))| if missing == 0.0 { 0.0 } else { missing.abs() / scale.max(*magnitude) },
         );
-        shares.fold(0.0, |worst: f64, share| if share > worst || share.is_nan() { share } else { worst })
+        largest_or_nan(shares)
     }
 
     /// The largest value of a field, from whatever it is counted; of potentials, on which nothing depends but by their jumps, the largest jump.
@@ -178,11 +180,7 @@ impl<'a> System<'a> {
         if self.field == Field::Potential {
             return of_jumps;
         }
-        self.edges
-            .values(&self.core, &self.jumps)
-            .into_iter()
-            .chain(self.core.known.iter().copied())
-            .fold(of_jumps, largest)
+        self.values().into_iter().chain(self.core.known.iter().copied()).fold(of_jumps, largest)
     }
 
     /// Where most is missing, as a share of the largest flow, and the node of the scene.
@@ -223,12 +221,16 @@ impl<'a> System<'a> {
         self.jumps = jumps.iter().zip(changes).map(|(jump, change)| *jump + Wide::new(change)).collect();
     }
 
-    /// The jump of values between two nodes of the scene.
-    pub(super) fn jump_of_values(&self, slave: u32, master: u32) -> f64 {
-        let values = self.edges.values(&self.core, &self.jumps);
+    /// The values of the nodes of its core.
+    pub(super) fn values(&self) -> Vec<Wide> {
+        self.edges.values(&self.core, &self.jumps)
+    }
+
+    /// The jump of these values between two nodes of the scene.
+    pub(super) fn jump_of_values(&self, values: &[Wide], slave: u32, master: u32) -> f64 {
         let value = |node: u32| {
             let number = self.origins.number[self.nodes.place[node as usize] as usize];
-            self.core.value(&values, number)
+            self.core.value(values, number)
         };
         (value(slave) - value(master)).to_f64()
     }
