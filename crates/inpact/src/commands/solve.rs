@@ -106,16 +106,18 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         last = Some(state.clone());
         Ok(())
     });
-    let report = match ran {
-        Ok(report) => report,
+    let ran = match ran {
+        Ok(report) => Some(report),
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
-            say_data_findings(prepared.findings(&failure, last.map(|state| state.time)), format);
-            return Ok(Outcome::HasErrors);
+            say_data_findings(prepared.findings(&failure, last.as_ref().map(|state| state.time)), format);
+            None
         }
     };
     let Some(last) = last else { return Ok(Outcome::HasErrors) };
+    // The states before a failure hold, and took their time: they are kept as those of a whole run are.
     outputs.finish(&last, format)?;
+    let Some(report) = ran else { return Ok(Outcome::HasErrors) };
     let summary = summary::Summary {
         problem: &problem,
         state: &last,
