@@ -66,3 +66,34 @@ fn the_states_before_a_failure_are_kept_as_json() {
     let states = document["states"].as_array().expect("states");
     assert_eq!((states.len(), document["time"].as_f64()), (3, Some(2.0)));
 }
+
+const CURRENT: &str = "\
+*SURFACE INTERACTION, NAME=JOINT
+*GAP ELECTRICAL CONDUCTANCE, PRESSURE
+20., 0.
+30., 100.
+";
+
+/// Two parallel rows, a node that is called as the pair is, and a third that reads as both of them do.
+#[test]
+fn parallel_rows_have_labels_of_their_own() {
+    let mut scene = "deck = \"deck.inp\"\nprocedure = \"transient\"\n[time]\nend = 1.0\nstep = 0.5\n".to_owned();
+    for (name, potential) in [("a", 2.0), ("b", 1.0), ("a|b", 2.0), ("c", 1.0), ("b|c", 1.0), ("a|b|3", 1.0)] {
+        scene += &format!("[[node]]\nname = \"{name}\"\npotential = {{ fixed = {potential:?} }}\n");
+    }
+    let pairs = [("a", "b", 0), ("a", "b", 50), ("a|b", "c", 0), ("a|b", "c", 50), ("a", "b|c", 0), ("a|b|3", "c", 0)];
+    for (slave, master, pressure) in pairs {
+        scene += &format!(
+            "[[interface]]\nslave = \"{slave}\"\nmaster = \"{master}\"\narea = 1.0\nclearance = 0.0\npressure = {pressure}.0\n"
+        );
+    }
+    let folder = Folder::with(&[("deck.inp", CURRENT), ("scene.toml", &scene)]);
+    let run = folder.inpact(&["solve", "scene.toml", "-o", "states.csv", "--interfaces", "rows.csv"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert_eq!(Table::read(&folder.read("states.csv")).course(&["a"], "time"), [0.0, 0.5, 1.0]);
+    let rows = Table::read(&folder.read("rows.csv"));
+    let labels = ["a|b|2", "a|b|4", "a|b|c", "a|b|c|2", "a|b|c|3", "a|b|3"];
+    for (label, current) in labels.into_iter().zip([20.0, 25.0, 20.0, 25.0, 20.0, 0.0]) {
+        assert_eq!(rows.course(&[label], "ECD"), [current; 3], "{label}");
+    }
+}

@@ -19,6 +19,7 @@ pub use diagnostic::{
 };
 pub use read::{SceneFiles, read};
 
+use inpact_evaluation::nodes::Place;
 use inpact_parser::model::Name;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -186,6 +187,18 @@ impl Field {
             Self::Temperature => "heat",
             Self::PorePressure => "fluid",
         }
+    }
+}
+
+impl SceneInterface {
+    /// Where a finding about it points, and its words: lines of a table beside the scene stand in those, since the file of the finding is the scene.
+    pub fn located(&self, message: String) -> (Place, String) {
+        let (line, table) = &self.place;
+        let message = match table {
+            Some(table) => format!("{message} (line {line} of `{table}`)"),
+            None => message,
+        };
+        (Place { line: table.is_none().then_some(*line), ..Place::default() }, message)
     }
 }
 
