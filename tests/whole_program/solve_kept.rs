@@ -97,3 +97,49 @@ fn parallel_rows_have_labels_of_their_own() {
         assert_eq!(rows.course(&[label], "ECD"), [current; 3], "{label}");
     }
 }
+
+/// A scene of every kind of file: a table beside it, a deck, and a deck that this includes.
+#[test]
+fn no_result_replaces_what_the_scene_is_made_from() {
+    let scene = OPENING.to_owned() + "[[link_file]]\nfile = \"links.csv\"\n";
+    let inputs = [
+        ("deck.inp", "*INCLUDE, INPUT=joint.inp\n"),
+        ("joint.inp", HEAT),
+        ("links.csv", "node_1,node_2,thermal\nb,c,1\n"),
+        ("scene.toml", &scene),
+    ];
+    let folder = Folder::with(&inputs);
+    for (name, _) in inputs {
+        let links = format!("--links={name}");
+        let commands: [&[&str]; 4] = [
+            &["solve", "scene.toml", "-o", name],
+            &["solve", "scene.toml", &links],
+            &["solve", "scene.toml", "--interfaces", name],
+            &["tradeoff", "--scene", "scene.toml", "-o", name],
+        ];
+        for arguments in commands {
+            let run = folder.inpact(arguments);
+            assert_eq!((run.code, run.output.as_str()), (2, ""), "{arguments:?}: {}", run.errors);
+            assert!(run.errors.contains("would replace"), "{arguments:?}: {}", run.errors);
+        }
+    }
+    for (name, text) in inputs {
+        assert_eq!(folder.read(name), text, "{name}");
+    }
+}
+
+#[test]
+fn two_results_do_not_go_to_one_file() {
+    let folder = opening();
+    let commands: [&[&str]; 3] = [
+        &["solve", "scene.toml", "-o", "result.csv", "--interfaces", "./result.csv"],
+        &["solve", "scene.toml", "-o", "result.csv", "--links=result.csv"],
+        &["tradeoff", "--scene", "scene.toml", "-o", "result.svg", "--plot", "result.svg"],
+    ];
+    for arguments in commands {
+        let run = folder.inpact(arguments);
+        assert_eq!((run.code, run.output.as_str()), (2, ""), "{arguments:?}: {}", run.errors);
+        assert!(run.errors.contains("two results would go to"), "{arguments:?}: {}", run.errors);
+    }
+    assert_eq!(folder.names(), ["deck.inp", "scene.toml"]);
+}

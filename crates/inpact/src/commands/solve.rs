@@ -91,11 +91,10 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let format = arguments.format.of_findings();
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
-    for target in targets {
-        files::refuse_overwriting(target, &[&arguments.scene])?;
-    }
+    files::refuse_one_target_twice(&targets)?;
     let prepared = SolvableScene::read(&arguments.scene, &arguments.laws, &arguments.reading, format)?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
+    prepared.refuse_overwriting(&targets)?;
     let Some(problem) = prepared.problem(format) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.method();
     let mut equations = Equations::new(&problem, method, arguments.solver.tolerance.unwrap_or(LAST_DIGIT));
