@@ -98,6 +98,48 @@ fn parallel_rows_have_labels_of_their_own() {
     }
 }
 
+/// A corner that is near the ends of two increments lies in neither of them.
+#[test]
+fn a_corner_near_two_ends_is_passed_over_by_none() {
+    let scene =
+        OPENING.replace("end = 4.0", "end = 1.0000000015").replace("[3.0, 1.5]", "[1.00000000075, 0.5], [5.0, 1.0]");
+    let run = Folder::with(&[("deck.inp", HEAT), ("scene.toml", &scene)]).inpact(&["solve", "scene.toml"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(!run.errors.contains("passed over"), "{}", run.errors);
+    let scene = scene.replace("1.00000000075", "0.75");
+    let run = Folder::with(&[("deck.inp", HEAT), ("scene.toml", &scene)]).inpact(&["solve", "scene.toml"]);
+    assert!(run.errors.contains("1 point of time courses inside increments, passed over"), "{}", run.errors);
+}
+
+#[test]
+fn increments_that_rounding_would_lose_are_refused() {
+    let cases = [
+        ("step = 1.0", "tolerance = 1e-13", "`tolerance` is 1e-13", "1e-12 or above"),
+        ("step = 1.0", "step = 1e-16", "`step` is 1e-16", "give a longer one"),
+        ("step = 1.0", "tolerance = 1e-3\nfirst_step = 1e-16", "`first_step` is 1e-16", "give a longer one"),
+        (
+            "end = 4.0\nstep = 1.0",
+            "start = 1e9\nend = 1000000001\nstep = 5e-7",
+            "beside a time of 1000000001.0",
+            "nearer to 0",
+        ),
+        (
+            "step = 1.0",
+            "step = 1e-7",
+            "a `step` of 1e-7 makes 40000000 increments, more than 10000000",
+            "longer `step`",
+        ),
+    ];
+    for (from, to, message, help) in cases {
+        let folder = Folder::with(&[("deck.inp", HEAT), ("scene.toml", &OPENING.replace(from, to))]);
+        let run = folder.inpact(&["solve", "scene.toml"]);
+        assert_eq!((run.code, run.output.as_str()), (1, ""), "{to}: {}", run.errors);
+        for said in ["D015", message, help] {
+            assert!(run.errors.contains(said), "{said}: {}", run.errors);
+        }
+    }
+}
+
 /// A scene of every kind of file: a table beside it, a deck, and a deck that this includes.
 #[test]
 fn no_result_replaces_what_the_scene_is_made_from() {

@@ -153,6 +153,13 @@ pub struct SceneInterface {
     pub place: (u64, Option<String>),
 }
 
+impl TimeSpan {
+    /// The shortest increment whose length is more than rounding of its ends, T: four units in the last place of the time furthest from 0.
+    pub fn resolution(&self) -> f64 {
+        4.0 * f64::EPSILON * self.start.abs().max(self.end.abs())
+    }
+}
+
 impl Field {
     /// All of them, in the order of the results.
     pub const ALL: [Self; 3] = [Self::Potential, Self::Temperature, Self::PorePressure];
