@@ -140,6 +140,79 @@ fn increments_that_rounding_would_lose_are_refused() {
     }
 }
 
+/// Temperature is solved for elsewhere; where the row is not part of that, its own temperature counts, then that of the scene.
+#[test]
+fn a_row_of_a_given_temperature_is_evaluated_at_it() {
+    let deck = "*SURFACE INTERACTION, NAME=JOINT\n*GAP ELECTRICAL CONDUCTANCE\n10., 0., 0.\n10., 1., 0.\n20., 0., 100.\n20., 1., 100.\n";
+    let scene = "\
+deck = \"deck.inp\"
+[initial]
+temperature = 30.0
+[[node]]
+name = \"a\"
+potential = { fixed = 2.0 }
+[[node]]
+name = \"b\"
+potential = { fixed = 1.0 }
+[[node]]
+name = \"c\"
+temperature = { fixed = 5.0 }
+[[node]]
+name = \"d\"
+[[link]]
+nodes = [\"c\", \"d\"]
+thermal = 1.0
+[[interface]]
+slave = \"a\"
+master = \"b\"
+area = 1.0
+clearance = 0.0
+temperature = 50.0
+[[interface]]
+slave = \"b\"
+master = \"a\"
+area = 1.0
+clearance = 0.0
+";
+    let folder = Folder::with(&[("deck.inp", deck), ("scene.toml", scene)]);
+    let run = folder.inpact(&["solve", "scene.toml", "--interfaces", "rows.csv"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let rows = Table::read(&folder.read("rows.csv"));
+    assert_eq!((rows.number(&["a"], "ECD"), rows.number(&["b"], "ECD")), (15.0, -13.0));
+}
+
+#[test]
+fn failures_at_rows_of_a_table_name_its_line() {
+    let deck = "*SURFACE INTERACTION, NAME=JOINT\n*CONTACT PERMEABILITY\n2., 0.\n";
+    let scene = "\
+deck = \"deck.inp\"
+[[node]]
+name = \"a\"
+pore_pressure = { fixed = 1.0 }
+[[node]]
+name = \"b\"
+pore_pressure = { source = 1.0 }
+[[interface_file]]
+file = \"rows.csv\"
+";
+    let rows = "slave,master,area,clearance,pressure\na,b,1,0,0\nb,a,1,0.5,0\n";
+    let folder = Folder::with(&[("deck.inp", deck), ("scene.toml", scene), ("rows.csv", rows)]);
+    let run = folder.inpact(&["solve", "scene.toml"]);
+    assert_eq!(run.code, 1, "{}", run.errors);
+    assert!(run.errors.contains("D018") && run.errors.contains("(line 3 of `rows.csv`)"), "{}", run.errors);
+}
+
+#[test]
+fn failures_say_what_to_try() {
+    let run = opening().inpact(&["solve", "scene.toml"]);
+    assert!(run.errors.contains("give one of these nodes a fixed temperature, a capacity, or"), "{}", run.errors);
+    let huge = "deck = \"deck.inp\"\n[[node]]\nname = \"a\"\ntemperature = { fixed = 1.7e308 }\n[[node]]\nname = \"b\"\n\
+                temperature = { fixed = -1.7e308 }\n[[link]]\nnodes = [\"a\", \"b\"]\nthermal = 1.0\n";
+    let run = Folder::with(&[("deck.inp", HEAT), ("scene.toml", huge)]).inpact(&["solve", "scene.toml"]);
+    assert_eq!(run.code, 1, "{}", run.errors);
+    assert!(run.errors.contains("D019") && run.errors.contains("a larger `--tolerance`"), "{}", run.errors);
+}
+
 /// A scene of every kind of file: a table beside it, a deck, and a deck that this includes.
 #[test]
 fn no_result_replaces_what_the_scene_is_made_from() {

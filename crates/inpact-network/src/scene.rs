@@ -198,6 +198,12 @@ impl Field {
 }
 
 impl SceneInterface {
+    /// The temperatures of both sides, from those of their nodes: a side without one has that of the row, of the scene, or of the other side.
+    pub fn temperatures(&self, [slave, master]: [Option<f64>; 2], of_scene: Option<f64>) -> [Option<f64>; 2] {
+        let given = self.temperature.or(of_scene);
+        [slave.or(given).or(master), master.or(given).or(slave)]
+    }
+
     /// Where a finding about it points, and its words: lines of a table beside the scene stand in those, since the file of the finding is the scene.
     pub fn located(&self, message: String) -> (Place, String) {
         let (line, table) = &self.place;

@@ -234,7 +234,10 @@ fn cell(problem: &Problem<'_>, state: &State, number: u32, row: &SceneInterface,
         Column::Potential(Part::Both) => jump(Field::Potential),
         Column::Potential(part) => value(Field::Potential, part),
         Column::Temperature(Part::Both) => row.temperature.or(problem.scene.initial_temperature),
-        Column::Temperature(part) => value(Field::Temperature, part),
+        Column::Temperature(part) => {
+            let of_nodes = [Part::Slave, Part::Master].map(|part| value(Field::Temperature, part));
+            row.temperatures(of_nodes, problem.scene.initial_temperature)[usize::from(part != Part::Slave)]
+        }
         Column::TemperatureJump => jump(Field::Temperature),
         Column::PorePressure(Part::Both) => jump(Field::PorePressure),
         Column::PorePressure(part) => value(Field::PorePressure, part),
