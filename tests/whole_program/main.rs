@@ -22,6 +22,7 @@ mod solve_ccx;
 mod solve_kept;
 mod solve_nonlinear;
 mod solve_published;
+mod solve_silent;
 mod solve_transient;
 mod solve_wrong;
 mod tradeoff;

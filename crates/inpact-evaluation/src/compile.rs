@@ -3,7 +3,7 @@
 mod interface;
 mod user;
 
-pub use interface::{ElectricalSource, FrictionSource, InterfaceLaws};
+pub use interface::{ElectricalSource, FlowOf, FrictionSource, InterfaceLaws};
 pub(crate) use user::CompiledUser;
 
 use crate::accuracy::Wanted;

@@ -17,10 +17,9 @@ use inpact_evaluation::law::electrical::{Dissipation, generated_heat};
 use inpact_evaluation::law::friction::{ShearStress, SlipRate, frictional_heat};
 use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
 use inpact_evaluation::law::pore::{BulkPermeabilities, Flow, Gap, PorePoint};
-use inpact_evaluation::law::thermal::{Temperatures, ThermalConductance};
+use inpact_evaluation::law::thermal::Temperatures;
 use inpact_evaluation::law::user::{UserConductancePoint, UserFault};
 use inpact_evaluation::numbers::{Wide, product};
-use inpact_evaluation::table::PiecewiseTable;
 
 /// What contact there is in a row at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -283,92 +282,12 @@ fn variables(first: &[f64], field_variables: &[f64]) -> Vec<f64> {
 /// A conductance with what its variables have lost to rounding.
 fn corrected(conductance: f64, slopes: &[(f64, Mean)]) -> f64 {
     let lost: f64 = slopes.iter().map(|(slope, mean)| slope * mean.lost).sum();
-    // A table that falls to zero there stays at zero.
-    if conductance == 0.0 { 0.0 } else { (conductance + lost).max(0.0) }
+    let sum = conductance + lost;
+    // A table that falls to zero there stays at zero; what is no number stays none.
+    if conductance == 0.0 || sum < 0.0 { 0.0 } else { sum }
 }
 
 /// A slope that can be used; at a jump there may be none.
 fn finite(slope: f64) -> f64 {
     if slope.is_finite() { slope } else { 0.0 }
-}
-
-/// Which variables of its law a row cannot do without.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Dependence {
-    pub(crate) clearance: bool,
-    pub(crate) pressure: bool,
-    pub(crate) temperature: bool,
-    pub(crate) mass_flow: bool,
-    pub(crate) pore_pressure: bool,
-    /// Field variables by their number, from 1.
-    pub(crate) fields: Vec<usize>,
-}
-
-/// What the electrical conductance of a row depends on.
-pub(crate) fn dependence_of_electrical(source: &ElectricalSource, state: ContactState) -> Dependence {
-    match source {
-        ElectricalSource::User(..) => Dependence { clearance: true, temperature: true, ..Dependence::default() },
-        ElectricalSource::Tables(tables) => {
-            let mut dependence = Dependence::default();
-            let branch = tables.branch_in(state);
-            if let Some((branch, table)) = branch {
-                dependence.first(branch == inpact_evaluation::law::conductance::Branch::Pressure, table);
-                dependence.temperature = matters(table, 1);
-                dependence.fields = fields(table, 2);
-            }
-            dependence
-        }
-    }
-}
-
-/// What the thermal conductance of a row depends on.
-pub(crate) fn dependence_of_thermal(laws: &InterfaceLaws, state: ContactState) -> Dependence {
-    let mut dependence = Dependence::default();
-    match &laws.thermal {
-        Some(ThermalConductance::Tables(tables)) => {
-            if let Some((branch, table)) = tables.branch_in(state) {
-                dependence.first(branch == inpact_evaluation::law::conductance::Branch::Pressure, table);
-                dependence.temperature = matters(table, 1);
-                dependence.mass_flow = matters(table, 2);
-                dependence.fields = fields(table, 3);
-            }
-        }
-        Some(ThermalConductance::Calculix(curves)) if state == ContactState::Closed => {
-            dependence.pressure = matters(curves.rows(), 0);
-            dependence.temperature = curves.depends_on_temperature();
-        }
-        _ => {}
-    }
-    if let Some(law) = &laws.radiation {
-        dependence.temperature = true;
-        dependence.clearance |= matters(&law.view_factor, 0) && state == ContactState::Open;
-    }
-    dependence
-}
-
-/// What the permeability of a row depends on.
-pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> Dependence {
-    let mut dependence = Dependence { clearance: state != ContactState::Closed, ..Dependence::default() };
-    let law = laws.pore.as_ref().map(|law| &law.permeability);
-    if let Some(inpact_evaluation::law::pore::Permeability::Finite(table)) = law {
-        dependence.pressure = matters(table, 0) && state == ContactState::Closed;
-        dependence.pore_pressure = matters(table, 1);
-        dependence.temperature = matters(table, 2);
-        dependence.fields = fields(table, 3);
-    }
-    dependence
-}
-
-impl Dependence {
-    fn first(&mut self, is_pressure: bool, table: &PiecewiseTable) {
-        *(if is_pressure { &mut self.pressure } else { &mut self.clearance }) = matters(table, 0);
-    }
-}
-
-fn matters(table: &PiecewiseTable, axis: usize) -> bool {
-    table.axes().get(axis).is_some_and(inpact_evaluation::table::AxisSummary::matters)
-}
-
-fn fields(table: &PiecewiseTable, first: usize) -> Vec<usize> {
-    (first..table.axis_count()).filter(|&axis| matters(table, axis)).map(|axis| axis + 1 - first).collect()
 }

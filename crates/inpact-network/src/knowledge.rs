@@ -8,6 +8,9 @@ use inpact_evaluation::law::contact::ClearanceRate;
 use inpact_evaluation::law::pore::Gap;
 use inpact_evaluation::numbers::Wide;
 
+/// How far above absolute zero a first guess is put.
+const WARM: f64 = 300.0;
+
 /// An increment of time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Increment<'a> {
@@ -90,12 +93,20 @@ impl<'a> Knowledge<'a> {
                 (least.min(value), greatest.max(value))
             });
         let middle = if least <= greatest { 0.5 * least + 0.5 * greatest } else { 0.0 };
+        let middle = if field == Field::Temperature { self.warm(middle) } else { middle };
         let values = if field == Field::PorePressure { &mut self.pore_pressures } else { &mut self.temperatures };
         for &node in &nodes.nodes {
             let fixed = conditions.fixed.get(&node).map(|course| course.at(time));
             let value = fixed.or_else(|| conditions.initial.get(&node).copied()).or(of_all).unwrap_or(middle);
             values[node as usize] = Wide::new(value);
         }
+    }
+
+    /// A first guess of temperatures at which everything that can radiate does: at absolute zero a body would seem to be joined to nothing.
+    fn warm(&self, guess: f64) -> f64 {
+        let radiating = self.problem.laws.iter().flatten().filter_map(|laws| laws.radiation.as_ref());
+        let coldest = radiating.map(|law| law.absolute_zero).fold(f64::NEG_INFINITY, f64::max);
+        if guess <= coldest { coldest + WARM } else { guess }
     }
 
     pub(crate) fn row(&self, row: u32) -> &'a SceneInterface {

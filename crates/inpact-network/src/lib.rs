@@ -22,6 +22,7 @@
 //! Nothing here opens files or prints.
 
 mod assembly;
+mod dependence;
 mod distance;
 mod interface;
 mod knowledge;

@@ -8,13 +8,12 @@
 //! - a field whose conductances depend on no other is solved before those that depend on it; fields that depend on each other are solved together;
 //! - a field that depends on nothing unsolved is linear: it takes one solve, no Newton.
 
-use crate::interface::{
-    Contact, Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal, heat_of_friction,
-};
+use crate::dependence::{Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal};
+use crate::interface::{Contact, heat_of_friction};
 use crate::linear::{NONE, Sets, index};
 use crate::scene::words::meant_or;
 use crate::scene::{Course, Field, MISSING_QUANTITY, Scene, SceneInterface};
-use inpact_evaluation::compile::InterfaceLaws;
+use inpact_evaluation::compile::{FlowOf, InterfaceLaws};
 use inpact_evaluation::law::contact::ContactState;
 use inpact_evaluation::nodes::{Findings, Place, UNKNOWN_INTERACTION};
 use inpact_evaluation::plan::Choices;
@@ -95,9 +94,10 @@ impl<'a> Problem<'a> {
                 && let Some((_, of)) = model.interactions.get_index(interaction)
             {
                 let laws = InterfaceLaws::of(model, of, choices);
-                problem.left_out.extend(
-                    laws.left_out.iter().map(|left| format!("{} of `{}`: {}", left.what, of.name, left.reason)),
-                );
+                let unsolved = laws.left_out.iter().filter(|(flow, _)| !scene.mentions(field_of(*flow)));
+                problem
+                    .left_out
+                    .extend(unsolved.map(|(_, left)| format!("{} of `{}`: {}", left.what, of.name, left.reason)));
                 problem.laws[interaction] = Some(laws);
             }
         }
@@ -105,8 +105,11 @@ impl<'a> Problem<'a> {
             return None;
         }
         problem.choose_fields();
+        problem.check_laws(findings);
         problem.check_rows(findings);
+        problem.check_initial(findings);
         problem.note_friction();
+        problem.note_one_sided();
         problem.choose_stages();
         (!findings.has_errors()).then_some(problem)
     }
@@ -159,7 +162,11 @@ impl<'a> Problem<'a> {
             let row_numbers = 0..scene.interfaces.len();
             let has_law = |row: &usize| self.laws_of(*row).is_some_and(|laws| Self::has_law(laws, field));
             if !scene.mentions(field) {
-                if row_numbers.clone().any(|row| has_law(&row)) {
+                let tells = |row: usize| match field {
+                    Field::PorePressure => self.laws_of(row).is_some_and(|laws| laws.tells_of_pore),
+                    _ => has_law(&row),
+                };
+                if row_numbers.clone().any(tells) {
                     self.left_out.push(format!("{field}: the deck has laws of it, and the scene says nothing of it"));
                 }
                 continue;
@@ -210,8 +217,8 @@ impl<'a> Problem<'a> {
     /// What a row's law of a field depends on; in any state of contact it may come to.
     fn dependence(row: &SceneInterface, laws: &InterfaceLaws, field: Field, time: f64) -> Dependence {
         // Contact that follows time may come to be open or closed.
-        let changes = row.clearance.as_ref().is_some_and(|course| course.corners().next().is_some())
-            || row.pressure.as_ref().is_some_and(|course| course.corners().next().is_some());
+        let follows_time = |course: &Option<Course>| course.as_ref().is_some_and(|of| of.corners().next().is_some());
+        let changes = row.closed.is_none() && (follows_time(&row.clearance) || follows_time(&row.pressure));
         let now = Contact::of(row, time).map_or(ContactState::Undetermined, |contact| contact.state);
         let states: &[ContactState] =
             if changes { &[ContactState::Closed, ContactState::Open] } else { std::slice::from_ref(&now) };
@@ -226,7 +233,6 @@ impl<'a> Problem<'a> {
 
     /// Reports each row that lacks what its laws depend on.
     fn check_rows(&self, findings: &mut Findings) {
-        let has_temperature = self.field(Field::Temperature).is_some();
         for field in Field::ALL {
             for (_, row, laws) in self.rows_of(field) {
                 let needs = Self::dependence(row, laws, field, self.start());
@@ -243,18 +249,17 @@ impl<'a> Problem<'a> {
                 need(needs.pressure, row.pressure.is_some(), "pressure");
                 need(needs.mass_flow, row.mass_flow.is_some(), "mass_flow");
                 let knows_temperature =
-                    has_temperature || row.temperature.is_some() || self.scene.initial_temperature.is_some();
+                    self.receives_heat(row) || row.temperature.is_some() || self.scene.initial_temperature.is_some();
                 need(needs.temperature, knows_temperature, "temperature");
                 for number in &needs.fields {
-                    need(true, *number <= row.field_variables.len(), &format!("fv{number}"));
+                    let is_given = row.field_variables.get(number - 1).is_some_and(|value| !value.is_nan());
+                    need(true, is_given, &format!("fv{number}"));
                 }
                 missing.dedup();
                 if !missing.is_empty() {
-                    let names = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
                     let message = format!(
-                        "the interface of `{}` and `{}` lacks {}, which its {} depends on",
-                        names[0],
-                        names[1],
+                        "{} lacks {}, which its {} depends on",
+                        self.label(row),
                         missing.join(", "),
                         match field {
                             Field::Potential => "electrical conductance",
@@ -262,10 +267,96 @@ impl<'a> Problem<'a> {
                             Field::PorePressure => "pore fluid flow",
                         }
                     );
-                    report_row(row, findings, &message);
+                    report_row(row, findings, &message, "give it in the scene");
                 }
             }
         }
+    }
+
+    /// Reports rows of which a law cannot be evaluated: without it the interface would be sealed in silence.
+    fn check_laws(&self, findings: &mut Findings) {
+        for (row, of) in self.scene.interfaces.iter().enumerate() {
+            let left_out = self.laws_of(row).map_or(&[][..], |laws| &laws.left_out);
+            for (flow, left) in left_out {
+                let field = field_of(*flow);
+                let Some(nodes) = self.field(field) else { continue };
+                if [of.slave, of.master].iter().any(|&node| nodes.place[node as usize] != NONE) {
+                    let message =
+                        format!("the {} of {} cannot be evaluated: {}", left.what, self.label(of), left.reason);
+                    report_row(of, findings, &message, "give what it needs, or leave the interface out of the scene");
+                }
+            }
+        }
+    }
+
+    /// Reports nodes with a capacity of which nothing says where they begin.
+    fn check_initial(&self, findings: &mut Findings) {
+        if !self.scene.is_transient() {
+            return;
+        }
+        for field in self.solved_fields() {
+            let conditions = self.scene.conditions(field);
+            let of_all = match field {
+                Field::PorePressure => self.scene.initial_pore_pressure,
+                _ => self.scene.initial_temperature,
+            };
+            let stores = conditions.capacities.iter().filter(|(_, capacity)| **capacity > 0.0).map(|(node, _)| node);
+            for node in stores.filter(|node| of_all.is_none() && !conditions.initial.contains_key(node)) {
+                let name = &self.scene.nodes[*node as usize];
+                let place = Place { line: self.scene.node_lines.get(node).copied(), ..Place::default() };
+                let message = format!("`{name}` has a capacity, and nothing says at which {field} it begins");
+                let help =
+                    format!("give `initial` beside its capacity, or `{}` under `[initial]` for all nodes", field.key());
+                findings.report(&MISSING_QUANTITY, place, message, help);
+            }
+        }
+    }
+
+    /// Notes what goes to nodes that do not carry the field it belongs to.
+    fn note_one_sided(&mut self) {
+        let carries = |field: Field, node: u32| self.field(field).is_some_and(|of| of.place[node as usize] != NONE);
+        let sides = |of: &SceneInterface| [of.slave, of.master];
+        let has_pore = self.field(Field::PorePressure).is_some();
+        let impermeable = self.scene.interfaces.iter().enumerate().filter(|(row, of)| {
+            let has_law = self.laws_of(*row).is_some_and(|laws| laws.pore.is_some());
+            has_pore
+                && has_law
+                && sides(of).map(|node| carries(Field::PorePressure, node)) != [true; 2]
+                && sides(of).iter().any(|&node| carries(Field::PorePressure, node))
+        });
+        let impermeable = impermeable.count();
+        let has_temperature = self.field(Field::Temperature).is_some();
+        let loses = |nodes: [u32; 2], shares: [f64; 2]| {
+            has_temperature
+                && nodes.into_iter().zip(shares).any(|(node, share)| share > 0.0 && !carries(Field::Temperature, node))
+        };
+        let heated = self.rows_of(Field::Potential).filter(|(_, of, laws)| {
+            let heat = laws.heat_generation.filter(|heat| heat.fraction > 0.0);
+            heat.is_some_and(|heat| loses(sides(of), [heat.slave_weight, 1.0 - heat.slave_weight]))
+        });
+        let rubbed = (0..self.scene.interfaces.len())
+            .filter(|&row| loses(sides(&self.scene.interfaces[row]), self.friction(row)));
+        let links = self.field(Field::Potential).map_or(&[][..], |of| &of.links);
+        let heated_links = links.iter().filter(|&&link| {
+            let of = &self.scene.links[link as usize];
+            of.joule_heat_fraction > 0.0 && loses(of.nodes, [0.5; 2])
+        });
+        let counts = [
+            (impermeable, "interface", "pore fluid across", "one side carries no pore pressure (P-01)"),
+            (heated.count(), "interface", "a share of the heat of currents in", "its node carries no temperature"),
+            (rubbed.count(), "interface", "a share of the heat of friction in", "its node carries no temperature"),
+            (heated_links.count(), "link", "a share of the heat of currents in", "its node carries no temperature"),
+        ];
+        for (count, of, what, why) in counts.into_iter().filter(|(count, ..)| *count > 0) {
+            let plural = if count == 1 { "" } else { "s" };
+            self.left_out.push(format!("{what} {count} {of}{plural}: {why}"));
+        }
+    }
+
+    /// What a person calls a row.
+    fn label(&self, row: &SceneInterface) -> String {
+        let [slave, master] = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
+        format!("the interface of `{slave}` and `{master}`")
     }
 
     /// Notes the heat of friction of which rows tell only a part, and slip rates that the deck has the say over.
@@ -351,20 +442,6 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl Dependence {
-    fn or(mut self, other: Self) -> Self {
-        self.clearance |= other.clearance;
-        self.pressure |= other.pressure;
-        self.temperature |= other.temperature;
-        self.mass_flow |= other.mass_flow;
-        self.pore_pressure |= other.pore_pressure;
-        self.fields.extend(other.fields);
-        self.fields.sort_unstable();
-        self.fields.dedup();
-        self
-    }
-}
-
 /// Marks every node that pairs of nodes join to a marked one.
 fn spread(is_marked: &mut [bool], pairs: impl Iterator<Item = [u32; 2]> + Clone) {
     let mut sets = Sets::new(is_marked.len());
@@ -380,14 +457,23 @@ fn spread(is_marked: &mut [bool], pairs: impl Iterator<Item = [u32; 2]> + Clone)
     }
 }
 
-fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str) {
+/// The field that drives a flow.
+fn field_of(flow: FlowOf) -> Field {
+    match flow {
+        FlowOf::Charge => Field::Potential,
+        FlowOf::Heat => Field::Temperature,
+        FlowOf::PoreFluid => Field::PorePressure,
+    }
+}
+
+fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str, help: &str) {
     let (line, table) = &row.place;
     let message = match table {
         Some(table) => format!("{message} (line {line} of `{table}`)"),
         None => message.to_owned(),
     };
     let place = Place { line: table.is_none().then_some(*line), ..Place::default() };
-    findings.report(&MISSING_QUANTITY, place, message, "give it in the scene");
+    findings.report(&MISSING_QUANTITY, place, message, help);
 }
 
 fn report_unknown(row: &SceneInterface, model: &Model, findings: &mut Findings) {

@@ -247,7 +247,9 @@ fn cell(problem: &Problem<'_>, state: &State, number: u32, row: &SceneInterface,
             // From slave to master in the network, from master to slave in the law; no flow is 0, not −0.
             Some(0.0 - flow / row.area)
         }
-        Column::FieldVariable(number, _) => row.field_variables.get(number as usize - 1).copied(),
+        Column::FieldVariable(number, _) => {
+            row.field_variables.get(number as usize - 1).copied().filter(|value| !value.is_nan())
+        }
         _ => None,
     }
 }

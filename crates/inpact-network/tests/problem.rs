@@ -24,7 +24,7 @@ fn deck(options: &[&str]) -> String {
 fn faces(slave: &str, master: &str, row: &str) -> Scene {
     scene(&format!(
         "deck = \"a\"\n[[node]]\nname = \"s\"\n{slave}\n[[node]]\nname = \"m\"\n{master}\n[[node]]\nname = \"apart\"\n\
-         [[interface]]\nslave = \"s\"\nmaster = \"m\"\narea = 1.0\nclosed = true\npressure = 0.0\n{row}\n"
+         [[interface]]\nslave = \"s\"\nmaster = \"m\"\narea = 1.0\nclearance = 0.0\npressure = 0.0\n{row}\n"
     ))
 }
 

@@ -29,10 +29,23 @@ pub struct InterfaceLaws {
     pub radiation: Option<RadiationLaw>,
     /// Whether the deck tells of friction, which generates heat where shear stress and slip rate are known.
     pub friction: Option<FrictionSource>,
-    /// Pore fluid across the interface and into its gap.
+    /// Pore fluid across the interface and into its gap; without *CONTACT PERMEABILITY that of an infinite permeability (P-03).
     pub pore: Option<PoreLaw>,
-    /// What cannot be evaluated, and why.
-    pub left_out: Vec<LeftOut>,
+    /// Whether the deck tells of pore fluid: by *CONTACT PERMEABILITY, or by a procedure that solves for it.
+    pub tells_of_pore: bool,
+    /// What cannot be evaluated, of which flow it is, and why.
+    pub left_out: Vec<(FlowOf, LeftOut)>,
+}
+
+/// What flows across an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlowOf {
+    /// Electric current.
+    Charge,
+    /// Heat.
+    Heat,
+    /// Pore fluid.
+    PoreFluid,
 }
 
 /// What gives an electrical conductance.
@@ -68,7 +81,9 @@ impl InterfaceLaws {
                 slip_rate: interaction.gap_heat_generation.and_then(|heat| heat.slip_rate),
                 takes_magnitudes: choices.dialect == Dialect::Calculix,
             }),
-            pore: pore(model, interaction, &tables, choices, &mut left_out),
+            pore: pore(interaction, &tables, choices, &mut left_out),
+            tells_of_pore: interaction.contact_permeability.is_some()
+                || model.procedures.iter().any(Procedure::solves_pore_pressure),
             left_out,
         }
     }
@@ -79,11 +94,11 @@ fn electrical(
     interaction: &Interaction,
     tables: &InteractionTables,
     choices: &Choices,
-    left_out: &mut Vec<LeftOut>,
+    left_out: &mut Vec<(FlowOf, LeftOut)>,
 ) -> Option<ElectricalSource> {
     let option = interaction.gap_electrical_conductance.as_ref()?;
     let mut refuse = |reason| {
-        left_out.push(LeftOut::law("electrical law", reason));
+        left_out.push((FlowOf::Charge, LeftOut::law("electrical law", reason)));
         None
     };
     if option.user.is_some() {
@@ -105,7 +120,7 @@ fn electrical(
     }
 }
 
-fn thermal(tables: &ThermalTables, left_out: &mut Vec<LeftOut>) -> Option<ThermalConductance> {
+fn thermal(tables: &ThermalTables, left_out: &mut Vec<(FlowOf, LeftOut)>) -> Option<ThermalConductance> {
     let found = tables.thermal_conductance();
     let reason = match tables.conductance.as_ref()? {
         ConductanceRows::User => Reason::NeedsUserSubroutine("GAPCON"),
@@ -120,33 +135,29 @@ fn thermal(tables: &ThermalTables, left_out: &mut Vec<LeftOut>) -> Option<Therma
             }
         }
     };
-    left_out.push(LeftOut::law("heat conduction", reason));
+    left_out.push((FlowOf::Heat, LeftOut::law("heat conduction", reason)));
     None
 }
 
-fn radiation(tables: &ThermalTables, dialect: Dialect, left_out: &mut Vec<LeftOut>) -> Option<RadiationLaw> {
+fn radiation(tables: &ThermalTables, dialect: Dialect, left_out: &mut Vec<(FlowOf, LeftOut)>) -> Option<RadiationLaw> {
     let reason = match tables.radiation.as_ref()? {
         _ if dialect == Dialect::Calculix => Reason::NotInCalculix("has no *GAP RADIATION"),
         Ok(law) => return Some(law.clone()),
         Err(fault) => RadiationFault::reason(*fault),
     };
-    left_out.push(LeftOut::law("heat radiation", reason));
+    left_out.push((FlowOf::Heat, LeftOut::law("heat radiation", reason)));
     None
 }
 
 fn pore(
-    model: &Model,
     interaction: &Interaction,
     tables: &InteractionTables,
     choices: &Choices,
-    left_out: &mut Vec<LeftOut>,
+    left_out: &mut Vec<(FlowOf, LeftOut)>,
 ) -> Option<PoreLaw> {
     let option = interaction.contact_permeability.as_ref();
-    if option.is_none() && !model.procedures.iter().any(Procedure::solves_pore_pressure) {
-        return None;
-    }
     if let Some(error) = tables.permeability_error() {
-        left_out.push(LeftOut::law("pore fluid law", Reason::BrokenTable(error)));
+        left_out.push((FlowOf::PoreFluid, LeftOut::law("pore fluid law", Reason::BrokenTable(error))));
         return None;
     }
     Some(PoreLaw {

@@ -264,7 +264,7 @@ fn interface_of(row: &Row<'_, InterfaceColumn>) -> Result<SceneInterface, Refusa
             Column::FieldVariable(number, _) => {
                 let number = number as usize;
                 if interface.field_variables.len() < number {
-                    interface.field_variables.resize(number, 0.0);
+                    interface.field_variables.resize(number, f64::NAN);
                 }
                 interface.field_variables[number - 1] = value;
             }

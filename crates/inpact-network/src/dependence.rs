@@ -1,0 +1,103 @@
+//! What the laws of a row depend on: which quantities a scene has to tell, and which fields a law couples.
+
+use inpact_evaluation::compile::{ElectricalSource, InterfaceLaws};
+use inpact_evaluation::law::conductance::Branch;
+use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::law::pore::Permeability;
+use inpact_evaluation::law::thermal::ThermalConductance;
+use inpact_evaluation::table::{AxisSummary, PiecewiseTable};
+
+/// Which variables of its law a row cannot do without.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Dependence {
+    pub(crate) clearance: bool,
+    pub(crate) pressure: bool,
+    pub(crate) temperature: bool,
+    pub(crate) mass_flow: bool,
+    pub(crate) pore_pressure: bool,
+    /// Field variables by their number, from 1.
+    pub(crate) fields: Vec<usize>,
+}
+
+/// What the electrical conductance of a row depends on.
+pub(crate) fn dependence_of_electrical(source: &ElectricalSource, state: ContactState) -> Dependence {
+    match source {
+        ElectricalSource::User(..) => Dependence { clearance: true, temperature: true, ..Dependence::default() },
+        ElectricalSource::Tables(tables) => {
+            let mut dependence = Dependence::default();
+            let branch = tables.branch_in(state);
+            if let Some((branch, table)) = branch {
+                dependence.first(branch == Branch::Pressure, table);
+                dependence.temperature = matters(table, 1);
+                dependence.fields = fields(table, 2);
+            }
+            dependence
+        }
+    }
+}
+
+/// What the thermal conductance of a row depends on.
+pub(crate) fn dependence_of_thermal(laws: &InterfaceLaws, state: ContactState) -> Dependence {
+    let mut dependence = Dependence::default();
+    match &laws.thermal {
+        Some(ThermalConductance::Tables(tables)) => {
+            if let Some((branch, table)) = tables.branch_in(state) {
+                dependence.first(branch == Branch::Pressure, table);
+                dependence.temperature = matters(table, 1);
+                dependence.mass_flow = matters(table, 2);
+                dependence.fields = fields(table, 3);
+            }
+        }
+        Some(ThermalConductance::Calculix(curves)) if state == ContactState::Closed => {
+            dependence.pressure = matters(curves.rows(), 0);
+            dependence.temperature = curves.depends_on_temperature();
+        }
+        _ => {}
+    }
+    if let Some(law) = &laws.radiation {
+        dependence.temperature = true;
+        dependence.clearance |= matters(&law.view_factor, 0) && state == ContactState::Open;
+    }
+    dependence
+}
+
+/// What the permeability of a row depends on.
+pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> Dependence {
+    let mut dependence = Dependence { clearance: state != ContactState::Closed, ..Dependence::default() };
+    let law = laws.pore.as_ref().map(|law| &law.permeability);
+    if let Some(Permeability::Finite(table)) = law {
+        dependence.clearance = true;
+        dependence.pressure = matters(table, 0) && state == ContactState::Closed;
+        dependence.pore_pressure = matters(table, 1);
+        dependence.temperature = matters(table, 2);
+        dependence.fields = fields(table, 3);
+    }
+    dependence
+}
+
+impl Dependence {
+    /// What one or the other depends on.
+    pub(crate) fn or(mut self, other: Self) -> Self {
+        self.clearance |= other.clearance;
+        self.pressure |= other.pressure;
+        self.temperature |= other.temperature;
+        self.mass_flow |= other.mass_flow;
+        self.pore_pressure |= other.pore_pressure;
+        self.fields.extend(other.fields);
+        self.fields.sort_unstable();
+        self.fields.dedup();
+        self
+    }
+
+    fn first(&mut self, is_pressure: bool, table: &PiecewiseTable) {
+        *(if is_pressure { &mut self.pressure } else { &mut self.clearance }) = matters(table, 0);
+    }
+}
+
+fn matters(table: &PiecewiseTable, axis: usize) -> bool {
+    table.axes().get(axis).is_some_and(AxisSummary::matters)
+}
+
+fn fields(table: &PiecewiseTable, first: usize) -> Vec<usize> {
+    (first..table.axis_count()).filter(|&axis| matters(table, axis)).map(|axis| axis + 1 - first).collect()
+}
