@@ -19,6 +19,7 @@ pub use diagnostic::{
 };
 pub use read::{SceneFiles, read};
 
+use inpact_evaluation::nodes::Place;
 use inpact_parser::model::Name;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -152,6 +153,13 @@ pub struct SceneInterface {
     pub place: (u64, Option<String>),
 }
 
+impl TimeSpan {
+    /// The shortest increment whose length is more than rounding of its ends, T: four units in the last place of the time furthest from 0.
+    pub fn resolution(&self) -> f64 {
+        4.0 * f64::EPSILON * self.start.abs().max(self.end.abs())
+    }
+}
+
 impl Field {
     /// All of them, in the order of the results.
     pub const ALL: [Self; 3] = [Self::Potential, Self::Temperature, Self::PorePressure];
@@ -186,6 +194,24 @@ impl Field {
             Self::Temperature => "heat",
             Self::PorePressure => "fluid",
         }
+    }
+}
+
+impl SceneInterface {
+    /// The temperatures of both sides, from those of their nodes: a side without one has that of the row, of the scene, or of the other side.
+    pub fn temperatures(&self, [slave, master]: [Option<f64>; 2], of_scene: Option<f64>) -> [Option<f64>; 2] {
+        let given = self.temperature.or(of_scene);
+        [slave.or(given).or(master), master.or(given).or(slave)]
+    }
+
+    /// Where a finding about it points, and its words: lines of a table beside the scene stand in those, since the file of the finding is the scene.
+    pub fn located(&self, message: String) -> (Place, String) {
+        let (line, table) = &self.place;
+        let message = match table {
+            Some(table) => format!("{message} (line {line} of `{table}`)"),
+            None => message,
+        };
+        (Place { line: table.is_none().then_some(*line), ..Place::default() }, message)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::state::State;
 use inpact_evaluation::nodes::{Column, Part};
 use inpact_evaluation::results::push_number;
 use inpact_parser::model::Model;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Whether tables have a column of times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,16 +157,15 @@ pub fn interface_header(columns: &[Column], times: Times) -> String {
     format!("{keys}{}\n", names.concat())
 }
 
-/// The interface rows of a state as rows of a node table.
+/// The interface rows of a state as rows of a node table, in the order of the scene, by the labels of [`interface_labels`].
 pub fn interface_rows(
     problem: &Problem<'_>,
     model: &Model,
     state: &State,
-    (columns, times): (&[Column], Times),
+    (columns, labels, times): (&[Column], &[String], Times),
     text: &mut Vec<u8>,
 ) {
-    let labels = labels(problem);
-    for ((number, row), label) in (0..).zip(&problem.scene.interfaces).zip(&labels) {
+    for ((number, row), label) in (0..).zip(&problem.scene.interfaces).zip(labels) {
         let mut line = Line::new(text);
         line.text(label);
         let interaction = model.interactions.get_index(problem.interactions[number as usize]);
@@ -181,21 +180,37 @@ pub fn interface_rows(
     }
 }
 
-/// The names of slave nodes; where several rows of one interaction share one, with that of the master node, so that each has a history of its own.
-fn labels(problem: &Problem<'_>) -> Vec<String> {
+/// The names of slave nodes; where several rows of one interaction share one, with that of the master node and, from the second of the same pair on, a number,
+/// so that each row has a history of its own.
+pub fn interface_labels(problem: &Problem<'_>) -> Vec<String> {
     let scene = problem.scene;
-    let mut seen = BTreeSet::new();
-    let mut shared = BTreeSet::new();
-    for (row, interaction) in scene.interfaces.iter().zip(&problem.interactions) {
+    let rows = || scene.interfaces.iter().zip(&problem.interactions);
+    let (mut seen, mut shared) = (BTreeSet::new(), BTreeSet::new());
+    for (row, interaction) in rows() {
         if !seen.insert((row.slave, *interaction)) {
             shared.insert((row.slave, *interaction));
         }
     }
-    let label = |(row, interaction): (&SceneInterface, &usize)| {
+    // A node may be called as a pair is, and two pairs may read alike.
+    let names: HashSet<&str> =
+        if shared.is_empty() { HashSet::new() } else { scene.nodes.iter().map(String::as_str).collect() };
+    let mut taken: HashSet<(usize, String)> = HashSet::new();
+    let mut last_numbers: HashMap<(usize, u32, u32), usize> = HashMap::new();
+    let mut label = |(row, &interaction): (&SceneInterface, &usize)| {
         let [slave, master] = [row.slave, row.master].map(|node| &scene.nodes[node as usize]);
-        if shared.contains(&(row.slave, *interaction)) { format!("{slave}|{master}") } else { slave.clone() }
+        if !shared.contains(&(row.slave, interaction)) {
+            return slave.clone();
+        }
+        let number = last_numbers.entry((interaction, row.slave, row.master)).or_default();
+        loop {
+            *number += 1;
+            let label = if *number == 1 { format!("{slave}|{master}") } else { format!("{slave}|{master}|{number}") };
+            if !names.contains(label.as_str()) && taken.insert((interaction, label.clone())) {
+                return label;
+            }
+        }
     };
-    scene.interfaces.iter().zip(&problem.interactions).map(label).collect()
+    rows().map(&mut label).collect()
 }
 
 fn cell(problem: &Problem<'_>, state: &State, number: u32, row: &SceneInterface, column: Column) -> Option<f64> {
@@ -219,7 +234,10 @@ fn cell(problem: &Problem<'_>, state: &State, number: u32, row: &SceneInterface,
         Column::Potential(Part::Both) => jump(Field::Potential),
         Column::Potential(part) => value(Field::Potential, part),
         Column::Temperature(Part::Both) => row.temperature.or(problem.scene.initial_temperature),
-        Column::Temperature(part) => value(Field::Temperature, part),
+        Column::Temperature(part) => {
+            let of_nodes = [Part::Slave, Part::Master].map(|part| value(Field::Temperature, part));
+            row.temperatures(of_nodes, problem.scene.initial_temperature)[usize::from(part != Part::Slave)]
+        }
         Column::TemperatureJump => jump(Field::Temperature),
         Column::PorePressure(Part::Both) => jump(Field::PorePressure),
         Column::PorePressure(part) => value(Field::PorePressure, part),

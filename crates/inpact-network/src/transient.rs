@@ -98,16 +98,13 @@ impl March<'_, '_> {
         let whole = ((span.end - span.start) / step).round();
         let exact = ((span.end - span.start) / step - whole).abs() <= REMAINDER;
         let mut number = 0.0;
-        let mut corners = corners(self.problem.scene, span);
-        corners.pop();
-        self.report.passed_over = corners.len();
+        let corners = corners(self.problem.scene, span);
         while state.time < span.end {
             number += 1.0;
             let time = span.start + number * step;
             let is_last = if exact { number >= whole } else { time >= span.end };
             let next = self.equations.step(&state, if is_last { span.end } else { time })?;
-            self.report.passed_over -=
-                corners.iter().filter(|corner| (*corner - next.time).abs() <= REMAINDER * step).count();
+            self.report.passed_over += inside(&corners, [state.time, next.time], REMAINDER * step);
             let rates = self.rates_of(&state, &next);
             self.widen(&next);
             self.accept(&state, &next, rates);
@@ -126,7 +123,7 @@ impl March<'_, '_> {
         take: &mut impl FnMut(&State) -> Result<(), E>,
     ) -> Result<(), E> {
         let corners = corners(self.problem.scene, span);
-        let shortest = SHORTEST * (span.end - span.start);
+        let shortest = (SHORTEST * (span.end - span.start)).max(span.resolution());
         let mut length = first;
         let mut tried = f64::NEG_INFINITY;
         while state.time < span.end {
@@ -222,6 +219,13 @@ fn initial_rates(problem: &Problem<'_>, start: &State) -> [Vec<f64>; 2] {
     })
 }
 
+/// How many corners lie inside an increment, further than a distance from both its ends.
+fn inside(corners: &[f64], [start, end]: [f64; 2], distance: f64) -> usize {
+    let first = corners.partition_point(|corner| *corner <= start + distance);
+    let behind = corners.partition_point(|corner| *corner < end - distance);
+    behind.saturating_sub(first)
+}
+
 /// The times inside a span at which a course of the scene changes its slope, and the end.
 fn corners(scene: &Scene, span: TimeSpan) -> Vec<f64> {
     let of_conditions = scene.conditions.iter().flat_map(|of| of.fixed.values().chain(of.sources.values()));
@@ -232,4 +236,18 @@ fn corners(scene: &Scene, span: TimeSpan) -> Vec<f64> {
     corners.sort_unstable_by(f64::total_cmp);
     corners.dedup();
     corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::inside;
+
+    #[test]
+    fn a_corner_near_an_end_is_not_inside() {
+        let corners = [0.0, 0.25, 0.5, 1.0 + 0.75e-9, 2.0];
+        assert_eq!(inside(&corners, [0.0, 1.0], 1e-9), 2);
+        assert_eq!(inside(&corners, [1.0, 1.0 + 1.5e-9], 1e-9), 0);
+        assert_eq!(inside(&corners, [0.25, 0.5], 1e-9), 0);
+        assert_eq!(inside(&corners, [1.0, 2.0], 1e-10), 1);
+    }
 }

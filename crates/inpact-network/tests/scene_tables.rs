@@ -258,12 +258,25 @@ fn matrices_of_conductances_and_assembled_ones() {
     assert_eq!(links_of(&assembled), expected);
     assert_eq!(links_of(&assembled.replace("coordinate real", "Coordinate INTEGER")), expected);
     assert_eq!(links_of(&conductances.replace('\n', "\r\n")), expected);
-    // Two entries are two links, as side by side they conduct.
-    let twice = links_of(&format!("{MATRIX}2 2 2\n2 1 2\n1 2 3\n"));
-    assert_eq!(twice, [("n2-n1".to_owned(), 2.0), ("n1-n2".to_owned(), 3.0)]);
+    // One triangle is as good as the other.
+    assert_eq!(links_of(&format!("{MATRIX}2 2 1\n1 2 3\n")), [("n1-n2".to_owned(), 3.0)]);
     assert_eq!(links_of(&format!("{MATRIX}0 0 0\n")), []);
     // A diagonal of zero is none.
     assert_eq!(links_of(&format!("{MATRIX}2 2 2\n1 1 0\n2 1 4\n")), [("n2-n1".to_owned(), 4.0)]);
+}
+
+/// Both triangles, or an entry twice, would conduct twice what the matrix does.
+#[test]
+fn a_pair_of_a_symmetric_matrix_has_one_entry() {
+    for (entries, line) in [("2 2 2\n2 1 2\n1 2 2\n", 4), ("3 3 3\n2 1 2\n3 1 1\n2 1 2\n", 5)] {
+        let (scene, findings) = matrix(&format!("{MATRIX}{entries}"));
+        assert!(scene.is_none() && findings.len() == 1, "{findings:?}");
+        for said in [&format!("K.MTX:{line}"), "D011", "gives 2 and 1 a second entry, after line 3"] {
+            assert!(findings[0].contains(said), "{said}: {findings:?}");
+        }
+    }
+    let both = "2 2 4\n1 1 1\n2 1 -1\n1 2 -1\n2 2 1\n";
+    assert!(matrix(&format!("{MATRIX}{both}")).1[0].contains("`1 2 -1` gives 2 and 1 a second entry, after line 4"));
 }
 
 /// No room is made for rows that have no entries, be they as many as there can be.

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use inpact_parser::deck::Scanner;
 use std::fs::File;
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How much of a deck is read at a time: small enough to stay in cache.
 const PIECE: usize = 64 * 1024;
@@ -71,6 +71,31 @@ pub(crate) fn refuse_overwriting<P: AsRef<Path>>(target: Option<&Path>, inputs: 
     }
 }
 
+/// Refuses to write two results to one file, where the second would replace the first; what is no file, such as a device, takes both.
+pub(crate) fn refuse_one_target_twice(targets: &[Option<&Path>]) -> Result<(), Failure> {
+    let mut taken: Vec<PathBuf> = Vec::new();
+    let is_file = |target: &&Path| {
+        target.as_os_str() != STANDARD_STREAM && std::fs::metadata(target).map_or(true, |present| present.is_file())
+    };
+    for target in targets.iter().flatten().copied().filter(is_file) {
+        let whole = whole_path(target);
+        if taken.contains(&whole) {
+            return Err(Failure::Usage(format!("two results would go to `{}`: name two files", target.display())));
+        }
+        taken.push(whole);
+    }
+    Ok(())
+}
+
+/// A path by which a file is told from others, be it there or not.
+fn whole_path(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let name = path.file_name().unwrap_or_default();
+        folder.canonicalize().map_or_else(|_| path.to_owned(), |folder| folder.join(name))
+    })
+}
+
 /// Writes a result to `target`, or to standard output when there is none or it is `-`.
 pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let mut output = ResultFile::create(target)?;
@@ -100,11 +125,11 @@ pub(crate) enum ResultFile {
     /// A device or a named pipe, which nothing must be renamed to.
     Stream {
         stream: io::BufWriter<File>,
-        target: std::path::PathBuf,
+        target: PathBuf,
     },
     File {
         beside: io::BufWriter<tempfile::NamedTempFile>,
-        target: std::path::PathBuf,
+        target: PathBuf,
     },
 }
 

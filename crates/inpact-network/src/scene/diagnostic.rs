@@ -30,7 +30,7 @@ scene_rules! {
     UNUSABLE_NUMBER = "D014" "unusable-number" "a number of a scene is below zero, NaN or infinite where it must not be"
         "Conductances, capacities and lengths are zero or more, areas above zero, shares from 0 to 1; only a conductance may be `inf`, which makes its two nodes one.";
     MALFORMED_TIME = "D015" "malformed-time" "the time of a scene, or of a course, does not go forward"
-        "A transient has a start before its end and one of `step` and `tolerance`; the points of a course rise in time.";
+        "A transient has a start before its end and one of `step` and `tolerance`, and neither is lost in rounding: `tolerance` is 1e-12 or more, a step 4 units in the last place of the time or more, and there are 10 million increments of `step` at most. The points of a course rise in time.";
     FLOATING_BODY = "D016" "floating-body" "nothing holds the level of a body: it has no path to a fixed value"
         "Only differences of its values count, so that any level of it would do, and a source in it has nowhere to go. The finding names the nodes. Fix the value of one of them, join the body to another, or, in a transient, give a node of it a capacity. An interface whose conductance is zero, an open gap for instance, joins nothing.";
     CONTRADICTORY_VALUES = "D017" "contradictory-values" "nodes that infinite conductances make one are fixed at different values"

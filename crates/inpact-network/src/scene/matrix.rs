@@ -2,13 +2,14 @@
 //!
 //! The file is `matrix coordinate real symmetric`. Its entries beside the diagonal are conductances between the nodes of row and column, or all of them the negative of those,
 //! as an assembled conductance matrix has them; the rows of such a matrix add up to zero.
+//! Each pair of nodes has one entry, in either triangle: a file with both triangles would conduct twice what its matrix does.
 //! What is held in memory follows the entries that are there, not the size that the file says.
 
 use super::Field;
-use super::diagnostic::UNUSABLE_NUMBER;
+use super::diagnostic::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use super::usable::Refusal;
 use inpact_evaluation::nodes::{Findings, MALFORMED_CELL, Place};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Beyond this share of its diagonal the sum of a row is not zero.
 const ROW_SUM: f64 = 1e-9;
@@ -82,6 +83,7 @@ fn read(bytes: &[u8]) -> Result<Entries, Wrong> {
         let help = "write the number of entries below, or see whether the file was cut off";
         return Err(wrong(size_line, format!("the size of the matrix says {entries}, and the file has {found}"), help));
     }
+    check_pairs(text, &entries)?;
     match (first_positive, first_negative, first_diagonal) {
         (Some(positive), Some(negative), _) => {
             let message = format!("entries beside the diagonal have both signs, in lines {positive} and {negative}");
@@ -147,6 +149,33 @@ fn parse_entry(text: &str, rows: u32) -> Result<([u32; 2], f64), Refusal> {
         return Err(Refusal::new(&UNUSABLE_NUMBER, format!("the value of `{text}` is not finite"), help));
     }
     Ok((ends, value))
+}
+
+/// Whether no pair of row and column has two entries, be they in one triangle or in both.
+fn check_pairs(text: &str, entries: &[([u32; 2], f64)]) -> Result<(), Wrong> {
+    let pair_of = |ends: [u32; 2]| [ends[0].max(ends[1]), ends[0].min(ends[1])];
+    let mut pairs: Vec<[u32; 2]> = entries.iter().map(|(ends, _)| pair_of(*ends)).collect();
+    pairs.sort_unstable();
+    let twice: HashSet<[u32; 2]> = pairs.windows(2).filter(|of| of[0] == of[1]).map(|of| of[0]).collect();
+    if twice.is_empty() {
+        return Ok(());
+    }
+    // The second entry in the file of any of those pairs.
+    let mut seen: HashMap<[u32; 2], usize> = HashMap::new();
+    for (line, written) in lines_of(text).skip(1) {
+        let mut ends = written.split_whitespace().map_while(|word| word.parse().ok());
+        let (Some(row), Some(column)) = (ends.next(), ends.next()) else { continue };
+        let pair = pair_of([row, column]);
+        if !twice.contains(&pair) {
+            continue;
+        }
+        if let Some(first) = seen.insert(pair, line) {
+            let message = format!("`{written}` gives {} and {} a second entry, after line {first}", pair[0], pair[1]);
+            let help = "a symmetric file has one triangle, and one entry for each pair: leave the other out, or add the two up";
+            return Err((line, Refusal::new(&MALFORMED_SCENE, message, help)));
+        }
+    }
+    Ok(())
 }
 
 /// Whether the rows of an assembled matrix add up to zero.

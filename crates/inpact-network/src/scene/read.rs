@@ -46,6 +46,12 @@ pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene
 /// How many names are compared with unknown ones at most, so that a table of a million of them takes no longer than one that is right.
 const MOST_COMPARISONS: usize = 1_000_000;
 
+/// Below this share of the range of values, the local error of an increment is lost in rounding.
+const LEAST_TOLERANCE: f64 = 1e-12;
+
+/// More increments than that are a slip of units and not a wish: their states alone would fill a disk.
+const MOST_INCREMENTS: f64 = 1e7;
+
 /// A scene in the making.
 pub(super) struct Reader<'a> {
     text: &'a str,
@@ -324,7 +330,27 @@ impl<'a> Reader<'a> {
                 return Err((None, "`time` needs one of `step` and `tolerance`".to_owned(), help));
             }
         };
-        Ok(TimeSpan { start: from, end: to, steps })
+        let span = TimeSpan { start: from, end: to, steps };
+        let shown = |number: &Option<Number>| number.as_ref().map_or("", |number| self.written(number));
+        if let Some(number) = tolerance.as_ref().filter(|tolerance| tolerance.value() < LEAST_TOLERANCE) {
+            let message = format!("`tolerance` is {}, below what rounding leaves of an error", shown(tolerance));
+            return Err((Some(number), message, "give a tolerance of 1e-12 or above"));
+        }
+        for (name, given) in [("step", step), ("first_step", first_step)] {
+            if let Some(number) = given.as_ref().filter(|given| given.value() < span.resolution()) {
+                let furthest = from.abs().max(to.abs());
+                let message =
+                    format!("`{name}` is {}, which rounding loses beside a time of {furthest:?}", shown(given));
+                return Err((Some(number), message, "give a longer one, or count the time from a start nearer to 0"));
+            }
+        }
+        if let Some(number) = step.as_ref().filter(|step| MOST_INCREMENTS < (to - from) / step.value()) {
+            let increments = (to - from) / number.value();
+            let message =
+                format!("a `step` of {} makes {increments:.0} increments, more than {MOST_INCREMENTS:.0}", shown(step));
+            return Err((Some(number), message, "give a longer `step`, or `tolerance` for increments by their error"));
+        }
+        Ok(span)
     }
 
     fn take_node(&mut self, entry: NodeEntry, scene: &mut Scene) {

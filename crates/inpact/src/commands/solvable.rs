@@ -15,7 +15,7 @@ use inpact_network::{Problem, SolveFailure};
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::check;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A scene with the model of its deck.
 pub(crate) struct SolvableScene {
@@ -24,6 +24,8 @@ pub(crate) struct SolvableScene {
     pub(crate) choices: Choices,
     pub(crate) name: String,
     pub(crate) deck_name: String,
+    /// The files it is made from: the scene, those beside it, the deck and what that includes.
+    inputs: Vec<PathBuf>,
 }
 
 impl SolvableScene {
@@ -41,7 +43,7 @@ impl SolvableScene {
         let Ok(text) = String::from_utf8(text) else {
             return Err(Failure::Data(format!("`{name}` is no scene: it is not UTF-8")));
         };
-        let mut files = FilesBeside { folder, failure: None };
+        let mut files = FilesBeside { folder, read: vec![path.to_owned()], failure: None };
         let (scene, found) = scene::read(&text, &name, &mut files);
         say_data_findings(found, format);
         if let Some(failure) = files.failure {
@@ -69,7 +71,14 @@ impl SolvableScene {
             return Ok(None);
         }
         let deck_name = deck_path.display().to_string();
-        Ok(Some(Self { scene, model, choices, name, deck_name }))
+        let mut inputs = files.read;
+        inputs.extend(deck.sources().iter().map(|source| PathBuf::from(source.name())));
+        Ok(Some(Self { scene, model, choices, name, deck_name, inputs }))
+    }
+
+    /// Refuses to write results over a file that the scene is made from.
+    pub(crate) fn refuse_overwriting(&self, targets: &[Option<&Path>]) -> Result<(), Failure> {
+        targets.iter().try_for_each(|target| files::refuse_overwriting(*target, &self.inputs))
     }
 
     /// What is solved; `None` after saying what is missing.
@@ -90,14 +99,20 @@ impl SolvableScene {
 /// The files beside a scene.
 struct FilesBeside<'a> {
     folder: &'a Path,
+    /// Those that were read, and the scene.
+    read: Vec<PathBuf>,
     /// The first file that could not be read.
     failure: Option<Failure>,
 }
 
 impl SceneFiles for FilesBeside<'_> {
     fn read(&mut self, name: &str) -> Option<Vec<u8>> {
-        match files::read_bytes(&self.folder.join(name)) {
-            Ok(bytes) => Some(bytes),
+        let path = self.folder.join(name);
+        match files::read_bytes(&path) {
+            Ok(bytes) => {
+                self.read.push(path);
+                Some(bytes)
+            }
             Err(failure) => {
                 self.failure.get_or_insert(failure);
                 None

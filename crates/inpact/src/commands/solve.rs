@@ -91,11 +91,10 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let format = arguments.format.of_findings();
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
-    for target in targets {
-        files::refuse_overwriting(target, &[&arguments.scene])?;
-    }
+    files::refuse_one_target_twice(&targets)?;
     let prepared = SolvableScene::read(&arguments.scene, &arguments.laws, &arguments.reading, format)?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
+    prepared.refuse_overwriting(&targets)?;
     let Some(problem) = prepared.problem(format) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.method();
     let mut equations = Equations::new(&problem, method, arguments.solver.tolerance.unwrap_or(LAST_DIGIT));
@@ -106,16 +105,18 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         last = Some(state.clone());
         Ok(())
     });
-    let report = match ran {
-        Ok(report) => report,
+    let ran = match ran {
+        Ok(report) => Some(report),
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
-            say_data_findings(prepared.findings(&failure, last.map(|state| state.time)), format);
-            return Ok(Outcome::HasErrors);
+            say_data_findings(prepared.findings(&failure, last.as_ref().map(|state| state.time)), format);
+            None
         }
     };
     let Some(last) = last else { return Ok(Outcome::HasErrors) };
+    // The states before a failure hold, and took their time: they are kept as those of a whole run are.
     outputs.finish(&last, format)?;
+    let Some(report) = ran else { return Ok(Outcome::HasErrors) };
     let summary = summary::Summary {
         problem: &problem,
         state: &last,

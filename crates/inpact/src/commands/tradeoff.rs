@@ -109,17 +109,17 @@ impl TradeoffFormat {
 }
 
 impl TradeoffArguments {
-    /// The files that are measured on.
-    fn inputs(&self) -> Vec<&Path> {
-        let of_table = self.table.iter().flat_map(EvaluableArguments::inputs);
-        of_table.chain(self.scene.as_deref()).collect()
+    /// Where results go.
+    fn targets(&self) -> [Option<&Path>; 2] {
+        [self.output.as_deref(), self.plot.as_ref().map(|plot| plot.path.as_path())]
     }
 }
 
 pub(crate) fn run(arguments: &TradeoffArguments) -> Result<Outcome, Failure> {
-    let targets = [arguments.output.as_deref(), arguments.plot.as_ref().map(|plot| plot.path.as_path())];
-    for target in targets {
-        files::refuse_overwriting(target, &arguments.inputs())?;
+    files::refuse_one_target_twice(&arguments.targets())?;
+    // The files that a scene is made from are known when it is read.
+    if let Some(table) = &arguments.table {
+        arguments.targets().into_iter().try_for_each(|target| files::refuse_overwriting(target, &table.inputs()))?;
     }
     let shown = match (&arguments.scene, &arguments.table) {
         (Some(scene), _) => solvers::measured(scene, arguments)?,

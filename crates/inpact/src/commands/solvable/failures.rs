@@ -24,7 +24,7 @@ pub(super) fn findings(
             for body in bodies {
                 let at = body.first().map_or_else(Place::default, |&first| place(first));
                 let message = format!("nothing holds the {field} of {}{when}", names(scene, body));
-                findings.report(&FLOATING_BODY, at, message, floating_help(*field));
+                findings.report(&FLOATING_BODY, at, message, floating_help(*field, scene));
             }
         }
         SolveFailure::Contradiction { field, nodes, values } => {
@@ -40,33 +40,31 @@ pub(super) fn findings(
         SolveFailure::Row(RowFault { row, why }) => {
             let of = &scene.interfaces[*row as usize];
             let label = format!("the interface of {} and {}", node(of.slave), node(of.master));
-            let line = of.place.1.is_none().then_some(of.place.0);
-            let at = Place { line, ..Place::default() };
-            match why {
+            let (rule, message, help) = match why {
                 RowFaultReason::User(fault) => {
-                    findings.report(&USER_FAULT, at, format!("user subroutine GAPELECTR {fault} at {label}{when}"), "");
+                    (&USER_FAULT, format!("user subroutine GAPELECTR {fault} at {label}{when}"), "")
                 }
                 RowFaultReason::NeedsLength => {
                     let message = format!(
                         "{label} is open{when}, and a cutoff of its pore fluid is left to the characteristic element length"
                     );
-                    findings.report(&MISSING_QUANTITY, at, message, "give `char_length` or `--char-length`");
+                    (&MISSING_QUANTITY, message, "give `char_length` or `--char-length`")
                 }
                 RowFaultReason::NoConductance(value) => {
                     let message = format!("a conductance of {label} is {value:?}{when}");
-                    findings.report(
-                        &UNUSABLE_NUMBER,
-                        at,
-                        message,
-                        "look at its table and at the row's clearance, pressure and field variables",
-                    );
+                    let help = "look at its table and at the row's clearance, pressure and field variables";
+                    (&UNUSABLE_NUMBER, message, help)
                 }
-            }
+            };
+            let (at, message) = of.located(message);
+            findings.report(rule, at, message, help);
         }
         SolveFailure::NotSolved { field, tried } => {
             let tried: Vec<String> = tried.iter().map(|(method, why)| format!("{method}: {why}")).collect();
             let message = format!("the equations of {field} were not solved{when} ({})", tried.join("; "));
-            findings.report(&NOT_CONVERGED, Place::default(), message, "");
+            let help = "see whether conductances, sources and values are of the magnitudes that are meant; \
+                        otherwise try `--solver direct`, or a larger `--tolerance`";
+            findings.report(&NOT_CONVERGED, Place::default(), message, help);
         }
         SolveFailure::NotConverged { steps, worst } => {
             for (field, share, number) in worst {
@@ -86,9 +84,11 @@ pub(super) fn findings(
     findings.into_list()
 }
 
-fn floating_help(field: Field) -> String {
+fn floating_help(field: Field, scene: &Scene) -> String {
+    // A current is steady at every instant: there is no capacity for potentials.
+    let capacity = if scene.is_transient() && field != Field::Potential { ", a capacity" } else { "" };
     format!(
-        "give one of these nodes a fixed {field}, or a conductance to a body that has one; an open gap of zero conductance is no path"
+        "give one of these nodes a fixed {field}{capacity}, or a conductance to a body that has one; an open gap of zero conductance is no path"
     )
 }
 

@@ -6,9 +6,10 @@ use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::Evaluation;
-use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
+use inpact_evaluation::nodes::{Batch, DataDiagnostic, Findings, NodeReader, Place};
 use inpact_evaluation::plan::{make, survey};
 use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
+use inpact_network::scene::Scene;
 use std::io::{self, Cursor};
 use std::path::Path;
 
@@ -19,13 +20,13 @@ pub(super) fn write(
     target: &Path,
     format: FindingFormat,
 ) -> Result<(), Failure> {
-    let SolvableScene { model, choices, name, .. } = prepared;
+    let SolvableScene { model, choices, name, scene, .. } = prepared;
     let unreadable = |error| Failure::read(Path::new("the interface rows"), error);
     let mut findings = Findings::new(name);
     let reader = NodeReader::open_any(Box::new(Cursor::new(table.clone())), &mut findings).map_err(unreadable)?;
     let surveyed = survey(reader, model, choices, &mut findings).map_err(unreadable)?;
     let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else {
-        say_data_findings(findings.into_list(), format);
+        say_data_findings(of_scene(findings, scene), format);
         return Err(Failure::Data("the interface rows of the scene cannot be evaluated".to_owned()));
     };
     let plan = make(model, &surveyed, choices);
@@ -48,6 +49,55 @@ pub(super) fn write(
     let tally = evaluation.finish();
     tally.report_user_faults(&mut findings);
     tally.report(&plan, &mut findings);
-    say_data_findings(findings.into_list(), format);
+    say_data_findings(of_scene(findings, scene), format);
     output.finish()
+}
+
+/// Findings about the table as such about the scene, which has other lines: the row of the table tells that of the scene.
+fn of_scene(findings: Findings, scene: &Scene) -> Vec<DataDiagnostic> {
+    // Every state has a row of each interface, in the order of the scene.
+    let number = |place: &Place| usize::try_from(place.row?).ok()?.checked_sub(1)?.checked_rem(scene.interfaces.len());
+    let told = |found: DataDiagnostic| {
+        let (at, message) = match number(&found.place) {
+            Some(row) => scene.interfaces[row].located(found.message),
+            None => (Place::default(), found.message),
+        };
+        DataDiagnostic { place: Place { column: found.place.column, ..at }, message, ..found }
+    };
+    findings.into_list().into_iter().map(told).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_scene;
+    use inpact_evaluation::nodes::{Findings, NON_FINITE, Place};
+    use inpact_network::scene::{self, SceneFiles};
+
+    struct Rows;
+
+    impl SceneFiles for Rows {
+        fn read(&mut self, _: &str) -> Option<Vec<u8>> {
+            Some(b"slave,master,area\na,b,1\n".to_vec())
+        }
+    }
+
+    #[test]
+    fn findings_about_rows_have_the_lines_of_the_scene() {
+        let text = "deck = \"d\"\n[[node]]\nname = \"a\"\n[[node]]\nname = \"b\"\n[[interface]]\nslave = \"a\"\nmaster = \"b\"\narea = 1.0\n\
+                    [[interface_file]]\nfile = \"rows.csv\"\n";
+        let (scene, _) = scene::read(text, "s.toml", &mut Rows);
+        let mut findings = Findings::new("s.toml");
+        for row in [None, Some(3), Some(4)] {
+            findings.report(&NON_FINITE, Place { row, line: row, column: None }, "wrong", "");
+        }
+        let told: Vec<_> = of_scene(findings, &scene.expect("a scene"))
+            .into_iter()
+            .map(|found| (found.place.line, found.place.row, found.message))
+            .collect();
+        let in_table = "wrong (line 2 of `rows.csv`)".to_owned();
+        assert_eq!(
+            told,
+            [(None, None, "wrong".to_owned()), (Some(6), None, "wrong".to_owned()), (None, None, in_table)]
+        );
+    }
 }

@@ -10,7 +10,8 @@ use clap::ValueEnum;
 use inpact_evaluation::nodes::Column;
 use inpact_network::scene::Field;
 use inpact_network::tables::{
-    Times, interface_columns, interface_header, interface_rows, link_header, link_rows, state_header, state_rows,
+    Times, interface_columns, interface_header, interface_labels, interface_rows, link_header, link_rows, state_header,
+    state_rows,
 };
 use inpact_network::{Problem, State};
 use serde_json::{Map, Value, json};
@@ -57,6 +58,7 @@ pub(super) struct Outputs<'a> {
 struct Interfaces {
     target: PathBuf,
     columns: Vec<Column>,
+    labels: Vec<String>,
     table: Vec<u8>,
 }
 
@@ -83,7 +85,7 @@ impl<'a> Outputs<'a> {
             interfaces: arguments.interfaces.clone().map(|target| {
                 let columns = interface_columns(problem);
                 let table = interface_header(&columns, times).into_bytes();
-                Interfaces { target, columns, table }
+                Interfaces { target, columns, labels: interface_labels(problem), table }
             }),
             documents: Vec::new(),
             has_begun: false,
@@ -123,8 +125,8 @@ impl<'a> Outputs<'a> {
             link_rows(problem, state, times, &mut text);
             write(file, &text)?;
         }
-        if let Some(Interfaces { columns, table, .. }) = &mut self.interfaces {
-            interface_rows(problem, &self.prepared.model, state, (columns, times), table);
+        if let Some(Interfaces { columns, labels, table, .. }) = &mut self.interfaces {
+            interface_rows(problem, &self.prepared.model, state, (columns, labels, times), table);
         }
         Ok(())
     }
@@ -143,13 +145,15 @@ impl<'a> Outputs<'a> {
                 write(&mut self.states, format!("{whole:#}\n").as_bytes())?;
             }
         }
-        if let Some(Interfaces { target, table, .. }) = self.interfaces.take() {
-            interfaces::write(self.prepared, table, &target, findings)?;
-        }
+        // What was solved does not depend on whether its interfaces can be evaluated.
+        self.states.finish()?;
         if let Some(file) = self.link_file {
             file.finish()?;
         }
-        self.states.finish()
+        if let Some(Interfaces { target, table, .. }) = self.interfaces {
+            interfaces::write(self.prepared, table, &target, findings)?;
+        }
+        Ok(())
     }
 
     /// The JSON document: the last state on top, all of them below where there are several.

@@ -20,6 +20,7 @@ pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
     let format = arguments.format.of_findings();
     let prepared = SolvableScene::read(path, &arguments.laws, &arguments.reading, format)?;
     let Some(prepared) = prepared else { return Ok(None) };
+    prepared.refuse_overwriting(&arguments.targets())?;
     let Some(problem) = prepared.problem(format) else { return Ok(None) };
     if problem.solved_fields().is_empty() {
         let message = format!("no field of `{}` is solved for: there is nothing to trade", prepared.name);
