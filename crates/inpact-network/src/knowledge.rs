@@ -123,16 +123,15 @@ impl<'a> Knowledge<'a> {
         })
     }
 
-    /// What is known of both sides of a row; a side without a temperature has that of the row, of the scene, or of the other side.
+    /// What is known of both sides of a row.
     pub(crate) fn sides(&self, row: u32) -> Sides {
         let of = self.row(row);
         let nodes = [of.slave as usize, of.master as usize];
         let known = |value: Wide| (!value.to_f64().is_nan()).then_some(value);
-        let [slave, master] = nodes.map(|node| known(self.temperatures[node]));
-        let given = of.temperature.or(self.problem.scene.initial_temperature).map(Wide::new);
-        let or = |own: Option<Wide>, other: Option<Wide>| own.or(given).or(other).unwrap_or(Wide::new(f64::NAN));
+        let of_nodes = nodes.map(|node| known(self.temperatures[node]));
+        let temperatures = of.temperatures(of_nodes, self.problem.scene.initial_temperature, Wide::new);
         Sides {
-            temperatures: [or(slave, master), or(master, slave)],
+            temperatures: temperatures.map(|temperature| temperature.unwrap_or(Wide::new(f64::NAN))),
             pore_pressures: nodes.map(|node| self.pore_pressures[node]),
         }
     }

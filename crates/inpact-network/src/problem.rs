@@ -465,12 +465,7 @@ fn field_of(flow: FlowOf) -> Field {
 }
 
 fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str, help: &str) {
-    let (line, table) = &row.place;
-    let message = match table {
-        Some(table) => format!("{message} (line {line} of `{table}`)"),
-        None => message.to_owned(),
-    };
-    let place = Place { line: table.is_none().then_some(*line), ..Place::default() };
+    let (place, message) = row.located(message.to_owned());
     findings.report(&MISSING_QUANTITY, place, message, help);
 }
 
@@ -480,7 +475,7 @@ fn report_unknown(row: &SceneInterface, model: &Model, findings: &mut Findings) 
         Some(name) => format!("the deck defines no interaction `{name}`"),
         None => format!("`interaction` is missing, and the deck has {} interactions", model.interactions.len()),
     };
-    let place = Place { line: row.place.1.is_none().then_some(row.place.0), ..Place::default() };
+    let (place, message) = row.located(message);
     let listed = format!("its interactions are {}", names.join(", "));
     let help = match &row.interaction {
         Some(name) => meant_or(name.canonical(), model.interactions.keys().map(Name::canonical), &listed),

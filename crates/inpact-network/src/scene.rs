@@ -199,8 +199,13 @@ impl Field {
 
 impl SceneInterface {
     /// The temperatures of both sides, from those of their nodes: a side without one has that of the row, of the scene, or of the other side.
-    pub fn temperatures(&self, [slave, master]: [Option<f64>; 2], of_scene: Option<f64>) -> [Option<f64>; 2] {
-        let given = self.temperature.or(of_scene);
+    pub(crate) fn temperatures<T: Copy>(
+        &self,
+        [slave, master]: [Option<T>; 2],
+        of_scene: Option<f64>,
+        number: impl Fn(f64) -> T,
+    ) -> [Option<T>; 2] {
+        let given = self.temperature.or(of_scene).map(number);
         [slave.or(given).or(master), master.or(given).or(slave)]
     }
 

@@ -236,7 +236,8 @@ fn cell(problem: &Problem<'_>, state: &State, number: u32, row: &SceneInterface,
         Column::Temperature(Part::Both) => row.temperature.or(problem.scene.initial_temperature),
         Column::Temperature(part) => {
             let of_nodes = [Part::Slave, Part::Master].map(|part| value(Field::Temperature, part));
-            row.temperatures(of_nodes, problem.scene.initial_temperature)[usize::from(part != Part::Slave)]
+            let of_sides = row.temperatures(of_nodes, problem.scene.initial_temperature, |given| given);
+            of_sides[usize::from(part != Part::Slave)]
         }
         Column::TemperatureJump => jump(Field::Temperature),
         Column::PorePressure(Part::Both) => jump(Field::PorePressure),
