@@ -205,6 +205,18 @@ fn no_nodes_are_solved_and_no_links_too() {
     }
 }
 
+/// What two of the smallest conductances conduct in series is below the range of f64, and still joins what they join.
+#[test]
+fn the_smallest_conductances_in_series() {
+    let least = f64::from_bits(1);
+    let chain = network(4, &[(0, 100.0), (3, 40.0)], &[(0, 1, least), (1, 2, least), (2, 3, least)]);
+    for method in [Method::Direct, Method::Mixed, Method::Iterative] {
+        let solution = solve(&chain, method).unwrap_or_else(|failure| panic!("{method:?}: {failure}"));
+        let values = rounded(&solution.values);
+        assert!(values.windows(2).all(|pair| pair[1] <= pair[0]), "{method:?}: {values:?}");
+    }
+}
+
 /// A blind end has the value of what it hangs on, whatever it is made of, and nothing flows into it.
 #[test]
 fn blind_ends() {

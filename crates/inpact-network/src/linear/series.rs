@@ -4,6 +4,7 @@
 //! A free node with one conductance sends its source through that.
 //! So the slave node between a body's link and an interface of constant conductance is no unknown, and a chain of links has none at all.
 //! Sums and quotients of positive numbers lose nothing, and they are made in 106 bits, so that a chain of any length is as exact as one link.
+//! Where the one conductance would be below the range of f64 the node stays.
 //! A node with two conductances *and* a source stays: to share its source between its neighbours would make flows that cancel far larger than those that flow.
 
 use super::core::{Core, Element, NONE};
@@ -205,8 +206,13 @@ impl Walk<'_> {
         let elements = self.incident.at(node, &self.series.is_there);
         let far = |element: u32| far_end(self.core, element, node);
         let source = self.core.sources[node as usize];
-        if elements.len() == 2 && !source.is_zero() {
-            return Vec::new();
+        if let [first, second] = *elements.as_slice() {
+            let [a, b] = [first, second].map(|element| self.core.elements[element as usize].conductance);
+            // A conductance below the range of f64 would cut the network in two.
+            let is_lost = in_series(a, b).is_zero() && !a.is_zero() && !b.is_zero();
+            if is_lost || !source.is_zero() {
+                return Vec::new();
+            }
         }
         self.series.is_free[node as usize] = false;
         for &element in &elements {
