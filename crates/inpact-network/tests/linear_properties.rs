@@ -3,9 +3,7 @@
 mod linear_support;
 
 use inpact_evaluation::numbers::Wide;
-use inpact_network::linear::{
-    LAST_DIGIT, LinearFailure, LinearNetwork, LinearSolution, Link, Method, Store, Unsolvable,
-};
+use inpact_network::linear::{LinearFailure, LinearNetwork, LinearSolution, Link, Method, Store, Unsolvable};
 use linear_support::{Balanced, METHODS, rounded, solve, worst_balance};
 use proptest::prelude::*;
 
@@ -79,7 +77,8 @@ fn is_balanced(network: &LinearNetwork) -> Result<(), TestCaseError> {
     for method in SOLVERS {
         let Some(solution) = solved(network, method)? else { return Ok(()) };
         let missing = worst_balance(network, &solution, Balanced::Clusters);
-        prop_assert!(missing <= LAST_DIGIT, "{:?}: {}", method, missing);
+        // The tolerance is that of the equations of jumps, of which a node's balance is a difference: what is promised is the last digit of f64.
+        prop_assert!(missing <= 0.5 * f64::EPSILON, "{:?}: {}", method, missing);
         for (link, flow) in network.links.iter().zip(&solution.flows) {
             let [a, b] = link.nodes.map(|node| solution.values[node as usize].to_f64());
             // The sign of a flow is that of the jump, where values tell it.
