@@ -4,7 +4,7 @@ use super::{Ending, Random, Rows};
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 
 /// How the numbers of a random table are chosen.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub enum Range {
     AllDecades,
     Ordinary,
