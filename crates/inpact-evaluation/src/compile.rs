@@ -8,6 +8,7 @@ pub(crate) use user::CompiledUser;
 
 use crate::accuracy::Wanted;
 use crate::evaluate::summed;
+use crate::history::{ClosingHeat, HistoryStart};
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
@@ -37,6 +38,10 @@ pub struct Laws {
     pub(crate) interaction: Option<usize>,
     /// Where a batch has the numbers of column `time`.
     pub(crate) time: Option<usize>,
+    /// Where the histories of nodes start.
+    pub(crate) history_start: HistoryStart,
+    /// What the heat of an increment takes that closes a circuit.
+    pub(crate) closing_heat: ClosingHeat,
 }
 
 /// The laws of one interaction, and where its rows have what they need.
@@ -192,6 +197,8 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
         node: plan.selection.label(Column::Node),
         interaction: plan.selection.label(Column::Interaction),
         time: plan.selection.number(Column::Time),
+        history_start: choices.history_start,
+        closing_heat: choices.closing_heat,
     }
 }
 

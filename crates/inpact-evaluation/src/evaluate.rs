@@ -1,6 +1,7 @@
 //! Evaluates the laws of a plan, row by row, in batches.
 //!
-//! Rows of one node under one interaction are increments of its history, in the order they come in; a node's first row starts it (C-25):
+//! Rows of one node under one interaction are increments of its history, in the order they come in; a node's first row starts it unless
+//! [`Choices::history_start`](crate::plan::Choices::history_start) says otherwise (C-25):
 //! its time integrals are 0, the jump of potential at its start is its own, the rate of its clearance is 0 unless given.
 //! Results depend on the rows alone and not on how they are cut into batches.
 //!
@@ -18,7 +19,7 @@ mod totals;
 mod user;
 
 pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
-pub use tally::{AxisTally, InteractionTally, Tally, UserFaultInRow};
+pub use tally::{AxisTally, InteractionTally, RemarkedRows, Tally, UserFaultInRow};
 pub use totals::Totals;
 pub(crate) use totals::summed;
 
@@ -47,7 +48,7 @@ pub struct Evaluation<'a> {
 }
 
 /// What a node's rows so far add up to.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct NodeHistory {
     electrical: ElectricalHistory,
     thermal: ThermalHistory,
@@ -75,6 +76,17 @@ enum Outcome {
     Evaluated(Option<Status>),
     /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
     Faulty(Option<UserFaultInRow>),
+}
+
+impl NodeHistory {
+    /// One that has not begun.
+    fn of(laws: &Laws) -> Self {
+        Self {
+            electrical: ElectricalHistory::new(laws.history_start, laws.closing_heat),
+            thermal: ThermalHistory::new(laws.history_start),
+            pore: PoreHistory::new(laws.history_start),
+        }
+    }
 }
 
 impl<'a> Evaluation<'a> {
@@ -165,9 +177,9 @@ impl<'a> Evaluation<'a> {
             Some(node) => {
                 let slot = self.nodes.enter(interaction, batch.labels[node].get(index));
                 if slot.number == self.histories.len() {
-                    self.histories.push(NodeHistory::default());
+                    self.histories.push(NodeHistory::of(self.laws));
                 } else if slot.is_first {
-                    self.histories[slot.number] = NodeHistory::default();
+                    self.histories[slot.number] = NodeHistory::of(self.laws);
                 }
                 Some(&mut self.histories[slot.number])
             }

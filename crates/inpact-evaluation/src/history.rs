@@ -1,8 +1,8 @@
 //! Integrals of a node's flows over its history.
 //!
 //! The manuals do not say how ECDT, SJDT, HTL, SFDRT and PTL are integrated; the decision is backward Euler (semantics O-5, Q-26): flow at the end of an increment times its duration,
-//! with SJDT from the increment's mean heat (H-08) and the gap-filling part of PTL as −w Δd exactly.
-//! A history starts at its first row: the integrals are 0 there, the jump at its start is its own (C-25), the rate of its clearance is 0 unless given.
+//! with SJDT from the increment's mean heat (H-08). The gap-filling part of PTL is −w Δb of the filled width exactly, or, where a rate is given, that rate times the duration, as PFL.
+//! Where a history starts is a choice ([`HistoryStart`], C-25): at its first row, where the integrals are 0 and the jump at its start is its own, or at rest before it.
 //! Sums are compensated, so that ten million increments cost no digits.
 //!
 //! One row takes two calls: `begin` gives what the law needs from the row before, `finish` adds what the law answered.
@@ -14,15 +14,58 @@ pub use thermal::{FlowHistory, ThermalHistory};
 
 use crate::law::contact::{Clearance, ClearanceRate, PotentialJump};
 use crate::law::electrical::{ElectricalFlow, ExactFlow};
-use crate::law::pore::{Flow, Gap, PoreFlow};
-use crate::numbers::{CompensatedSum, Scaled, two_difference};
+use crate::law::pore::{Gap, PoreFlow};
+use crate::numbers::{CompensatedSum, Scaled};
+
+/// Where the history of a node starts (C-25).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum HistoryStart {
+    /// At its first row: the integrals are 0 there, its jump of potential and its clearance are those of the start.
+    #[default]
+    FirstRow,
+    /// Without a jump of potential and with the clearance of its first row, at this time; a later first row ends an increment.
+    AtRest {
+        /// When histories start, T.
+        time: f64,
+    },
+}
+
+impl HistoryStart {
+    /// When a history has started before its first row; `None` where that row is its start.
+    fn before(self, first_row: f64) -> Option<f64> {
+        match self {
+            Self::AtRest { time } if time < first_row => Some(time),
+            _ => None,
+        }
+    }
+}
+
+/// What Δφ₀ is in the heat of an increment at whose start the interface did not conduct.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClosingHeat {
+    /// The jump of the open circuit, as the manual has it: a heat that no circuit supplied.
+    #[default]
+    Manual,
+    /// The jump at the end of the increment, so that power balances.
+    Balanced,
+}
 
 /// The integrals of current and heat at one node: ECDT, SJDT and, times the node's area, ECDTA, SJDTA.
 #[derive(Clone, Debug, Default)]
 pub struct ElectricalHistory {
-    previous: Option<(f64, PotentialJump)>,
+    start: HistoryStart,
+    closing_heat: ClosingHeat,
+    previous: Option<ElectricalRow>,
     current: Integral,
     heat: Integral,
+}
+
+/// What a row leaves to the next.
+#[derive(Clone, Copy, Debug)]
+struct ElectricalRow {
+    time: f64,
+    jump: PotentialJump,
+    conducts: bool,
 }
 
 /// What an increment of the electrical law needs from the row before.
@@ -32,16 +75,36 @@ pub struct ElectricalIncrement {
     pub duration: Option<f64>,
     /// Δφ₀, the jump at its start.
     pub jump_at_start: PotentialJump,
+    /// Whether Δφ₀ is the jump of an open circuit which the increment closes.
+    pub closes_circuit: bool,
 }
 
 impl ElectricalHistory {
-    /// Goes on to the row at `time` with its jump of potential.
-    pub fn begin(&mut self, time: f64, jump: PotentialJump) -> ElectricalIncrement {
-        let increment = match self.previous {
-            None => ElectricalIncrement { duration: None, jump_at_start: jump },
-            Some((start, jump_at_start)) => ElectricalIncrement { duration: Some(time - start), jump_at_start },
+    /// A history that starts so, and whose increments that close a circuit have this heat.
+    pub fn new(start: HistoryStart, closing_heat: ClosingHeat) -> Self {
+        Self { start, closing_heat, ..Self::default() }
+    }
+
+    /// Goes on to the row at `time` with its jump of potential and its conductance.
+    pub fn begin(&mut self, time: f64, jump: PotentialJump, conductance: f64) -> ElectricalIncrement {
+        let at_rest = |time| ElectricalRow { time, jump: PotentialJump(0.0), conducts: true };
+        let before = self.previous.or_else(|| self.start.before(time).map(at_rest));
+        let conducts = conductance != 0.0;
+        let increment = match before {
+            None => ElectricalIncrement { duration: None, jump_at_start: jump, closes_circuit: false },
+            Some(before) => {
+                let closes = !before.conducts && conducts && before.jump != jump;
+                let is_balanced = closes && self.closing_heat == ClosingHeat::Balanced;
+                ElectricalIncrement {
+                    duration: Some(time - before.time),
+                    jump_at_start: if is_balanced { jump } else { before.jump },
+                    closes_circuit: closes && !is_balanced,
+                }
+            }
         };
-        self.previous = Some((time, jump));
+        // A row at the start itself is at rest, whatever jump it has.
+        let starts_at_rest = before.is_none() && self.start != HistoryStart::FirstRow;
+        self.previous = Some(if starts_at_rest { at_rest(time) } else { ElectricalRow { time, jump, conducts } });
         increment
     }
 
@@ -85,55 +148,73 @@ impl ElectricalHistory {
 /// The integral of the pore fluid that leaves one slave node: PTL and, times its area, PTLA.
 #[derive(Clone, Debug, Default)]
 pub struct PoreHistory {
+    start: HistoryStart,
     previous: Option<(f64, Clearance)>,
     volume: Integral,
     is_unknown: bool,
 }
+
+/// A given rate that differs by more than that part from the change of the clearance contradicts it (D021).
+const CONTRADICTION: f64 = 0.01;
 
 /// What an increment of the pore law needs from the row before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoreIncrement {
     /// Δt; `None` in the first row of a history.
     pub duration: Option<f64>,
-    /// Δd over the increment, as a rounded difference and what the rounding took away.
-    clearance_change: (f64, f64),
-    /// ḋ: as given, otherwise Δd/Δt, and 0 in the first row.
-    pub clearance_rate: ClearanceRate,
+    /// What the gap does in a transient: it changes at the rate that is given, otherwise as the clearance has changed over the increment, and not at all in the first row.
+    pub gap: Gap,
+    /// ḋ as the clearance has changed, where a rate is given that contradicts it.
+    pub contradicted: Option<ClearanceRate>,
 }
 
 impl PoreHistory {
+    /// A history that starts so.
+    pub fn new(start: HistoryStart) -> Self {
+        Self { start, ..Self::default() }
+    }
+
     /// Goes on to the row at `time` with its clearance and, where the data has it, the rate of the clearance.
     pub fn begin(&mut self, time: f64, clearance: Clearance, given_rate: Option<ClearanceRate>) -> PoreIncrement {
-        let (duration, clearance_change) = match self.previous {
-            None => (None, (0.0, 0.0)),
-            Some((start, before)) => (Some(time - start), two_difference(clearance.0, before.0)),
-        };
+        let before = self.previous.or_else(|| self.start.before(time).map(|start| (start, clearance)));
+        let is_measured = self.previous.is_some();
         self.previous = Some((time, clearance));
-        let from_history = match duration {
-            Some(duration) if duration != 0.0 => clearance_change.0 / duration,
-            _ => 0.0,
+        let Some((start, before)) = before else {
+            let gap = Gap::Changing(given_rate.unwrap_or_default());
+            return PoreIncrement { duration: None, gap, contradicted: None };
         };
-        PoreIncrement { duration, clearance_change, clearance_rate: given_rate.unwrap_or(ClearanceRate(from_history)) }
+        let duration = time - start;
+        let contradicted = given_rate.filter(|_| is_measured).and_then(|given| {
+            let rate = (clearance.0 - before.0) / duration;
+            let is_off = CONTRADICTION * rate.abs().max(given.0.abs()) < (rate - given.0).abs();
+            is_off.then_some(ClearanceRate(rate))
+        });
+        let gap = given_rate.map_or(Gap::Since { clearance: before, duration }, Gap::Changing);
+        PoreIncrement { duration: Some(duration), gap, contradicted }
     }
 
     /// Adds the increment's flow; `gap` is what the law was given, `area` the node's area at its end, if known.
     ///
-    /// The flow across counts for the whole increment; gap filling counts with the change of the clearance, also where a rate was given.
+    /// The flow across counts for the whole increment, and so does a given rate; otherwise the gap counts with the change of its filled width.
     pub fn finish(&mut self, increment: &PoreIncrement, gap: Gap, flow: &PoreFlow, area: Option<f64>) {
         let Some(duration) = increment.duration else {
             self.volume.add_increment(0.0, None, area);
             return;
         };
-        let (Some(q_across), Some(_)) = (flow.q_across, flow.q_gap_slave) else {
+        let (Some(q_across), Some(q_gap_slave)) = (flow.q_across, flow.q_gap_slave) else {
             self.is_unknown = true;
             return;
         };
         self.volume.add_increment(-q_across, Some(duration), area);
-        if gap != Gap::Steady && flow.gap_fill == Flow::Active {
-            let (change, error) = increment.clearance_change;
-            self.volume.add_increment(flow.slave_share, Some(change), area);
-            if error != 0.0 && error.is_finite() {
-                self.volume.add_increment(flow.slave_share, Some(error), area);
+        match gap {
+            Gap::Steady => {}
+            Gap::Changing(_) => self.volume.add_increment(-q_gap_slave, Some(duration), area),
+            Gap::Since { .. } => {
+                let (change, error) = flow.width_change;
+                self.volume.add_increment(flow.slave_share, Some(change), area);
+                if error != 0.0 && error.is_finite() {
+                    self.volume.add_increment(flow.slave_share, Some(error), area);
+                }
             }
         }
     }

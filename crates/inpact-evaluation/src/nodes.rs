@@ -25,8 +25,9 @@ pub use batch::{Batch, LabelColumn, NumberColumn};
 pub(crate) use column::coordinates;
 pub use column::{Column, Direction, Part};
 pub use diagnostic::{
-    BEYOND_TABLE, DATA_RULES, DUPLICATE_COLUMN, DataDiagnostic, DataRule, Findings, MALFORMED_CELL, MISSING_COLUMN,
-    NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, Place, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION, USER_FAULT,
+    BEYOND_TABLE, CONTRADICTORY_RATE, DATA_RULES, DUPLICATE_COLUMN, DataDiagnostic, DataRule, Findings,
+    HEAT_OF_CLOSING, MALFORMED_CELL, MISSING_COLUMN, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, Place,
+    TIME_NOT_ASCENDING, UNKNOWN_INTERACTION, USER_FAULT,
 };
 pub use header::{Header, HeaderCell};
 pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};

@@ -2,7 +2,9 @@
 
 mod table_judge;
 
-use inpact_evaluation::history::{ElectricalHistory, FlowHistory, PoreHistory, ThermalHistory};
+use inpact_evaluation::history::{
+    ClosingHeat, ElectricalHistory, FlowHistory, HistoryStart, PoreHistory, ThermalHistory,
+};
 use inpact_evaluation::law::conductance::ConductanceTables;
 use inpact_evaluation::law::contact::{
     Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure, PotentialJump,
@@ -26,7 +28,7 @@ fn run(rows: &[(f64, f64, Option<f64>)]) -> ElectricalHistory {
     let mut history = ElectricalHistory::default();
     for &(time, jump, area) in rows {
         let jump = PotentialJump(jump);
-        let increment = history.begin(time, jump);
+        let increment = history.begin(time, jump, 3.0);
         let dissipation = Dissipation::Transient { jump_at_start: increment.jump_at_start };
         history.finish(&increment, &law.flow(3.0, jump, dissipation), 0.0, area);
     }
@@ -36,7 +38,7 @@ fn run(rows: &[(f64, f64, Option<f64>)]) -> ElectricalHistory {
 #[test]
 fn first_row_has_no_integral_and_its_own_jump() {
     let mut history = ElectricalHistory::default();
-    let increment = history.begin(7.0, PotentialJump(2.0));
+    let increment = history.begin(7.0, PotentialJump(2.0), 3.0);
     assert_eq!((increment.duration, increment.jump_at_start), (None, PotentialJump(2.0)));
     let history = run(&[(7.0, 2.0, Some(4.0))]);
     assert_eq!((history.current(), history.heat()), (0.0, 0.0));
@@ -69,7 +71,7 @@ fn ten_million_increments_are_exact() {
     let flow = ElectricalFlow { current_density, heat: GeneratedHeat { total: heat, slave: 0.0, master: 0.0 } };
     let mut history = ElectricalHistory::default();
     for step in 0..=steps {
-        let increment = history.begin(f64::from(step) * duration, PotentialJump(1.0));
+        let increment = history.begin(f64::from(step) * duration, PotentialJump(1.0), 0.1);
         history.finish(&increment, &flow, 0.0, Some(0.3));
     }
     let time = exact(f64::from(steps) * duration);
@@ -92,7 +94,7 @@ fn run_pore(law: &PoreLaw, rows: &[(f64, f64)], master: f64, rate: Option<Cleara
     let mut history = PoreHistory::default();
     for &(time, clearance) in rows {
         let increment = history.begin(time, Clearance(clearance), rate);
-        let gap = Gap::Changing(increment.clearance_rate);
+        let gap = increment.gap;
         let point = PorePoint {
             clearance: Clearance(clearance),
             pressure: ContactPressure(0.0),
@@ -115,13 +117,61 @@ fn run_pore(law: &PoreLaw, rows: &[(f64, f64)], master: f64, rate: Option<Cleara
 fn clearance_rate_comes_from_the_history() {
     let mut history = PoreHistory::default();
     let first = history.begin(1.0, Clearance(0.5), None);
-    assert_eq!((first.duration, first.clearance_rate), (None, ClearanceRate(0.0)));
+    assert_eq!((first.duration, first.gap), (None, Gap::Changing(ClearanceRate(0.0))));
     let second = history.begin(3.0, Clearance(0.25), None);
-    assert_eq!((second.duration, second.clearance_rate), (Some(2.0), ClearanceRate(-0.125)));
+    assert_eq!((second.duration, second.gap), (Some(2.0), Gap::Since { clearance: Clearance(0.5), duration: 2.0 }));
     let given = history.begin(4.0, Clearance(0.25), Some(ClearanceRate(7.0)));
-    assert_eq!(given.clearance_rate, ClearanceRate(7.0));
+    assert_eq!((given.gap, given.contradicted), (Gap::Changing(ClearanceRate(7.0)), Some(ClearanceRate(0.0))));
     let mut with_rate = PoreHistory::default();
-    assert_eq!(with_rate.begin(0.0, Clearance(1.0), Some(ClearanceRate(-1.0))).clearance_rate, ClearanceRate(-1.0));
+    let first = with_rate.begin(0.0, Clearance(1.0), Some(ClearanceRate(-1.0)));
+    assert_eq!((first.gap, first.contradicted), (Gap::Changing(ClearanceRate(-1.0)), None));
+}
+
+/// O-5, D021: a given rate contradicts the change of the clearance where they differ by more than 1 % of the larger.
+#[test]
+fn d_021_rates_that_differ_by_more_than_one_part_in_a_hundred() {
+    let contradicted = |rate: f64| {
+        let mut history = PoreHistory::default();
+        history.begin(0.0, Clearance(1.0), None);
+        history.begin(2.0, Clearance(0.0), Some(ClearanceRate(rate))).contradicted.is_some()
+    };
+    assert!([-0.5, -0.4951, -0.505].into_iter().all(|rate| !contradicted(rate)));
+    assert!([-0.494, -0.506, 0.5, 0.0].into_iter().all(contradicted));
+}
+
+/// C-25: at rest there is no jump at the start; the first row ends an increment, and one at the start itself has none.
+#[test]
+fn c_25_histories_may_start_at_rest() {
+    let start = HistoryStart::AtRest { time: 0.0 };
+    let mut late = ElectricalHistory::new(start, ClosingHeat::Manual);
+    let first = late.begin(0.5, PotentialJump(3.0), 2.0);
+    assert_eq!((first.duration, first.jump_at_start, first.closes_circuit), (Some(0.5), PotentialJump(0.0), false));
+    let mut at_start = ElectricalHistory::new(start, ClosingHeat::Manual);
+    assert_eq!(at_start.begin(0.0, PotentialJump(3.0), 2.0).duration, None);
+    let second = at_start.begin(0.5, PotentialJump(3.0), 2.0);
+    assert_eq!((second.duration, second.jump_at_start), (Some(0.5), PotentialJump(0.0)));
+    let third = at_start.begin(1.0, PotentialJump(3.0), 2.0);
+    assert_eq!((third.duration, third.jump_at_start), (Some(0.5), PotentialJump(3.0)));
+    let mut heat = FlowHistory::new(start);
+    heat.add(0.5, 4.0, Some(2.0));
+    assert_eq!((heat.per_area(), heat.of_area()), (2.0, Some(4.0)));
+    let mut pore = PoreHistory::new(start);
+    let first = pore.begin(0.5, Clearance(0.25), None);
+    assert_eq!(first.gap, Gap::Since { clearance: Clearance(0.25), duration: 0.5 });
+}
+
+/// where the increment closes the circuit, the manual takes the jump of the open one, and a balance that of its end.
+#[test]
+fn q_41_an_increment_that_closes_a_circuit() {
+    let run = |closing| {
+        let mut history = ElectricalHistory::new(HistoryStart::FirstRow, closing);
+        history.begin(0.0, PotentialJump(10.0), 0.0);
+        history.begin(1.0, PotentialJump(1e-3), 1e4)
+    };
+    let manual = run(ClosingHeat::Manual);
+    assert_eq!((manual.jump_at_start, manual.closes_circuit), (PotentialJump(10.0), true));
+    let balanced = run(ClosingHeat::Balanced);
+    assert_eq!((balanced.jump_at_start, balanced.closes_circuit), (PotentialJump(1e-3), false));
 }
 
 /// PTL is what leaves the slave: the flow across against it, and half of what an opening gap draws.
@@ -146,13 +196,27 @@ fn gap_filling_telescopes() {
     assert!(ulps_from(history.volume().unwrap(), &change) <= 0.500_001);
 }
 
-/// Beyond its cutoff the gap neither draws nor gives off fluid; a rate that is given does not change the volume.
+/// the filled width is clamped to 0 and the cutoff, so that a closed cycle gives 0 and nothing comes of what lies beyond either.
 #[test]
-fn gap_filling_stops_at_its_cutoff() {
+fn q_37_gap_filling_stops_at_zero_and_at_its_cutoff() {
     let law = pore_law(Permeability::Finite(PiecewiseTable::constant(0.0)));
-    let rows = [(0.0, 0.5), (1.0, 0.75), (2.0, 1.5), (3.0, 2.0)];
-    assert_eq!(run_pore(&law, &rows, 1.0, None).volume(), Some(0.125));
-    assert_eq!(run_pore(&law, &rows, 1.0, Some(ClearanceRate(99.0))).volume(), Some(0.125));
+    let opening = [(0.0, 0.5), (1.0, 0.75), (2.0, 1.5), (3.0, 2.0)];
+    assert_eq!(run_pore(&law, &opening, 1.0, None).volume(), Some(0.5 * (1.0 - 0.5)));
+    let cycle = [(0.0, 0.5), (1.0, 1.5), (2.0, 0.25), (3.0, -0.5), (4.0, -1.0), (5.0, 0.5)];
+    assert_eq!(run_pore(&law, &cycle, 1.0, None).volume(), Some(0.0));
+    assert_eq!(run_pore(&law, &cycle[..4], 1.0, None).volume(), Some(-0.25));
+}
+
+/// O-5: a given rate fills the gap for the whole increment, as PFL says, wherever there is a gap within the cutoff.
+#[test]
+fn o_5_a_given_rate_is_integrated_as_pfl() {
+    let law = pore_law(Permeability::Finite(PiecewiseTable::constant(0.0)));
+    let volume = |rows: &[(f64, f64)], rate| run_pore(&law, rows, 1.0, Some(ClearanceRate(rate))).volume();
+    assert_eq!(volume(&[(0.0, 0.5), (1.0, 0.5), (3.0, 0.5)], -0.25), Some(0.5 * -0.25 * 3.0));
+    // Beyond the cutoff of 1, and overclosed, nothing is filled.
+    assert_eq!(volume(&[(0.0, 0.5), (1.0, 1.5), (2.0, -0.5)], 1.0), Some(0.0));
+    assert_eq!(volume(&[(0.0, 0.0), (1.0, 0.0)], 1.0), Some(0.5));
+    assert_eq!(volume(&[(0.0, 0.0), (1.0, 0.0)], -1.0), Some(0.0));
 }
 
 /// Under an infinite permeability the flow is unknown from the second row on; the first row has nothing to integrate.

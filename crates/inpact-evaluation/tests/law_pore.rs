@@ -44,6 +44,11 @@ fn changing(rate: f64, point: PorePoint<'static>) -> PorePoint<'static> {
     PorePoint { gap: Gap::Changing(ClearanceRate(rate)), ..point }
 }
 
+/// Within every cutoff of these tests, and not closed, so that a rate that closes it fills something.
+fn slightly_open(point: PorePoint<'static>) -> PorePoint<'static> {
+    PorePoint { clearance: Clearance(1e-3), ..point }
+}
+
 fn gap(flow: &PoreFlow) -> (Option<f64>, Option<f64>) {
     (flow.q_gap_slave, flow.q_gap_master)
 }
@@ -60,7 +65,7 @@ fn a_22_finite_permeability() {
 
 #[test]
 fn a_23_gap_filling_under_infinite_permeability() {
-    let closing = changing(-2e-3, point(5.0, 5.0));
+    let closing = slightly_open(changing(-2e-3, PorePoint { characteristic_length: Some(1.0), ..point(5.0, 5.0) }));
     let with_multiplier = PorePoint { multiplier: Some(0.0), ..closing };
     let flow = law(Permeability::Infinite).flow(&with_multiplier);
     assert_eq!(gap(&flow), (Some(1e-3), Some(1e-3)));
@@ -81,8 +86,9 @@ fn a_23_gap_filling_under_infinite_permeability() {
 
 #[test]
 fn a_23_gap_filling_follows_the_bulk_permeabilities() {
-    let closing =
-        PorePoint { bulk: Some(BulkPermeabilities { slave: 3.0, master: 1.0 }), ..changing(-2e-3, point(5.0, 5.0)) };
+    let bulk = Some(BulkPermeabilities { slave: 3.0, master: 1.0 });
+    let near = PorePoint { bulk, characteristic_length: Some(1.0), ..point(5.0, 5.0) };
+    let closing = slightly_open(changing(-2e-3, near));
     let flow = law(constant(1e-3)).flow(&closing);
     assert_eq!(gap(&flow), (Some(1.5e-3), Some(5e-4)));
     assert_eq!(flow.slave_share, 0.75);
@@ -147,6 +153,42 @@ fn p_22_a_cutoff_of_zero() {
     let law = PoreLaw { cutoffs: Cutoffs { flow_across: Some(0.0), gap_fill: Some(0.0) }, ..law(constant(1.0)) };
     assert_eq!(law.flow(&point(0.0, 1.0)).q_across, Some(1.0));
     assert_eq!(law.flow(&open(1e-300, point(0.0, 1.0))).q_across, Some(0.0));
+}
+
+/// overclosure presses nothing out, and a given rate at zero clearance counts only where it opens the gap.
+#[test]
+fn q_37_only_an_open_gap_is_filled() {
+    let law = PoreLaw { cutoffs: Cutoffs { flow_across: Some(1.0), gap_fill: Some(0.5) }, ..law(constant(2.0)) };
+    let given = |clearance, rate| gap(&law.flow(&open(clearance, changing(rate, point(1.0, 1.0)))));
+    assert_eq!(given(-0.25, -1.0), (Some(0.0), Some(0.0)));
+    assert_eq!(given(-0.25, 1.0), (Some(0.0), Some(0.0)));
+    assert_eq!(given(0.0, -1.0), (Some(0.0), Some(0.0)));
+    assert_eq!(given(0.0, 1.0), (Some(-0.5), Some(-0.5)));
+    assert_eq!(given(0.5, -1.0), (Some(0.5), Some(0.5)));
+    assert_eq!(given(0.5 + 1e-9, -1.0), (Some(0.0), Some(0.0)));
+    let since = |start, end| {
+        let gap_change = Gap::Since { clearance: Clearance(start), duration: 2.0 };
+        gap(&law.flow(&open(end, PorePoint { gap: gap_change, ..point(1.0, 1.0) })))
+    };
+    assert_eq!(since(0.5, 0.25), (Some(0.0625), Some(0.0625)));
+    assert_eq!(since(9.0, 0.25), (Some(0.0625), Some(0.0625)));
+    assert_eq!(since(0.25, 9.0), (Some(-0.0625), Some(-0.0625)));
+    assert_eq!(since(0.25, -9.0), (Some(0.0625), Some(0.0625)));
+    assert_eq!(since(0.75, 9.0), (Some(0.0), Some(0.0)));
+}
+
+/// whether the gap fills over an increment depends on a cutoff that is not known only where its width changes.
+#[test]
+fn q_5_the_characteristic_length_decides_where_a_width_changes() {
+    let law = PoreLaw { cutoffs: Cutoffs { flow_across: Some(1.0), gap_fill: None }, ..law(constant(2.0)) };
+    let since = |start, end| {
+        let gap_change = Gap::Since { clearance: Clearance(start), duration: 1.0 };
+        law.flow(&open(end, PorePoint { gap: gap_change, ..point(1.0, 1.0) })).gap_fill
+    };
+    assert_eq!(since(0.5, 0.5), Flow::Active);
+    assert_eq!(since(-0.5, -1.0), Flow::Active);
+    assert_eq!(since(0.5, 0.0), Flow::NeedsCharacteristicLength);
+    assert_eq!(since(-0.5, 0.5), Flow::NeedsCharacteristicLength);
 }
 
 #[test]

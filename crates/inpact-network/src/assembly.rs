@@ -184,10 +184,7 @@ pub(crate) fn add_heat(
         let generation =
             inpact_evaluation::law::heat::HeatGeneration { fraction: of.joule_heat_fraction, slave_weight: 0.5 };
         let jump = (currents.flows[place] / Wide::new(conductance)).to_f64();
-        let start = knowledge.increment.and_then(|increment| {
-            let before = increment.before.link_flow(knowledge.problem, Field::Potential, link)?;
-            Some(before / conductance)
-        });
+        let start = knowledge.link_jump_at_start(link, conductance);
         let found = interface::heat_of_current(conductance, jump, start, generation);
         put(place, [(of.nodes[0], 0.5), (of.nodes[1], 0.5)], found.heat.total, found.along_jump, 0.0);
     }

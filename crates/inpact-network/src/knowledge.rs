@@ -4,7 +4,8 @@ use crate::interface::{Contact, Moment, Sides};
 use crate::problem::Problem;
 use crate::scene::{Field, SceneInterface};
 use crate::state::State;
-use inpact_evaluation::law::contact::ClearanceRate;
+use inpact_evaluation::history::{ClosingHeat, HistoryStart};
+use inpact_evaluation::law::contact::{Clearance, ClearanceRate};
 use inpact_evaluation::law::pore::Gap;
 use inpact_evaluation::numbers::Wide;
 
@@ -145,20 +146,42 @@ impl<'a> Knowledge<'a> {
         Moment { time: self.time, step_time: self.time - start, increment: self.number.max(1) }
     }
 
-    /// The jump of potential of a row at the start of the increment; `None` in a steady state.
+    /// The jump of potential of a row at the start of the increment; `None` in a steady state, and where the increment closes a circuit whose heat is to balance.
     pub(crate) fn jump_at_start(&self, row: u32) -> Option<f64> {
-        self.increment.and_then(|increment| increment.before.row_jump(self.problem, Field::Potential, row))
+        let before = self.increment?.before;
+        if self.starts_at_rest() {
+            return Some(0.0);
+        }
+        let is_open = before.conductance(self.problem, Field::Potential, row) == Some(0.0);
+        let takes_jump = !is_open || self.problem.scene.closing_heat() == ClosingHeat::Manual;
+        before.row_jump(self.problem, Field::Potential, row).filter(|_| takes_jump)
     }
 
-    /// The gap of a row: in a transient its rate as given, otherwise as its clearance has changed over the increment; and the length that its cutoffs default to.
+    /// The jump of potential of a link at the start of the increment; `None` in a steady state.
+    pub(crate) fn link_jump_at_start(&self, link: u32, conductance: f64) -> Option<f64> {
+        let before = self.increment?.before;
+        if self.starts_at_rest() {
+            return Some(0.0);
+        }
+        Some(before.link_flow(self.problem, Field::Potential, link)? / conductance)
+    }
+
+    /// Whether the increment is the first of a history that starts without any jump (C-25).
+    fn starts_at_rest(&self) -> bool {
+        self.problem.scene.history_start() != HistoryStart::FirstRow && self.number == 1
+    }
+
+    /// The gap of a row: in a transient it changes at the rate that is given, otherwise as its clearance has changed over the increment; and the length that its cutoffs default to.
     pub(crate) fn gap(&self, row: u32) -> (Gap, Option<f64>) {
         let of = self.row(row);
         let from_course = || {
             let (course, increment) = (of.clearance.as_ref()?, self.increment?);
-            Some((course.at(self.time) - course.at(increment.before.time)) / increment.duration)
+            let clearance = Clearance(course.at(increment.before.time));
+            Some(Gap::Since { clearance, duration: increment.duration })
         };
         let gap = if self.problem.scene.is_transient() {
-            Gap::Changing(ClearanceRate(of.clearance_rate.or_else(from_course).unwrap_or(0.0)))
+            let given = of.clearance_rate.map(|rate| Gap::Changing(ClearanceRate(rate)));
+            given.or_else(from_course).unwrap_or(Gap::Changing(ClearanceRate(0.0)))
         } else {
             Gap::Steady
         };

@@ -24,6 +24,7 @@
 mod assembly;
 mod dependence;
 mod distance;
+mod integrals;
 mod interface;
 mod knowledge;
 pub mod linear;
@@ -38,5 +39,5 @@ pub mod transient;
 pub use assembly::{RowFault, RowFaultReason};
 pub use distance::Distance;
 pub use problem::Problem;
-pub use solve::{Equations, SolveFailure};
+pub use solve::{Equations, Histories, SolveFailure};
 pub use state::{FieldBalance, StageReport, State};

@@ -19,6 +19,7 @@ pub use diagnostic::{
 };
 pub use read::{SceneFiles, read};
 
+use inpact_evaluation::history::{ClosingHeat, HistoryStart};
 use inpact_evaluation::nodes::Place;
 use inpact_parser::model::Name;
 use std::collections::BTreeMap;
@@ -65,6 +66,20 @@ pub struct TimeSpan {
     pub end: f64,
     /// How long increments are.
     pub steps: Steps,
+    /// Whether histories start with the state at the start, or at rest (C-25).
+    pub start_from: StartFrom,
+    /// What the heat of an increment takes that closes a circuit.
+    pub closing_heat: ClosingHeat,
+}
+
+/// What histories start from (C-25).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StartFrom {
+    /// The state at the start, with its jumps of potential.
+    #[default]
+    FirstRow,
+    /// No jump of potential.
+    AtRest,
 }
 
 /// How long increments are.
@@ -240,6 +255,24 @@ impl Scene {
     pub fn mentions(&self, field: Field) -> bool {
         *self.conditions(field) != Conditions::default()
             || self.links.iter().any(|link| link.conductances[field.index()] > 0.0)
+    }
+
+    /// Where the histories of its interfaces start.
+    pub fn history_start(&self) -> HistoryStart {
+        match self.procedure {
+            Procedure::Transient(TimeSpan { start, start_from: StartFrom::AtRest, .. }) => {
+                HistoryStart::AtRest { time: start }
+            }
+            _ => HistoryStart::FirstRow,
+        }
+    }
+
+    /// What the heat of an increment takes that closes a circuit.
+    pub fn closing_heat(&self) -> ClosingHeat {
+        match self.procedure {
+            Procedure::Transient(span) => span.closing_heat,
+            Procedure::Steady => ClosingHeat::Balanced,
+        }
     }
 
     /// Whether time goes on.

@@ -24,6 +24,17 @@ const FIRST_PASSES: usize = 2;
 pub struct Equations<'a> {
     problem: &'a Problem<'a>,
     solvers: [Solver; 3],
+    histories: Histories,
+}
+
+/// Whether time integrals of the rows are wanted, whose error then counts in the length of increments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Histories {
+    /// No.
+    #[default]
+    NotWanted,
+    /// ECDT, SJDT, HTL, PTL and those times the area.
+    Wanted,
 }
 
 /// Why a scene was not solved.
@@ -66,7 +77,19 @@ pub enum SolveFailure {
 impl<'a> Equations<'a> {
     /// Equations that are solved by a method, within a tolerance of the relative error of every flow.
     pub fn new(problem: &'a Problem<'a>, method: Method, tolerance: f64) -> Self {
-        Self { problem, solvers: std::array::from_fn(|_| Solver::new(method, tolerance)) }
+        let solvers = std::array::from_fn(|_| Solver::new(method, tolerance));
+        Self { problem, solvers, histories: Histories::default() }
+    }
+
+    /// The same, with or without a look at time integrals.
+    #[must_use]
+    pub fn with(self, histories: Histories) -> Self {
+        Self { histories, ..self }
+    }
+
+    /// Whether time integrals are wanted.
+    pub(crate) fn histories(&self) -> Histories {
+        self.histories
     }
 
     /// What is solved.

@@ -77,6 +77,12 @@ impl State {
         Some(number(self.field(field)?.solution.flows[nodes.links.len() + place]))
     }
 
+    /// What an interface row conducts of a field, times its area; `None` where the field is not solved for or does not cross it.
+    pub(crate) fn conductance(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
+        let place = problem.field(field)?.rows.binary_search(&row).ok()?;
+        self.field(field)?.rows.get(place).copied()
+    }
+
     /// The jump of a field across an interface row, slave − master, as exactly as it is known.
     pub fn row_jump(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;

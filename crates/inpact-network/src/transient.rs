@@ -4,11 +4,13 @@
 //! Increments by error are as long as that allows, and end where a course of the scene has a corner; one that errs too much is taken back and cut.
 //! The error is compared with the range that the field's values have had so far. So that nothing is lost in a scene that begins, or has come, to rest,
 //! one increment to the next corner is tried after each corner, and what it does to the range counts: backward Euler overshoots nothing.
+//! Where time integrals of the rows are wanted, what an increment adds to their error counts as well, as a part of the integrals (`integrals.rs`).
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the control of lengths.
 
+use crate::integrals::{Added, Integrals, RowFlows};
 use crate::problem::Problem;
 use crate::scene::{Field, Procedure, Scene, Steps, TimeSpan};
-use crate::solve::{Equations, SolveFailure};
+use crate::solve::{Equations, Histories, SolveFailure};
 use crate::state::{FieldState, State};
 
 /// An increment is not cut below this part of the whole time.
@@ -28,6 +30,8 @@ pub struct TransientReport {
     pub local_error: f64,
     /// How many points of courses lie inside increments of given length.
     pub passed_over: usize,
+    /// The estimated error of the time integrals of the rows, as a part of them; `None` where they are not wanted.
+    pub integral_error: Option<f64>,
 }
 
 /// Solves a scene: its steady state, or state after state of its transient; `take` gets each as it is found.
@@ -47,12 +51,17 @@ pub fn run<E: From<SolveFailure>>(
     take(&start)?;
     let rates = initial_rates(problem, &start);
     let ranges = [None; 2];
-    let mut march = March { problem, equations, rates, ranges, report: TransientReport::default() };
+    let flows = match equations.histories() {
+        Histories::Wanted => Some((RowFlows::of(problem, &start), Integrals::default())),
+        Histories::NotWanted => None,
+    };
+    let mut march = March { problem, equations, rates, ranges, flows, report: TransientReport::default() };
     march.widen(&start);
     match span.steps {
         Steps::Given(step) => march.by_length(start, span, step, &mut take)?,
         Steps::ByError { tolerance, first } => march.by_error(start, span, tolerance, first, &mut take)?,
     }
+    march.report.integral_error = march.flows.as_ref().map(|(_, integrals)| integrals.error());
     Ok(march.report)
 }
 
@@ -81,6 +90,8 @@ struct March<'a, 'p> {
     rates: [Vec<f64>; 2],
     /// The least and the greatest value so far, of the same fields.
     ranges: [Option<[f64; 2]>; 2],
+    /// The flows of the last state, and their integrals, where they are wanted.
+    flows: Option<(RowFlows, Integrals)>,
     report: TransientReport,
 }
 
@@ -134,6 +145,10 @@ impl March<'_, '_> {
                 tried = until;
                 if let Ok(trial) = self.equations.step(&state, until) {
                     self.widen(&trial);
+                    if let Some((before, integrals)) = &mut self.flows {
+                        let after = RowFlows::of(self.problem, &trial);
+                        integrals.reach(&Added::between(before, &after, left));
+                    }
                 }
             }
             let taken = if length >= left { left } else { length.min(0.5 * left).max(shortest.min(left)) };
@@ -148,7 +163,7 @@ impl March<'_, '_> {
                 Err(failure) => return Err(failure.into()),
             };
             let rates = self.rates_of(&state, &next);
-            let error = self.local_error(&state, &next, &rates);
+            let error = self.local_error(&state, &next, &rates).max(self.integral_share(&state, &next));
             let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt()).clamp(0.2, 5.0) } else { 5.0 };
             length = factor * taken;
             if error > tolerance && taken > 2.0 * shortest {
@@ -174,8 +189,21 @@ impl March<'_, '_> {
 
     fn accept(&mut self, before: &State, after: &State, rates: [Vec<f64>; 2]) {
         self.report.local_error = self.report.local_error.max(self.local_error(before, after, &rates));
+        if let Some((flows, integrals)) = &mut self.flows {
+            let end = RowFlows::of(self.problem, after);
+            integrals.add(&Added::between(flows, &end, after.time - before.time));
+            *flows = end;
+        }
         self.report.increments += 1;
         self.rates = rates;
+    }
+
+    /// What an increment adds to the error of time integrals, as a part of them; 0 where they are not wanted.
+    fn integral_share(&self, before: &State, after: &State) -> f64 {
+        self.flows.as_ref().map_or(0.0, |(flows, integrals)| {
+            let end = RowFlows::of(self.problem, after);
+            integrals.share(&Added::between(flows, &end, after.time - before.time))
+        })
     }
 
     /// The rates over an increment.

@@ -3,8 +3,11 @@
 mod scene_support;
 mod seeded;
 
+use inpact_evaluation::history::ClosingHeat;
 use inpact_network::linear::{LAST_DIGIT, Method};
-use inpact_network::scene::{Conditions, Course, Field, Procedure, Scene, SceneInterface, SceneLink, Steps, TimeSpan};
+use inpact_network::scene::{
+    Conditions, Course, Field, Procedure, Scene, SceneInterface, SceneLink, StartFrom, Steps, TimeSpan,
+};
 use inpact_network::{Equations, Problem, SolveFailure, State};
 use inpact_parser::model::Name;
 use scene_support::{model_of, problem};
@@ -346,7 +349,13 @@ fn random_transients_balance() {
         let joints = [(); 2].map(|()| Joint::random(&mut random));
         let model = model_of(&(joints[0].deck("ONE") + &joints[1].deck("TWO")));
         let mut scene = random_scene(&mut random);
-        scene.procedure = Procedure::Transient(TimeSpan { start: 1.0, end: 4.0, steps: Steps::Given(1.0) });
+        scene.procedure = Procedure::Transient(TimeSpan {
+            start: 1.0,
+            end: 4.0,
+            steps: Steps::Given(1.0),
+            start_from: StartFrom::default(),
+            closing_heat: ClosingHeat::Balanced,
+        });
         scene.initial_temperature = Some(random.between(0.0, 100.0));
         for node in 1..u32::try_from(scene.nodes.len()).expect("few nodes") {
             if random.is(0.7) {

@@ -2,7 +2,8 @@
 
 mod scene_support;
 
-use inpact_network::scene::{Course, Field, Procedure, SCENE_RULES, SceneLink, Steps, TimeSpan};
+use inpact_evaluation::history::ClosingHeat;
+use inpact_network::scene::{Course, Field, Procedure, SCENE_RULES, SceneLink, StartFrom, Steps, TimeSpan};
 use inpact_parser::model::Name;
 use proptest::prelude::*;
 use scene_support::{SCENE, model_of, mutated, problem, read_with, refused, scene, show};
@@ -108,7 +109,10 @@ fn sides_may_be_called_secondary_and_main() {
 #[test]
 fn times_and_courses() {
     let span = |text: &str| scene(&timed(text)).procedure;
-    let steps = |start, end, steps| Procedure::Transient(TimeSpan { start, end, steps });
+    let steps = |start, end, steps| {
+        let (start_from, closing_heat) = (StartFrom::FirstRow, ClosingHeat::Balanced);
+        Procedure::Transient(TimeSpan { start, end, steps, start_from, closing_heat })
+    };
     assert_eq!(span("time = { end = 2.0, step = 0.5 }"), steps(0.0, 2.0, Steps::Given(0.5)));
     let by_error = |first| Steps::ByError { tolerance: 0.01, first };
     assert_eq!(span("time = { start = -2.0, end = 2.0, tolerance = 0.01 }"), steps(-2.0, 2.0, by_error(4e-3)));

@@ -122,7 +122,9 @@ fn evaluate_flow(
     let jump = PotentialJump(jump);
     let area = law.area.and_then(|place| row.number(place));
     let mut history = history.zip(row.time);
-    let increment: Option<ElectricalIncrement> = history.as_mut().map(|(history, time)| history.begin(*time, jump));
+    let value = found.conductance.value;
+    let increment: Option<ElectricalIncrement> =
+        history.as_mut().map(|(history, time)| history.begin(*time, jump, value));
     let dissipation = match law.regime {
         Regime::SteadyState => Dissipation::Steady,
         Regime::Transient => Dissipation::Transient {
@@ -130,7 +132,15 @@ fn evaluate_flow(
         },
     };
     let generation = law.heat_generation;
-    let value = found.conductance.value;
+    if let (Some(increment), Regime::Transient) = (&increment, law.regime)
+        && increment.closes_circuit
+        && generation.fraction != 0.0
+    {
+        tally.closing.count(row, |number| {
+            let (start, end) = (increment.jump_at_start.0, jump.0);
+            format!("row {number} has a jump of {end:?}, and the increment starts open with {start:?}")
+        });
+    }
     let duration = increment.as_ref().and_then(|increment| increment.duration);
     let needs_care = law.accuracy.is_reference() || {
         let start = increment.as_ref().map_or(jump, |increment| increment.jump_at_start);

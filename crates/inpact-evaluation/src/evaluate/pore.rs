@@ -42,10 +42,17 @@ pub(super) fn evaluate(
     let increment = history.as_mut().map(|(history, time)| history.begin(*time, clearance, given_rate));
     let gap = match law.regime {
         Regime::SteadyState => Gap::Steady,
-        Regime::Transient => Gap::Changing(
-            increment.as_ref().map_or(given_rate.unwrap_or_default(), |increment| increment.clearance_rate),
-        ),
+        Regime::Transient => {
+            increment.as_ref().map_or(Gap::Changing(given_rate.unwrap_or_default()), |increment| increment.gap)
+        }
     };
+    if let (Some(given), Some(rate), Regime::Transient) =
+        (given_rate, increment.as_ref().and_then(|increment| increment.contradicted), law.regime)
+    {
+        tally.contradictory_rates.count(row, |number| {
+            format!("row {number} has a rate of {:?}, and its clearance has changed at {:?}", given.0, rate.0)
+        });
+    }
     let bulk = law.bulk.and_then(|(slave, master)| {
         Some(BulkPermeabilities { slave: row.number(slave)?, master: row.number(master)? })
     });

@@ -1,8 +1,8 @@
 //! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
-use super::Totals;
+use super::{Row, Totals};
 use crate::compile::Laws;
-use crate::nodes::{BEYOND_TABLE, Findings, Place, USER_FAULT};
+use crate::nodes::{BEYOND_TABLE, CONTRADICTORY_RATE, Findings, HEAT_OF_CLOSING, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, Status, push_number};
 use crate::table::{Sides, Tail};
@@ -80,9 +80,34 @@ pub struct InteractionTally {
     pub below_absolute_zero: u64,
     /// How many have shear and slip rate of opposite signs, and so a heat of friction below zero.
     pub negative_friction: u64,
+    /// Those that take the jump of an open circuit into the heat of the increment that closes it (D022).
+    pub closing: RemarkedRows,
+    /// Those whose given rate contradicts the change of their clearance (D021).
+    pub contradictory_rates: RemarkedRows,
     /// For each table the rows outside its range along each axis: conductance against clearance, against pressure, permeability,
     /// thermal conductance against clearance, against pressure, view factor.
     pub axes: [Vec<AxisTally>; 6],
+}
+
+/// Rows of which something is to be said, and what of the first of them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RemarkedRows {
+    /// How many there are.
+    pub rows: u64,
+    /// Where the first is, and what is to be said of it.
+    pub first: Option<(Place, String)>,
+}
+
+impl RemarkedRows {
+    /// Counts a row; `what` is said of the first, whose number it is given.
+    pub(super) fn count(&mut self, row: Row<'_>, what: impl FnOnce(u64) -> String) {
+        self.rows += 1;
+        if self.first.is_none() {
+            let place = row.batch.place(row.index, None);
+            let message = what(place.row.unwrap_or_default());
+            self.first = Some((place, message));
+        }
+    }
 }
 
 /// Rows outside a table along one axis.
@@ -134,6 +159,8 @@ impl Tally {
             negative_friction: self.total(|of| of.negative_friction),
             unnumbered_nodes: self.total(|of| of.unnumbered_nodes),
             user_faults: self.total(|of| of.user_faults),
+            closing: RemarkedRows::default(),
+            contradictory_rates: RemarkedRows::default(),
             seen_error: self.interactions.iter().fold(SeenError::default(), |mut seen, of| {
                 seen.merge(&of.seen_error);
                 seen
@@ -153,8 +180,34 @@ impl Tally {
         }
     }
 
+    /// Reports rows whose rate contradicts their clearance (D021), and those that close a circuit (D022).
+    fn report_histories(&self, plan: &Plan, findings: &mut Findings) {
+        for interaction in &plan.interactions {
+            let (of, name) = (&self.interactions[interaction.index], &interaction.name);
+            let rows = |count: u64| if count == 1 { "1 row".to_owned() } else { format!("{count} rows") };
+            if let Some((place, first)) = &of.contradictory_rates.first {
+                let message = format!(
+                    "`clearance_rate` contradicts the clearance in {} of `{name}`: {first}",
+                    rows(of.contradictory_rates.rows)
+                );
+                let help = "PFL and PTL go by the rate: mend it, or leave the column out so that the rate follows from the clearance";
+                findings.report(&CONTRADICTORY_RATE, place.clone(), message, help);
+            }
+            if let Some((place, first)) = &of.closing.first {
+                let message = format!(
+                    "the heat of the current takes the jump of an open circuit in {} of `{name}`: {first}",
+                    rows(of.closing.rows)
+                );
+                let help = "the manual's mean over the increment (H-08) is right where the conductance changes little: \
+                            give a row right after the circuit has closed, and count heat from there";
+                findings.report(&HEAT_OF_CLOSING, place.clone(), message, help);
+            }
+        }
+    }
+
     /// Reports rows beyond the tables, axis by axis (D007); beyond the last clearance of an electrical table it is a warning (Q-1).
     pub fn report(&self, plan: &Plan, findings: &mut Findings) {
+        self.report_histories(plan, findings);
         for interaction in &plan.interactions {
             for (table, planned) in tables(interaction) {
                 let counts = &self.interactions[interaction.index].axes[table];

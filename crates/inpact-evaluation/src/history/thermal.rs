@@ -2,7 +2,7 @@
 //!
 //! Backward Euler, as the integrals of current are (O-5). The two flows have increments of their own, because a row may know one and not the other.
 
-use super::Integral;
+use super::{HistoryStart, Integral};
 
 /// The integrals of the heat that leaves the slave and of the heat of friction.
 #[derive(Clone, Debug, Default)]
@@ -16,16 +16,27 @@ pub struct ThermalHistory {
 /// The integral of one flow per area over time and, times the area of the node, of the whole flow.
 #[derive(Clone, Debug, Default)]
 pub struct FlowHistory {
+    start: HistoryStart,
     previous: Option<f64>,
     integral: Integral,
 }
 
+impl ThermalHistory {
+    /// A history that starts so.
+    pub fn new(start: HistoryStart) -> Self {
+        Self { leaving: FlowHistory::new(start), friction: FlowHistory::new(start) }
+    }
+}
+
 impl FlowHistory {
-    /// Goes on to the row at `time`, whose flow holds since the row before; `area` is the area of the node, if known.
-    ///
-    /// The first row starts the history: its integral is 0.
+    /// A history that starts so.
+    pub fn new(start: HistoryStart) -> Self {
+        Self { start, ..Self::default() }
+    }
+
+    /// Goes on to the row at `time`, whose flow holds since the row before, or since the start; `area` is the area of the node, if known.
     pub fn add(&mut self, time: f64, flow: f64, area: Option<f64>) {
-        let duration = self.previous.map(|start| time - start);
+        let duration = self.previous.or_else(|| self.start.before(time)).map(|start| time - start);
         self.previous = Some(time);
         self.integral.add_increment(flow, duration, area);
     }

@@ -4,14 +4,17 @@
 //!
 //! - across: q_across = k (p_master − p_slave), positive out of the master into the slave (P-11, P-31);
 //!   without a table the permeability is infinite, both pore pressures are equal and q_across is an unknown of the equations (P-30);
-//! - gap filling: q_gap,slave = −w ḋ, q_gap,master = −(1 − w) ḋ with w = k₁ / (k₁ + k₂) of the bulk permeabilities of slave and master,
+//! - gap filling: q_gap,slave = −w ḃ, q_gap,master = −(1 − w) ḃ with w = k₁ / (k₁ + k₂) of the bulk permeabilities of slave and master,
 //!   and w = ½ where the interface's permeability is infinite or the bulk's unknown (P-40 to P-42); zero in steady state (P-13).
+//!   What is filled is the gap of width b = min(max(d, 0), cutoff): overclosure presses nothing out, and a closed cycle gives 0.
+//!   A rate of the clearance that is given counts where 0 < d ≤ cutoff, and at d = 0 where the gap opens.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | k | permeability of the interface, a table against contact pressure, mean pore pressure, mean temperature, field variables | L² T M⁻¹ |
 //! | p_slave, p_master | pore pressures | M L⁻¹ T⁻² |
 //! | d, ḋ | clearance and its rate | L, L T⁻¹ |
+//! | b, ḃ | width of the gap that is filled and its rate | L, L T⁻¹ |
 //! | k₁, k₂ | bulk permeabilities behind slave and master | any, the same for both |
 //!
 //! Both parts end at a cutoff of their own, by default the characteristic element length of the surfaces (P-20, P-21), at which they are still in force (P-22, Q-4).
@@ -23,7 +26,7 @@
 //! Source: semantics P-10 to P-42; Analysis User's Guide 37.4.1, Theory Guide 5.2.2 (6.14).
 
 use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
-use crate::numbers::{Scaled, ratio, scaled_difference_product};
+use crate::numbers::{Scaled, ratio, scaled_difference_product, two_difference};
 use crate::table::{PiecewiseTable, Sides};
 use crate::table_form::FoundValue;
 
@@ -107,8 +110,15 @@ pub struct BulkPermeabilities {
 pub enum Gap {
     /// Steady state: it does not change (P-13).
     Steady,
-    /// Its clearance changes at this rate.
+    /// Its clearance changes at this rate, which is given.
     Changing(ClearanceRate),
+    /// Its clearance has changed over an increment of a history.
+    Since {
+        /// The clearance at the start of the increment.
+        clearance: Clearance,
+        /// The length of the increment, above zero, T.
+        duration: f64,
+    },
 }
 
 /// Whether one of the two parts of the flow is in force.
@@ -141,6 +151,8 @@ pub struct PoreFlow {
     pub q_gap_master: Option<f64>,
     /// w, the slave's share of gap filling.
     pub slave_share: f64,
+    /// Δb, the change of the filled width over the increment, and what its rounding took away; zeros but for [`Gap::Since`].
+    pub width_change: (f64, f64),
     /// Along which axes of the table the point lies outside.
     pub sides: Sides,
 }
@@ -189,13 +201,16 @@ impl PoreLaw {
             _ => None,
         };
         let (slave_share, master_share) = self.gap_shares(point.bulk);
-        let (q_gap_slave, q_gap_master) = match (gap_fill, point.gap) {
-            (_, Gap::Steady) | (Flow::CutOff, _) => (Some(0.0), Some(0.0)),
-            (Flow::Active, Gap::Changing(rate)) => {
-                (Some(0.0 - slave_share * rate.0), Some(0.0 - master_share * rate.0))
-            }
-            (Flow::NeedsCharacteristicLength, Gap::Changing(_)) => (None, None),
+        let width_change = self.width_change(point);
+        // The rate of the filled width; the cutoff of an increment stands in its widths.
+        let rate = match (gap_fill, point.gap) {
+            (Flow::NeedsCharacteristicLength, _) => None,
+            (_, Gap::Since { duration, .. }) => Some(width_change.0 / duration),
+            (_, Gap::Steady) | (Flow::CutOff, _) => Some(0.0),
+            (Flow::Active, Gap::Changing(rate)) => Some(given_rate(point.clearance, rate)),
         };
+        let q_gap_slave = rate.map(|rate| 0.0 - slave_share * rate);
+        let q_gap_master = rate.map(|rate| 0.0 - master_share * rate);
         PoreFlow {
             across,
             gap_fill,
@@ -205,6 +220,7 @@ impl PoreLaw {
             q_gap_slave,
             q_gap_master,
             slave_share,
+            width_change,
             sides,
         }
     }
@@ -234,11 +250,29 @@ impl PoreLaw {
 
     /// Whether a change of the gap draws fluid at a point; without a change the cutoff does not matter.
     fn gap_fill(&self, point: &PorePoint<'_>) -> Flow {
-        match (self.flow_within(self.cutoffs.gap_fill, point), point.gap) {
-            (Flow::NeedsCharacteristicLength, Gap::Steady) => Flow::Active,
-            (Flow::NeedsCharacteristicLength, Gap::Changing(rate)) if rate.0 == 0.0 => Flow::Active,
-            (flow, _) => flow,
+        let flow = self.flow_within(self.cutoffs.gap_fill, point);
+        let is_known = self.cutoffs.gap_fill.or(point.characteristic_length).is_some();
+        match point.gap {
+            Gap::Since { clearance: start, .. } if !is_known => {
+                // Any cutoff is above zero: a gap that opens, closes or changes its width depends on it.
+                let changes = opening(start) < opening(point.clearance) || opening(point.clearance) < opening(start);
+                if changes { Flow::NeedsCharacteristicLength } else { Flow::Active }
+            }
+            Gap::Steady if !is_known => Flow::Active,
+            Gap::Changing(rate) if !is_known && rate.0 == 0.0 => Flow::Active,
+            _ => flow,
         }
+    }
+
+    /// Δb over the increment, as a rounded difference and what the rounding took away.
+    fn width_change(&self, point: &PorePoint<'_>) -> (f64, f64) {
+        let Gap::Since { clearance: start, .. } = point.gap else { return (0.0, 0.0) };
+        let cutoff = self.cutoffs.gap_fill.or(point.characteristic_length).unwrap_or(f64::INFINITY);
+        let width = |clearance: Clearance| {
+            let opening = opening(clearance);
+            if cutoff < opening { cutoff } else { opening }
+        };
+        two_difference(width(point.clearance), width(start))
     }
 
     fn flow_within(&self, cutoff: Option<f64>, point: &PorePoint<'_>) -> Flow {
@@ -281,6 +315,17 @@ impl PoreLaw {
             _ => (0.5, 0.5),
         }
     }
+}
+
+/// max(d, 0); NaN where the clearance is.
+fn opening(clearance: Clearance) -> f64 {
+    if clearance.0 <= 0.0 { 0.0 } else { clearance.0 }
+}
+
+/// What a given rate of the clearance fills within the cutoff: an overclosed interface has no gap, and one at zero clearance only where it opens.
+fn given_rate(clearance: Clearance, rate: ClearanceRate) -> f64 {
+    let has_gap = 0.0 < clearance.0 || (0.0 <= clearance.0 && 0.0 < rate.0);
+    if has_gap || clearance.0.is_nan() { rate.0 } else { 0.0 }
 }
 
 /// k (p_master − p_slave); with what rounding took away from k in twice the precision, rounded once.

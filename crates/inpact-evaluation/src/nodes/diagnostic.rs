@@ -1,4 +1,4 @@
-//! What is wrong with a node table: rules D001 to D010 and their findings.
+//! What is wrong with a node table: rules D001 to D010, D021 and D022, and their findings.
 //!
 //! A finding has a row and a column where a finding of the deck has a span. Knows no colours and no terminals; the command line renders it.
 //! Findings of other data that belongs to a deck are of this kind as well; their rules stand where that data is read.
@@ -62,6 +62,10 @@ data_rules! {
         "A characteristic element length and a bulk permeability are zero or more. Mend the sign.";
     USER_FAULT = "D010" "user-subroutine-fault" Error "a user subroutine gives what is no conductance"
         "Its conductance and the derivatives must be numbers, and the conductance not below zero. The finding says in which row it was what; mend the routine.";
+    CONTRADICTORY_RATE = "D021" "contradictory-rate" Warning "a given clearance rate and the change of the clearance disagree"
+        "Where `clearance_rate` is given, the gap fills at that rate: PFL is its flow and PTL that flow times the length of the increment. From row to row the clearance changes at another rate, by more than 1 %. The finding has the first such row with both rates. Mend the one that is wrong, or leave `clearance_rate` out, so that the rate follows from the clearance.";
+    HEAT_OF_CLOSING = "D022" "heat-of-closing" Warning "rows whose heat takes the jump of the open circuit at their start"
+        "The heat of a current in a transient is a mean over the increment, (η σ/3)(Δφ₁² + Δφ₁Δφ₀ + Δφ₀²) with the conductance σ at its end. Where the interface did not conduct at the start, Δφ₀ is the jump of the open circuit: the formula then gives a heat that no circuit supplied and that grows with the length of the increment. SJD, SJDT and what follows from them hold the manual's form all the same; the finding has the first such row. Give a row right after the circuit has closed, so that the increment in which it closes is short. `inpact solve` takes Δφ₀ = Δφ₁ there, so that power balances, unless a scene says `closing_heat = \"manual\"` under `[time]`.";
 }
 
 /// One finding in a node table.

@@ -1,6 +1,7 @@
 //! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
 
 use crate::accuracy::Wanted;
+use crate::history::{ClosingHeat, HistoryStart};
 use crate::law::pore::CutoffBoundary;
 use crate::law::user::UserLaw;
 use crate::results::Output;
@@ -31,6 +32,10 @@ pub struct Choices {
     pub accuracy: Wanted,
     /// The outputs that are asked for by name; `None` for all there are.
     pub outputs: Option<Vec<Output>>,
+    /// Where the histories of nodes start (C-25).
+    pub history_start: HistoryStart,
+    /// What the heat of an increment takes that closes a circuit.
+    pub closing_heat: ClosingHeat,
 }
 
 impl Choices {

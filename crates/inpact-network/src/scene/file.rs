@@ -79,6 +79,36 @@ pub(crate) struct TimeEntry {
     pub(crate) tolerance: Option<Number>,
     /// The length of the first increment with `tolerance`, instead of a thousandth of the whole.
     pub(crate) first_step: Option<Number>,
+    /// What histories start from: the jumps of potential of the state at the start, or none, as Abaqus does.
+    #[serde(default)]
+    pub(crate) start_from: StartFromName,
+    /// What the heat of a current takes at the start of an increment that closes a circuit: the jump at its end, so that power balances, or that of the open circuit, as the manual has it.
+    #[serde(default)]
+    pub(crate) closing_heat: ClosingHeatName,
+}
+
+/// What histories start from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) enum StartFromName {
+    /// The state at the start, with its jumps of potential.
+    #[default]
+    FirstRow,
+    /// No jump of potential.
+    AtRest,
+}
+
+/// What the heat of a current takes at the start of an increment that closes a circuit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) enum ClosingHeatName {
+    /// The jump at the end of the increment, so that power balances.
+    #[default]
+    Balanced,
+    /// The jump of the open circuit, as the manual has it.
+    Manual,
 }
 
 /// Values to begin with.

@@ -5,13 +5,17 @@
 use super::course::Course;
 use super::diagnostic::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE};
 use super::file::{
-    self, Condition, InterfaceEntry, LinkEntry, LinkFileEntry, NodeEntry, ProcedureName, SceneFile, TimeEntry,
+    self, ClosingHeatName, Condition, InterfaceEntry, LinkEntry, LinkFileEntry, NodeEntry, ProcedureName, SceneFile,
+    StartFromName, TimeEntry,
 };
 use super::usable::{self, Given, Refusal};
 use super::values::{Keyed, Number, Pair};
 use super::words::{meant_or, told};
-use super::{Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, Steps, TimeSpan, matrix, tables};
+use super::{
+    Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, StartFrom, Steps, TimeSpan, matrix, tables,
+};
 use crate::linear::index;
+use inpact_evaluation::history::ClosingHeat;
 use inpact_evaluation::nodes::{DataDiagnostic, DataRule, Findings, Place};
 use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
 use std::collections::{BTreeMap, HashMap};
@@ -299,7 +303,7 @@ impl<'a> Reader<'a> {
 
     /// The time of a transient; or the number that is wrong, what is wrong, and what to do.
     fn time_span<'n>(&self, entry: &'n TimeEntry) -> Result<TimeSpan, (Option<&'n Number>, String, &'static str)> {
-        let TimeEntry { start, end, step, tolerance, first_step } = entry;
+        let TimeEntry { start, end, step, tolerance, first_step, start_from, closing_heat } = entry;
         for (name, number) in [("start", start.as_ref()), ("end", Some(end))] {
             if let Some(number) = number.filter(|number| !number.value().is_finite()) {
                 return Err((Some(number), format!("`{name}` is {}", self.written(number)), "give a finite time"));
@@ -330,7 +334,15 @@ impl<'a> Reader<'a> {
                 return Err((None, "`time` needs one of `step` and `tolerance`".to_owned(), help));
             }
         };
-        let span = TimeSpan { start: from, end: to, steps };
+        let start_from = match start_from {
+            StartFromName::FirstRow => StartFrom::FirstRow,
+            StartFromName::AtRest => StartFrom::AtRest,
+        };
+        let closing_heat = match closing_heat {
+            ClosingHeatName::Balanced => ClosingHeat::Balanced,
+            ClosingHeatName::Manual => ClosingHeat::Manual,
+        };
+        let span = TimeSpan { start: from, end: to, steps, start_from, closing_heat };
         let shown = |number: &Option<Number>| number.as_ref().map_or("", |number| self.written(number));
         if let Some(number) = tolerance.as_ref().filter(|tolerance| tolerance.value() < LEAST_TOLERANCE) {
             let message = format!("`tolerance` is {}, below what rounding leaves of an error", shown(tolerance));

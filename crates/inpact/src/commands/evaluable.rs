@@ -8,6 +8,7 @@ use crate::input;
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
+use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::nodes::{Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, SurveyByNode, make, survey, survey_by_node};
 use inpact_evaluation::results::Output;
@@ -37,6 +38,9 @@ pub(crate) struct EvaluableArguments {
     /// Steady state or transient, instead of what the deck's procedures say.
     #[arg(long, value_enum)]
     procedure: Option<Procedure>,
+    /// Where the histories of nodes start: at the first row of each, or at time 0 without a jump of potential, so that a first row later than that ends an increment.
+    #[arg(long, value_enum, default_value_t = HistoryStartChoice::FirstRow)]
+    history_start: HistoryStartChoice,
     /// Use so many threads, instead of all cores; the results are the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -61,6 +65,14 @@ pub(crate) struct EvaluableArguments {
 enum Procedure {
     Steady,
     Transient,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum HistoryStartChoice {
+    /// At its first row: its integrals are 0 there, and its own jump and clearance are those of the start.
+    FirstRow,
+    /// At time 0, without a jump of potential and with the clearance of its first row.
+    AtRest,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -176,6 +188,10 @@ impl EvaluableArguments {
             derivatives: self.derivatives(),
             accuracy: self.accuracy(),
             outputs: self.outputs.clone(),
+            history_start: match self.history_start {
+                HistoryStartChoice::FirstRow => HistoryStart::FirstRow,
+                HistoryStartChoice::AtRest => HistoryStart::AtRest { time: 0.0 },
+            },
             ..laws.choices(model, dialect, regime)?
         })
     }

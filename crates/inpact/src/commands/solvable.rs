@@ -56,7 +56,11 @@ impl SolvableScene {
         let grammar = settings.grammar;
         let (model, problems) = model::read(&deck, grammar);
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
-        let choices = laws.choices(&model, grammar.dialect(), Some(regime))?;
+        let choices = Choices {
+            history_start: scene.history_start(),
+            closing_heat: scene.closing_heat(),
+            ..laws.choices(&model, grammar.dialect(), Some(regime))?
+        };
         let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
         let mut names: Vec<&Name> = Vec::new();
         for interface in &scene.interfaces {

@@ -15,7 +15,7 @@ use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::transient;
-use inpact_network::{Equations, SolveFailure, State};
+use inpact_network::{Equations, Histories, SolveFailure, State};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -97,7 +97,9 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     prepared.refuse_overwriting(&targets)?;
     let Some(problem) = prepared.problem(format) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.method();
-    let mut equations = Equations::new(&problem, method, arguments.solver.tolerance.unwrap_or(LAST_DIGIT));
+    let histories = if arguments.interfaces.is_some() { Histories::Wanted } else { Histories::NotWanted };
+    let tolerance = arguments.solver.tolerance.unwrap_or(LAST_DIGIT);
+    let mut equations = Equations::new(&problem, method, tolerance).with(histories);
     let mut outputs = Outputs::create(arguments, &prepared, &problem)?;
     let mut last: Option<State> = None;
     let ran = transient::run(&mut equations, |state| {

@@ -31,11 +31,14 @@ impl Summary<'_> {
             self.time.as_secs_f64()
         )];
         if scene.is_transient() {
-            let TransientReport { increments, taken_back, local_error, passed_over } = self.report;
+            let TransientReport { increments, taken_back, local_error, passed_over, integral_error } = self.report;
             lines.push(format!(
                 "  {}, {taken_back} taken back, largest estimated local error {local_error:.1e} of the range",
                 count(*increments, "increment")
             ));
+            if let Some(error) = integral_error {
+                lines.push(format!("  time integrals of interfaces: estimated error {error:.1e} of their size"));
+            }
             if *passed_over > 0 {
                 lines.push(format!(
                     "  {} of time courses inside increments, passed over: a shorter `step` would tell, or `tolerance`",
@@ -74,6 +77,7 @@ impl Summary<'_> {
             "increments": self.report.increments,
             "increments_taken_back": self.report.taken_back,
             "local_error": self.report.local_error,
+            "integral_error": self.report.integral_error,
             "points_passed_over": self.report.passed_over,
             "stages": stages.collect::<Vec<Value>>(),
             "balance": balances(self.problem, self.state),
