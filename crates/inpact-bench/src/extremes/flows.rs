@@ -233,7 +233,7 @@ impl Rows {
         for (row, time, jump) in self {
             record(row, time, jump);
             let jump = PotentialJump(jump);
-            let increment = history.begin(time, jump);
+            let increment = history.begin(time, jump, CONDUCTANCE);
             let flow = law.flow(CONDUCTANCE, jump, Dissipation::Steady);
             let rest = CONDUCTANCE.mul_add(jump.0, -flow.current_density);
             history.finish(&increment, &flow, rest, None);
