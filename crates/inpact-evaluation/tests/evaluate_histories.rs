@@ -28,7 +28,7 @@ fn o_5_ptl_is_the_integral_of_pfl_where_a_rate_is_given() {
     assert_eq!(
         said,
         ["3:-: warning[D021 contradictory-rate] `clearance_rate` contradicts the clearance in 2 rows of `J`: \
-          row 2 has a rate of -0.02, and its clearance has changed at 0.0 \
+          the first has a rate of -0.02, and its clearance has changed at 0.0 \
           (PFL and PTL go by the rate: mend it, or leave the column out so that the rate follows from the clearance)"]
     );
 }
@@ -52,7 +52,7 @@ fn q_41_rows_that_close_a_circuit_are_counted() {
     let heat = manual.numbers("SJD");
     assert!((heat[1] / open_circuit - 1.0).abs() < 1e-15 && (heat[2] - 0.01).abs() < 1e-17, "{heat:?}");
     let said: Vec<&String> = manual.findings.iter().filter(|found| found.contains("D022")).collect();
-    assert!(said.len() == 1 && said[0].contains("in 1 row of `C`: row 2 has a jump of 0.001"), "{said:?}");
+    assert!(said.len() == 1 && said[0].contains("in 1 row of `C`: the first has a jump of 0.001"), "{said:?}");
     let balanced = run(CONTACT, nodes, Choices { closing_heat: ClosingHeat::Balanced, ..Choices::default() });
     assert!((balanced.numbers("SJD")[1] - 0.01).abs() < 1e-17);
     assert!(balanced.findings.iter().all(|found| !found.contains("D022")), "{:?}", balanced.findings);

@@ -35,9 +35,14 @@ mod work;
 pub(crate) use self::core::{Core, NONE, Origins};
 pub(crate) use edges::{Balance, Edges};
 pub use factor::NoSolution;
+pub(crate) use factor::{Factor, Solves};
+pub(crate) use iterative::Incomplete;
 pub(crate) use largest::largest_or_nan;
-pub(crate) use matrix::each_part;
+#[cfg(test)]
+pub(crate) use matrix::Matrix;
+pub(crate) use matrix::{Pattern, each_part};
 pub use network::{LinearNetwork, Link, Store, Unsolvable};
+pub(crate) use ordering::Analysis;
 pub use ordering::Ordering;
 pub use refinement::Quality;
 pub(crate) use relative::Form;

@@ -11,13 +11,15 @@
 //! Where that ends short of a solution the scene is followed through a time of its own: every node takes up some of what is missing, as a capacity would,
 //! less and less of it the better the balances are met (pseudo-transient continuation; Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
 //! That goes where warming up would lead, over hills that a search downwards does not leave. Currents take no time: they are balanced anew after each step.
+//! In large scenes a step is found without a factor of the whole matrix (`newton/krylov.rs`).
 //! What the iteration ends with is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
 
+mod krylov;
 mod system;
 
 use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sources};
 use crate::knowledge::Knowledge;
-use crate::linear::{LinearSolution, NONE, each_part, index, largest_or_nan};
+use crate::linear::{LinearSolution, Method, NONE, each_part, index, largest_or_nan};
 use crate::scene::Field;
 use faer::Col;
 use faer::prelude::Solve;
@@ -35,6 +37,9 @@ const GOOD_ENOUGH: f64 = 1e-10;
 
 /// The most steps.
 const MOST_STEPS: usize = 60;
+
+/// From so many unknowns on a step is found without a factor of the whole matrix.
+const LARGE: usize = 20_000;
 
 /// What equations take up at first, as a multiple of what their slopes amount to: in a second attempt more.
 const FIRST_TAKEN_UP: [f64; 2] = [1.0, 10.0];
@@ -65,7 +70,10 @@ pub(crate) struct Iterated {
 /// The fields of a stage, set up around a first solution of each.
 pub(crate) struct Newton<'a> {
     fields: Vec<System<'a>>,
+    method: Method,
     kept: Option<Structure>,
+    /// The orders of the blocks of the fields, in large scenes.
+    orders: Vec<Option<krylov::Order>>,
 }
 
 /// The structure of a factor, good as long as the matrix has entries in the same places.
@@ -80,6 +88,7 @@ impl<'a> Newton<'a> {
         knowledge: &Knowledge<'a>,
         first: Vec<(Field, LinearSolution, Vec<f64>)>,
         capacities: Capacities,
+        method: Method,
     ) -> Self {
         let mut fields: Vec<System<'a>> = Vec::new();
         for (field, solution, rows) in first {
@@ -87,7 +96,8 @@ impl<'a> Newton<'a> {
             let start = fields.last().map_or(0, |before| before.start + index(before.edges.form.count()));
             fields.extend(System::new(knowledge, field, nodes, &solution, &rows, capacities, start));
         }
-        Self { fields, kept: None }
+        let orders = fields.iter().map(|_| None).collect();
+        Self { fields, method, kept: None, orders }
     }
 
     /// Iterates; what is known of temperatures and pore pressures follows the state.
@@ -301,20 +311,13 @@ impl<'a> Newton<'a> {
                 self.slopes_of_heat(system, state, knowledge, &mut entries);
             }
         }
-        if taken_up > 0.0 {
-            self.take_up(taken_up, &mut entries);
-        }
+        let taken_up = if taken_up > 0.0 { self.take_up(taken_up, &mut entries) } else { Vec::new() };
         let scale = balance_fields(&self.fields, &mut entries, &mut right);
-        let places: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.row, entry.col)).collect();
-        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, &entries).ok()?;
-        let symbolic = match &self.kept {
-            Some(kept) if kept.places == places => kept.symbolic.clone(),
-            _ => SymbolicLu::try_new(matrix.symbolic()).ok()?,
-        };
-        let factor = Lu::try_new_with_symbolic(symbolic.clone(), matrix.as_ref()).ok()?;
-        self.kept = Some(Structure { places, symbolic });
-        factor.solve_in_place(right.as_mat_mut());
-        let mut direction: Vec<f64> = right.iter().copied().collect();
+        let mut direction = if LARGE <= count { self.without_factor(count, &entries, &right, &taken_up) } else { None };
+        if direction.is_none() {
+            direction = self.by_factor(count, &entries, right);
+        }
+        let mut direction = direction?;
         for system in &self.fields {
             let range = system.start as usize..system.start as usize + system.edges.form.count();
             direction[range].iter_mut().for_each(|change| *change *= scale[system.field.index()]);
@@ -322,8 +325,42 @@ impl<'a> Newton<'a> {
         direction.iter().all(|change| change.is_finite()).then_some(direction)
     }
 
-    /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes.
-    fn take_up(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) {
+    /// The step by blocks of single fields.
+    fn without_factor(
+        &mut self,
+        count: usize,
+        entries: &[Triplet<u32, u32, f64>],
+        right: &Col<f64>,
+        taken_up: &[f64],
+    ) -> Option<Vec<f64>> {
+        let right: Vec<f64> = right.iter().copied().collect();
+        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, entries).ok()?;
+        let blocks = self.fields.iter().zip(&mut self.orders).map(|(system, order)| {
+            let range = system.start as usize..system.start as usize + system.edges.form.count();
+            krylov::Block::of(system, taken_up.get(range).unwrap_or_default(), self.method, order)
+        });
+        let mut blocks = blocks.collect::<Option<Vec<krylov::Block>>>()?;
+        krylov::solve(&matrix, &mut blocks, &right)
+    }
+
+    /// The step by a factor of the whole matrix.
+    fn by_factor(&mut self, count: usize, entries: &[Triplet<u32, u32, f64>], mut right: Col<f64>) -> Option<Vec<f64>> {
+        let places: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.row, entry.col)).collect();
+        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, entries).ok()?;
+        let symbolic = match &self.kept {
+            Some(kept) if kept.places == places => kept.symbolic.clone(),
+            _ => SymbolicLu::try_new(matrix.symbolic()).ok()?,
+        };
+        let factor = Lu::try_new_with_symbolic(symbolic.clone(), matrix.as_ref()).ok()?;
+        self.kept = Some(Structure { places, symbolic });
+        factor.solve_in_place(right.as_mat_mut());
+        Some(right.iter().copied().collect())
+    }
+
+    /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes; gives how much each does.
+    fn take_up(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) -> Vec<f64> {
+        let all = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
+        let mut taken_up = vec![0.0; all];
         for system in self.fields.iter().filter(|system| system.field != Field::Potential) {
             let count = index(system.edges.form.count());
             let is_own = |unknown: u32| (system.start..system.start + count).contains(&unknown);
@@ -331,9 +368,12 @@ impl<'a> Newton<'a> {
             for entry in entries.iter().filter(|entry| is_own(entry.row) && is_own(entry.col)) {
                 sums[(entry.row - system.start) as usize] += entry.val.abs();
             }
-            entries
-                .extend((system.start..).zip(sums).map(|(unknown, sum)| Triplet::new(unknown, unknown, times * sum)));
+            for (unknown, sum) in (system.start..).zip(sums) {
+                taken_up[unknown as usize] = times * sum;
+                entries.push(Triplet::new(unknown, unknown, times * sum));
+            }
         }
+        taken_up
     }
 
     /// What the dependence of conductances adds to the slopes of flows through rows.

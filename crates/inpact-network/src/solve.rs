@@ -209,7 +209,7 @@ impl<'a> Equations<'a> {
         let mut steps = 0;
         let mut inconsistency = f64::INFINITY;
         let iterated = loop {
-            let iterated = Self::iterate(stage, knowledge, capacities, state)?;
+            let iterated = self.iterate(stage, knowledge, capacities, state)?;
             steps += iterated.steps;
             if !iterated.has_converged {
                 break iterated;
@@ -241,6 +241,7 @@ impl<'a> Equations<'a> {
     }
 
     fn iterate(
+        &self,
         stage: &Stage,
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
@@ -250,7 +251,7 @@ impl<'a> Equations<'a> {
             let state = state.field(field)?;
             Some((field, state.solution.clone(), state.rows.clone()))
         });
-        let mut newton = Newton::new(knowledge, first.collect(), capacities);
+        let mut newton = Newton::new(knowledge, first.collect(), capacities, self.solvers[0].method());
         newton.iterate(knowledge).map_err(SolveFailure::Row)
     }
 

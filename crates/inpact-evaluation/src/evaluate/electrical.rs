@@ -136,9 +136,9 @@ fn evaluate_flow(
         && increment.closes_circuit
         && generation.fraction != 0.0
     {
-        tally.closing.count(row, |number| {
+        tally.closing.count(row, || {
             let (start, end) = (increment.jump_at_start.0, jump.0);
-            format!("row {number} has a jump of {end:?}, and the increment starts open with {start:?}")
+            format!("the first has a jump of {end:?}, and its increment starts open with {start:?}")
         });
     }
     let duration = increment.as_ref().and_then(|increment| increment.duration);

@@ -49,8 +49,8 @@ pub(super) fn evaluate(
     if let (Some(given), Some(rate), Regime::Transient) =
         (given_rate, increment.as_ref().and_then(|increment| increment.contradicted), law.regime)
     {
-        tally.contradictory_rates.count(row, |number| {
-            format!("row {number} has a rate of {:?}, and its clearance has changed at {:?}", given.0, rate.0)
+        tally.contradictory_rates.count(row, || {
+            format!("the first has a rate of {:?}, and its clearance has changed at {:?}", given.0, rate.0)
         });
     }
     let bulk = law.bulk.and_then(|(slave, master)| {

@@ -99,13 +99,11 @@ pub struct RemarkedRows {
 }
 
 impl RemarkedRows {
-    /// Counts a row; `what` is said of the first, whose number it is given.
-    pub(super) fn count(&mut self, row: Row<'_>, what: impl FnOnce(u64) -> String) {
+    /// Counts a row; `what` is said of the first.
+    pub(super) fn count(&mut self, row: Row<'_>, what: impl FnOnce() -> String) {
         self.rows += 1;
         if self.first.is_none() {
-            let place = row.batch.place(row.index, None);
-            let message = what(place.row.unwrap_or_default());
-            self.first = Some((place, message));
+            self.first = Some((row.batch.place(row.index, None), what()));
         }
     }
 }

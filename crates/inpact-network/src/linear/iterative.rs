@@ -142,14 +142,15 @@ impl Rows {
 
 /// An incomplete Cholesky factor with the entries of its matrix, column by column, each column's diagonal first.
 #[derive(Debug)]
-struct Incomplete {
+pub(crate) struct Incomplete {
     starts: Vec<u32>,
     rows: Vec<u32>,
     values: Vec<f64>,
 }
 
 impl Incomplete {
-    fn of(matrix: &Matrix<'_>) -> Self {
+    /// The incomplete factor of a matrix.
+    pub(crate) fn of(matrix: &Matrix<'_>) -> Self {
         let starts = matrix.pattern.col_ptr().to_vec();
         let rows = matrix.pattern.row_idx().to_vec();
         let mut factor = Self { starts, rows, values: matrix.values.clone() };
@@ -212,7 +213,7 @@ impl Incomplete {
     }
 
     /// Solves L Lᵀ x = b in place.
-    fn solve_in_place(&self, vector: &mut [f64]) {
+    pub(crate) fn solve_in_place(&self, vector: &mut [f64]) {
         for column in 0..self.count() {
             let range = self.range(column);
             let value = vector[column] / self.values[range.start];

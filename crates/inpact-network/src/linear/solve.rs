@@ -177,6 +177,11 @@ impl Solver {
         Self { method, tolerance, kept: None, work: Work::default() }
     }
 
+    /// The method that was asked for.
+    pub(crate) fn method(&self) -> Method {
+        self.method
+    }
+
     /// What all networks that it has solved took.
     pub fn work(&self) -> Work {
         self.work

@@ -1,0 +1,282 @@
+//! Steps of Newton's in large scenes, without a factor of the whole unsymmetric matrix.
+//!
+//! What couples two fields, or a conductance to its own field, is little beside the symmetric blocks of the single fields, which have the pattern of their networks:
+//! minimum degree or nested dissection order them, and one Cholesky factor each, in f32 as it need not be exact, makes a preconditioner;
+//! with `iterative` an incomplete factor does. Between the fields it is block-triangular: what the first field gives is taken from the second.
+//! GMRES then solves for the step, restarted so that its memory is that of a few vectors. A step that is solved to a few digits is a step all the same: the line search judges it.
+//!
+//! An unsymmetric factor that may choose its pivots needs room for the pattern of AᵀA, 50 KiB for each contact of a plate; it is left to small scenes, and to those where GMRES comes to nothing.
+//! Source: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., sections 6.5 and 9.3.
+
+use super::system::System;
+use crate::linear::{Analysis, Factor, Incomplete, Method, NoSolution, Pattern, Solves};
+use faer::sparse::SparseColMat;
+use std::sync::Arc;
+
+/// How many vectors GMRES keeps before it begins anew.
+const RESTART: usize = 24;
+
+/// The most times it begins anew.
+const MOST_RESTARTS: usize = 16;
+
+/// By how much it lessens what is missing.
+const REDUCTION: f64 = 1e-9;
+
+/// A step that lessens what is missing by less than this is not worth trying.
+const WORTH_TRYING: f64 = 1e-2;
+
+/// The order of the block of a field, good as long as its matrix has entries in the same places.
+#[derive(Debug)]
+pub(super) struct Order {
+    pattern: Pattern,
+    analysis: Option<Arc<Analysis>>,
+}
+
+/// The block of one field, and what solves with it roughly.
+pub(super) struct Block {
+    start: usize,
+    count: usize,
+    inverse: Inverse,
+}
+
+enum Inverse {
+    Single(Factor<f32>),
+    Double(Factor<f64>),
+    Incomplete(Incomplete),
+}
+
+impl Block {
+    /// The block of a field, on whose diagonal stands what its equations take up besides; `None` where it cannot be factored.
+    pub(super) fn of(system: &System<'_>, taken_up: &[f64], method: Method, kept: &mut Option<Order>) -> Option<Self> {
+        let (start, count) = (system.start as usize, system.edges.form.count());
+        let pattern = Pattern::of(&system.core, &system.edges);
+        let order = match kept.take() {
+            Some(order) if order.pattern.has_entries_of(pattern.symbolic()) => {
+                kept.insert(Order { pattern, analysis: order.analysis })
+            }
+            _ => kept.insert(Order { pattern, analysis: None }),
+        };
+        let mut matrix = order.pattern.matrix(&system.core, &system.edges);
+        for (column, more) in taken_up.iter().enumerate() {
+            // A column begins with its diagonal.
+            let diagonal = matrix.pattern.col_ptr()[column] as usize;
+            matrix.values[diagonal] += more;
+        }
+        if method == Method::Iterative {
+            return Some(Self { start, count, inverse: Inverse::Incomplete(Incomplete::of(&matrix)) });
+        }
+        let analysis = match &order.analysis {
+            Some(analysis) => Arc::clone(analysis),
+            None => Arc::clone(order.analysis.insert(Arc::new(Analysis::of(matrix.pattern)?))),
+        };
+        let inverse = match Factor::new(&analysis, &matrix) {
+            Ok(single) => Inverse::Single(single),
+            Err(_) => Inverse::Double(Factor::new(&analysis, &matrix).ok()?),
+        };
+        Some(Self { start, count, inverse })
+    }
+
+    fn range(&self) -> std::ops::Range<usize> {
+        self.start..self.start + self.count
+    }
+}
+
+impl Inverse {
+    fn apply(&mut self, vector: &mut [f64]) -> Result<(), NoSolution> {
+        match self {
+            Self::Single(factor) => factor.solve(vector),
+            Self::Double(factor) => factor.solve(vector),
+            Self::Incomplete(factor) => {
+                factor.solve_in_place(vector);
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Solves for a step; `None` where it comes to nothing.
+pub(super) fn solve(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], right: &[f64]) -> Option<Vec<f64>> {
+    let mut solution = vec![0.0; right.len()];
+    let mut residual = right.to_vec();
+    let size = norm(right);
+    if size == 0.0 {
+        return Some(solution);
+    }
+    let mut before = size;
+    for _ in 0..MOST_RESTARTS {
+        extend(matrix, blocks, &mut solution, &residual, REDUCTION * size)?;
+        let product = product(matrix, &solution);
+        residual.iter_mut().zip(right.iter().zip(&product)).for_each(|(rest, (right, of))| *rest = right - of);
+        let now = norm(&residual);
+        if now <= REDUCTION * size || !now.is_finite() || 0.9 * before < now {
+            break;
+        }
+        before = now;
+    }
+    (norm(&residual) <= WORTH_TRYING * size).then_some(solution)
+}
+
+/// Adds to a solution the best of a few directions.
+fn extend(
+    matrix: &SparseColMat<u32, f64>,
+    blocks: &mut [Block],
+    solution: &mut [f64],
+    residual: &[f64],
+    enough: f64,
+) -> Option<()> {
+    let size = norm(residual);
+    let mut basis = vec![residual.iter().map(|entry| entry / size).collect::<Vec<f64>>()];
+    // The columns of the triangle, the rotations that made it, and the right-hand side.
+    let (mut triangle, mut rotations, mut rest) = (Vec::<Vec<f64>>::new(), Vec::<(f64, f64)>::new(), vec![size]);
+    for step in 0..RESTART {
+        let mut next = product(matrix, &preconditioned(matrix, blocks, &basis[step])?);
+        let mut column: Vec<f64> = Vec::with_capacity(step + 2);
+        for direction in &basis {
+            let part = dot(&next, direction);
+            next.iter_mut().zip(direction).for_each(|(entry, of)| *entry -= part * of);
+            column.push(part);
+        }
+        let height = norm(&next);
+        if !height.is_finite() {
+            return None;
+        }
+        for (row, &(cosine, sine)) in rotations.iter().enumerate() {
+            let (upper, lower) = (column[row], column[row + 1]);
+            column[row] = cosine * upper + sine * lower;
+            column[row + 1] = cosine * lower - sine * upper;
+        }
+        let length = column[step].hypot(height);
+        if length == 0.0 {
+            break;
+        }
+        let (cosine, sine) = (column[step] / length, height / length);
+        column[step] = length;
+        rotations.push((cosine, sine));
+        triangle.push(column);
+        let last = rest[step];
+        rest[step] = cosine * last;
+        rest.push(-sine * last);
+        if rest[step + 1].abs() <= enough || height == 0.0 {
+            break;
+        }
+        for entry in &mut next {
+            *entry /= height;
+        }
+        basis.push(next);
+    }
+    let mut weights = vec![0.0; triangle.len()];
+    for row in (0..weights.len()).rev() {
+        let known: f64 = (row + 1..weights.len()).map(|column| triangle[column][row] * weights[column]).sum();
+        weights[row] = (rest[row] - known) / triangle[row][row];
+    }
+    let mut sum = vec![0.0; residual.len()];
+    for (direction, weight) in basis.iter().zip(&weights) {
+        sum.iter_mut().zip(direction).for_each(|(entry, of)| *entry += weight * of);
+    }
+    let step = preconditioned(matrix, blocks, &sum)?;
+    solution.iter_mut().zip(&step).for_each(|(entry, of)| *entry += of);
+    Some(())
+}
+
+/// Solves with the blocks, each with what the ones before have left of its part.
+fn preconditioned(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], vector: &[f64]) -> Option<Vec<f64>> {
+    let mut rest = vector.to_vec();
+    let last = blocks.len();
+    for (place, block) in blocks.iter_mut().enumerate() {
+        let range = block.range();
+        block.inverse.apply(&mut rest[range.clone()]).ok()?;
+        if place + 1 < last {
+            let (solved, later) = rest.split_at_mut(range.end);
+            for column in range.clone() {
+                let value = solved[column];
+                let entries = matrix.row_idx_of_col_raw(column).iter().zip(matrix.val_of_col(column));
+                for (&row, entry) in entries {
+                    if let Some(place) = (row as usize).checked_sub(range.end) {
+                        later[place] -= entry * value;
+                    }
+                }
+            }
+        }
+    }
+    Some(rest)
+}
+
+fn product(matrix: &SparseColMat<u32, f64>, vector: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; vector.len()];
+    for (column, value) in vector.iter().enumerate() {
+        for (&row, entry) in matrix.row_idx_of_col_raw(column).iter().zip(matrix.val_of_col(column)) {
+            product[row as usize] += entry * value;
+        }
+    }
+    product
+}
+
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    let largest = vector.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    largest * vector.iter().map(|entry| (entry / largest).powi(2)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Block, Inverse, norm, product, solve};
+    use crate::linear::{Incomplete, Matrix};
+    use faer::sparse::{SparseColMat, Triplet};
+
+    /// Two fields of `count` unknowns each: chains that are coupled in both directions, so that the whole is not symmetric.
+    fn coupled(count: u32) -> (SparseColMat<u32, f64>, Vec<Block>) {
+        let chain = |start: u32, lower_only: bool| {
+            (0..count).flat_map(move |unknown| {
+                let at = start + unknown;
+                let mut entries = vec![Triplet::new(at, at, 2.5)];
+                if unknown > 0 {
+                    entries.push(Triplet::new(at, at - 1, -1.0));
+                    if !lower_only {
+                        entries.push(Triplet::new(at - 1, at, -1.0));
+                    }
+                }
+                entries
+            })
+        };
+        let mut entries: Vec<Triplet<u32, u32, f64>> = chain(0, false).chain(chain(count, false)).collect();
+        for unknown in 0..count {
+            entries.push(Triplet::new(unknown, count + unknown, 0.75));
+            entries.push(Triplet::new(count + unknown, unknown, -1.25));
+        }
+        let size = 2 * count as usize;
+        let whole = SparseColMat::try_new_from_triplets(size, size, &entries).expect("entries within the matrix");
+        let lower: Vec<_> = chain(0, true).collect();
+        let lower = SparseColMat::<u32, f64>::try_new_from_triplets(count as usize, count as usize, &lower)
+            .expect("entries within the block");
+        let block = |start: usize| {
+            let (pattern, values) = (lower.symbolic(), lower.val().to_vec());
+            let inverse = Inverse::Incomplete(Incomplete::of(&Matrix { pattern, values }));
+            Block { start, count: count as usize, inverse }
+        };
+        let blocks = vec![block(0), block(count as usize)];
+        (whole, blocks)
+    }
+
+    #[test]
+    fn a_coupled_system_is_solved_to_nine_digits() {
+        let (matrix, mut blocks) = coupled(500);
+        let wanted: Vec<f64> = (0..1000).map(|unknown| f64::from(unknown % 17) - 8.0).collect();
+        let right = product(&matrix, &wanted);
+        let found = solve(&matrix, &mut blocks, &right).expect("a system that is well conditioned");
+        let off: Vec<f64> = found.iter().zip(&wanted).map(|(found, wanted)| found - wanted).collect();
+        assert!(norm(&off) < 1e-8 * norm(&wanted), "{}", norm(&off));
+        assert_eq!(solve(&matrix, &mut blocks, &[0.0; 1000]), Some(vec![0.0; 1000]));
+    }
+
+    #[test]
+    fn what_has_no_solution_is_given_up() {
+        let (matrix, mut blocks) = coupled(10);
+        assert_eq!(solve(&matrix, &mut blocks, &[f64::NAN; 20]), None);
+    }
+}
