@@ -19,6 +19,7 @@ mod plan;
 mod program;
 mod solve;
 mod solve_ccx;
+mod solve_hard;
 mod solve_histories;
 mod solve_kept;
 mod solve_nonlinear;

@@ -61,8 +61,8 @@ fn q_41_rows_that_close_a_circuit_are_counted() {
 /// C-25: with n increments of a constant current the heat is 1 − 2/(3 n) of that of the first row's own jump.
 #[test]
 fn c_25_a_history_at_rest_lacks_two_thirds_of_its_first_increment() {
-    for increments in [1, 2, 4, 10, 20, 100] {
-        let row = |number: i32| format!("1,{number},1,5,0,0.5,3,1\n");
+    for increments in [1_u32, 2, 4, 10, 20, 100] {
+        let row = |number: u32| format!("1,{number},1,5,0,0.5,3,1\n");
         let rows: String = (1..=increments).map(row).collect();
         let nodes = format!("node,time,closed,pressure,clearance,epot_jump,temp_s,temp_m\n{rows}");
         let at_rest = HistoryStart::AtRest { time: 0.0 };

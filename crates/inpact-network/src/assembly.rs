@@ -1,10 +1,12 @@
 //! From a scene at one time to the equations of one field: rows asked for their conductances, sources gathered, and all of it as a linear network.
 
-use crate::interface::{self, Conducts, PoreElement};
-use crate::knowledge::Knowledge;
-use crate::linear::{LinearNetwork, Link, NONE, Store};
+use crate::dependence::range_of_unknown;
+use crate::interface::{self, Conducts, Contact, PoreElement, Sides};
+use crate::knowledge::{Guess, Knowledge};
+use crate::linear::{LinearNetwork, Link, NONE, Sets, Store};
 use crate::problem::FieldNodes;
 use crate::scene::{Field, SceneInterface};
+use inpact_evaluation::compile::InterfaceLaws;
 use inpact_evaluation::law::user::UserFault;
 use inpact_evaluation::numbers::Wide;
 
@@ -35,6 +37,13 @@ pub enum RowFaultReason {
     NeedsLength,
     /// A conductance is negative, NaN or infinite.
     NoConductance(f64),
+    /// A conductance times the area of the row is beyond the range of f64.
+    TooLarge {
+        /// The conductance per area.
+        conductance: f64,
+        /// The area, L².
+        area: f64,
+    },
 }
 
 /// Heat of a current at nodes, with its slopes: what Newton's iteration needs of it.
@@ -84,16 +93,61 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
                 PoreElement::NeedsLength => return Err(fault(RowFaultReason::NeedsLength)),
             },
         };
+        let asks_elsewhere = conducts.conductance == 0.0 && knowledge.guess == Guess::WhereRowsConduct;
+        let found = if asks_elsewhere { elsewhere(knowledge, field, laws, (of, &contact, &sides)) } else { None };
+        let conducts = found.unwrap_or(conducts);
         let conductance = conducts.conductance * of.area;
         let may_be_infinite = field == Field::PorePressure && conducts.conductance.is_infinite();
         let is_usable = conductance >= 0.0 && (conductance.is_finite() || may_be_infinite);
         if !is_usable {
-            return Err(fault(RowFaultReason::NoConductance(conducts.conductance)));
+            let (value, area) = (conducts.conductance, of.area);
+            let is_product = 0.0 <= value && value.is_finite();
+            return Err(fault(if is_product {
+                RowFaultReason::TooLarge { conductance: value, area }
+            } else {
+                RowFaultReason::NoConductance(value)
+            }));
         }
         terms.conductances.push(conductance);
         terms.slopes.push(conducts);
     }
     Ok(terms)
+}
+
+/// At how many temperatures or pore pressures a row is asked that conducts nothing at a first guess.
+const PROBES: u32 = 65;
+
+/// What a row that conducts nothing at a first guess conducts at most elsewhere in its table; `None` where that is nothing either.
+fn elsewhere(
+    knowledge: &Knowledge<'_>,
+    field: Field,
+    laws: &InterfaceLaws,
+    (of, contact, sides): (&SceneInterface, &Contact, &Sides),
+) -> Option<Conducts> {
+    let [least, greatest] = range_of_unknown(laws, field, contact.state)?;
+    let probes = (0..PROBES).map(|probe| {
+        let part = f64::from(probe) / f64::from(PROBES - 1);
+        let value = [Wide::new((1.0 - part) * least + part * greatest); 2];
+        match field {
+            Field::Potential => match &laws.electrical {
+                Some(source) => {
+                    let sides = Sides { temperatures: value, ..*sides };
+                    interface::electrical(source, of, contact, &sides, knowledge.moment(), 0).unwrap_or_default()
+                }
+                None => Conducts::default(),
+            },
+            Field::Temperature => interface::thermal(laws, of, contact, &Sides { temperatures: value, ..*sides }),
+            Field::PorePressure => {
+                let sides = Sides { pore_pressures: value, ..*sides };
+                match interface::pore(laws, of, contact, &sides, knowledge.gap_of(of)).0 {
+                    PoreElement::Finite(conducts) => conducts,
+                    PoreElement::Constrained | PoreElement::NeedsLength => Conducts::default(),
+                }
+            }
+        }
+    });
+    let largest = probes.max_by(|one, other| one.conductance.total_cmp(&other.conductance))?;
+    (0.0 < largest.conductance && largest.conductance.is_finite()).then_some(largest)
 }
 
 /// What flows into the nodes of a field besides what conducts: sources of the scene, friction, gap filling.
@@ -113,7 +167,7 @@ pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNode
         Field::Potential => {}
         Field::Temperature => {
             for (row, of) in scene.interfaces.iter().enumerate() {
-                add(of, knowledge.problem.friction(row));
+                add(of, knowledge.problem.friction(row, knowledge.time));
             }
         }
         Field::PorePressure => {
@@ -242,7 +296,36 @@ pub(crate) fn network(
         let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
         Link { nodes: [place_of(slave), place_of(master)], conductance }
     }));
+    if capacities == Capacities::Held {
+        let is_fixed = |place: u32| conditions.fixed.contains_key(&nodes.nodes[place as usize]);
+        part_initial_values(&mut network, is_fixed);
+    }
     network
+}
+
+/// Opens infinite conductances between nodes that begin with different values: at the start there is one value too many, in the increments they share what they hold.
+fn part_initial_values(network: &mut LinearNetwork, is_fixed: impl Fn(u32) -> bool) {
+    let mut sets = Sets::new(network.held.len());
+    // The value that a set has by one of its nodes, and whether it is fixed.
+    let mut known: Vec<Option<(f64, bool)>> =
+        (0..).zip(&network.held).map(|(place, held)| held.map(|value| (value, is_fixed(place)))).collect();
+    for link in network.links.iter_mut().filter(|link| link.conductance.is_infinite()) {
+        let [one, other] = link.nodes.map(|node| sets.of(node));
+        let of = [known[one as usize], known[other as usize]];
+        if let [Some((value, fixed)), Some((other, also_fixed))] = of
+            && value != other
+            && !(fixed && also_fixed)
+        {
+            link.conductance = 0.0;
+            continue;
+        }
+        sets.join_roots(one, other);
+        let [first, second] = of;
+        known[one as usize] = match (first, second) {
+            (Some((_, false)) | None, Some(_)) => second,
+            _ => first,
+        };
+    }
 }
 
 /// The number of a node whose name is one, for routines of the user's; 0 otherwise.

@@ -1,5 +1,6 @@
 //! What the laws of a row depend on: which quantities a scene has to tell, and which fields a law couples.
 
+use crate::scene::Field;
 use inpact_evaluation::compile::{ElectricalSource, InterfaceLaws};
 use inpact_evaluation::law::conductance::Branch;
 use inpact_evaluation::law::contact::ContactState;
@@ -73,6 +74,26 @@ pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> D
         dependence.fields = fields(table, 3);
     }
     dependence
+}
+
+/// The temperatures, or pore pressures, between which the table of a row's law of a field changes along the unknown it depends on; `None` where it does not.
+pub(crate) fn range_of_unknown(laws: &InterfaceLaws, field: Field, state: ContactState) -> Option<[f64; 2]> {
+    let table = match field {
+        Field::Potential => match laws.electrical.as_ref()? {
+            ElectricalSource::Tables(tables) => tables.branch_in(state)?.1,
+            ElectricalSource::User(..) => return None,
+        },
+        Field::Temperature => match laws.thermal.as_ref()? {
+            ThermalConductance::Tables(tables) => tables.branch_in(state)?.1,
+            ThermalConductance::Calculix(curves) => curves.rows(),
+        },
+        Field::PorePressure => match &laws.pore.as_ref()?.permeability {
+            Permeability::Finite(table) => table,
+            Permeability::Infinite => return None,
+        },
+    };
+    let axis = table.axes().get(1).filter(|axis| axis.matters())?;
+    Some([axis.least, axis.greatest])
 }
 
 impl Dependence {

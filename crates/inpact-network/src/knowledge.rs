@@ -21,6 +21,16 @@ pub(crate) struct Increment<'a> {
     pub(crate) duration: f64,
 }
 
+/// What a first guess is good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Guess {
+    /// Rows conduct what their laws say there.
+    #[default]
+    AsItIs,
+    /// A row whose law says nothing flows there conducts what it does elsewhere in its table, so that every node has a path at first.
+    WhereRowsConduct,
+}
+
 /// What is known beside the unknowns of a stage.
 #[derive(Debug, Clone)]
 pub(crate) struct Knowledge<'a> {
@@ -34,6 +44,7 @@ pub(crate) struct Knowledge<'a> {
     pub(crate) pore_pressures: Vec<Wide>,
     /// The heat of currents that are solved already, by place among the nodes of temperature; empty where there is none.
     pub(crate) heat: Vec<f64>,
+    pub(crate) guess: Guess,
 }
 
 impl<'a> Knowledge<'a> {
@@ -48,6 +59,7 @@ impl<'a> Knowledge<'a> {
             temperatures: vec![Wide::new(f64::NAN); nodes],
             pore_pressures: vec![Wide::new(f64::NAN); nodes],
             heat: Vec::new(),
+            guess: Guess::default(),
         };
         knowledge.begin(Field::Temperature);
         knowledge.begin(Field::PorePressure);
@@ -173,7 +185,11 @@ impl<'a> Knowledge<'a> {
 
     /// The gap of a row: in a transient it changes at the rate that is given, otherwise as its clearance has changed over the increment; and the length that its cutoffs default to.
     pub(crate) fn gap(&self, row: u32) -> (Gap, Option<f64>) {
-        let of = self.row(row);
+        self.gap_of(self.row(row))
+    }
+
+    /// The same for a row of the scene by itself.
+    pub(crate) fn gap_of(&self, of: &SceneInterface) -> (Gap, Option<f64>) {
         let from_course = || {
             let (course, increment) = (of.clearance.as_ref()?, self.increment?);
             let clearance = Clearance(course.at(increment.before.time));

@@ -24,6 +24,7 @@
 mod assembly;
 mod dependence;
 mod distance;
+mod effect;
 mod integrals;
 mod interface;
 mod knowledge;

@@ -33,6 +33,8 @@ pub struct Problem<'a> {
     pub(crate) stages: Vec<Stage>,
     /// The characteristic element length of rows that have none of their own.
     pub(crate) characteristic_length: Option<f64>,
+    /// θ of absolute zero, where the deck tells of it.
+    pub(crate) absolute_zero: Option<f64>,
     /// What is not solved, and why, for a person.
     pub left_out: Vec<String>,
 }
@@ -77,6 +79,7 @@ impl<'a> Problem<'a> {
             fields: [None, None, None],
             stages: Vec::new(),
             characteristic_length: choices.characteristic_length,
+            absolute_zero: model.constants.absolute_zero,
             left_out: Vec::new(),
         };
         for row in &scene.interfaces {
@@ -108,7 +111,10 @@ impl<'a> Problem<'a> {
         problem.check_laws(findings);
         problem.check_rows(findings);
         problem.check_initial(findings);
+        problem.check_temperatures(findings);
+        problem.check_friction(findings);
         problem.note_friction();
+        problem.note_without_effect();
         problem.note_one_sided();
         problem.choose_stages();
         (!findings.has_errors()).then_some(problem)
@@ -140,7 +146,7 @@ impl<'a> Problem<'a> {
     }
 
     /// When a row first looks at contact.
-    fn start(&self) -> f64 {
+    pub(crate) fn start(&self) -> f64 {
         match self.scene.procedure {
             crate::scene::Procedure::Steady => 0.0,
             crate::scene::Procedure::Transient(span) => span.start,
@@ -206,7 +212,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The rows of a field with their laws.
-    fn rows_of(&self, field: Field) -> impl Iterator<Item = (usize, &SceneInterface, &InterfaceLaws)> {
+    pub(crate) fn rows_of(&self, field: Field) -> impl Iterator<Item = (usize, &SceneInterface, &InterfaceLaws)> {
         let rows = self.field(field).map_or(&[][..], |nodes| &nodes.rows);
         rows.iter().filter_map(|&row| {
             let row = row as usize;
@@ -215,7 +221,7 @@ impl<'a> Problem<'a> {
     }
 
     /// What a row's law of a field depends on; in any state of contact it may come to.
-    fn dependence(row: &SceneInterface, laws: &InterfaceLaws, field: Field, time: f64) -> Dependence {
+    pub(crate) fn dependence(row: &SceneInterface, laws: &InterfaceLaws, field: Field, time: f64) -> Dependence {
         // Contact that follows time may come to be open or closed.
         let follows_time = |course: &Option<Course>| course.as_ref().is_some_and(|of| of.corners().next().is_some());
         let changes = row.closed.is_none() && (follows_time(&row.clearance) || follows_time(&row.pressure));
@@ -335,7 +341,7 @@ impl<'a> Problem<'a> {
             heat.is_some_and(|heat| loses(sides(of), [heat.slave_weight, 1.0 - heat.slave_weight]))
         });
         let rubbed = (0..self.scene.interfaces.len())
-            .filter(|&row| loses(sides(&self.scene.interfaces[row]), self.friction(row)));
+            .filter(|&row| loses(sides(&self.scene.interfaces[row]), self.friction(row, self.start())));
         let links = self.field(Field::Potential).map_or(&[][..], |of| &of.links);
         let heated_links = links.iter().filter(|&&link| {
             let of = &self.scene.links[link as usize];
@@ -354,7 +360,7 @@ impl<'a> Problem<'a> {
     }
 
     /// What a person calls a row.
-    fn label(&self, row: &SceneInterface) -> String {
+    pub(crate) fn label(&self, row: &SceneInterface) -> String {
         let [slave, master] = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
         format!("the interface of `{slave}` and `{master}`")
     }
@@ -432,9 +438,12 @@ impl<'a> Problem<'a> {
         [row.slave, row.master].into_iter().any(|node| field.place[node as usize] != NONE)
     }
 
-    /// The heat of friction of a row, into slave and master; zero where nothing tells of it.
-    pub(crate) fn friction(&self, row: usize) -> [f64; 2] {
+    /// The heat of friction of a row at a time, into slave and master; zero where nothing tells of it, and where the surfaces are apart.
+    pub(crate) fn friction(&self, row: usize, time: f64) -> [f64; 2] {
         let of = &self.scene.interfaces[row];
+        if Contact::of(of, time).is_some_and(|contact| contact.state == ContactState::Open) {
+            return [0.0; 2];
+        }
         let heat = self.laws_of(row).and_then(|laws| heat_of_friction(laws, of));
         heat.map_or([0.0; 2], |heat| [heat.slave * of.area, heat.master * of.area])
     }
@@ -464,7 +473,7 @@ fn field_of(flow: FlowOf) -> Field {
     }
 }
 
-fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str, help: &str) {
+pub(crate) fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str, help: &str) {
     let (place, message) = row.located(message.to_owned());
     findings.report(&MISSING_QUANTITY, place, message, help);
 }

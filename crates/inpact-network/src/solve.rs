@@ -1,12 +1,13 @@
 //! Solves a scene at one time: stage by stage, each field with what the stages before have found.
 
 use crate::assembly::{Capacities, Currents, RowFault, RowTerms, add_heat, network, row_terms, sources};
-use crate::knowledge::{Increment, Knowledge};
-use crate::linear::{LinearFailure, LinearSolution, Method, Shortcoming, Solver, Unsolvable, Work};
+use crate::knowledge::{Guess, Increment, Knowledge};
+use crate::linear::{LAST_DIGIT, LinearFailure, LinearSolution, Method, Shortcoming, Solver, Unsolvable, Work};
 use crate::newton::{Iterated, Newton};
 use crate::problem::{FieldNodes, Problem, Stage};
 use crate::scene::Field;
 use crate::state::{FieldState, StageReport, State};
+use inpact_evaluation::numbers::Wide;
 
 /// Conductances within this relative distance of those a solution was found with are the same.
 const CONSISTENT: f64 = 1e-14;
@@ -16,6 +17,19 @@ const CONSISTENT_ENOUGH: f64 = 1e-10;
 
 /// Equations of which no larger share is missing are not named when others are not met.
 const MET: f64 = 1e-10;
+
+/// So many units in the last place of a temperature or a pore pressure are no inconsistency of what depends on it.
+const DIGITS: f64 = 4.0;
+
+/// The part of the way that substitution goes at most.
+const FIRST_PART: f64 = 0.5;
+
+/// A node that goes on in one direction for longer is not between the values where it once turned.
+const LONGEST_RUN: u32 = 40;
+
+/// The most passes of substitution, and the most nodes of all of them together.
+const MOST_PASSES: usize = 10_000;
+const MOST_RELAXED_NODES: usize = 1_000_000;
 
 /// How often a nonlinear stage is solved with the conductances of its own solution before Newton's iteration.
 const FIRST_PASSES: usize = 2;
@@ -65,13 +79,31 @@ pub enum SolveFailure {
         /// What was tried.
         tried: Vec<(Method, Shortcoming)>,
     },
+    /// A temperature would be below absolute zero.
+    BelowAbsoluteZero {
+        /// The node.
+        node: u32,
+        /// Its temperature, θ.
+        value: f64,
+        /// Absolute zero, θ.
+        zero: f64,
+    },
     /// Newton's iteration did not converge.
     NotConverged {
         /// How many steps it took.
         steps: usize,
         /// For each field where most is missing: the share of its largest flow, and the node.
         worst: Vec<(Field, f64, Option<u32>)>,
+        /// How far the conductances are from those of the state, where its balances are met.
+        inconsistency: Option<f64>,
     },
+}
+
+impl SolveFailure {
+    /// Whether an increment that is shorter may not fail so.
+    pub(crate) fn may_be_of_length(&self) -> bool {
+        matches!(self, Self::NotConverged { .. } | Self::BelowAbsoluteZero { .. })
+    }
 }
 
 impl<'a> Equations<'a> {
@@ -149,8 +181,25 @@ impl<'a> Equations<'a> {
             let linear = stage.fields.iter().filter_map(|field| state.field(*field));
             let linear = linear.map(|field| field.solution.report.clone()).collect();
             state.reports.push(StageReport { linear, ..report });
+            if stage.fields.contains(&Field::Temperature) {
+                self.refuse_cold(&state)?;
+            }
         }
         Ok(state)
+    }
+
+    /// Refuses temperatures below absolute zero: the laws say nothing there, and a balance that is met is met by accident.
+    fn refuse_cold(&self, state: &State) -> Result<(), SolveFailure> {
+        let (Some(zero), Some(nodes), Some(field)) =
+            (self.problem.absolute_zero, self.problem.field(Field::Temperature), state.field(Field::Temperature))
+        else {
+            return Ok(());
+        };
+        let coldest = nodes.nodes.iter().zip(field.values()).min_by(|one, other| one.1.total_cmp(&other.1));
+        match coldest.filter(|(_, value)| *value < zero) {
+            Some((&node, value)) => Err(SolveFailure::BelowAbsoluteZero { node, value, zero }),
+            None => Ok(()),
+        }
     }
 
     /// Solves the fields of a stage one after the other, each with the conductances that follow from what is known; then their values are known.
@@ -174,7 +223,9 @@ impl<'a> Equations<'a> {
             if field == Field::Potential {
                 knowledge.heat = self.heat_of(knowledge, nodes, &solution, &terms);
             }
-            state.fields[field.index()] = Some(FieldState { solution, rows: terms.conductances, sources });
+            // At the start of a transient infinite ones may have been opened.
+            let rows = network.links[nodes.links.len()..].iter().map(|link| link.conductance).collect();
+            state.fields[field.index()] = Some(FieldState { solution, rows, sources });
             knowledge.take(field, state);
         }
         Ok(())
@@ -196,6 +247,8 @@ impl<'a> Equations<'a> {
     }
 
     /// Solves a stage in which fields depend on themselves or on each other.
+    ///
+    /// What fails within a tolerance that is larger than need be is tried again to the last digit: conductances that are to agree leave no room for it.
     fn solve_nonlinear(
         &mut self,
         stage: &Stage,
@@ -203,32 +256,79 @@ impl<'a> Equations<'a> {
         capacities: Capacities,
         state: &mut State,
     ) -> Result<StageReport, SolveFailure> {
-        for _ in 0..FIRST_PASSES {
-            self.solve_fields(stage, knowledge, capacities, state)?;
+        let begin = knowledge.clone();
+        let found = self.solve_within(stage, knowledge, capacities, state);
+        let is_rough = self.solvers.iter().any(|solver| LAST_DIGIT < solver.tolerance());
+        if !is_rough || !matches!(found, Err(SolveFailure::NotConverged { .. } | SolveFailure::NotSolved { .. })) {
+            return found;
         }
+        *knowledge = begin;
+        let tolerances = self.solvers.each_mut().map(|solver| solver.set_tolerance(LAST_DIGIT));
+        let found = self.solve_within(stage, knowledge, capacities, state);
+        for (solver, tolerance) in self.solvers.iter_mut().zip(tolerances) {
+            solver.set_tolerance(tolerance);
+        }
+        found
+    }
+
+    /// Solves the fields with the conductances of a first guess; where nothing flows at that guess, with those they have elsewhere.
+    fn solve_first(
+        &mut self,
+        stage: &Stage,
+        knowledge: &mut Knowledge<'_>,
+        capacities: Capacities,
+        state: &mut State,
+    ) -> Result<(), SolveFailure> {
+        match self.solve_fields(stage, knowledge, capacities, state) {
+            Err(SolveFailure::Floating { .. }) => {
+                knowledge.guess = Guess::WhereRowsConduct;
+                let solved = self.solve_fields(stage, knowledge, capacities, state);
+                knowledge.guess = Guess::AsItIs;
+                solved
+            }
+            solved => solved,
+        }
+    }
+
+    /// Solves a nonlinear stage within the tolerance of the solvers: by Newton's iteration and, where that ends short of a solution, from where substitution leads.
+    fn solve_within(
+        &mut self,
+        stage: &Stage,
+        knowledge: &mut Knowledge<'_>,
+        capacities: Capacities,
+        state: &mut State,
+    ) -> Result<StageReport, SolveFailure> {
+        for _ in 0..FIRST_PASSES {
+            self.solve_first(stage, knowledge, capacities, state)?;
+        }
+        let begin = knowledge.clone();
         let mut steps = 0;
-        let mut inconsistency = f64::INFINITY;
-        let iterated = loop {
-            let iterated = self.iterate(stage, knowledge, capacities, state)?;
-            steps += iterated.steps;
-            if !iterated.has_converged {
-                break iterated;
+        let mut attempt = self.converge(stage, knowledge, capacities, state, &mut steps)?;
+        if attempt.is_short() {
+            // From where the iteration began: it may have gone astray, and its state with it.
+            let mut ways = [Relaxation::Parts, Relaxation::Brackets].into_iter();
+            while attempt.is_short()
+                && let Some(way) = ways.next()
+            {
+                let (mut relaxed, mut of_relaxed) = (begin.clone(), state.clone());
+                if self.relax(way, stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)? {
+                    let again = self.converge(stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)?;
+                    if !again.is_short() {
+                        (*knowledge, *state, attempt) = (relaxed, of_relaxed, again);
+                    }
+                }
             }
-            // The flows of the conductances that were found, to the last digit: what the conductances are there tells how good they were.
-            self.solve_fields(stage, knowledge, capacities, state)?;
-            let before = std::mem::replace(&mut inconsistency, self.inconsistency(stage, knowledge, state)?);
-            if inconsistency <= CONSISTENT || 0.5 * before <= inconsistency {
-                break iterated;
-            }
-        };
-        if iterated.has_converged && inconsistency <= CONSISTENT_ENOUGH {
+        }
+        let Attempt { iterated, inconsistency, .. } = &attempt;
+        if !attempt.is_short() {
             return Ok(StageReport {
                 fields: stage.fields.clone(),
                 iterations: steps,
-                inconsistency,
+                inconsistency: *inconsistency,
                 linear: Vec::new(),
             });
         }
+        let inconsistency = iterated.has_converged.then_some(*inconsistency);
         let worst = stage
             .fields
             .iter()
@@ -237,7 +337,71 @@ impl<'a> Equations<'a> {
         let worst: Vec<(Field, f64, Option<u32>)> = worst.collect();
         let is_unmet = |(_, share, _): &(Field, f64, Option<u32>)| share.is_nan() || MET < *share;
         let unmet: Vec<_> = worst.iter().copied().filter(is_unmet).collect();
-        Err(SolveFailure::NotConverged { steps, worst: if unmet.is_empty() { worst } else { unmet } })
+        Err(SolveFailure::NotConverged { steps, worst: if unmet.is_empty() { worst } else { unmet }, inconsistency })
+    }
+
+    /// Newton's iteration, until the conductances of its state are those it was found with.
+    fn converge(
+        &mut self,
+        stage: &Stage,
+        knowledge: &mut Knowledge<'_>,
+        capacities: Capacities,
+        state: &mut State,
+        steps: &mut usize,
+    ) -> Result<Attempt, SolveFailure> {
+        let (mut inconsistency, mut beyond) = (f64::INFINITY, f64::INFINITY);
+        loop {
+            let iterated = self.iterate(stage, knowledge, capacities, state)?;
+            *steps += iterated.steps;
+            if !iterated.has_converged {
+                return Ok(Attempt { iterated, inconsistency, beyond });
+            }
+            // The flows of the conductances that were found, to the last digit: what the conductances are there tells how good they were.
+            self.solve_fields(stage, knowledge, capacities, state)?;
+            let before = inconsistency;
+            (inconsistency, beyond) = self.inconsistency(stage, knowledge, state)?;
+            if inconsistency <= CONSISTENT || 0.5 * before <= inconsistency {
+                return Ok(Attempt { iterated, inconsistency, beyond });
+            }
+        }
+    }
+
+    /// Substitutes the solution of the conductances as they are, a part of the way at each node. Whether it came to rest.
+    fn relax(
+        &mut self,
+        way: Relaxation,
+        stage: &Stage,
+        knowledge: &mut Knowledge<'_>,
+        capacities: Capacities,
+        state: &mut State,
+        steps: &mut usize,
+    ) -> Result<bool, SolveFailure> {
+        let unknowns: usize = stage.fields.iter().map(|field| self.problem.nodes_of(*field).len()).sum();
+        let passes = (MOST_RELAXED_NODES / unknowns.max(1)).min(MOST_PASSES);
+        let nodes = knowledge.temperatures.len();
+        let mut walks = vec![Walk::default(); 2 * nodes];
+        for _ in 0..passes {
+            *steps += 1;
+            let before = [knowledge.temperatures.clone(), knowledge.pore_pressures.clone()];
+            self.solve_first(stage, knowledge, capacities, state)?;
+            let (mut largest, mut size) = (0.0_f64, f64::MIN_POSITIVE);
+            let found = [&mut knowledge.temperatures, &mut knowledge.pore_pressures];
+            for ((found, before), walks) in found.into_iter().zip(&before).zip(walks.chunks_mut(nodes.max(1))) {
+                for ((found, before), walk) in found.iter_mut().zip(before).zip(walks) {
+                    let change = (*found - *before).to_f64();
+                    if change.is_finite() && change != 0.0 {
+                        size = size.max(found.to_f64().abs());
+                        let step = walk.step(way, before.to_f64(), change);
+                        largest = largest.max(if way == Relaxation::Parts { change.abs() } else { step.abs() });
+                        *found = *before + Wide::new(step);
+                    }
+                }
+            }
+            if largest <= way.at_rest() * size {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     fn iterate(
@@ -255,19 +419,120 @@ impl<'a> Equations<'a> {
         newton.iterate(knowledge).map_err(SolveFailure::Row)
     }
 
-    /// How far the conductances at a state are from those it was found with, the largest relative distance.
-    fn inconsistency(&self, stage: &Stage, knowledge: &Knowledge<'_>, state: &State) -> Result<f64, SolveFailure> {
-        let mut largest = 0.0_f64;
+    /// How far the conductances at a state are from those it was found with, the largest relative distance; and the largest of those that the last digits
+    /// of temperatures and pore pressures do not account for.
+    fn inconsistency(
+        &self,
+        stage: &Stage,
+        knowledge: &Knowledge<'_>,
+        state: &State,
+    ) -> Result<(f64, f64), SolveFailure> {
+        let (mut largest, mut beyond) = (0.0_f64, 0.0_f64);
         for &field in &stage.fields {
             let (Some(nodes), Some(found)) = (self.problem.field(field), state.field(field)) else { continue };
             let terms = row_terms(knowledge, field, nodes).map_err(SolveFailure::Row)?;
-            for (now, before) in terms.conductances.iter().zip(&found.rows) {
-                if now != before {
-                    largest = largest.max((now - before).abs() / now.max(*before));
+            for (place, (now, before)) in terms.conductances.iter().zip(&found.rows).enumerate() {
+                if now == before {
+                    continue;
+                }
+                let distance = (now - before).abs() / now.max(*before);
+                largest = largest.max(distance);
+                let (row, slopes) = (nodes.rows[place], &terms.slopes[place]);
+                let sides = knowledge.sides(row);
+                let digit = |slope: f64, sides: [Wide; 2]| {
+                    let size = sides.into_iter().fold(0.0_f64, |size, side| size.max(side.to_f64().abs()));
+                    if slope == 0.0 { 0.0 } else { DIGITS * f64::EPSILON * size * slope.abs() }
+                };
+                let of_digits = digit(slopes.along_temperature, sides.temperatures)
+                    + digit(slopes.along_pore_pressure, sides.pore_pressures);
+                if of_digits * knowledge.row(row).area < (now - before).abs() {
+                    beyond = beyond.max(distance);
                 }
             }
         }
-        Ok(largest)
+        Ok((largest, beyond))
+    }
+}
+
+/// How substitution goes a part of the way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Relaxation {
+    /// By half the part at a node that comes back from where it went, and by more where it goes on.
+    Parts,
+    /// Into the middle of the two values between which a node turns, which finds the solution of a scene of one unknown behind any step of its table.
+    Brackets,
+}
+
+impl Relaxation {
+    /// Substitution that changes, or brackets, no value by more than this part of the largest has come to rest.
+    fn at_rest(self) -> f64 {
+        match self {
+            Self::Parts => 1e-9,
+            Self::Brackets => f64::EPSILON,
+        }
+    }
+}
+
+/// The way of a node through substitution.
+#[derive(Debug, Clone, Copy)]
+struct Walk {
+    part: f64,
+    last: f64,
+    /// The last values from which it went up, and down.
+    bracket: [f64; 2],
+    /// How often it went on in one direction.
+    run: u32,
+}
+
+impl Default for Walk {
+    fn default() -> Self {
+        Self { part: FIRST_PART, last: 0.0, bracket: [f64::NEG_INFINITY, f64::INFINITY], run: 0 }
+    }
+}
+
+impl Walk {
+    /// How far to go from a value which substitution would change by so much.
+    fn step(&mut self, way: Relaxation, value: f64, change: f64) -> f64 {
+        let turns = change * self.last < 0.0;
+        self.part = if turns { 0.5 * self.part } else { (1.1 * self.part).min(FIRST_PART) };
+        self.run = if turns { 0 } else { self.run + 1 };
+        self.last = change;
+        if way == Relaxation::Parts {
+            return self.part * change;
+        }
+        let goes_up = 0.0 < change;
+        self.bracket[usize::from(!goes_up)] = value;
+        let [lower, upper] = self.bracket;
+        // Other nodes have moved the place where it turns.
+        if upper <= lower || LONGEST_RUN < self.run {
+            self.bracket[usize::from(goes_up)] = if goes_up { f64::INFINITY } else { f64::NEG_INFINITY };
+            self.run = 0;
+        }
+        let [lower, upper] = self.bracket;
+        let aim = value + FIRST_PART * change;
+        let is_inside = lower < aim && aim < upper;
+        if is_inside || !lower.is_finite() || !upper.is_finite() {
+            FIRST_PART * change
+        } else {
+            0.5 * (lower + upper) - value
+        }
+    }
+}
+
+/// What came of an attempt at a nonlinear stage.
+struct Attempt {
+    iterated: Iterated,
+    /// How far the conductances are from those of the state.
+    inconsistency: f64,
+    /// How far those are whose distance rounding does not account for.
+    beyond: f64,
+}
+
+impl Attempt {
+    /// Whether it ended short of a solution.
+    fn is_short(&self) -> bool {
+        let is_good = self.iterated.has_converged && self.beyond <= CONSISTENT_ENOUGH;
+        !is_good
     }
 }
 

@@ -155,7 +155,7 @@ impl March<'_, '_> {
             let time = if taken >= left { until } else { state.time + taken };
             let next = match self.equations.step(&state, time) {
                 Ok(next) => next,
-                Err(SolveFailure::NotConverged { .. }) if taken > 2.0 * shortest => {
+                Err(failure) if failure.may_be_of_length() && taken > 2.0 * shortest => {
                     self.report.taken_back += 1;
                     length = 0.25 * taken;
                     continue;

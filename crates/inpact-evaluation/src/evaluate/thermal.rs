@@ -170,8 +170,11 @@ fn radiate(
     Some((part.law.heat(view_factor, temperatures), sides))
 }
 
-/// The heat of friction; an open row that says nothing of it has none.
+/// The heat of friction; an open row has none, whatever it says of it.
 fn rub(part: CompiledFriction, row: Row<'_>, tally: &mut InteractionTally) -> Option<GeneratedHeat> {
+    if row.state == ContactState::Open {
+        return Some(NO_HEAT);
+    }
     let slip_rate = match part.slip_rate {
         Speed::Place(place) => row.number(place).map(SlipRate),
         Speed::Given(speed) => Some(speed),
@@ -186,7 +189,6 @@ fn rub(part: CompiledFriction, row: Row<'_>, tally: &mut InteractionTally) -> Op
             tally.negative_friction += u64::from(heat.total < 0.0);
             Some(heat)
         }
-        None if row.state == ContactState::Open => Some(NO_HEAT),
         None => None,
     }
 }

@@ -177,6 +177,16 @@ impl Solver {
         Self { method, tolerance, kept: None, work: Work::default() }
     }
 
+    /// The tolerance.
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Sets another tolerance; gives the one before.
+    pub(crate) fn set_tolerance(&mut self, tolerance: f64) -> f64 {
+        std::mem::replace(&mut self.tolerance, tolerance)
+    }
+
     /// The method that was asked for.
     pub(crate) fn method(&self) -> Method {
         self.method

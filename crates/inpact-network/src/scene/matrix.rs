@@ -142,7 +142,12 @@ fn parse_entry(text: &str, rows: u32) -> Result<([u32; 2], f64), Refusal> {
             malformed(format!("`{text}` is in {what} {number}, which the matrix has not"), help)
         })?;
     }
-    let value: f64 = value.parse().map_err(|_| no_entry())?;
+    let written = value;
+    let value: f64 = written.parse().map_err(|_| no_entry())?;
+    if let Some(lost) = super::usable::lost(value, written) {
+        let message = format!("the value of `{text}` is {lost} the range of numbers");
+        return Err(Refusal::new(&UNUSABLE_NUMBER, message, "give a finite number, in other units if need be"));
+    }
     if !value.is_finite() {
         let help =
             "give finite numbers; what makes two nodes one is a [[link]] or a row of a table of links with `inf`";
@@ -191,6 +196,15 @@ fn check_sums(text: &str, entries: &[([u32; 2], f64)], diagonal: &[(u32, f64)]) 
         for row in ends {
             rows.entry(row).or_default().0 += value;
         }
+    }
+    if diagonal.is_empty() {
+        let help = "add the diagonal, whose rows then add up to zero, or give conductances without their sign";
+        let line = lines_of(text).nth(1).map_or(1, |(line, _)| line);
+        return Err(wrong(
+            line,
+            "entries below zero are those of an assembled matrix, and its diagonal is missing",
+            help,
+        ));
     }
     let is_off = |sum: f64, diagonal: f64| !sum.is_finite() || sum.abs() > ROW_SUM * diagonal.abs();
     let off = rows.iter().filter(|(_, (sum, diagonal))| is_off(*sum, *diagonal));

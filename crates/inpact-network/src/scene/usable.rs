@@ -75,10 +75,26 @@ impl Must {
 /// Whether the number of a key can be used; `written` is how it is written, `what` what a message calls it.
 pub(super) fn number(key: &str, value: f64, written: &str, what: impl FnOnce() -> String) -> Result<(), Refusal> {
     let must = Must::of(key);
+    if let Some(lost) = lost(value, written) {
+        let message = format!("{} is {written}, {lost} the range of numbers", what());
+        return Err(Refusal::new(&UNUSABLE_NUMBER, message, must.help()));
+    }
     if must.allows(value) {
         return Ok(());
     }
     Err(Refusal::new(&UNUSABLE_NUMBER, format!("{} is {written}", what()), must.help()))
+}
+
+/// What a number has lost on the way from its text to f64: digits that make it infinite are no infinity that was meant, and those that make it zero no zero.
+pub(super) fn lost(value: f64, written: &str) -> Option<&'static str> {
+    let mantissa = written.split(['e', 'E']).next().unwrap_or_default();
+    let has_digit = mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
+    match value {
+        _ if !has_digit => None,
+        _ if value.is_infinite() => Some("beyond"),
+        _ if value == 0.0 => Some("below"),
+        _ => None,
+    }
 }
 
 /// Whether a node can have such a name.

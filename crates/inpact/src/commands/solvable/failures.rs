@@ -50,6 +50,12 @@ pub(super) fn findings(
                     );
                     (&MISSING_QUANTITY, message, "give `char_length` or `--char-length`")
                 }
+                RowFaultReason::TooLarge { conductance, area } => {
+                    let message = format!(
+                        "the conductance of {label}, {conductance:?}, times its area of {area:?} is beyond the range of numbers{when}"
+                    );
+                    (&UNUSABLE_NUMBER, message, "look at `area` and at the table")
+                }
                 RowFaultReason::NoConductance(value) => {
                     let message = format!("a conductance of {label} is {value:?}{when}");
                     let help = "look at its table and at the row's clearance, pressure and field variables";
@@ -66,7 +72,23 @@ pub(super) fn findings(
                         otherwise try `--solver direct`, or a larger `--tolerance`";
             findings.report(&NOT_CONVERGED, Place::default(), message, help);
         }
-        SolveFailure::NotConverged { steps, worst } => {
+        SolveFailure::BelowAbsoluteZero { node: number, value, zero } => {
+            let message = format!(
+                "the temperature of {} would be {value:?}{when}, below absolute zero at {zero:?}",
+                node(*number)
+            );
+            let help =
+                "more heat is drawn from it than can reach it: look at sources, at radiation and at ABSOLUTE ZERO";
+            findings.report(&NOT_CONVERGED, place(*number), message, help);
+        }
+        SolveFailure::NotConverged { steps, inconsistency: Some(inconsistency), .. } => {
+            let message = format!(
+                "the balances are met{when} after {steps} steps, and the conductances are those of the state only to {inconsistency:.1e}"
+            );
+            let help = "a table falls so steeply that the last digits of a value decide: look for rows that are nearly at one value";
+            findings.report(&NOT_CONVERGED, Place::default(), message, help);
+        }
+        SolveFailure::NotConverged { steps, worst, inconsistency: None } => {
             for (field, share, number) in worst {
                 let (at, named) = number.map_or_else(
                     || (Place::default(), String::new()),

@@ -1,0 +1,130 @@
+//! What a scene says that cannot be, and what it says that has no effect: temperatures below absolute zero, friction that cools, numbers that no law asks for.
+
+use crate::interface::Contact;
+use crate::linear::NONE;
+use crate::problem::Problem;
+use crate::scene::{Course, Field, SceneInterface, UNUSABLE_NUMBER};
+use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::nodes::{Findings, Place};
+
+impl Problem<'_> {
+    /// Reports temperatures that are given below absolute zero.
+    pub(crate) fn check_temperatures(&self, findings: &mut Findings) {
+        let Some(zero) = self.absolute_zero else { return };
+        let scene = self.scene;
+        let conditions = scene.conditions(Field::Temperature);
+        let fixed =
+            conditions.fixed.iter().flat_map(|(node, course)| course.values().map(|value| (*node, "fixed", value)));
+        let initial = conditions.initial.iter().map(|(node, value)| (*node, "initial", *value));
+        let help = "mend the temperature, or ABSOLUTE ZERO of *PHYSICAL CONSTANTS: both are of one scale";
+        for (node, key, value) in fixed.chain(initial).filter(|(.., value)| *value < zero) {
+            let place = Place { line: scene.node_lines.get(&node).copied(), ..Place::default() };
+            let name = &scene.nodes[node as usize];
+            let message = format!("`{key}` of `temperature` of `{name}` is {value:?}, below absolute zero at {zero:?}");
+            findings.report(&UNUSABLE_NUMBER, place, message, help);
+        }
+        if let Some(value) = scene.initial_temperature.filter(|value| *value < zero) {
+            let message = format!("`initial.temperature` is {value:?}, below absolute zero at {zero:?}");
+            findings.report(&UNUSABLE_NUMBER, Place::default(), message, help);
+        }
+    }
+
+    /// Reports shear and slip rate of opposite signs: what friction dissipates is never below zero.
+    pub(crate) fn check_friction(&self, findings: &mut Findings) {
+        for (_, row, laws) in self.rows_of(Field::Temperature) {
+            let Some(source) = laws.friction.filter(|source| !source.takes_magnitudes) else { continue };
+            let Some((shear, slip_rate)) = row.shear.zip(source.slip_rate.or(row.slip_rate)) else { continue };
+            if (shear < 0.0 && 0.0 < slip_rate) || (0.0 < shear && slip_rate < 0.0) {
+                let message = format!(
+                    "`shear` of {} is {shear:?} and its slip rate {slip_rate:?}: friction of opposite signs would cool",
+                    self.label(row)
+                );
+                let (place, message) = row.located(message);
+                findings.report(&UNUSABLE_NUMBER, place, message, "give both along one direction, or their magnitudes");
+            }
+        }
+    }
+
+    /// Notes what is said without any effect, so that nobody counts on it.
+    pub(crate) fn note_without_effect(&mut self) {
+        let mut notes = Vec::new();
+        let mut note = |count: usize, what: &str, one: &str, why: &str| {
+            if count > 0 {
+                let plural = if count == 1 { "" } else { "s" };
+                notes.push(format!("{what} of {count} {one}{plural}: {why}"));
+            }
+        };
+        for field in self.solved_fields() {
+            let conditions = self.scene.conditions(field);
+            let key = format!("`initial` of `{}`", field.key());
+            let held = |node: &&u32| conditions.fixed.contains_key(node);
+            let count = conditions.initial.keys().filter(held).count();
+            note(count, &key, "node", "its value is fixed");
+            if self.scene.is_transient() {
+                let stores = |node: &u32| conditions.capacities.get(node).is_some_and(|capacity| *capacity > 0.0);
+                let free = conditions.initial.keys().filter(|node| !held(node) && !stores(node)).count();
+                note(
+                    free,
+                    &key,
+                    "node",
+                    "without a capacity it has no value of its own at the start, and is only a first guess",
+                );
+            }
+        }
+        let rows = &self.scene.interfaces;
+        let is_pressed = |row: &&SceneInterface| {
+            row.closed == Some(false) && row.pressure.as_ref().is_some_and(|of| of.values().any(|value| value != 0.0))
+        };
+        note(rows.iter().filter(is_pressed).count(), "`pressure`", "interface", "`closed = false` has the say over it");
+        let rubs = |row: &usize| {
+            let of = &rows[*row];
+            let tells =
+                self.laws_of(*row).is_some_and(|laws| laws.friction.is_some() && laws.heat_generation.is_some());
+            tells && of.shear.is_some() && self.stays_open(of)
+        };
+        let apart = (0..rows.len()).filter(rubs).count();
+        note(apart, "heat of friction", "interface", "it is open, and what does not touch does not rub");
+        let one_sided = |row: &&SceneInterface| {
+            let [slave, master] = row.bulk_permeabilities;
+            slave.is_some() != master.is_some() && self.carries(Field::PorePressure, row)
+        };
+        let count = rows.iter().filter(one_sided).count();
+        note(
+            count,
+            "`perm_s` or `perm_m`",
+            "interface",
+            "one without the other leaves the gap's fluid shared half and half",
+        );
+        let unread = (0..rows.len()).filter(|row| self.has_unread_fields(*row)).count();
+        note(unread, "`fv`", "interface", "no law that is evaluated depends on it");
+        self.left_out.extend(notes);
+    }
+
+    /// Whether a row is open at all times.
+    fn stays_open(&self, row: &SceneInterface) -> bool {
+        let corners = row.clearance.iter().chain(&row.pressure).flat_map(Course::corners);
+        let is_open = |time: f64| Contact::of(row, time).is_some_and(|contact| contact.state == ContactState::Open);
+        std::iter::once(self.start()).chain(corners).all(is_open)
+    }
+
+    fn carries(&self, field: Field, row: &SceneInterface) -> bool {
+        let Some(nodes) = self.field(field) else { return false };
+        [row.slave, row.master].iter().all(|&node| nodes.place[node as usize] != NONE)
+    }
+
+    /// Whether a row has field variables of which no law that crosses it reads one.
+    fn has_unread_fields(&self, row: usize) -> bool {
+        let of = &self.scene.interfaces[row];
+        let Some(laws) = self.laws_of(row).filter(|_| of.field_variables.iter().any(|value| !value.is_nan())) else {
+            return false;
+        };
+        if matches!(laws.electrical, Some(inpact_evaluation::compile::ElectricalSource::User(..))) {
+            return false;
+        }
+        let reads = |field: Field| {
+            let crosses = self.field(field).is_some_and(|nodes| nodes.rows.iter().any(|&other| other as usize == row));
+            crosses && !Self::dependence(of, laws, field, self.start()).fields.is_empty()
+        };
+        !Field::ALL.into_iter().any(reads)
+    }
+}
