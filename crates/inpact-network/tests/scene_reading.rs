@@ -77,7 +77,7 @@ fn keys_of(schema: &Value, keys: &mut BTreeSet<String>) {
 #[test]
 fn every_key_of_the_schema_can_be_read() {
     let text = timed(
-        "joule_heat_fraction = 0.25\ntime = { start = 0.0, end = 1.0, tolerance = 0.1, first_step = 0.1 }",
+        "joule_heat_fraction = 0.25\ntime = { start = 0.0, end = 1.0, tolerance = 0.1, first_step = 0.1, start_from = \"at-rest\", closing_heat = \"manual\" }",
     ) + "[[node_file]]\nfile = \"n\"\n[[link_file]]\nfile = \"k.mtx\"\nconducts = \"electrical\"\nprefix = \"n\"\n[[interface_file]]\nfile = \"r\"\n";
     let (scene, findings) = read_with(&text, &[]);
     assert!(scene.is_some(), "{findings:?}");

@@ -144,14 +144,14 @@ fn parse_entry(text: &str, rows: u32) -> Result<([u32; 2], f64), Refusal> {
     }
     let written = value;
     let value: f64 = written.parse().map_err(|_| no_entry())?;
-    if let Some(lost) = super::usable::lost(value, written) {
-        let message = format!("the value of `{text}` is {lost} the range of numbers");
-        return Err(Refusal::new(&UNUSABLE_NUMBER, message, "give a finite number, in other units if need be"));
-    }
     if !value.is_finite() {
         let help =
             "give finite numbers; what makes two nodes one is a [[link]] or a row of a table of links with `inf`";
         return Err(Refusal::new(&UNUSABLE_NUMBER, format!("the value of `{text}` is not finite"), help));
+    }
+    if let Some(lost) = super::usable::lost(value, written) {
+        let message = format!("the value of `{text}` is {lost} the range of numbers");
+        return Err(Refusal::new(&UNUSABLE_NUMBER, message, "give a finite number, in other units if need be"));
     }
     Ok((ends, value))
 }

@@ -175,11 +175,6 @@ impl<'a> Reader<'a> {
         for entry in file.interface_files.0 {
             self.take_interface_file(&entry.into_inner().0.file, files, &mut scene);
         }
-        // A scene of which a file is missing may have its nodes there.
-        if scene.nodes.is_empty() && !self.lacks_nodes && !self.findings.has_errors() {
-            let help = "add [[node]], or a table of nodes with [[node_file]]";
-            self.report(&MALFORMED_SCENE, 1, "the scene has no node", help);
-        }
         self.scene = Some(scene);
     }
 
