@@ -279,3 +279,55 @@ fn a_conductance_times_an_area_beyond_the_range() {
         run.errors
     );
 }
+
+/// All that is wrong with a scene is told in one run: files that are missing, and beside its own errors the interactions that the deck lacks.
+#[test]
+fn one_run_tells_all_that_is_wrong() {
+    let deck = "*SURFACE INTERACTION, NAME=COND\n*GAP CONDUCTANCE, PRESSURE\n 10., 0.\n 10., 1.\n";
+    let ends = "[[node]]\nname = \"a\"\ntemperature = { fixed = nan }\n[[node]]\nname = \"b\"\n";
+    let row = "[[interface]]\ninteraction = \"KOND\"\nslave = \"a\"\nmaster = \"b\"\narea = -1.0\nclearance = 0.0\n";
+    let run = solve(deck, &format!("{ends}{row}"), &[]);
+    for code in ["[D014] `fixed`", "[D014] `area`", "[D004] the deck defines no interaction `KOND`"] {
+        assert!(run.code == 1 && run.errors.contains(code), "{code}: {}", run.errors);
+    }
+    let folder = Folder::with(&[(
+        "scene.toml",
+        "deck = \"none.inp\"\n[[node_file]]\nfile = \"n.csv\"\n[[link_file]]\nfile = \"l.csv\"\n",
+    )]);
+    let run = folder.inpact(&["solve", "scene.toml"]);
+    assert_eq!(run.code, 2, "{}", run.errors);
+    for name in ["none.inp", "n.csv", "l.csv"] {
+        assert_eq!(run.errors.matches(&format!("cannot read `{name}`")).count(), 1, "{name}: {}", run.errors);
+    }
+}
+
+/// Tables beside a scene may stand between commas, semicolons or tabs, as node tables may.
+#[test]
+fn scene_tables_with_other_separators() {
+    let deck = "*SURFACE INTERACTION, NAME=COND\n*GAP CONDUCTANCE, PRESSURE\n 10., 0.\n 10., 1.\n";
+    let tables = [
+        "node,temperature_fixed\na,100\nb,\nc,0\n",
+        "\"node_1\",node_2,thermal\na,b,10\n",
+        "slave,master,area,pressure\nb,c,1,0.5\n",
+    ];
+    for separator in [",", ";", "\t"] {
+        let [nodes, links, rows] = tables.map(|table| table.replace(',', separator));
+        let scene = "deck = \"deck.inp\"\n[[node_file]]\nfile = \"n.csv\"\n[[link_file]]\nfile = \"l.csv\"\n[[interface_file]]\nfile = \"r.csv\"\n";
+        let folder = Folder::with(&[
+            ("deck.inp", deck),
+            ("scene.toml", scene),
+            ("n.csv", &nodes),
+            ("l.csv", &links),
+            ("r.csv", &rows),
+        ]);
+        close(value(&folder.inpact(&["solve", "scene.toml"]), "b", TEMPERATURE), 50.0);
+    }
+    // A decimal comma is no number.
+    let folder = Folder::with(&[
+        ("deck.inp", deck),
+        ("scene.toml", "deck = \"deck.inp\"\n[[node_file]]\nfile = \"n.csv\"\n"),
+        ("n.csv", "node;temperature_fixed\na;1,5\n"),
+    ]);
+    let run = folder.inpact(&["solve", "scene.toml"]);
+    assert!(run.code == 1 && run.errors.contains("error[D002]") && run.errors.contains("`1,5`"), "{}", run.errors);
+}

@@ -39,6 +39,6 @@ pub mod transient;
 
 pub use assembly::{RowFault, RowFaultReason};
 pub use distance::Distance;
-pub use problem::Problem;
+pub use problem::{Problem, report_unknown_interactions};
 pub use solve::{Equations, Histories, SolveFailure};
 pub use state::{FieldBalance, StageReport, State};

@@ -82,13 +82,9 @@ impl<'a> Problem<'a> {
             absolute_zero: model.constants.absolute_zero,
             left_out: Vec::new(),
         };
+        report_unknown_interactions(scene, model, findings);
         for row in &scene.interfaces {
-            let found = match &row.interaction {
-                Some(name) => model.interactions.get_index_of(name),
-                None => (model.interactions.len() == 1).then_some(0),
-            };
-            let Some(interaction) = found else {
-                report_unknown(row, model, findings);
+            let Some(interaction) = interaction_of(row, model) else {
                 problem.interactions.push(0);
                 continue;
             };
@@ -476,6 +472,21 @@ fn field_of(flow: FlowOf) -> Field {
 pub(crate) fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str, help: &str) {
     let (place, message) = row.located(message.to_owned());
     findings.report(&MISSING_QUANTITY, place, message, help);
+}
+
+/// The interaction of a row, by its place in the model.
+fn interaction_of(row: &SceneInterface, model: &Model) -> Option<usize> {
+    match &row.interaction {
+        Some(name) => model.interactions.get_index_of(name),
+        None => (model.interactions.len() == 1).then_some(0),
+    }
+}
+
+/// Reports the interfaces of a scene whose interaction the deck does not define; the scene may have errors of its own.
+pub fn report_unknown_interactions(scene: &Scene, model: &Model, findings: &mut Findings) {
+    for row in scene.interfaces.iter().filter(|row| interaction_of(row, model).is_none()) {
+        report_unknown(row, model, findings);
+    }
 }
 
 fn report_unknown(row: &SceneInterface, model: &Model, findings: &mut Findings) {

@@ -17,7 +17,7 @@ pub use diagnostic::{
     CONTRADICTORY_VALUES, DUPLICATE_NODE, FLOATING_BODY, MALFORMED_SCENE, MALFORMED_TIME, MISSING_QUANTITY,
     NOT_CONVERGED, SCENE_RULES, UNKNOWN_NODE, UNUSABLE_NUMBER,
 };
-pub use read::{SceneFiles, read};
+pub use read::{SceneFiles, read, read_as_far_as_it_goes};
 
 use inpact_evaluation::history::{ClosingHeat, HistoryStart};
 use inpact_evaluation::nodes::Place;

@@ -18,6 +18,7 @@ use crate::linear::index;
 use inpact_evaluation::history::ClosingHeat;
 use inpact_evaluation::nodes::{DataDiagnostic, DataRule, Findings, Place};
 use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
+use inpact_validation::Severity;
 use std::collections::{BTreeMap, HashMap};
 use toml::Spanned;
 
@@ -31,6 +32,17 @@ pub trait SceneFiles {
 ///
 /// The scene is `None` where one of the findings is an error.
 pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<DataDiagnostic>) {
+    let (scene, found) = read_as_far_as_it_goes(text, name, files);
+    let has_errors = found.iter().any(|found| found.severity == Severity::Error);
+    (scene.filter(|_| !has_errors), found)
+}
+
+/// Reads a scene and gives what could be read of it beside its errors, so that more can be said of it; `None` where it is no scene at all.
+pub fn read_as_far_as_it_goes(
+    text: &str,
+    name: &str,
+    files: &mut dyn SceneFiles,
+) -> (Option<Scene>, Vec<DataDiagnostic>) {
     let mut reader = Reader::new(text, name);
     match toml::from_str::<SceneFile>(text) {
         Ok(file) => reader.take(file, files),
@@ -43,8 +55,7 @@ pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene
     let Reader { scene, findings, mut found, .. } = reader;
     let mut all = findings.into_list();
     all.append(&mut found);
-    let has_errors = all.iter().any(|found| found.severity == inpact_validation::Severity::Error);
-    (if has_errors { None } else { scene }, all)
+    (scene, all)
 }
 
 /// How many names are compared with unknown ones at most, so that a table of a million of them takes no longer than one that is right.

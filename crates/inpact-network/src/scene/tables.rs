@@ -1,4 +1,4 @@
-//! The tables beside a scene file: nodes, links and interfaces as comma-separated values.
+//! The tables beside a scene file: nodes, links and interfaces as values between commas, semicolons or tabs, whichever the header tells.
 //!
 //! | table | columns |
 //! |---|---|
@@ -355,7 +355,8 @@ fn each_row<C: Copy + PartialEq>(
     needed: &[(C, &str)],
     mut take: impl FnMut(&Row<'_, C>) -> Result<(), Refusal>,
 ) {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let delimiter = separator(bytes, |header| named(header).is_some());
+    let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(bytes);
     let headers = match reader.headers() {
         Ok(headers) => headers.clone(),
         Err(error) => return report_csv(&error, findings),
@@ -397,12 +398,23 @@ fn each_row<C: Copy + PartialEq>(
     }
 }
 
+/// What stands between the cells: of comma, semicolon and tab that which makes the header give the most columns that are known.
+fn separator(bytes: &[u8], is_known: impl Fn(&str) -> bool) -> u8 {
+    let line = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).next().unwrap_or_default();
+    let known = |separator: u8| {
+        let headers = line.split(|byte| *byte == separator).filter_map(|cell| std::str::from_utf8(cell).ok());
+        headers.filter(|header| is_known(&header.trim().trim_matches('"').to_ascii_lowercase())).count()
+    };
+    // Of several that are as good the first.
+    [b',', b';', b'\t'].into_iter().rev().max_by_key(|separator| known(*separator)).unwrap_or(b',')
+}
+
 fn report_csv(error: &csv::Error, findings: &mut Findings) {
     let line = error.position().map(csv::Position::line);
     let (message, help) = match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
             let message = format!("the row has {len} cells where the header has {expected_len}");
-            (message, "leave a cell empty where nothing is known, and write a text with commas in quotes")
+            (message, "leave a cell empty where nothing is known, and write a text with separators in quotes")
         }
         csv::ErrorKind::Utf8 { .. } => ("the row is not UTF-8".to_owned(), "save the table as UTF-8"),
         _ => (error.to_string(), ""),

@@ -4,17 +4,17 @@ mod failures;
 
 use super::findings::{FindingFormat, say_data_findings, say_deck_findings};
 use super::laws::LawArguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::settings::DeckArguments;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings};
 use inpact_evaluation::plan::Choices;
 use inpact_network::scene::{self, Scene, SceneFiles};
-use inpact_network::{Problem, SolveFailure};
+use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{self, Model, Name, Regime};
-use inpact_validation::check;
+use inpact_validation::{Severity, check};
 use std::path::{Path, PathBuf};
 
 /// A scene with the model of its deck.
@@ -43,14 +43,32 @@ impl SolvableScene {
         let Ok(text) = String::from_utf8(text) else {
             return Err(Failure::Data(format!("`{name}` is no scene: it is not UTF-8")));
         };
-        let mut files = FilesBeside { folder, read: vec![path.to_owned()], failure: None };
-        let (scene, found) = scene::read(&text, &name, &mut files);
+        let mut files = FilesBeside { folder, read: vec![path.to_owned()], failures: Vec::new() };
+        let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
+        let has_errors = found.iter().any(|found| found.severity == Severity::Error);
         say_data_findings(found, format);
-        if let Some(failure) = files.failure {
-            return Err(failure);
+        let deck_path = scene.as_ref().map(|scene| folder.join(&scene.deck));
+        if let (Some(deck), false) = (&deck_path, files.failures.is_empty()) {
+            files.failures.extend(files::read_bytes(deck).err());
         }
-        let Some(scene) = scene else { return Ok(None) };
-        let deck_path = folder.join(&scene.deck);
+        if !files.failures.is_empty() {
+            files.failures.iter().for_each(|failure| say(&format!("error: {failure}")));
+            return Err(Failure::AlreadySaid);
+        }
+        let Some((scene, deck_path)) = scene.zip(deck_path) else { return Ok(None) };
+        if has_errors {
+            // What the deck has to say of the interfaces is said in the same run, where there is a deck.
+            let read = reading.settings(&deck_path).and_then(|settings| {
+                let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
+                Ok(model::read(&deck, settings.grammar).0)
+            });
+            let mut findings = Findings::new(&name);
+            if let Ok(model) = read {
+                report_unknown_interactions(&scene, &model, &mut findings);
+            }
+            say_data_findings(findings.into_list(), format);
+            return Ok(None);
+        }
         let settings = reading.settings(&deck_path)?;
         let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
         let grammar = settings.grammar;
@@ -105,8 +123,8 @@ struct FilesBeside<'a> {
     folder: &'a Path,
     /// Those that were read, and the scene.
     read: Vec<PathBuf>,
-    /// The first file that could not be read.
-    failure: Option<Failure>,
+    /// Why some could not be read.
+    failures: Vec<Failure>,
 }
 
 impl SceneFiles for FilesBeside<'_> {
@@ -118,7 +136,7 @@ impl SceneFiles for FilesBeside<'_> {
                 Some(bytes)
             }
             Err(failure) => {
-                self.failure.get_or_insert(failure);
+                self.failures.push(failure);
                 None
             }
         }
