@@ -1,0 +1,60 @@
+//! What makes a mesh one that has no geometry.
+
+use crate::NodeId;
+
+/// Why a geometry cannot be found; each names what is wrong with which values.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GeometryError {
+    /// A face has another number of nodes than its shape.
+    #[error("expected {expected} nodes of a face, found {found}")]
+    NodesOfFace {
+        /// What the shape has.
+        expected: usize,
+        /// What was given.
+        found: usize,
+    },
+    /// Segments and areas in one surface.
+    #[error("a surface has both faces that are lines and faces that are areas")]
+    MixedDimensions,
+    /// More faces or nodes than can be numbered.
+    #[error("a surface has more than {} faces or nodes of faces", u32::MAX)]
+    TooLarge,
+    /// A face names a node that there is no point of.
+    #[error("node {} has no point: there are {points} points", node.0)]
+    NoPoint {
+        /// The node.
+        node: NodeId,
+        /// How many points there are.
+        points: usize,
+    },
+    /// A coordinate is no number, infinite, or so large that its square is infinite.
+    #[error("node {} has the coordinate {coordinate:?}, whose square is no finite number", node.0)]
+    Coordinate {
+        /// The node.
+        node: NodeId,
+        /// The coordinate.
+        coordinate: f64,
+    },
+    /// A node of an axisymmetric surface is left of the axis.
+    #[error("node {} of an axisymmetric surface has the radius {radius:?}, which is negative", node.0)]
+    Radius {
+        /// The node.
+        node: NodeId,
+        /// Its first coordinate.
+        radius: f64,
+    },
+    /// Faces that are lines were said to be areas, or the other way round.
+    #[error("faces that are lines need a thickness or an axis, and faces that are areas have neither")]
+    Extent,
+    /// Another number of values than of faces or nodes.
+    #[error("expected {expected} values of `{what}`, found {found}")]
+    Values {
+        /// Which values.
+        what: &'static str,
+        /// How many are needed.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+}

@@ -1,0 +1,77 @@
+//! The geometry of contact surfaces: faces of elements, areas and normals of nodes, the closest point on the other surface.
+//!
+//! Numbers in, numbers out: nothing here knows a deck, a law or a file. Nodes and faces are positions in arrays ([`NodeId`], [`FaceId`]).
+//! Lengths have the unit of the coordinates (L), areas its square (L²); weights, normals and places on faces have none.
+//!
+//! What is symbolic is apart from what is numeric:
+//!
+//! | | symbolic: which | numeric: where |
+//! |---|---|---|
+//! | elements | [`ElementType`], [`ElementShape`], [`FaceLabel`], [`FreeFaces`] | |
+//! | faces | [`FaceShape`] | [`Patch`] |
+//! | surfaces | [`Surface`] | [`Placed`], [`node_areas`], [`node_normals`] |
+//! | pairs | | [`Master`], [`Projection`], [`sheet_shift`] |
+//!
+//! ```
+//! use inpact_geometry::{DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, NodeId, Placed, Shares, Surface, node_areas, node_normals};
+//!
+//! // A slave square of side 1 hovers 0.1 above a master square of side 3.
+//! let points = [
+//!     [0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 3.0, 0.0], [0.0, 3.0, 0.0],
+//!     [1.0, 1.0, 0.1], [1.0, 2.0, 0.1], [2.0, 2.0, 0.1], [2.0, 1.0, 0.1],
+//! ];
+//! let square = |first: u32| Surface::new([Face {
+//!     shape: FaceShape::Quadrilateral4,
+//!     nodes: &[0, 1, 2, 3].map(|i| NodeId(first + i)),
+//! }]);
+//! let (master, slave) = (square(0)?, square(4)?);
+//! let slave = Placed::new(&slave, &points)?;
+//! let master = Master::new(Placed::new(&master, &points)?);
+//!
+//! let areas = node_areas(&slave, Shares::Equal, Extent::Spatial)?;
+//! areas.iter().for_each(|area| assert!((area - 0.25).abs() < 1e-15));
+//! assert_eq!(node_normals(&slave)[0], Some([0.0, 0.0, -1.0]));
+//! let across = master.project(points[4], DEFAULT_EXTENSION).expect("a face");
+//! assert_eq!((across.clearance, across.projects), (0.1, true));
+//! # Ok::<(), inpact_geometry::GeometryError>(())
+//! ```
+
+mod ids;
+mod vector;
+
+mod element;
+mod element_type;
+mod face_shape;
+mod free_faces;
+
+mod patch;
+mod quadrature;
+mod surface;
+
+mod coordinates;
+
+mod area;
+mod closest;
+mod normal;
+mod projection;
+mod search;
+mod sheet;
+
+mod error;
+
+pub use area::{Extent, Shares, face_areas, node_areas};
+pub use closest::Closest;
+pub use coordinates::Placed;
+pub use element::{ElementShape, FaceLabel, LocalFace, NoFaceLabel};
+pub use element_type::{ElementSpace, ElementType};
+pub use error::GeometryError;
+pub use face_shape::{FaceShape, MAX_NODES};
+pub use free_faces::FreeFaces;
+pub use ids::{FaceId, NodeId};
+pub use normal::{node_normal, node_normals};
+pub use patch::Patch;
+pub use projection::{DEFAULT_EXTENSION, Projection};
+pub use search::Master;
+pub use sheet::{node_shifts, sheet_shift};
+pub use surface::{Face, Surface};
+pub use vector::{Point, Vector};

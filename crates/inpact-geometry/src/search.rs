@@ -1,0 +1,73 @@
+//! The master surface, ready to be searched: a tree of boxes around its faces.
+
+use crate::closest::{Closest, bounds};
+use crate::coordinates::{Placed, finite};
+use crate::{FaceId, Point};
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+/// A surface that closest points are sought on: time and memory in proportion to its faces (n log n to build).
+pub struct Master<'a> {
+    placed: Placed<'a>,
+    tree: RTree<Boxed>,
+}
+
+impl<'a> Master<'a> {
+    /// Makes the surface ready.
+    pub fn new(placed: Placed<'a>) -> Self {
+        let boxes = placed.surface().faces().map(|face| {
+            let (low, high) = bounds(&placed.patch(face));
+            Boxed { face, bounds: AABB::from_corners(low, high) }
+        });
+        Self { placed, tree: RTree::bulk_load(boxes.collect()) }
+    }
+
+    /// The surface itself.
+    pub fn placed(&self) -> &Placed<'a> {
+        &self.placed
+    }
+
+    /// The face that is closest to a point, and where on it; `None` where the surface has no face. Of faces equally far the first is taken.
+    ///
+    /// Neither is there a closest face of a point with a coordinate that is no number or whose square is not finite.
+    pub fn closest(&self, point: Point) -> Option<(FaceId, Closest)> {
+        finite(point).ok()?;
+        let mut best: Option<(FaceId, Closest)> = None;
+        for candidate in self.tree.nearest_neighbor_iter(point) {
+            let least = best.map_or(f64::INFINITY, |(_, closest)| closest.distance);
+            if least < candidate.distance_2(&point).sqrt() {
+                break;
+            }
+            // A bit above what was found, so that a face equally far but with a lower number is not passed over.
+            let Some(closest) = self.placed.patch(candidate.face).closest_within(point, least * (1.0 + 1e-12)) else {
+                continue;
+            };
+            let better = best.is_none_or(|(face, found)| {
+                closest.distance < found.distance || (closest.distance == found.distance && candidate.face < face)
+            });
+            if better {
+                best = Some((candidate.face, closest));
+            }
+        }
+        best
+    }
+}
+
+struct Boxed {
+    face: FaceId,
+    bounds: AABB<Point>,
+}
+
+impl RTreeObject for Boxed {
+    type Envelope = AABB<Point>;
+
+    fn envelope(&self) -> AABB<Point> {
+        self.bounds
+    }
+}
+
+impl PointDistance for Boxed {
+    /// To the box: no point of the face is nearer.
+    fn distance_2(&self, point: &Point) -> f64 {
+        rstar::Envelope::distance_2(&self.bounds, point)
+    }
+}
