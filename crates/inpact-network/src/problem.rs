@@ -11,7 +11,7 @@
 use crate::dependence::{Dependence, dependence_of_electrical, dependence_of_pore, dependence_of_thermal};
 use crate::interface::{Contact, heat_of_friction};
 use crate::linear::{NONE, Sets, index};
-use crate::scene::words::meant_or;
+use crate::scene::nearest::meant_or;
 use crate::scene::{Course, Field, MISSING_QUANTITY, Scene, SceneInterface};
 use inpact_evaluation::compile::{FlowOf, InterfaceLaws};
 use inpact_evaluation::law::contact::ContactState;

@@ -6,11 +6,12 @@ mod course;
 mod diagnostic;
 mod file;
 mod matrix;
+pub(crate) mod nearest;
 mod read;
+mod shape;
 mod tables;
 mod usable;
 mod values;
-pub(crate) mod words;
 
 pub use course::Course;
 pub use diagnostic::{

@@ -160,7 +160,7 @@ pub(crate) struct Condition {
 
 /// A number, or one that follows time: linear between points of time and value, constant before and after them.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(untagged, expecting = "expected a number, or points of time and value such as [[0.0, 20.0], [1.0, 80.0]]")]
+#[serde(untagged)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) enum Course {
     /// The same at all times.
@@ -168,6 +168,12 @@ pub(crate) enum Course {
     /// Points of time and value.
     Points(Vec<[f64; 2]>),
 }
+
+/// What a course is, for a message.
+pub(crate) const COURSE: &str = "a number, or points of time and value such as [[0.0, 20.0], [1.0, 80.0]]";
+
+/// What the nodes of a link are, for a message.
+pub(crate) const TWO_NAMES: &str = "the names of two nodes such as [\"a\", \"b\"]";
 
 /// A lumped bulk conductance between two nodes; `inf` makes them one.
 #[derive(Debug, Deserialize)]

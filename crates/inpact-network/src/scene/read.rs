@@ -8,9 +8,10 @@ use super::file::{
     self, ClosingHeatName, Condition, InterfaceEntry, LinkEntry, LinkFileEntry, NodeEntry, ProcedureName, SceneFile,
     StartFromName, TimeEntry,
 };
+use super::nearest::meant_or;
+use super::shape::{self, Shaped};
 use super::usable::{self, Given, Refusal};
 use super::values::{Keyed, Number, Pair};
-use super::words::{meant_or, told};
 use super::{
     Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, StartFrom, Steps, TimeSpan, matrix, tables,
 };
@@ -19,6 +20,7 @@ use inpact_evaluation::history::ClosingHeat;
 use inpact_evaluation::nodes::{DataDiagnostic, DataRule, Findings, Place};
 use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
 use inpact_validation::Severity;
+use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
 use toml::Spanned;
 
@@ -44,13 +46,20 @@ pub fn read_as_far_as_it_goes(
     files: &mut dyn SceneFiles,
 ) -> (Option<Scene>, Vec<DataDiagnostic>) {
     let mut reader = Reader::new(text, name);
-    match toml::from_str::<SceneFile>(text) {
-        Ok(file) => reader.take(file, files),
-        Err(error) => {
-            let line = error.span().map(|span| reader.line(span.start));
-            let (message, help) = told(&error, text);
-            reader.findings.report(&MALFORMED_SCENE, Place { line, ..Place::default() }, message, help);
+    let Shaped { table, problems, lacks_nodes } = shape::shaped(text);
+    reader.lacks_nodes = lacks_nodes;
+    for shape::Problem { at, rule, message, help } in problems {
+        let line = reader.line(at);
+        reader.report(rule, line, message, &help);
+    }
+    match table.map(|table| SceneFile::deserialize(toml::de::Deserializer::from(table))) {
+        Some(Ok(file)) => reader.take(file, files),
+        // What has the shape of a scene can be read; whatever else the parser says is said in its words.
+        Some(Err(error)) => {
+            let line = reader.line(error.span().map_or(0, |span| span.start));
+            reader.report(&MALFORMED_SCENE, line, error.message(), "");
         }
+        None => {}
     }
     let Reader { scene, findings, mut found, .. } = reader;
     let mut all = findings.into_list();

@@ -8,9 +8,9 @@
 
 use super::course::Course;
 use super::diagnostic::MALFORMED_SCENE;
+use super::nearest::{meant_or, quoted};
 use super::read::CheckedCondition;
 use super::usable::{self, Given, Refusal};
-use super::words::{meant_or, quoted};
 use super::{Field, SceneInterface};
 use csv::StringRecord;
 use inpact_evaluation::nodes::{Column, DUPLICATE_COLUMN, Findings, MALFORMED_CELL, MISSING_COLUMN, Part, Place};

@@ -1,0 +1,435 @@
+//! The shape of a scene file: which keys there are and what stands behind each, held against the text in one pass.
+//!
+//! Everything that is not so is reported, with its place: keys that are unknown or missing, values of another kind. What is wrong is taken out,
+//! an entry as a whole, so that the rest can be read and has its own problems told in the same run.
+//! The keys are those of `file.rs`; a test compares them with its schema.
+
+use super::diagnostic::{MALFORMED_SCENE, UNUSABLE_NUMBER};
+use super::file;
+use super::nearest::{listed, meant_or, near};
+use super::usable::lost;
+use super::values::{Entry, Listed, Number};
+use inpact_evaluation::nodes::DataRule;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeArray, DeString, DeTable, DeValue};
+
+/// What is longer is not quoted.
+const LONGEST_QUOTE: usize = 60;
+
+/// Something that is not as a scene is.
+pub(super) struct Problem {
+    /// The byte it begins at.
+    pub(super) at: usize,
+    pub(super) rule: &'static DataRule,
+    pub(super) message: String,
+    pub(super) help: String,
+}
+
+/// A scene file whose every key is known and has a value of its kind.
+pub(super) struct Shaped<'t> {
+    /// What is left of it; `None` where its head is wrong.
+    pub(super) table: Option<Spanned<DeTable<'t>>>,
+    /// What was not, in the order of the text.
+    pub(super) problems: Vec<Problem>,
+    /// Whether an entry was taken out that may define nodes.
+    pub(super) lacks_nodes: bool,
+}
+
+/// The keys of a table.
+struct Shape {
+    keys: &'static [Key],
+    /// One of them, for a message.
+    one: &'static str,
+    many: &'static str,
+    /// Whether it may define nodes.
+    defines_nodes: bool,
+}
+
+struct Key {
+    name: &'static str,
+    /// Its other name.
+    other: Option<&'static str>,
+    kind: Kind,
+    need: Need,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Need {
+    Needed,
+    Optional,
+}
+
+/// What stands behind a key.
+enum Kind {
+    Number,
+    Text,
+    Flag,
+    Word(&'static [&'static str]),
+    Numbers,
+    Course,
+    TwoNames,
+    Table(&'static Shape),
+    Entries(&'static Shape),
+}
+
+const fn key(name: &'static str, kind: Kind) -> Key {
+    Key { name, other: None, kind, need: Need::Optional }
+}
+
+const fn needed(name: &'static str, kind: Kind) -> Key {
+    Key { name, other: None, kind, need: Need::Needed }
+}
+
+const fn shape<T: Entry>(keys: &'static [Key]) -> Shape {
+    Shape { keys, one: T::ONE, many: T::MANY, defines_nodes: false }
+}
+
+static SCENE: Shape = Shape {
+    keys: &[
+        needed("deck", Kind::Text),
+        key("procedure", Kind::Word(&["steady", "transient"])),
+        key("time", Kind::Table(&TIME)),
+        key("initial", Kind::Table(&INITIAL)),
+        key("joule_heat_fraction", Kind::Number),
+        key("node", Kind::Entries(&NODE)),
+        key("link", Kind::Entries(&LINK)),
+        key("interface", Kind::Entries(&INTERFACE)),
+        key("node_file", Kind::Entries(&NODE_FILE)),
+        key("link_file", Kind::Entries(&LINK_FILE)),
+        key("interface_file", Kind::Entries(&INTERFACE_FILE)),
+    ],
+    one: "a scene",
+    many: "scenes",
+    defines_nodes: false,
+};
+
+static TIME: Shape = shape::<file::TimeEntry>(&[
+    key("start", Kind::Number),
+    needed("end", Kind::Number),
+    key("step", Kind::Number),
+    key("tolerance", Kind::Number),
+    key("first_step", Kind::Number),
+    key("start_from", Kind::Word(&["first-row", "at-rest"])),
+    key("closing_heat", Kind::Word(&["balanced", "manual"])),
+]);
+
+static INITIAL: Shape =
+    shape::<file::InitialEntry>(&[key("temperature", Kind::Number), key("pore_pressure", Kind::Number)]);
+
+static NODE: Shape = Shape {
+    defines_nodes: true,
+    ..shape::<file::NodeEntry>(&[
+        needed("name", Kind::Text),
+        key("potential", Kind::Table(&CONDITION)),
+        key("temperature", Kind::Table(&CONDITION)),
+        key("pore_pressure", Kind::Table(&CONDITION)),
+    ])
+};
+
+static CONDITION: Shape = shape::<file::Condition>(&[
+    key("fixed", Kind::Course),
+    key("source", Kind::Course),
+    key("capacity", Kind::Number),
+    key("initial", Kind::Number),
+]);
+
+static LINK: Shape = shape::<file::LinkEntry>(&[
+    needed("nodes", Kind::TwoNames),
+    key("electrical", Kind::Number),
+    key("thermal", Kind::Number),
+    key("hydraulic", Kind::Number),
+    key("joule_heat_fraction", Kind::Number),
+]);
+
+static INTERFACE: Shape = shape::<file::InterfaceEntry>(&[
+    key("interaction", Kind::Text),
+    Key { name: "slave", other: Some("secondary"), kind: Kind::Text, need: Need::Needed },
+    Key { name: "master", other: Some("main"), kind: Kind::Text, need: Need::Needed },
+    needed("area", Kind::Number),
+    key("clearance", Kind::Course),
+    key("pressure", Kind::Course),
+    key("closed", Kind::Flag),
+    key("fv", Kind::Numbers),
+    key("temperature", Kind::Number),
+    key("mass_flow", Kind::Number),
+    key("shear", Kind::Number),
+    key("slip_rate", Kind::Number),
+    key("clearance_rate", Kind::Number),
+    key("char_length", Kind::Number),
+    key("perm_s", Kind::Number),
+    key("perm_m", Kind::Number),
+]);
+
+static NODE_FILE: Shape = Shape { defines_nodes: true, ..shape::<file::FileEntry>(&[needed("file", Kind::Text)]) };
+
+static LINK_FILE: Shape = Shape {
+    defines_nodes: true,
+    ..shape::<file::LinkFileEntry>(&[
+        needed("file", Kind::Text),
+        key("conducts", Kind::Word(&["electrical", "thermal", "hydraulic"])),
+        key("prefix", Kind::Text),
+    ])
+};
+
+static INTERFACE_FILE: Shape = shape::<file::FileEntry>(&[needed("file", Kind::Text)]);
+
+/// Holds a text against the shape of a scene.
+pub(super) fn shaped(text: &str) -> Shaped<'_> {
+    let mut walk = Walk { text, problems: Vec::new(), lacks_nodes: false };
+    let table = match DeTable::parse(text) {
+        Ok(parsed) => {
+            let span = parsed.span();
+            walk.table(parsed.into_inner(), &span, &SCENE).map(|table| Spanned::new(span, table))
+        }
+        Err(error) => {
+            walk.no_table(&error);
+            None
+        }
+    };
+    walk.problems.sort_by_key(|problem| problem.at);
+    Shaped { table, problems: walk.problems, lacks_nodes: walk.lacks_nodes }
+}
+
+struct Walk<'t> {
+    text: &'t str,
+    problems: Vec<Problem>,
+    lacks_nodes: bool,
+}
+
+impl<'t> Walk<'t> {
+    fn report(&mut self, at: usize, message: String, help: impl Into<String>) {
+        self.problems.push(Problem { at, rule: &MALFORMED_SCENE, message, help: help.into() });
+    }
+
+    /// What the parser of TOML says where the text is none.
+    fn no_table(&mut self, error: &toml::de::Error) {
+        // Some messages of the parser have several lines.
+        let message = error.message().lines().collect::<Vec<_>>().join("; ");
+        let at = error.span().map_or(0, |span| span.start);
+        match error.span().and_then(|span| self.quoted(&span)).filter(|_| message == "duplicate key") {
+            Some(key) => self.report(at, format!("`{key}` is given twice"), "leave one of the two out"),
+            None => self.report(at, message, ""),
+        }
+    }
+
+    /// A piece of the text, if it is short enough to be quoted.
+    fn quoted(&self, span: &Range<usize>) -> Option<&'t str> {
+        let written = self.text.get(span.clone())?.trim();
+        (!written.is_empty() && !written.contains('\n') && written.len() <= LONGEST_QUOTE).then_some(written)
+    }
+
+    /// A table of which every key is known and right; `None` where one that is needed is not, or its head is wrong.
+    fn table(&mut self, table: DeTable<'t>, span: &Range<usize>, shape: &'static Shape) -> Option<DeTable<'t>> {
+        let mut kept = DeTable::new();
+        let (mut is_whole, mut seen, mut meant) = (true, Vec::new(), Vec::new());
+        for (name, value) in table {
+            let Some(key) = shape.keys.iter().find(|key| key.is_called(name.get_ref())) else {
+                meant.extend(self.unknown_key(&name, shape));
+                is_whole &= !matches!(value.get_ref(), DeValue::Table(_));
+                continue;
+            };
+            if let (true, Some(other)) = (seen.contains(&key.name), key.other) {
+                let message = format!("`{}` and `{other}` are two names of one node, and both are given", key.name);
+                self.report(span.start, message, "leave one of the two out");
+                continue;
+            }
+            seen.push(key.name);
+            match self.value(value, &key.kind) {
+                Some(value) => {
+                    kept.insert(name, value);
+                }
+                // An empty list has no entries, whatever was wrong with those that there were.
+                None => is_whole &= matches!(key.kind, Kind::Entries(_)),
+            }
+        }
+        let missing = shape.keys.iter().filter(|key| key.need == Need::Needed && !seen.contains(&key.name));
+        for key in missing {
+            is_whole = false;
+            // A misspelt name was told of already.
+            if !meant.contains(&key.name) {
+                let help = match key.name {
+                    "deck" => "begin the scene with the name of its deck, such as deck = \"joint.inp\"".to_owned(),
+                    name => format!("add `{name}` to the entry that begins here"),
+                };
+                self.report(span.start, format!("`{}` is missing", key.name), help);
+            }
+        }
+        is_whole.then_some(kept)
+    }
+
+    /// Reports a key that a table has not; gives those that may be meant.
+    fn unknown_key(&mut self, name: &Spanned<DeString<'t>>, shape: &'static Shape) -> Vec<&'static str> {
+        let names = || shape.keys.iter().flat_map(|key| std::iter::once(key.name).chain(key.other));
+        let all: Vec<&str> = names().collect();
+        let help = match all[..] {
+            [only] => format!("the only key here is `{only}`"),
+            _ => format!("the keys here are {}", listed(&all)),
+        };
+        let written = name.get_ref();
+        self.report(name.span().start, format!("there is no key `{written}` here"), meant_or(written, names(), &help));
+        near(written, names())
+    }
+
+    /// A value of a kind; `None` where it is of another.
+    fn value(&mut self, value: Spanned<DeValue<'t>>, kind: &Kind) -> Option<Spanned<DeValue<'t>>> {
+        let span = value.span();
+        match (kind, value.get_ref()) {
+            (Kind::Number, _) => self.number(&value).then_some(value),
+            (Kind::Text, DeValue::String(_)) | (Kind::Flag, DeValue::Boolean(_)) => Some(value),
+            (Kind::Text, _) => self.other_kind(&value, "a text in quotes"),
+            (Kind::Flag, _) => self.other_kind(&value, "`true` or `false`"),
+            (Kind::Word(words), DeValue::String(word)) if words.contains(&word.as_ref()) => Some(value),
+            (Kind::Word(words), DeValue::String(word)) => {
+                let message = format!("`{word}` is none of {}", listed(words));
+                let help = meant_or(word, words.iter().copied(), "");
+                self.report(span.start, message, help);
+                None
+            }
+            (Kind::Word(words), _) => self.other_kind(&value, &format!("one of {}", listed(words))),
+            (Kind::Numbers, DeValue::Array(numbers)) => {
+                let is_right = numbers.iter().map(|number| self.number(number)).fold(true, |all, one| all & one);
+                is_right.then_some(value)
+            }
+            (Kind::Numbers, _) => self.other_kind(&value, Number::LIST),
+            (Kind::Course, DeValue::Array(points)) => {
+                let is_point = |point: &Spanned<DeValue<'_>>| match point.get_ref() {
+                    DeValue::Array(pair) => pair.len() == 2 && pair.iter().all(is_number),
+                    _ => false,
+                };
+                if !points.iter().all(is_point) {
+                    return self.other_kind(&value, file::COURSE);
+                }
+                let numbers = points.iter().filter_map(|point| point.get_ref().as_array()).flatten();
+                let is_right = numbers.map(|number| self.number(number)).fold(true, |all, one| all & one);
+                is_right.then_some(value)
+            }
+            (Kind::Course, _) if is_number(&value) => self.number(&value).then_some(value),
+            (Kind::Course, _) => self.other_kind(&value, file::COURSE),
+            (Kind::TwoNames, DeValue::Array(names)) => {
+                let other = names.iter().find(|name| name.get_ref().as_str().is_none());
+                match other.filter(|_| names.len() == 2) {
+                    Some(other) => {
+                        let (other, expected) = (other.clone(), "a text in quotes");
+                        self.other_kind(&other, expected)
+                    }
+                    None if names.len() == 2 => Some(value),
+                    None => self.other_kind(&value, file::TWO_NAMES),
+                }
+            }
+            (Kind::TwoNames, _) => self.other_kind(&value, file::TWO_NAMES),
+            (Kind::Table(shape), DeValue::Table(_)) => {
+                let DeValue::Table(table) = value.into_inner() else { return None };
+                let before = self.problems.len();
+                let table = self.table(table, &span, shape)?;
+                (self.problems.len() == before).then(|| Spanned::new(span, DeValue::Table(table)))
+            }
+            (Kind::Table(shape), _) => self.other_kind(&value, shape.one),
+            (Kind::Entries(shape), DeValue::Array(_)) => {
+                let DeValue::Array(entries) = value.into_inner() else { return None };
+                let right: DeArray<'t> = entries.into_iter().filter_map(|entry| self.entry(entry, shape)).collect();
+                Some(Spanned::new(span, DeValue::Array(right)))
+            }
+            (Kind::Entries(shape), _) => {
+                self.lacks_nodes |= shape.defines_nodes;
+                self.other_kind(&value, shape.many)
+            }
+        }
+    }
+
+    /// An entry that is right in all of its keys.
+    fn entry(&mut self, entry: Spanned<DeValue<'t>>, shape: &'static Shape) -> Option<Spanned<DeValue<'t>>> {
+        let before = self.problems.len();
+        let entry = self.value(entry, &Kind::Table(shape)).filter(|_| self.problems.len() == before);
+        self.lacks_nodes |= entry.is_none() && shape.defines_nodes;
+        entry
+    }
+
+    /// Whether a value is a number that f64 can tell; reports one that is not.
+    fn number(&mut self, value: &Spanned<DeValue<'t>>) -> bool {
+        let written = match value.get_ref() {
+            DeValue::Float(float) => float.as_str(),
+            DeValue::Integer(whole) => {
+                let is_in_range = i64::from_str_radix(whole.as_str(), whole.radix()).is_ok();
+                if !is_in_range {
+                    let message = format!("`{}` is beyond the range of whole numbers", whole.as_str());
+                    self.report(value.span().start, message, "write it with a decimal point");
+                }
+                return is_in_range;
+            }
+            _ => return self.other_kind(value, "a number").is_some(),
+        };
+        let Some(lost) = written.parse().ok().and_then(|number| lost(number, written)) else { return true };
+        let message = format!("`{written}` is {lost} the range of numbers");
+        let help = "give a number within it, in other units if need be; only `inf` is infinite, and only 0 is zero";
+        self.problems.push(Problem { at: value.span().start, rule: &UNUSABLE_NUMBER, message, help: help.to_owned() });
+        false
+    }
+
+    /// Reports a value of another kind.
+    fn other_kind(&mut self, value: &Spanned<DeValue<'t>>, expected: &str) -> Option<Spanned<DeValue<'t>>> {
+        let found = match (self.quoted(&value.span()), value.get_ref()) {
+            (Some(written), _) => format!("`{written}`"),
+            (None, DeValue::Array(_)) => "a list of another length".to_owned(),
+            (None, DeValue::Table(_)) => "a table".to_owned(),
+            (None, _) => "something else".to_owned(),
+        };
+        self.report(value.span().start, format!("{found} stands where there should be {expected}"), "");
+        None
+    }
+}
+
+impl Key {
+    fn is_called(&self, name: &str) -> bool {
+        self.name == name || self.other == Some(name)
+    }
+}
+
+fn is_number(value: &Spanned<DeValue<'_>>) -> bool {
+    matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, SCENE, Shape};
+    use serde_json::Value;
+    use std::collections::BTreeSet;
+
+    /// The keys of a shape and of all below it, with the words of each.
+    fn keys_of(shape: &'static Shape, keys: &mut BTreeSet<String>) {
+        for key in shape.keys {
+            keys.insert(key.name.to_owned());
+            match key.kind {
+                Kind::Table(below) | Kind::Entries(below) => keys_of(below, keys),
+                Kind::Word(words) => keys.extend(words.iter().map(|word| format!("\"{word}\""))),
+                _ => {}
+            }
+        }
+    }
+
+    fn keys_of_schema(value: &Value, keys: &mut BTreeSet<String>) {
+        match value {
+            Value::Object(entries) => {
+                if let Some(Value::Object(properties)) = entries.get("properties") {
+                    keys.extend(properties.keys().cloned());
+                }
+                keys.extend(entries.get("const").and_then(Value::as_str).map(|word| format!("\"{word}\"")));
+                entries.values().for_each(|value| keys_of_schema(value, keys));
+            }
+            Value::Array(values) => values.iter().for_each(|value| keys_of_schema(value, keys)),
+            _ => {}
+        }
+    }
+
+    /// One that is added to `file.rs` and not here would be refused, one that is here and not there lost.
+    #[test]
+    fn the_shape_has_the_keys_of_the_schema() {
+        let schema = schemars::generate::SchemaSettings::draft2020_12()
+            .into_generator()
+            .into_root_schema_for::<super::file::SceneFile>();
+        let (mut of_shape, mut of_schema) = (BTreeSet::new(), BTreeSet::new());
+        keys_of(&SCENE, &mut of_shape);
+        keys_of_schema(schema.as_value(), &mut of_schema);
+        assert_eq!(of_shape, of_schema);
+    }
+}
