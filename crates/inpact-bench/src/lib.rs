@@ -8,7 +8,6 @@
 //! [`network`] makes networks of nodes, and measures how exact and how fast they are solved.
 //! [`extremes`] runs the other crates and writes the page of what they make of extreme numbers.
 
-pub mod costs;
 pub mod deck;
 pub mod extremes;
 pub mod interface;

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use inpact_bench::costs;
 use inpact_bench::deck::{self, Content, DeckRequest};
 use inpact_bench::extremes;
 use inpact_bench::network::grid::{Assembled, Grid};
@@ -40,15 +39,6 @@ enum Command {
         rows: usize,
         #[command(flatten)]
         shared: Shared,
-    },
-    /// Measure what a row costs in each form of a table, and print the table of costs that choices are made by.
-    Costs {
-        /// Rows of each measurement.
-        #[arg(long, default_value_t = 1_000_000, value_parser = at_least::<1>)]
-        rows: usize,
-        /// Rounds of each measurement, the fastest of which counts.
-        #[arg(long, default_value_t = 11, value_parser = at_least::<1>)]
-        rounds: usize,
     },
     /// Write a node table for the deck generated with the same --interactions and --seed.
     GenerateNodes {
@@ -183,7 +173,6 @@ fn run(command: Command) -> io::Result<()> {
             let size = deck::write(&request, open(&out)?)?;
             report(&out, size)
         }
-        Command::Costs { rows, rounds } => costs::write(rows, rounds, &mut io::stdout().lock()),
         Command::GenerateNodes { out, rows, nodes, table_rows, shared } => {
             let deck = deck_request(Content::Tables, table_rows, shared);
             let interfaces: Vec<_> = deck.interfaces().collect();

@@ -1,7 +1,6 @@
-//! How exactly a table is evaluated: twice the precision of f64, f64 as exact as it goes, or faster with an error that is known beforehand.
+//! How exactly a table is evaluated: twice the precision of f64, f64 as exact as it goes, or faster on a grid with an error that is known beforehand.
 //!
-//! [`Accuracy::Full`] is the table's own kernel. This module holds what stands beside it:
-//! the reference in double-double ([`PiecewiseTable::reference_at`]), and the error bounds of all modes.
+//! [`choose`] takes the cheapest [`Method`] whose error bound is acceptable.
 //! A bound is computed from the table and holds for every finite query; it is never an estimate from a sample.
 //!
 //! Rules of evaluation are those of [`crate::table`]: T-04 to T-07, constant ends, [`Tail::Zero`](crate::table::Tail), NaN in gives NaN out.
@@ -9,24 +8,18 @@
 
 #![allow(clippy::inline_always, reason = "what is not inlined is not compiled for the processor at hand")]
 
-mod approximation;
 mod choose;
-mod cost;
-mod flat;
 mod grid;
-mod number;
-mod reference;
 mod refusal;
-mod registers;
-mod running;
-mod search;
-mod spread;
+mod vertices;
+mod wanted;
+mod work;
 
-pub use approximation::{Approximation, Form};
-pub use choose::{Candidate, Choice, FAST_TOLERANCE, Method, Tolerance, Wanted, choose, choose_for};
-pub use cost::{Columns, Shape, cost};
-pub use grid::commensurate_cells;
+pub use choose::{Candidate, Choice, Method, choose};
+pub use grid::{Grid, commensurate_cells};
 pub use refusal::Refusal;
+pub use wanted::{FAST_TOLERANCE, Tolerance, Wanted};
+pub use work::Shape;
 
 use crate::table::{AxisSummary, PiecewiseTable};
 
@@ -38,7 +31,7 @@ pub enum Accuracy {
     /// f64, within n + 1 ulp for n axes: the table's own kernel.
     #[default]
     Full,
-    /// The cheapest form whose error bound is acceptable.
+    /// The cheapest method whose error bound is acceptable; never slower than [`Self::Full`] by the shape of the table.
     Fast,
 }
 

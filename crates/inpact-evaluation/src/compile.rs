@@ -8,6 +8,7 @@ pub(crate) use user::CompiledUser;
 
 use crate::accuracy::Wanted;
 use crate::evaluate::summed;
+use crate::evaluator::Evaluator;
 use crate::history::{ClosingHeat, HistoryStart};
 use crate::law::conductance::ConductanceTables;
 use crate::law::contact::ContactState;
@@ -16,11 +17,10 @@ use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
 use crate::plan::{
     Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
-    Plan, PorePlan, Rate, Source, ThermalTables, folded_as_planned,
+    Plan, PorePlan, Rate, Source, TablePlan, ThermalTables,
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
-use crate::table_form::TableForm;
 use inpact_parser::model::{Model, Regime};
 
 /// The laws of a plan.
@@ -81,9 +81,9 @@ pub(crate) enum ConductanceSource {
 pub(crate) struct CompiledTables {
     pub(crate) tables: ConductanceTables,
     /// The table against clearance as it is evaluated.
-    pub(crate) clearance_form: Option<TableForm>,
+    pub(crate) clearance_form: Option<Evaluator>,
     /// The table against contact pressure as it is evaluated.
-    pub(crate) pressure_form: Option<TableForm>,
+    pub(crate) pressure_form: Option<Evaluator>,
     /// What the table against clearance needs.
     clearance: Needs,
     /// What the table against contact pressure needs.
@@ -96,7 +96,7 @@ pub(crate) struct CompiledTables {
 pub(crate) struct CompiledPore {
     pub(crate) law: PoreLaw,
     /// The table of permeabilities as it is evaluated.
-    pub(crate) form: Option<TableForm>,
+    pub(crate) form: Option<Evaluator>,
     pub(crate) regime: Regime,
     /// What the permeability needs; variable 0 is the mean pore pressure, which is always there.
     pub(crate) needs: Needs,
@@ -290,13 +290,13 @@ impl Compiler<'_> {
             let (_, table) = tables.electrical().find(|(first, _)| *first == against)?;
             let planned = plan.tables.iter().find(|planned| planned.against == against);
             // A table that no row reaches stays as it is: it says what kind of conductance this is.
-            Some(planned.map_or_else(|| table.clone(), |planned| folded_as_planned(table, planned)))
+            let evaluator = planned.and_then(TablePlan::evaluator).cloned();
+            Some(evaluator.unwrap_or_else(|| Evaluator::new(table, choices.accuracy)))
         };
-        let (clearance, pressure) = (table(Along::Clearance), table(Along::Pressure));
+        let [clearance_form, pressure_form] = [table(Along::Clearance), table(Along::Pressure)];
+        let [clearance, pressure] = [&clearance_form, &pressure_form].map(|form| Some(form.as_ref()?.table().clone()));
         let needs = [&clearance, &pressure].map(|table| table.as_ref().map(Needs::of).unwrap_or_default());
         let [clearance_needs, pressure_needs] = needs;
-        let forms = [&clearance, &pressure].map(|table| Some(TableForm::new(table.clone()?, choices.accuracy)));
-        let [clearance_form, pressure_form] = forms;
         Some(CompiledTables {
             tables: ConductanceTables::of(clearance, pressure)?,
             clearance_form,
@@ -309,9 +309,11 @@ impl Compiler<'_> {
 
     fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> Option<CompiledPore> {
         let table = tables.permeability().zip(plan.table.as_ref());
-        let table = table.map(|(table, planned)| folded_as_planned(table, planned));
+        let form = table.map(|(table, planned)| {
+            planned.evaluator().cloned().unwrap_or_else(|| Evaluator::new(table, choices.accuracy))
+        });
+        let table = form.as_ref().map(|form| form.table().clone());
         let needs = table.as_ref().map(Needs::of).unwrap_or_default();
-        let form = table.clone().map(|table| TableForm::new(table, choices.accuracy));
         let permeability = table.map_or(Permeability::Infinite, Permeability::Finite);
         let slopes = self.of.outputs.iter().filter_map(|output| match output {
             Output::PermeabilitySlope(along) => Some((self.slot(*output)?, *along)),

@@ -14,18 +14,20 @@
     reason = "what is not inlined is compiled without the instruction set that was asked for"
 )]
 
+mod axis;
 pub mod blocks;
-mod buckets;
 pub mod electrical;
 mod instruction_set;
 mod nested;
 mod pieces;
 #[cfg(target_arch = "x86_64")]
 mod registers;
+mod search;
 pub mod total;
 
-pub use buckets::Search;
 pub use instruction_set::InstructionSet;
+pub(crate) use instruction_set::{Lanes, Operation};
+pub use search::Search;
 
 use crate::table::{PiecewiseTable, Sides};
 use nested::NestedKernel;
@@ -213,11 +215,11 @@ struct NestedValues<'a> {
     sides: Option<&'a mut [Sides]>,
 }
 
-impl pulp::NullaryFnOnce for NestedValues<'_> {
+impl Operation for NestedValues<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn call(self) -> bool {
-        self.nested.values(self.set, self.columns, self.values, self.sides)
+    fn call<L: Lanes>(self, lanes: L) -> bool {
+        self.nested.values(lanes, self.set, self.columns, self.values, self.sides)
     }
 }

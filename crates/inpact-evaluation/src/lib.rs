@@ -14,7 +14,7 @@ pub mod numbers;
 
 pub mod table;
 
-pub mod table_form;
+pub mod evaluator;
 
 pub mod accuracy;
 

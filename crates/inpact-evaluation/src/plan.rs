@@ -46,7 +46,6 @@ pub use survey::{ColumnSurvey, InteractionSurvey, Survey, SurveyByNode, survey, 
 pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
 pub use user::UserPlan;
 
-pub(crate) use folding::folded_as_planned;
 pub(crate) use make::generation_of;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::InteractionTables;
@@ -54,7 +53,8 @@ pub(crate) use thermal::tells_of_friction;
 pub(crate) use thermal_tables::{ConductanceRows, RadiationFault, ThermalTables};
 pub(crate) use user::user_names;
 
-use crate::accuracy::{ErrorBound, Method};
+use crate::accuracy::{ErrorBound, Method, Shape};
+use crate::evaluator::Evaluator;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::Cutoffs;
@@ -239,6 +239,8 @@ pub struct TablePlan {
     pub folded_rows: usize,
     /// The variables that have one value and along which it could not be folded.
     pub not_folded: Vec<(Along, FoldRefusal)>,
+    /// What decides how fast the whole table is evaluated.
+    pub shape: Shape,
     /// The form in which it is evaluated; `None` for a table that no row reaches.
     pub form: Option<FormPlan>,
 }
@@ -252,12 +254,14 @@ pub struct FormPlan {
     pub bound: Option<ErrorBound>,
     /// A tolerance that the bound is above, as no form keeps it.
     pub missed: Option<f64>,
-    /// What a value costs, in nanoseconds, by the committed measurements.
+    /// What a value costs by the shape of the table, in about a nanosecond.
     pub cost: f64,
     /// What it costs by the table's own kernel.
     pub full_cost: f64,
     /// The other ways that were considered, and why they were not chosen.
     pub refused: Vec<(String, String)>,
+    /// The table, folded, ready to be evaluated in that form.
+    pub(crate) evaluator: Evaluator,
 }
 
 /// A variable of a table in use.

@@ -6,17 +6,21 @@
 //!
 //! Knows nothing of keywords or files: numbers in, numbers out, no allocation at a query.
 
+mod arithmetic;
 mod build;
 mod evaluate;
 mod fold;
+mod marks;
 mod sides;
 
 pub use build::{TableError, TableFault};
-pub(crate) use evaluate::Place;
 pub use fold::FoldRefusal;
 pub use sides::Sides;
 
+use std::sync::Arc;
+
 use crate::numbers::KernelSlope;
+use marks::Marks;
 
 /// A nested piecewise-linear function of any number of variables ("axes"), compiled for evaluation.
 ///
@@ -25,39 +29,27 @@ use crate::numbers::KernelSlope;
 ///
 /// Between rows the function is linear along each axis, outside the rows of a group it is constant (T-04), or zero beyond the last row where [`Tail::Zero`] says so for axis 0.
 /// A group with one row is constant along its axis (T-07), whatever the tail.
+/// It is built once and shared: a clone costs nothing.
 #[derive(Clone, Debug)]
-pub struct PiecewiseTable {
+pub struct PiecewiseTable(Arc<Content>);
+
+/// What a table is made of.
+#[derive(Clone, Debug)]
+struct Content {
     /// How many axes the rows have.
     axis_count: usize,
     /// What follows the last row of a group of axis 0.
-    pub(crate) tail: Tail,
+    tail: Tail,
     /// The axes the value depends on, fastest first. An axis every group of which has one row is left out.
-    pub(crate) levels: Vec<Level>,
+    levels: Vec<Level>,
     /// One value a row.
-    pub(crate) values: Vec<f64>,
+    values: Vec<f64>,
     /// For each row the slope towards the next; of no meaning in the last row of a group.
     slopes: Vec<KernelSlope>,
     /// What the rows say of each axis, left out or not.
     axes: Vec<AxisSummary>,
     /// Which points count as outside, where the rows of a folded table no longer tell.
     marks: Option<Marks>,
-}
-
-/// Which points lie outside a table that was folded from a larger one.
-#[derive(Clone, Debug, PartialEq)]
-struct Marks {
-    /// Outside at every point: the coordinate that was folded away lies there.
-    always: Sides,
-    /// For an axis the coordinates below and above which a point lies outside.
-    ranges: Vec<(usize, (f64, f64))>,
-}
-
-impl Marks {
-    /// The range of an axis.
-    fn range(&self, axis: usize) -> (f64, f64) {
-        let found = self.ranges.iter().find(|(marked, _)| *marked == axis);
-        found.map_or((f64::NEG_INFINITY, f64::INFINITY), |(_, range)| *range)
-    }
 }
 
 /// What a table is beyond the last abscissa of axis 0 within each group.
@@ -101,7 +93,7 @@ impl AxisSummary {
 }
 
 /// One axis the value depends on: the abscissae of all its groups in row order.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Level {
     /// Which axis of the rows this is.
     pub(crate) axis: usize,
@@ -111,10 +103,40 @@ pub(crate) struct Level {
     pub(crate) children: Vec<usize>,
 }
 
+/// The coordinates of a query: axis 0, then the others.
+#[derive(Clone, Copy)]
+struct Point<'a> {
+    first: f64,
+    others: &'a [f64],
+}
+
+impl Point<'_> {
+    /// The coordinate along `axis`; NaN where the caller gave none.
+    #[inline]
+    fn along(self, axis: usize) -> f64 {
+        match axis {
+            0 => self.first,
+            _ => self.others.get(axis - 1).copied().unwrap_or(f64::NAN),
+        }
+    }
+}
+
+impl PartialEq for PiecewiseTable {
+    /// The same rows with the same tail, and the same points outside.
+    fn eq(&self, other: &Self) -> bool {
+        let parts = |table: &Self| (table.axis_count(), table.tail());
+        parts(self) == parts(other)
+            && self.axes() == other.axes()
+            && self.levels() == other.levels()
+            && self.values() == other.values()
+            && self.0.marks == other.0.marks
+    }
+}
+
 impl PiecewiseTable {
     /// A table of one value that depends on nothing.
     pub fn constant(value: f64) -> Self {
-        Self {
+        Self(Arc::new(Content {
             axis_count: 0,
             tail: Tail::Constant,
             levels: Vec::new(),
@@ -122,46 +144,51 @@ impl PiecewiseTable {
             slopes: vec![KernelSlope::UNUSED],
             axes: Vec::new(),
             marks: None,
-        }
+        }))
+    }
+
+    /// The same table with other marks.
+    fn marked(&self, marks: Marks) -> Self {
+        Self(Arc::new(Content { marks: Some(marks), ..Content::clone(&self.0) }))
     }
 
     /// The axes the value depends on, fastest first.
     pub(crate) fn levels(&self) -> &[Level] {
-        &self.levels
+        &self.0.levels
     }
 
     /// For each row the slope towards the next; of no meaning in the last row of a group.
     pub(crate) fn slopes(&self) -> &[KernelSlope] {
-        &self.slopes
+        &self.0.slopes
     }
 
     /// How many axes the rows have, those the value does not depend on included.
     pub fn axis_count(&self) -> usize {
-        self.axis_count
+        self.0.axis_count
     }
 
     /// How many rows the table was built from.
     pub fn row_count(&self) -> usize {
-        self.values.len()
+        self.0.values.len()
     }
 
     /// Each axis' range and size, in the order of the columns.
     pub fn axes(&self) -> &[AxisSummary] {
-        &self.axes
+        &self.0.axes
     }
 
     /// How many groups of axis 0 there are, that is combinations of the outer variables; 1 for a table without axes.
     pub fn group_count(&self) -> usize {
-        self.axes.first().map_or(1, |axis| axis.group_count)
+        self.0.axes.first().map_or(1, |axis| axis.group_count)
     }
 
     /// The values of the rows, in row order.
     pub fn values(&self) -> &[f64] {
-        &self.values
+        &self.0.values
     }
 
     /// What follows the last row of a group of axis 0.
     pub fn tail(&self) -> Tail {
-        self.tail
+        self.0.tail
     }
 }

@@ -1,117 +1,127 @@
-//! The choice of a form: by bound first, by cost second, with a reason for each form left out.
+//! The choice of a method: by bound first, by the shape of the table second, with a reason for each method that was not chosen.
+
+mod table_judge;
 
 use inpact_evaluation::accuracy::{
-    Accuracy, Approximation, Choice, Columns, Form, Method, Refusal, Tolerance, Wanted, choose, choose_for,
+    Accuracy, Candidate, Choice, Method, Refusal, Shape, Tolerance, Wanted, choose, full_bound,
 };
 use inpact_evaluation::table::{PiecewiseTable, Tail};
+use table_judge::random_tables::{Range, compile, random_ending, random_rows};
+use table_judge::{Random, cases};
 
 fn table(cells: &[f64], width: usize) -> PiecewiseTable {
     PiecewiseTable::from_rows(cells, width, Tail::Constant).unwrap()
 }
 
-fn ordinary() -> PiecewiseTable {
+fn one_axis() -> PiecewiseTable {
     table(&[20.0, 0.0, 10.0, 0.1, 3.0, 0.35], 2)
 }
 
-fn chosen(choice: &Choice) -> Method {
-    choice.chosen().unwrap().method.clone()
+/// Two axes with round abscissae.
+fn regular() -> PiecewiseTable {
+    let mut cells = Vec::new();
+    for y in 0..10_u8 {
+        for x in 0..10_u8 {
+            let value = 1.0 + f64::from(x * 7 % 5) + 0.3 * f64::from(y);
+            cells.extend([value, f64::from(x) * 0.5, 300.0 + 20.0 * f64::from(y)]);
+        }
+    }
+    table(&cells, 3)
+}
+
+fn all(choice: &Choice) -> impl Iterator<Item = &Candidate> {
+    std::iter::once(&choice.chosen).chain(&choice.refused)
 }
 
 #[test]
 fn modes_are_taken_at_their_word() {
-    let table = ordinary();
     for (accuracy, method) in [
         (Accuracy::Reference, Method::Reference),
         (Accuracy::Full, Method::Full),
-        (Accuracy::Fast, Method::Fast(Form::Single)),
+        (Accuracy::Fast, Method::Grid { cells: vec![9, 9] }),
     ] {
-        let choice = choose_for(&table, Wanted::Mode(accuracy), Columns::Single);
-        assert_eq!(chosen(&choice), method);
-        assert_eq!(choice.approximation.is_some(), accuracy == Accuracy::Fast);
+        assert_eq!(choose(&regular(), Wanted::Mode(accuracy)).chosen.method, method);
     }
     assert_eq!(Accuracy::default(), Accuracy::Full);
 }
 
+/// Whatever is asked of it, a table of one axis is not resampled.
 #[test]
-fn the_cheapest_form_within_the_tolerance_is_chosen() {
-    let table = ordinary();
+fn one_axis_is_always_full_unless_more_is_wanted() {
+    let irregular: Vec<f64> = (0..1000_u16).flat_map(|knot| [1.0, f64::from(knot).powi(5)]).collect();
+    for table in [one_axis(), table(&irregular, 2)] {
+        assert_eq!(choose(&table, Wanted::Mode(Accuracy::Fast)).chosen.method, Method::Full);
+        for (tolerance, method) in [
+            (1.0, Method::Full),
+            (1e-3, Method::Full),
+            (1e-15, Method::Full),
+            (1e-16, Method::Reference),
+            (0.0, Method::Reference),
+        ] {
+            let choice = choose(&table, Wanted::Within(Tolerance::RelativeToLargest(tolerance)));
+            assert_eq!(choice.chosen.method, method, "{tolerance:e}");
+        }
+    }
+}
+
+#[test]
+fn the_cheapest_method_within_the_tolerance_is_chosen() {
+    let table = regular();
     for (tolerance, method) in [
-        (1e-3, Method::Fast(Form::Single)),
-        (1e-10, Method::Fast(Form::Slope)),
-        (1e-16, Method::Reference),
-        (0.0, Method::Reference),
+        (1e-3, Method::Grid { cells: vec![9, 9] }),
+        (1e-12, Method::Grid { cells: vec![9, 9] }),
+        (1e-15, Method::Full),
+        (1.1e-16, Method::Reference),
     ] {
-        let choice = choose_for(&table, Wanted::Within(Tolerance::RelativeToLargest(tolerance)), Columns::Single);
-        assert_eq!(chosen(&choice), method, "{tolerance:e}: {:#?}", choice.candidates);
-        let pointwise = choose_for(&table, Wanted::Within(Tolerance::Pointwise(tolerance)), Columns::Single);
-        assert_eq!(chosen(&pointwise), method, "{tolerance:e}: {:#?}", pointwise.candidates);
-        for candidate in &choice.candidates {
-            let is_within = candidate.bound.is_some_and(|bound| bound.relative_to_largest <= tolerance);
-            match &candidate.refusal {
-                None => assert!(is_within || tolerance == 0.0),
-                Some(Refusal::Bound { bound, tolerance: wanted }) => assert!(bound > wanted && *wanted == tolerance),
-                Some(Refusal::Slower) => assert!(is_within),
-                Some(other) => panic!("{other}"),
+        for wanted in [Tolerance::RelativeToLargest(tolerance), Tolerance::Pointwise(tolerance * 1.2)] {
+            let choice = choose(&table, Wanted::Within(wanted));
+            assert_eq!(choice.chosen.method, method, "{wanted:?}: {choice:#?}");
+            for candidate in &choice.refused {
+                match &candidate.refusal {
+                    Some(Refusal::Bound { bound, tolerance }) => assert!(bound > tolerance),
+                    Some(Refusal::Slower) => assert!(choice.chosen.cost <= candidate.cost),
+                    other => panic!("{other:?}"),
+                }
             }
         }
-        assert_eq!(choice.candidates.iter().filter(|candidate| candidate.refusal.is_none()).count(), 1);
     }
 }
 
-/// A contact jump a nanometre wide at the end of a metre: f32 cannot tell its two abscissae apart, and where it can the slope costs too much.
+/// Never a method that is slower by the shape rule and less exact at once; and `fast` and every tolerance that `full` keeps are never slower than `full`.
 #[test]
-fn a_steep_table_is_not_approximated_in_f32() {
-    let merged = table(&[1.0, 0.0, 1.0, 1.0, 1e6, 1.000_000_001], 2);
-    let choice = choose(&merged, Wanted::Mode(Accuracy::Fast));
-    assert_eq!(chosen(&choice), Method::Fast(Form::Slope));
-    let single = choice.candidates.iter().find(|candidate| candidate.method == Method::Fast(Form::Single)).unwrap();
-    assert_eq!(single.refusal, Some(Refusal::Merged(1.0)));
-    assert_eq!(single.bound, None);
-    let steep = table(&[1.0, 0.0, 1.0, 1.0, 1e6, 1.000_01], 2);
-    let bound = Approximation::single(&steep).unwrap().bound();
-    assert!(bound.relative_to_largest > 1e-3, "{bound:?}");
-    assert_eq!(chosen(&choose(&steep, Wanted::Mode(Accuracy::Fast))), Method::Fast(Form::Slope));
-}
-
-#[test]
-fn extremes_are_refused_with_the_reason() {
-    for (cells, expected) in [
-        ([1.0, 0.0, 1e39, 1.0], Refusal::TooLarge(1e39)),
-        ([1.0, 0.0, 1e-39, 1.0], Refusal::TooSmall(1e-39)),
-        ([1.0, 0.0, 2.0, 1e-39], Refusal::TooSmall(1e-39)),
-        ([1.0, 0.0, 2.0, 1e300], Refusal::TooLarge(1e300)),
-    ] {
-        let refusal = Approximation::single(&table(&cells, 2)).map(|made| made.bound()).unwrap_err();
-        assert_eq!(refusal, expected, "{cells:?}");
-    }
-    let flat = Approximation::single(&table(&[1e-20, 0.0, 2e-20, 1e20], 2)).map(|made| made.bound());
-    assert!(matches!(flat, Err(Refusal::Slope(slope)) if (slope / 1e-40 - 1.0).abs() < 1e-6), "{flat:?}");
-    // The slope, 1e-500, is zero in f64: the form would stay at the first value.
-    let lost = table(&[1e-200, 0.0, 2e-200, 1e300], 2);
-    assert_eq!(Approximation::slope(&lost).map(|made| made.bound()), Err(Refusal::Slope(0.0)));
-    let huge = table(&[1.0, 0.0, f64::MAX, 1.0], 2);
-    assert_eq!(Approximation::slope(&huge).map(|made| made.bound()), Err(Refusal::TooLarge(f64::MAX)));
-    assert_eq!(chosen(&choose(&huge, Wanted::Mode(Accuracy::Fast))), Method::Full);
-    let constant = table(&[5.0], 1);
-    assert_eq!(Approximation::slope(&constant).map(|made| made.bound()), Err(Refusal::Constant));
-    assert_eq!(chosen(&choose(&constant, Wanted::Mode(Accuracy::Fast))), Method::Full);
-    assert_eq!(Approximation::grid(&ordinary(), &[8]).map(|made| made.bound()), Err(Refusal::OneAxis));
-}
-
-/// A table of two axes with a regular layout is its own grid: no error but rounding, and cheaper.
-#[test]
-fn a_regular_table_becomes_a_grid() {
-    let mut cells = Vec::new();
-    for y in 0..10_u8 {
-        for x in 0..10_u8 {
-            cells.extend([
-                1.0 + f64::from(x * 7 % 5) + 0.3 * f64::from(y),
-                f64::from(x) * 0.5,
-                300.0 + 20.0 * f64::from(y),
-            ]);
+fn nothing_is_chosen_that_is_slower_and_less_exact() {
+    let mut random = Random::new(0x5107);
+    for round in 0..cases(200) {
+        let rows = random_rows(&mut random, round % 5, [Range::Ordinary, Range::AllDecades][round % 2]);
+        let table = compile(&rows, random_ending(&mut random));
+        let full = Shape::of(&table).cost(&Method::Full);
+        let tolerance = random.positive(-60, 2);
+        for wanted in [
+            Wanted::Mode(Accuracy::Fast),
+            Wanted::Within(Tolerance::RelativeToLargest(tolerance)),
+            Wanted::Within(Tolerance::Pointwise(tolerance)),
+        ] {
+            let choice = choose(&table, wanted);
+            let chosen = &choice.chosen;
+            let bound = chosen.bound.expect("what is chosen has a bound").absolute;
+            for other in all(&choice) {
+                let is_beaten = other.cost < chosen.cost && other.bound.is_some_and(|other| other.absolute < bound);
+                assert!(!is_beaten, "{other:?} beats {chosen:?} for {wanted:?} on {rows:?}");
+            }
+            let full_keeps = match wanted {
+                Wanted::Within(Tolerance::RelativeToLargest(tolerance)) => {
+                    full_bound(&table).relative_to_largest <= tolerance
+                }
+                Wanted::Within(Tolerance::Pointwise(tolerance)) => full_bound(&table).pointwise <= tolerance,
+                Wanted::Mode(_) => true,
+            };
+            assert!(!full_keeps || chosen.cost <= full, "{chosen:?} is slower than full for {wanted:?} on {rows:?}");
         }
     }
-    let choice = choose(&table(&cells, 3), Wanted::Within(Tolerance::Pointwise(1e-12)));
-    assert_eq!(chosen(&choice), Method::Fast(Form::Grid { cells: vec![9, 9] }), "{:#?}", choice.candidates);
-    assert_eq!(choice.approximation.unwrap().form().to_string(), "grid 9x9");
+}
+
+#[test]
+fn a_table_that_depends_on_nothing_costs_nothing() {
+    let choice = choose(&table(&[5.0], 1), Wanted::Mode(Accuracy::Fast));
+    assert_eq!((choice.chosen.method, choice.chosen.cost), (Method::Full, 0.0));
 }

@@ -1,15 +1,15 @@
-//! The fast forms: their errors are maximised, against the reference, and compared with their bounds.
+//! Grids: their errors are maximised, against the reference, and compared with their bounds.
 
 mod table_judge;
 
-use inpact_evaluation::accuracy::{Approximation, ErrorBound, commensurate_cells};
+use inpact_evaluation::accuracy::{ErrorBound, Grid, Method, Refusal, Tolerance, Wanted, choose, commensurate_cells};
 use inpact_evaluation::numbers::Scaled;
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable, Tail};
-use table_judge::random_tables::{Range, compile, random_ending, random_rows};
+use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Ending, Random, Rows, cases, report};
 
-/// The error of an approximation at a point, absolute and as a part of the exact value.
-fn error_at(table: &PiecewiseTable, made: &Approximation, point: &[f64]) -> (f64, f64) {
+/// The error of a grid at a point, absolute and as a part of the exact value.
+fn error_at(table: &PiecewiseTable, made: &Grid, point: &[f64]) -> (f64, f64) {
     let exact = table.reference_at(point[0], &point[1..]).unwrap();
     let value = made.value(point);
     assert!(value.is_finite(), "{value} at {point:?}");
@@ -19,7 +19,7 @@ fn error_at(table: &PiecewiseTable, made: &Approximation, point: &[f64]) -> (f64
 }
 
 /// The largest errors found: at abscissae and beside them, at random points, and by climbing from the best of these.
-fn maximise(random: &mut Random, rows: &Rows, table: &PiecewiseTable, made: &Approximation) -> (f64, f64) {
+fn maximise(random: &mut Random, rows: &Rows, table: &PiecewiseTable, made: &Grid) -> (f64, f64) {
     let axes = rows[0].len() - 1;
     let ranges: Vec<(f64, f64)> =
         (0..axes).map(|axis| (table.axes()[axis].least, table.axes()[axis].greatest)).collect();
@@ -126,13 +126,7 @@ fn table_of(random: &mut Random, axes: usize) -> (Rows, PiecewiseTable) {
     }
 }
 
-fn check_form(
-    what: &str,
-    axes: usize,
-    count: usize,
-    greatest: f64,
-    make: impl Fn(&PiecewiseTable) -> Option<Approximation>,
-) {
+fn check_form(what: &str, axes: usize, count: usize, greatest: f64, make: impl Fn(&PiecewiseTable) -> Option<Grid>) {
     let mut random = Random::new(0xa0 + axes as u64);
     let mut looseness = Looseness::default();
     let mut made_count = 0;
@@ -147,23 +141,9 @@ fn check_form(
     looseness.check(&format!("{what}, {axes} axes"), axes, greatest);
 }
 
-#[test]
-fn the_slope_form_keeps_its_bound() {
-    for (axes, count) in [(1, 60), (2, 30), (3, 12), (4, 5)] {
-        check_form("slope", axes, count, 100.0, |table| Approximation::slope(table).ok());
-    }
-}
-
-#[test]
-fn the_single_form_keeps_its_bound() {
-    for (axes, count) in [(1, 60), (2, 30), (3, 12), (4, 5)] {
-        check_form("single", axes, count, 100.0, |table| Approximation::single(table).ok());
-    }
-}
-
 /// A grid that meets none but the outermost abscissae of most tables.
-fn resampled(axes: usize) -> impl Fn(&PiecewiseTable) -> Option<Approximation> {
-    move |table| Approximation::grid(table, &vec![9; axes]).ok()
+fn resampled(axes: usize) -> impl Fn(&PiecewiseTable) -> Option<Grid> {
+    move |table| Grid::new(table, &vec![9; axes]).ok()
 }
 
 #[test]
@@ -182,7 +162,7 @@ fn the_bound_of_a_grid_is_its_true_maximum() {
         .to_vec();
     let table = compile(&rows, Ending::Constant);
     for cells in [[3, 2], [6, 1], [10, 10], [33, 5]] {
-        let made = Approximation::grid(&table, &cells).unwrap();
+        let made = Grid::new(&table, &cells).unwrap();
         let mut worst = (0.0_f64, 0.0_f64);
         let lines = (0..=cells[0]).map(|line| 3.5 * line as f64 / cells[0] as f64);
         for x in lines.chain([0.0, 1.0, 2.0, 3.5]) {
@@ -211,7 +191,7 @@ fn a_grid_that_meets_all_abscissae_is_exact() {
     let table = compile(&rows, Ending::Constant);
     let cells = commensurate_cells(&table).unwrap();
     assert_eq!(cells, [7, 4]);
-    let made = Approximation::grid(&table, &cells).unwrap();
+    let made = Grid::new(&table, &cells).unwrap();
     assert!(made.bound().pointwise < 1e-11, "{:?}", made.bound());
     let (absolute, relative) = maximise(&mut random, &rows, &table, &made);
     assert!(0.0 < absolute && absolute <= made.bound().absolute, "{absolute:e} and {:?}", made.bound());
@@ -229,102 +209,78 @@ fn a_grid_that_meets_all_abscissae_is_exact() {
     assert_eq!(commensurate_cells(&uneven), None);
 }
 
-/// All forms of one table.
-fn all_forms(table: &PiecewiseTable) -> Vec<Approximation> {
-    let grid = (table.axes().iter().filter(|axis| axis.matters()).count() > 1)
-        .then(|| Approximation::grid(table, &[8, 4]).unwrap());
-    [Approximation::slope(table).unwrap(), Approximation::single(table).unwrap()].into_iter().chain(grid).collect()
-}
-
 #[test]
 fn nan_infinities_and_ends_are_those_of_the_full_mode() {
-    let two = [10.0, 0.0, 300.0, 2.0, 2.0, 300.0, 20.0, 0.0, 400.0, 10.0, 2.0, 400.0];
-    let one = [10.0, 0.0, 6.0, 1.0, 2.0, 2.0];
-    let mut many = Vec::new();
-    for knot in 0..50_u16 {
-        many.extend([1.0 + f64::from(knot % 7), f64::from(knot)]);
-    }
-    for (cells, width) in [(&two[..], 3), (&one[..], 2), (&many[..], 2)] {
-        for tail in [Tail::Constant, Tail::Zero] {
-            let table = PiecewiseTable::from_rows(cells, width, tail).unwrap();
-            let last = table.axes()[0].greatest;
-            for made in all_forms(&table) {
-                for x in [f64::NEG_INFINITY, -1.0, 0.0, last, last.next_up(), 1e30, 1e300, f64::INFINITY, f64::NAN] {
-                    for y in [f64::NEG_INFINITY, 300.0, 400.0, f64::INFINITY, f64::NAN] {
-                        let point = &[x, y][..width - 1];
-                        let (full, fast) = (table.value(point), made.value(point));
-                        let same = full == fast || (full.is_nan() && fast.is_nan());
-                        assert!(same, "{fast} for {full} at {point:?} with {}", made.form());
-                    }
-                }
+    let cells = [10.0, 0.0, 300.0, 2.0, 2.0, 300.0, 20.0, 0.0, 400.0, 10.0, 2.0, 400.0];
+    for tail in [Tail::Constant, Tail::Zero] {
+        let table = PiecewiseTable::from_rows(&cells, 3, tail).unwrap();
+        let last = table.axes()[0].greatest;
+        let made = Grid::new(&table, &[8, 4]).unwrap();
+        for x in [f64::NEG_INFINITY, -1.0, 0.0, last, last.next_up(), 1e30, 1e300, f64::INFINITY, f64::NAN] {
+            for y in [f64::NEG_INFINITY, 300.0, 400.0, f64::INFINITY, f64::NAN] {
+                let (full, fast) = (table.value(&[x, y]), made.value(&[x, y]));
+                let same = full == fast || (full.is_nan() && fast.is_nan());
+                assert!(same, "{fast} for {full} at {x}, {y}");
             }
         }
     }
 }
 
-/// A point, any number of points and any kernel give the same bits.
+/// A point and any number of points give the same bits.
 #[test]
-fn all_kernels_give_the_same_bits() {
+fn a_grid_gives_the_same_bits_for_any_number_of_rows() {
     let mut random = Random::new(0xb175);
-    // Up to 16 and 32 knots are held in registers; more are found through buckets.
-    let knots: Vec<f64> = (0..40).map(|knot| f64::from(knot) + 0.7 * random.unit()).collect();
-    let values: Vec<f64> = knots.iter().map(|_| random.positive(-5, 5)).collect();
-    let table_of = |count: usize| {
-        let cells: Vec<f64> = values.iter().zip(&knots).take(count).flat_map(|(&value, &knot)| [value, knot]).collect();
-        PiecewiseTable::from_rows(&cells, 2, Tail::Constant).unwrap()
+    for axes in 2..=4 {
+        let (rows, table) = table_of(&mut random, axes);
+        let Ok(made) = Grid::new(&table, &vec![5; axes]) else { continue };
+        let points: Vec<Vec<f64>> = (0..259).map(|_| random_point(&mut random, &rows)).collect();
+        let columns: Vec<Vec<f64>> = (0..axes).map(|axis| points.iter().map(|point| point[axis]).collect()).collect();
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let mut values = vec![0.0; points.len()];
+        made.values(&columns, &mut values);
+        for (point, value) in points.iter().zip(&values) {
+            assert_eq!(made.value(point).to_bits(), value.to_bits(), "at {point:?} of {rows:?}");
+        }
+    }
+}
+
+/// What is chosen for a tolerance keeps it, on whatever table: the bound of the method that was chosen is above the largest error found.
+#[test]
+fn what_is_chosen_keeps_its_bound() {
+    let mut random = Random::new(0xc4);
+    let mut grids = 0;
+    for round in 0..cases(60) {
+        // Abscissae on multiples of a step, some of them left out in each group.
+        let mut rows = Rows::new();
+        for y in 0..4 {
+            let mut xs: Vec<usize> = (0..7).filter(|_| random.below(3) > 0).collect();
+            xs.extend([7, 8]);
+            rows.extend(xs.iter().map(|&x| vec![random.positive(-3, 3), x as f64 * 0.5, 300.0 + 40.0 * f64::from(y)]));
+        }
+        let table = compile(&rows, [Ending::Constant, Ending::Zero][round % 2]);
+        let tolerance = random.positive(-48, -4);
+        let choice = choose(&table, Wanted::Within(Tolerance::RelativeToLargest(tolerance)));
+        let bound = choice.chosen.bound.unwrap();
+        assert!(bound.relative_to_largest <= tolerance, "{:?} for {tolerance:e}", choice.chosen);
+        if let Method::Grid { cells } = &choice.chosen.method {
+            let made = Grid::new(&table, cells).unwrap();
+            let (absolute, relative) = maximise(&mut random, &rows, &table, &made);
+            assert!(absolute <= bound.absolute && relative <= bound.pointwise, "{absolute:e}, {relative:e}: {bound:?}");
+            grids += 1;
+        }
+    }
+    assert!(grids > 5, "only {grids} tables were resampled");
+}
+
+#[test]
+fn what_no_grid_can_hold_is_refused_with_the_reason() {
+    let refusal = |cells: &[f64], width: usize| {
+        let table = PiecewiseTable::from_rows(cells, width, Tail::Constant).unwrap();
+        Grid::new(&table, &vec![4; width - 1]).map(|made| made.bound()).unwrap_err()
     };
-    let long = [Approximation::slope(&table_of(40)).unwrap(), Approximation::single(&table_of(40)).unwrap()];
-    for count in [2, 3, 5, 8, 16, 17, 32, 33] {
-        let short = [Approximation::slope(&table_of(count)).unwrap(), Approximation::single(&table_of(count)).unwrap()];
-        let xs: Vec<f64> = (0..1003)
-            .map(|_| random.within(0.0, knots[count - 2]))
-            .chain(knots[..count - 1].iter().flat_map(|&knot| [knot, knot.next_up(), knot.next_down()]))
-            .collect();
-        for (long, short) in long.iter().zip(&short) {
-            let (mut a, mut b) = (vec![0.0; xs.len()], vec![0.0; xs.len()]);
-            long.values(&[&xs], &mut a);
-            short.values(&[&xs], &mut b);
-            assert_eq!(a, b, "{} with {count} knots", short.form());
-            let single_by_single: Vec<f64> = xs.iter().map(|&x| short.value(&[x])).collect();
-            assert_eq!(b, single_by_single);
-        }
-    }
-}
-
-/// f32 columns give what their f64 copies give, rounded to f32; the jump at the end included.
-#[test]
-#[expect(clippy::cast_possible_truncation, reason = "rounding is what is tested")]
-fn single_columns_are_the_same_numbers() {
-    let mut random = Random::new(0xf32);
-    for knots in [5_u16, 40] {
-        for tail in [Tail::Constant, Tail::Zero] {
-            let cells: Vec<f64> = (0..knots).flat_map(|knot| [random.positive(-5, 5), f64::from(knot) * 0.1]).collect();
-            let table = PiecewiseTable::from_rows(&cells, 2, tail).unwrap();
-            let last = f64::from(knots - 1) * 0.1;
-            let mut xs: Vec<f32> = (0..1000).map(|_| random.within(-0.1, 1.2 * last) as f32).collect();
-            xs.extend([last as f32, (last as f32).next_up(), (last as f32).next_down(), f32::NAN, f32::INFINITY]);
-            let wide: Vec<f64> = xs.iter().copied().map(f64::from).collect();
-            for made in all_forms(&table) {
-                let mut singles = vec![0.0_f32; xs.len()];
-                let mut values = vec![0.0; xs.len()];
-                made.values_single(&[&xs], &mut singles);
-                made.values(&[&wide], &mut values);
-                for (row, (&single, &value)) in singles.iter().zip(&values).enumerate() {
-                    assert_eq!(single.to_bits(), (value as f32).to_bits(), "{} at {}", made.form(), xs[row]);
-                }
-            }
-        }
-    }
-}
-
-/// With a drop to zero the side is decided before the coordinate is rounded to f32.
-#[test]
-fn the_drop_to_zero_is_where_the_table_has_it() {
-    let last = 0.1;
-    let table = PiecewiseTable::from_rows(&[20.0, 0.0, 10.0, last], 2, Tail::Zero).unwrap();
-    for made in all_forms(&table) {
-        assert_eq!(made.value(&[last]), 10.0, "{}", made.form());
-        assert_eq!(made.value(&[last.next_up()]), 0.0, "{}", made.form());
-        assert!(made.bound().absolute < 1e-4, "{}: {:?}", made.form(), made.bound());
-    }
+    assert_eq!(refusal(&[5.0], 1), Refusal::Constant);
+    assert_eq!(refusal(&[5.0, 0.0, 6.0, 1.0], 2), Refusal::OneAxis);
+    let with = |value: f64, x: f64| [1.0, 0.0, 0.0, value, x, 0.0, 1.0, 0.0, 1.0, 2.0, 1.0, 1.0];
+    assert_eq!(refusal(&with(f64::MAX, 1.0), 3), Refusal::TooLarge(f64::MAX));
+    assert!(matches!(refusal(&with(2.0, f64::MAX), 3), Refusal::Slope(_)));
 }

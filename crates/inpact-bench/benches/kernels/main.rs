@@ -12,7 +12,7 @@ mod tables;
 use std::hint::black_box;
 use std::time::Instant;
 
-use inpact_evaluation::accuracy::Approximation;
+use inpact_evaluation::accuracy::Grid;
 use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs_of_table};
 use inpact_evaluation::kernel::{InstructionSet, TableKernel, blocks, total};
 use inpact_evaluation::law::heat::HeatGeneration;
@@ -78,15 +78,10 @@ fn time_case(case: &Case, rounds: usize) {
             });
         }));
     }
-    #[expect(clippy::cast_possible_truncation, reason = "columns of f32 are what is timed")]
-    let single: Vec<Vec<f32>> = case.columns.iter().map(|column| column.iter().map(|&x| x as f32).collect()).collect();
-    contenders.extend(Approximation::single(&case.table).ok().map(|approximation| {
-        let mut values = vec![0.0_f32; rows];
-        Contender::new("fast, f32 columns", move || {
-            let mut columns: [&[f32]; 3] = [&[]; 3];
-            columns.iter_mut().zip(&single).for_each(|(part, column)| *part = column);
-            approximation.values_single(&columns[..single.len()], black_box(&mut values));
-        })
+    let cells = vec![if columns.len() < 3 { 64 } else { 24 }; columns.len()];
+    contenders.extend(Grid::new(&case.table, &cells).ok().map(|grid| {
+        let mut values = vec![0.0; rows];
+        Contender::new("grid", move || grid.values(columns, black_box(&mut values)))
     }));
     let mut values = vec![0.0; rows];
     contenders.push(Contender::new("scalar function", move || {

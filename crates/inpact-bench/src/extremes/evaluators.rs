@@ -1,8 +1,6 @@
 //! The ways to evaluate a table, each a line of a list: the modes and their kernels.
 
-use inpact_evaluation::accuracy::{
-    Approximation, ErrorBound, Refusal, commensurate_cells, full_bound, reference_bound,
-};
+use inpact_evaluation::accuracy::{ErrorBound, Grid, Refusal, commensurate_cells, full_bound, reference_bound};
 use inpact_evaluation::kernel::{InstructionSet, TableKernel};
 use inpact_evaluation::table::PiecewiseTable;
 
@@ -35,8 +33,6 @@ pub(super) const EVALUATORS: &[Evaluator] = &[
         of: |table| Ok(Ready { value: Box::new(|point| table.value(point)), bound: full_bound(table) }),
     },
     Evaluator { name: "`full`, every instruction set", of: |table| Ok(of_every_set(table)) },
-    Evaluator { name: "`slope`", of: |table| approximation(Approximation::slope(table)) },
-    Evaluator { name: "`single`", of: |table| approximation(Approximation::single(table)) },
     Evaluator { name: "`grid`, commensurate", of: grid },
 ];
 
@@ -68,17 +64,13 @@ fn of_every_set(table: &PiecewiseTable) -> Ready<'_> {
     Ready { value: Box::new(value), bound: full_bound(table) }
 }
 
-fn approximation<'a>(made: Result<Approximation, Refusal>) -> Result<Ready<'a>, String> {
-    let made = made.map_err(|refusal| refusal.to_string())?;
-    let bound = made.bound();
-    Ok(Ready { value: Box::new(move |point| made.value(point)), bound })
-}
-
 /// The grid whose lines meet all abscissae.
 fn grid(table: &PiecewiseTable) -> Result<Ready<'_>, String> {
     if table.axes().iter().filter(|axis| axis.matters()).count() < 2 {
         return Err(Refusal::OneAxis.to_string());
     }
     let cells = commensurate_cells(table).ok_or("no regular grid that stays in cache meets all abscissae")?;
-    approximation(Approximation::grid(table, &cells))
+    let grid = Grid::new(table, &cells).map_err(|refusal| refusal.to_string())?;
+    let bound = grid.bound();
+    Ok(Ready { value: Box::new(move |point| grid.value(point)), bound })
 }

@@ -7,15 +7,15 @@
 //!
 //! A grid whose lines meet all abscissae is the table itself up to rounding ([`commensurate_cells`]). For one axis a grid gains nothing, see `docs/accuracy.md`.
 
-use super::flat::MOST_AXES;
-use super::number::Number as _;
-use super::spread::{abscissae, for_each_vertex, group_value};
+use super::vertices::{abscissae, all_abscissae, for_each_vertex};
 use super::{ErrorBound, Refusal, largest_magnitude};
+use crate::kernel::{InstructionSet, Lanes, Operation};
 use crate::table::{PiecewiseTable, Tail};
 
-/// A regular grid over the axes the value depends on.
+/// A table of two to four axes that matter, resampled on a regular grid over these.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub struct Grid {
+    bound: ErrorBound,
     axes: Vec<GridAxis>,
     /// The values at the nodes, axis 0 running fastest.
     nodes: Vec<f64>,
@@ -36,8 +36,18 @@ struct GridAxis {
     stride: usize,
 }
 
+/// The most axes of a grid. Each doubles the number of nodes that take part in a value.
+const MOST_AXES: usize = 4;
+
+/// Half an ulp, as a part of a number of the normal range; and the smallest subnormal, which bounds a rounding below it.
+const UNIT: f64 = f64::EPSILON / 2.0;
+const UNDERFLOW: f64 = f64::from_bits(1);
+
+/// A number of which four can be added without overflow.
+const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
+
 /// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
-pub(super) const MOST_NODES: usize = 1 << 15;
+const MOST_NODES: usize = 1 << 15;
 
 /// The most vertices of the refinement of table and grid.
 const MOST_VERTICES: usize = 1 << 20;
@@ -46,30 +56,34 @@ const MOST_VERTICES: usize = 1 << 20;
 const BLOCK: usize = 64;
 
 impl Grid {
-    /// The grid with `cells` along each axis that matters, and the bound of its error.
-    pub(super) fn new(table: &PiecewiseTable, cells: &[usize]) -> Result<(Self, ErrorBound), Refusal> {
-        match table.levels.len() {
+    /// The grid with `cells` along each axis that matters, fastest first.
+    ///
+    /// # Errors
+    /// Why there is none: the table depends on fewer than two or more than four axes, its numbers are so extreme that a sum could overflow,
+    /// or the grid, or the refinement its error is computed on, is too large.
+    pub fn new(table: &PiecewiseTable, cells: &[usize]) -> Result<Self, Refusal> {
+        match table.levels().len() {
             0 => return Err(Refusal::Constant),
             1 => return Err(Refusal::OneAxis),
             2..=MOST_AXES => {}
             count => return Err(Refusal::TooManyAxes(count)),
         }
-        if cells.len() != table.levels.len() || cells.contains(&0) {
+        if cells.len() != table.levels().len() || cells.contains(&0) {
             return Err(Refusal::Cells);
         }
         let node_count = cells.iter().fold(1, |count: usize, &cells| count.saturating_mul(cells.saturating_add(1)));
         if node_count > MOST_NODES {
             return Err(Refusal::TooManyNodes(node_count));
         }
-        if let Some(&large) = table.values.iter().find(|value| value.abs() > f64::SAFE_TO_ADD) {
+        if let Some(&large) = table.values().iter().find(|value| value.abs() > SAFE_TO_ADD) {
             return Err(Refusal::TooLarge(large));
         }
         let mut axes = Vec::new();
         let mut stride = 1;
-        for (level, &cells) in table.levels.iter().zip(cells) {
+        for (level, &cells) in table.levels().iter().zip(cells) {
             let summary = table.axes()[level.axis];
             let scale = cells as f64 / (summary.greatest - summary.least);
-            if summary.least.abs().max(summary.greatest.abs()) > f64::SAFE_TO_ADD || !scale.is_normal() {
+            if summary.least.abs().max(summary.greatest.abs()) > SAFE_TO_ADD || !scale.is_normal() {
                 return Err(Refusal::Slope(scale));
             }
             let (least, greatest) = (summary.least, summary.greatest);
@@ -78,44 +92,68 @@ impl Grid {
         }
         let lines: Vec<Vec<f64>> = axes.iter().enumerate().map(|(level, axis)| axis.lines(table, level)).collect();
         let mut nodes = Vec::with_capacity(node_count);
-        let (height, whole) = table.whole_group();
-        let mut point = vec![0.0; axes[height - 1].axis + 1];
+        let mut point = vec![0.0; table.axis_count()];
         for_each_vertex(&lines, &mut |node| {
             for (axis, &x) in axes.iter().zip(node) {
                 point[axis.axis] = x;
             }
-            nodes.push(group_value(table, height, whole.clone(), &point));
+            nodes.push(table.value(&point));
         });
-        let grid = Self { zero_beyond: zero_beyond(table, axes[0].greatest), axes, nodes };
-        let bound = grid.bound(table, &lines)?;
-        Ok((grid, bound))
+        let zero_beyond = zero_beyond(table, axes[0].greatest);
+        let mut grid = Self { bound: ErrorBound::EXACT, zero_beyond, axes, nodes };
+        grid.bound = grid.true_maximum(table, &lines)?;
+        Ok(grid)
     }
 
-    pub(super) fn cells(&self) -> Vec<usize> {
+    /// How many cells it has along each axis that matters, fastest first.
+    pub fn cells(&self) -> Vec<usize> {
         self.axes.iter().map(|axis| axis.cells).collect()
     }
 
-    pub(super) fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.axes[..])
+    /// How far a value can be from the table's, over all queries.
+    pub fn bound(&self) -> ErrorBound {
+        self.bound
     }
 
-    pub(super) fn axis_count(&self) -> usize {
-        self.axes.last().map_or(0, |axis| axis.axis + 1)
+    /// The value at `point`, one coordinate an axis; the same bits as [`Self::values`] gives.
+    ///
+    /// NaN where a coordinate the value depends on is NaN or missing, as in [`PiecewiseTable::value`].
+    pub fn value(&self, point: &[f64]) -> f64 {
+        let along = |axis: &GridAxis| point.get(axis.axis).copied().unwrap_or(f64::NAN);
+        let mut coordinates = [f64::NAN; MOST_AXES];
+        for (coordinate, axis) in coordinates.iter_mut().zip(&self.axes) {
+            *coordinate = along(axis);
+        }
+        let mut value = [f64::NAN];
+        let column = |level: usize| std::slice::from_ref(&coordinates[level]);
+        self.rows([column(0), column(1), column(2), column(3)], &mut value);
+        value[0]
     }
 
-    /// The values at the points of `columns`, one column an axis of the table.
-    pub(super) fn values(&self, columns: &[&[f64]], values: &mut [f64]) {
-        pulp::Arch::new().dispatch(Each { grid: self, columns, values });
+    /// The values at many points, one for each place of `values`: `columns` has a column an axis of the table, which may be empty where the value does not depend on the axis.
+    ///
+    /// # Panics
+    /// If a column that matters is missing or shorter than `values`.
+    pub fn values(&self, columns: &[&[f64]], values: &mut [f64]) {
+        let mut along = [&columns[self.axes[0].axis][..values.len()]; MOST_AXES];
+        for (along, axis) in along.iter_mut().zip(&self.axes) {
+            *along = &columns[axis.axis][..values.len()];
+        }
+        self.rows(along, values);
+    }
+
+    fn rows(&self, along: [&[f64]; MOST_AXES], values: &mut [f64]) {
+        InstructionSet::best().run(Each { grid: self, along, values });
     }
 
     /// The largest error at a vertex of the common refinement, and what rounding can add to it.
-    fn bound(&self, table: &PiecewiseTable, lines: &[Vec<f64>]) -> Result<ErrorBound, Refusal> {
-        let (height, whole) = table.whole_group();
-        let outer = &table.levels[height - 1];
-        let largest = largest_magnitude(&table.values);
+    fn true_maximum(&self, table: &PiecewiseTable, lines: &[Vec<f64>]) -> Result<ErrorBound, Refusal> {
+        let height = table.levels().len();
+        let outer = &table.levels()[height - 1];
+        let largest = largest_magnitude(table.values());
         let mut worst = (0.0_f64, 0.0_f64);
         let mut vertices = 0;
-        let mut point = vec![0.0; self.axis_count()];
+        let mut point = vec![0.0; table.axis_count()];
         for knot in 0..outer.knots.len() - 1 {
             let (start, end) = (outer.knots[knot], outer.knots[knot + 1]);
             let groups = [outer.children_of(knot), outer.children_of(knot + 1)];
@@ -133,8 +171,8 @@ impl Grid {
                 for (axis, &x) in self.axes.iter().zip(vertex) {
                     point[axis.axis] = x;
                 }
-                let exact = group_value(table, height, whole.clone(), &point);
-                let error = (self.at(&point) - exact).abs();
+                let exact = table.value(&point);
+                let error = (self.value(&point) - exact).abs();
                 worst.0 = worst.0.max(error);
                 if error > 0.0 {
                     worst.1 = worst.1.max(error / exact.abs().max(f64::MIN_POSITIVE));
@@ -158,17 +196,17 @@ impl Grid {
     /// either costs as much of the largest difference of neighbouring nodes. Each axis rounds a difference and a result. All that counts twice, at the vertex and at the query,
     /// and the table's own kernel is off by n + 1 ulp at the vertex.
     fn rounding(&self, largest: f64) -> f64 {
-        let unit = f64::UNIT;
+        let unit = UNIT;
         let mut of_kernel = 0.0;
         let mut of_lines = 0.0;
         for axis in &self.axes {
             let difference = self.largest_step(axis);
             let cells = axis.cells as f64;
             let reach = axis.least.abs().max(axis.greatest.abs()) * axis.scale;
-            of_kernel += (2.0 * cells + 1.0) * unit * difference + unit * largest + f64::UNDERFLOW;
+            of_kernel += (2.0 * cells + 1.0) * unit * difference + unit * largest + UNDERFLOW;
             of_lines += 2.0 * difference * unit * (3.0 * cells + 18.0 * reach);
         }
-        let of_table = 2.0 * (self.axes.len() as f64 + 1.0) * unit * largest + f64::UNDERFLOW;
+        let of_table = 2.0 * (self.axes.len() as f64 + 1.0) * unit * largest + UNDERFLOW;
         (2.0 * of_kernel + of_lines + of_table) * (1.0 + 1024.0 * unit)
     }
 
@@ -179,14 +217,6 @@ impl Grid {
             .filter(|&node| !is_last(node))
             .map(|node| (self.nodes[node + axis.stride] - self.nodes[node]).abs())
             .fold(0.0, f64::max)
-    }
-
-    /// The value at one point.
-    fn at(&self, point: &[f64]) -> f64 {
-        let columns: Vec<&[f64]> = point.iter().map(std::slice::from_ref).collect();
-        let mut value = [0.0];
-        self.values(&columns, &mut value);
-        value[0]
     }
 
     /// Interpolates between the 2^(axes - first) nodes at and after `base`, `parts` holding the places within the cell.
@@ -214,16 +244,16 @@ impl Grid {
 
     /// The values of a block of rows beginning at row `start`.
     #[inline(always)]
-    fn block(&self, columns: &[&[f64]], start: usize, values: &mut [f64]) {
+    fn block(&self, along: [&[f64]; MOST_AXES], start: usize, values: &mut [f64]) {
         let rows = values.len();
         let mut bases = [0_u32; BLOCK];
         let mut parts = [[0.0_f64; BLOCK]; MOST_AXES];
-        for (axis, parts) in self.axes.iter().zip(&mut parts) {
-            let column = &columns[axis.axis][start..start + rows];
+        for ((axis, parts), column) in self.axes.iter().zip(&mut parts).zip(along) {
+            let column = &column[start..start + rows];
             #[expect(clippy::cast_possible_truncation, reason = "a grid has at most 2^15 nodes")]
             let (last, stride) = (axis.cells as u32 - 1, axis.stride as u32);
             for ((base, part), &x) in bases.iter_mut().zip(parts).zip(column) {
-                let place = (x.bounded(axis.least, axis.greatest) - axis.least) * axis.scale;
+                let place = (bounded(x, axis.least, axis.greatest) - axis.least) * axis.scale;
                 #[expect(
                     clippy::cast_possible_truncation,
                     clippy::cast_sign_loss,
@@ -253,7 +283,7 @@ impl Grid {
             }
         }
         if self.zero_beyond < f64::INFINITY {
-            let column = &columns[self.axes[0].axis][start..start + rows];
+            let column = &along[0][start..start + rows];
             for (value, &x) in values.iter_mut().zip(column) {
                 // A NaN along another axis stays one.
                 *value = if x > self.zero_beyond && !value.is_nan() { 0.0 } else { *value };
@@ -265,8 +295,7 @@ impl Grid {
 impl GridAxis {
     /// The coordinates of the grid's lines: the table's own abscissae where a line meets one to a few ulp.
     fn lines(&self, table: &PiecewiseTable, level: usize) -> Vec<f64> {
-        let (height, whole) = table.whole_group();
-        let knots = abscissae(table, level, height, &[whole]);
+        let knots = all_abscissae(table, level);
         let width = self.greatest - self.least;
         let nearness = 4.0 * f64::EPSILON * self.least.abs().max(self.greatest.abs());
         (0..=self.cells)
@@ -285,10 +314,10 @@ impl GridAxis {
 /// Cells along each axis such that the lines of the grid meet all the table's abscissae; none if that takes too many nodes.
 pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
     const MOST_CELLS: usize = 512;
-    let (height, whole) = table.whole_group();
+    let height = table.levels().len();
     let of_level = |level: usize| {
-        let knots = abscissae(table, level, height, std::slice::from_ref(&whole));
-        let axis = table.axes()[table.levels[level].axis];
+        let knots = all_abscissae(table, level);
+        let axis = table.axes()[table.levels()[level].axis];
         let width = axis.greatest - axis.least;
         let meets = |cells: usize, knot: f64| {
             let place = (knot - axis.least) / width * cells as f64;
@@ -299,6 +328,13 @@ pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
     let cells: Vec<usize> = (0..height).map(of_level).collect::<Option<_>>()?;
     let nodes = cells.iter().fold(1_usize, |count, cells| count.saturating_mul(cells + 1));
     (nodes <= MOST_NODES).then_some(cells)
+}
+
+/// `x` brought between `least` and `greatest`; NaN stays.
+#[inline(always)]
+fn bounded(x: f64, least: f64, greatest: f64) -> f64 {
+    let raised = if x < least { least } else { x };
+    if raised > greatest { greatest } else { raised }
 }
 
 /// `a` + `part` × (`b` − `a`).
@@ -317,20 +353,20 @@ fn merged(mut a: Vec<f64>, b: &[f64]) -> Vec<f64> {
 
 /// The innermost coordinate beyond which every value is zero, `greatest` if all groups end in zero at it or before.
 fn zero_beyond(table: &PiecewiseTable, greatest: f64) -> f64 {
-    let all_drop = table.levels[0].axis == 0
-        && table.tail == Tail::Zero
-        && table.levels[1].children.windows(2).all(|group| group[1] - group[0] > 1);
+    let all_drop = table.levels()[0].axis == 0
+        && table.tail() == Tail::Zero
+        && table.levels()[1].children.windows(2).all(|group| group[1] - group[0] > 1);
     if all_drop { greatest } else { f64::INFINITY }
 }
 
 /// The smallest magnitude of the table within the range of the grid; zero where signs differ or a group ends in zero before another.
 fn smallest_magnitude(table: &PiecewiseTable) -> f64 {
-    let least = table.values.iter().copied().fold(f64::INFINITY, f64::min);
-    let greatest = table.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let innermost = &table.levels[0];
+    let least = table.values().iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = table.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let innermost = &table.levels()[0];
     let ends_early = innermost.axis == 0
-        && table.tail == Tail::Zero
-        && table.levels[1].children[1..]
+        && table.tail() == Tail::Zero
+        && table.levels()[1].children[1..]
             .iter()
             .any(|&end| innermost.knots[end - 1] != innermost.knots[innermost.knots.len() - 1]);
     if ends_early || (least <= 0.0 && greatest >= 0.0) { 0.0 } else { least.abs().min(greatest.abs()) }
@@ -339,17 +375,18 @@ fn smallest_magnitude(table: &PiecewiseTable) -> f64 {
 /// The grid's values compiled for the processor at hand.
 struct Each<'a> {
     grid: &'a Grid,
-    columns: &'a [&'a [f64]],
+    /// The columns of the axes that matter.
+    along: [&'a [f64]; MOST_AXES],
     values: &'a mut [f64],
 }
 
-impl pulp::WithSimd for Each<'_> {
+impl Operation for Each<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
+    fn call<L: Lanes>(self, _: L) {
         for (block, values) in self.values.chunks_mut(BLOCK).enumerate() {
-            self.grid.block(self.columns, block * BLOCK, values);
+            self.grid.block(self.along, block * BLOCK, values);
         }
     }
 }

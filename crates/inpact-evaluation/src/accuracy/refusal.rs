@@ -1,23 +1,19 @@
-//! Why a table has no approximation of some form.
+//! Why a method is not taken for a table.
 
 use std::fmt;
 
-/// Why a table cannot be approximated in a form, or is not.
+/// Why a method cannot be had for a table, or was not chosen.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refusal {
     /// The value depends on nothing: there is nothing to make faster.
     Constant,
-    /// The value depends on more axes than the fast forms are made for.
+    /// The value depends on more axes than grids are made for.
     TooManyAxes(usize),
-    /// A number too large for the form's arithmetic.
+    /// A number too large to be added up.
     TooLarge(f64),
-    /// A number other than zero that is too small for the form's arithmetic.
-    TooSmall(f64),
-    /// A slope, or inverse width, outside the range of the form's arithmetic.
+    /// The number of cells for a unit of an axis is outside the range of f64.
     Slope(f64),
-    /// Two abscissae that are one in the form's arithmetic.
-    Merged(f64),
     /// A table of one axis is never resampled: it would gain no time and lose the knots.
     OneAxis,
     /// A grid with no cells along an axis, or for another number of axes.
@@ -33,7 +29,7 @@ pub enum Refusal {
         /// What was asked for.
         tolerance: f64,
     },
-    /// Within the tolerance, but another form is cheaper.
+    /// Within the tolerance, but another method is cheaper.
     Slower,
 }
 
@@ -42,10 +38,8 @@ impl fmt::Display for Refusal {
         match self {
             Self::Constant => write!(f, "the value depends on no axis"),
             Self::TooManyAxes(count) => write!(f, "the value depends on {count} axes, more than 4"),
-            Self::TooLarge(value) => write!(f, "{value:e} is too large for its arithmetic"),
-            Self::TooSmall(value) => write!(f, "{value:e} is too small for its arithmetic"),
-            Self::Slope(slope) => write!(f, "a slope of {slope:e} is outside the range of its arithmetic"),
-            Self::Merged(at) => write!(f, "two abscissae near {at:e} are one in its arithmetic"),
+            Self::TooLarge(value) => write!(f, "{value:e} is too large to be added up"),
+            Self::Slope(slope) => write!(f, "{slope:e} cells for a unit of an axis are outside the range of f64"),
             Self::OneAxis => write!(f, "a table of one axis gains nothing by resampling"),
             Self::Cells => write!(f, "the grid needs cells along each axis the value depends on"),
             Self::TooManyNodes(count) => write!(f, "a grid of {count} nodes would not stay in cache"),
@@ -53,7 +47,7 @@ impl fmt::Display for Refusal {
                 write!(f, "its error would have to be computed at {count} vertices, which is too many")
             }
             Self::Bound { bound, tolerance } => write!(f, "its bound, {bound:.1e}, is above {tolerance:.1e}"),
-            Self::Slower => write!(f, "another form within the tolerance is cheaper"),
+            Self::Slower => write!(f, "another method within the tolerance is cheaper"),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Compiler, Needs, numbers};
 use crate::accuracy::Wanted;
+use crate::evaluator::{Evaluator, FoundValue};
 use crate::law::conductance::{Branch, Conductance, ConductanceTables, ContactPoint};
 use crate::law::contact::ContactState;
 use crate::law::friction::SlipRate;
@@ -10,11 +11,9 @@ use crate::law::radiation::RadiationLaw;
 use crate::law::thermal::ThermalConductance;
 use crate::nodes::Column;
 use crate::plan::{
-    ConductionPlan, CurrentHeat, History, MassFlow, SlipRateSource, Source, ThermalPlan, ThermalTables,
-    folded_as_planned,
+    ConductionPlan, CurrentHeat, History, MassFlow, SlipRateSource, Source, TablePlan, ThermalPlan, ThermalTables,
 };
 use crate::results::{Along, Output};
-use crate::table_form::{FoundValue, TableForm};
 use inpact_parser::grammar::Dialect;
 
 /// The thermal law with its places.
@@ -37,9 +36,9 @@ pub(crate) struct CompiledThermal {
 pub(crate) struct CompiledConduction {
     pub(crate) conductance: ThermalConductance,
     /// The table against clearance as it is evaluated.
-    clearance_form: Option<TableForm>,
+    clearance_form: Option<Evaluator>,
     /// The table against contact pressure as it is evaluated.
-    pressure_form: Option<TableForm>,
+    pressure_form: Option<Evaluator>,
     /// What the table against clearance needs.
     clearance: Needs,
     /// What the table against contact pressure, or the curves of CalculiX need.
@@ -122,7 +121,8 @@ impl Compiler<'_> {
         };
         let conductance = match tables.thermal_conductance()? {
             ThermalConductance::Tables(tables) => ThermalConductance::Tables(tables.map(|branch, table| {
-                planned(branch).map_or_else(|| table.clone(), |planned| folded_as_planned(&table, planned))
+                let evaluator = planned(branch).and_then(TablePlan::evaluator);
+                evaluator.map_or(table, |evaluator| evaluator.table().clone())
             })),
             curves @ ThermalConductance::Calculix(_) => curves,
         };
@@ -132,7 +132,11 @@ impl Compiler<'_> {
         };
         let needs = |branch| table_of(branch).map(Needs::of).unwrap_or_default();
         let form = |branch| match &conductance {
-            ThermalConductance::Tables(tables) => Some(TableForm::new(tables.table(branch)?.clone(), accuracy)),
+            ThermalConductance::Tables(tables) => {
+                let table = tables.table(branch)?;
+                let evaluator = planned(branch).and_then(TablePlan::evaluator).cloned();
+                Some(evaluator.unwrap_or_else(|| Evaluator::new(table, accuracy)))
+            }
             ThermalConductance::Calculix(_) => None,
         };
         let slopes = numbers(self.plan).filter_map(|output| match output {
@@ -177,7 +181,7 @@ impl CompiledConduction {
     }
 
     /// The table against this variable as it is evaluated; the curves of CalculiX have none.
-    pub(crate) fn form(&self, against: Along) -> Option<&TableForm> {
+    pub(crate) fn form(&self, against: Along) -> Option<&Evaluator> {
         if against == Along::Pressure { self.pressure_form.as_ref() } else { self.clearance_form.as_ref() }
     }
 

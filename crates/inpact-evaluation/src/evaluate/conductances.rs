@@ -2,12 +2,12 @@
 
 use super::{InteractionTally, Row};
 use crate::compile::CompiledTables;
+use crate::evaluator::{SeenError, TableValues};
 use crate::law::conductance::{Branch, Conductance};
 use crate::law::contact::ContactState;
 use crate::numbers::mean;
 use crate::results::Along;
 use crate::table::Sides;
-use crate::table_form::{SeenError, TableValues};
 
 /// The conductances of the rows of a batch.
 #[derive(Debug, Default)]

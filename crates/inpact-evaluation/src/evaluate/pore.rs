@@ -3,12 +3,12 @@
 use super::tally::PERMEABILITY;
 use super::{InteractionTally, Outcome, Row, contact_status};
 use crate::compile::{CompiledPore, Length};
+use crate::evaluator::FoundValue;
 use crate::history::{PoreHistory, PoreIncrement};
 use crate::law::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
 use crate::law::pore::{BulkPermeabilities, Flow, Gap, PoreFlow, PorePoint};
 use crate::numbers::mean;
 use crate::results::{Along, ResultBatch, Status};
-use crate::table_form::FoundValue;
 use inpact_parser::model::Regime;
 
 /// Evaluates the law; gives its status.

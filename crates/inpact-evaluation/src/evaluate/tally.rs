@@ -2,11 +2,11 @@
 
 use super::{Row, Totals};
 use crate::compile::Laws;
+use crate::evaluator::SeenError;
 use crate::nodes::{BEYOND_TABLE, CONTRADICTORY_RATE, Findings, HEAT_OF_CLOSING, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, Status, push_number};
 use crate::table::{Sides, Tail};
-use crate::table_form::SeenError;
 use inpact_parser::model::Name;
 use inpact_validation::Severity;
 

@@ -92,11 +92,11 @@ struct Chunk<'a, 'b> {
     outputs: &'a mut ElectricalOutputs<'b>,
 }
 
-impl pulp::NullaryFnOnce for Chunk<'_, '_> {
+impl super::instruction_set::Operation for Chunk<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn call<L: super::instruction_set::Lanes>(self, _: L) {
         let Self { generation, conductance, inputs, first, outputs } = self;
         let count = conductance.len();
         let rows = first..first + count;

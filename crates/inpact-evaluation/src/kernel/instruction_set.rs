@@ -2,6 +2,15 @@
 
 use std::fmt;
 
+use super::pieces::Piece;
+
+#[cfg(target_arch = "x86_64")]
+use pulp::bytemuck::cast;
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::{V3, V4};
+#[cfg(target_arch = "x86_64")]
+use std::arch::x86_64::{__m256d, _CMP_EQ_OQ};
+
 /// A set of vector instructions. The results of a kernel are the same with each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
@@ -21,8 +30,8 @@ impl InstructionSet {
         let mut sets = vec![Self::Scalar];
         #[cfg(target_arch = "x86_64")]
         {
-            sets.extend(pulp::x86::V3::try_new().map(|_| Self::Avx2));
-            sets.extend(pulp::x86::V4::try_new().map(|_| Self::Avx512));
+            sets.extend(V3::try_new().map(|_| Self::Avx2));
+            sets.extend(V4::try_new().map(|_| Self::Avx512));
         }
         #[cfg(target_arch = "aarch64")]
         sets.push(Self::Neon);
@@ -36,20 +45,105 @@ impl InstructionSet {
 
     /// Runs `operation`, all of which must be inlined, compiled for this set; with plain instructions where the machine lacks it.
     #[inline]
-    pub(super) fn run<O: pulp::NullaryFnOnce>(self, operation: O) -> O::Output {
+    pub(crate) fn run<O: Operation>(self, operation: O) -> O::Output {
         match self {
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => match pulp::x86::V4::try_new() {
-                Some(simd) => simd.vectorize(operation),
-                None => operation.call(),
+            Self::Avx512 => match V4::try_new() {
+                Some(simd) => simd.vectorize(Call { operation, lanes: *simd }),
+                None => operation.call(Plain),
             },
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => match pulp::x86::V3::try_new() {
-                Some(simd) => simd.vectorize(operation),
-                None => operation.call(),
+            Self::Avx2 => match V3::try_new() {
+                Some(simd) => simd.vectorize(Call { operation, lanes: simd }),
+                None => operation.call(Plain),
             },
-            _ => operation.call(),
+            _ => operation.call(Plain),
         }
+    }
+}
+
+/// Something that is compiled for each set of instructions.
+pub(crate) trait Operation {
+    /// What comes of it.
+    type Output;
+
+    /// Does it; all that it calls must be inlined.
+    fn call<L: Lanes>(self, lanes: L) -> Self::Output;
+}
+
+/// What a kernel wants of a set of instructions beside what the compiler makes of plain loops.
+pub(crate) trait Lanes: Copy {
+    /// The values at `x` on the pieces of `places`, row by row: [`Piece::value`].
+    fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]);
+}
+
+/// No vector instructions of our own.
+#[derive(Clone, Copy)]
+struct Plain;
+
+impl Lanes for Plain {
+    #[inline(always)]
+    fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]) {
+        for ((&x, &place), value) in x.iter().zip(places).zip(values) {
+            *value = pieces[place as usize].value(x);
+        }
+    }
+}
+
+/// Four pieces are loaded whole and transposed: a gather of their parts would take one load a number.
+#[cfg(target_arch = "x86_64")]
+impl Lanes for V3 {
+    #[inline(always)]
+    fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]) {
+        let rows = values.len();
+        let (x, places) = (&x[..rows], &places[..rows]);
+        let (fours, rest) = values.as_chunks_mut::<4>();
+        let done = 4 * fours.len();
+        for ((value, x), place) in fours.iter_mut().zip(x.as_chunks::<4>().0).zip(places.as_chunks::<4>().0) {
+            *value = cast(interpolate_four(self, place.map(|place| cast(pieces[place as usize].0)), cast(*x)));
+        }
+        Plain.interpolate(pieces, &x[done..], &places[done..], rest);
+    }
+}
+
+/// [`Piece::value`] on four pieces, operation by operation.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn interpolate_four(simd: V3, [a, b, c, d]: [__m256d; 4], x: __m256d) -> __m256d {
+    let avx = simd.avx;
+    let (near_high, base_low) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b));
+    let (near_high_2, base_low_2) = (avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d));
+    let near = avx._mm256_permute2f128_pd::<0x20>(near_high, near_high_2);
+    let base = avx._mm256_permute2f128_pd::<0x20>(base_low, base_low_2);
+    let high = avx._mm256_permute2f128_pd::<0x31>(near_high, near_high_2);
+    let low = avx._mm256_permute2f128_pd::<0x31>(base_low, base_low_2);
+    // `two_difference(x, near)`
+    let negated_near = avx._mm256_xor_pd(near, cast([-0.0_f64; 4]));
+    let offset = avx._mm256_add_pd(x, negated_near);
+    let near_part = avx._mm256_sub_pd(offset, x);
+    let x_part = avx._mm256_sub_pd(offset, near_part);
+    let x_error = avx._mm256_sub_pd(x, x_part);
+    let near_error = avx._mm256_sub_pd(negated_near, near_part);
+    let offset_error = avx._mm256_add_pd(x_error, near_error);
+    let value = simd.fma._mm256_fmadd_pd(offset, high, base);
+    let correction = avx._mm256_add_pd(avx._mm256_mul_pd(offset, low), avx._mm256_mul_pd(offset_error, high));
+    let value = avx._mm256_add_pd(value, correction);
+    avx._mm256_blendv_pd(value, base, avx._mm256_cmp_pd::<_CMP_EQ_OQ>(x, near))
+}
+
+#[cfg(target_arch = "x86_64")]
+struct Call<O, L> {
+    operation: O,
+    lanes: L,
+}
+
+#[cfg(target_arch = "x86_64")]
+impl<O: Operation, L: Lanes> pulp::NullaryFnOnce for Call<O, L> {
+    type Output = O::Output;
+
+    #[inline(always)]
+    fn call(self) -> O::Output {
+        self.operation.call(self.lanes)
     }
 }
 

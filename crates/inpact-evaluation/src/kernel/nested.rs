@@ -1,47 +1,30 @@
-//! Tables of any number of axes, by buckets: blocks of rows that stay in cache, from the outermost axis to the innermost.
+//! Tables of any number of axes, a block of rows at a time, from the outermost axis to the innermost.
 //!
 //! Along the innermost axis a row is interpolated on a half segment ([`super::pieces`]);
 //! along an outer one both neighbouring groups are evaluated for the whole block and the values are interpolated as [`crate::numbers::between`] does.
 //! Coordinates are clamped to the range of their group first, which gives the value at its end.
+//!
+//! An axis whose groups all have the same abscissae is searched once a block, whatever the number of groups that a row's value needs; any other once for each of these.
 
 use std::hint::select_unpredictable;
+use std::ops::Range;
 
-use super::buckets::{BISECTION, BITS, Breaks, GroupSearch, LINEAR, Search};
+use super::axis::{Axis, BLOCK, Found, Noted};
+use super::instruction_set::Lanes;
 use super::pieces::{Piece, half_segments};
-use super::{InstructionSet, column_of};
+use super::{InstructionSet, Search, column_of};
 use crate::numbers::{is_ordinary, two_difference};
 use crate::table::{Level, PiecewiseTable, Sides, Tail};
-
-/// Rows that are taken through all axes together.
-const BLOCK: usize = 256;
 
 /// A table with at least one axis that matters.
 #[derive(Clone, Debug)]
 pub(super) struct NestedKernel {
-    leaf: Axis,
+    /// The axes, innermost first.
+    axes: Vec<Axis>,
     /// Half segments of all groups of the innermost axis.
     pieces: Vec<Piece>,
-    /// The other axes, from the inside out.
-    outer: Vec<(Axis, Vec<Segment>)>,
-}
-
-/// One axis: its groups and the search in them.
-#[derive(Clone, Debug)]
-struct Axis {
-    /// Which axis of the rows this is.
-    column: usize,
-    ranges: Vec<GroupRange>,
-    search: GroupSearch,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct GroupRange {
-    /// The range coordinates are clamped to.
-    least: f64,
-    greatest: f64,
-    /// Below and above these a point is outside the table; infinite in a group of one knot.
-    below: f64,
-    above: f64,
+    /// Segments of all groups of each outer axis, innermost first.
+    segments: Vec<Vec<Segment>>,
 }
 
 /// A segment of an outer axis, and the groups of the next axis inside at its ends.
@@ -53,97 +36,80 @@ struct Segment {
     upper: u32,
 }
 
-/// Where the sides of the rows of a block are noted.
-struct Noted<'a> {
-    sides: &'a mut [Sides],
-    /// Whether the group under evaluation takes part in the value of a row.
-    takes_part: [bool; BLOCK],
-}
-
 impl NestedKernel {
     pub(super) fn new(table: &PiecewiseTable) -> Self {
         let levels = table.levels();
-        let groups = |level: usize| -> Vec<std::ops::Range<usize>> {
+        let groups = |level: usize| -> Vec<Range<usize>> {
             match levels.get(level + 1) {
                 Some(outer) => outer.children.windows(2).map(|pair| pair[0]..pair[1]).collect(),
                 None => std::iter::once(0..levels[level].knots.len()).collect(),
             }
         };
         let innermost = &levels[0];
-        let drops = innermost.axis == 0 && table.tail() == Tail::Zero;
+        let beyond = (innermost.axis == 0 && table.tail() == Tail::Zero).then_some(0.0);
         let mut pieces = Vec::new();
-        let mut leaf = AxisBuilder::default();
+        let mut breaks = Vec::new();
         for rows in groups(0) {
             let knots = &innermost.knots[rows.clone()];
-            let (of_group, breaks) =
-                half_segments(knots, &table.values()[rows.clone()], &table.slopes()[rows], drops.then_some(0.0));
+            let (of_group, of_breaks) =
+                half_segments(knots, &table.values()[rows.clone()], &table.slopes()[rows], beyond);
             pieces.extend(of_group);
-            leaf.push(knots, breaks, drops);
+            breaks.push(of_breaks);
         }
-        let outer = (1..levels.len()).map(|level| outer_axis(&levels[level], &groups(level))).collect();
-        Self { leaf: leaf.build(innermost.axis), pieces, outer }
+        let mut axes = vec![Axis::new(innermost, &groups(0), breaks, beyond.is_some())];
+        let mut segments = Vec::new();
+        for (level, of_level) in levels.iter().enumerate().skip(1) {
+            let (axis, of_axis) = outer_axis(of_level, &groups(level));
+            axes.push(axis);
+            segments.push(of_axis);
+        }
+        Self { axes, pieces, segments }
     }
 
     pub(super) fn search(&self) -> Search {
-        self.leaf.search.kind()
+        self.axes[0].search()
     }
 
     /// The values of all rows, and whether some are NaN.
     #[inline(always)]
-    pub(super) fn values(
+    pub(super) fn values<L: Lanes>(
         &self,
+        lanes: L,
         set: InstructionSet,
         columns: &[&[f64]],
         values: &mut [f64],
         mut sides: Option<&mut [Sides]>,
     ) -> bool {
         let rows = values.len();
-        for axis in std::iter::once(&self.leaf).chain(self.outer.iter().map(|(axis, _)| axis)) {
+        for axis in &self.axes {
             let _: &[f64] = column_of(columns, axis.column, rows);
         }
+        let mut shared = vec![Found::default(); if self.axes.len() == 1 { 0 } else { self.axes.len() }];
+        let mut own = Found::default();
         let mut has_nan = false;
         let mut first = 0;
         while first < rows {
             let values = &mut values[first..rows.min(first + BLOCK)];
-            let mut noted = sides
-                .as_deref_mut()
-                .map(|sides| Noted { sides: &mut sides[first..first + values.len()], takes_part: [true; BLOCK] });
-            if self.outer.is_empty() {
-                let x = &columns[self.leaf.column][first..];
-                self.leaf_values(x, None, values, noted.as_mut());
+            let part = first..first + values.len();
+            let mut noted = sides.as_deref_mut().map(|sides| Noted::new(&mut sides[part.clone()]));
+            if let [axis] = &self.axes[..] {
+                let column = &columns[axis.column][part];
+                axis.find(column, None, &mut own);
+                lanes.interpolate(&self.pieces, &own.clamped, &own.pieces, values);
+                if let Some(noted) = &mut noted {
+                    axis.note(None, column, noted);
+                }
             } else {
-                let block = Block { kernel: self, set, height: self.outer.len(), columns, first };
-                block.values(&[0; BLOCK], values, noted.as_mut());
+                for (axis, found) in self.axes.iter().zip(&mut shared).filter(|(axis, _)| axis.is_shared()) {
+                    axis.find(&columns[axis.column][part.clone()], None, found);
+                }
+                let block = Block { kernel: self, set, height: self.axes.len() - 1, columns, first, shared: &shared };
+                block.values(lanes, &[0; BLOCK], values, noted.as_mut());
             }
             has_nan |= values.iter().fold(false, |any, value| any | value.is_nan());
             first += BLOCK;
         }
         has_nan
-    }
-
-    /// The values of a block of rows along the innermost axis, each in its group or all in the first.
-    #[inline(always)]
-    fn leaf_values(
-        &self,
-        column: &[f64],
-        groups: Option<&[u32; BLOCK]>,
-        values: &mut [f64],
-        noted: Option<&mut Noted<'_>>,
-    ) {
-        let column = &column[..values.len()];
-        let (mut clamped, mut found) = ([0.0; BLOCK], [0; BLOCK]);
-        let (clamped, found) = (&mut clamped[..values.len()], &mut found[..values.len()]);
-        self.leaf.find(column, groups, clamped, found);
-        for ((&x, &piece), value) in clamped.iter().zip(&*found).zip(values) {
-            *value = self.pieces[piece as usize].value(x);
-        }
-        if let Some(noted) = noted {
-            for (row, (&x, sides)) in column.iter().zip(&mut *noted.sides).enumerate() {
-                if noted.takes_part[row] {
-                    self.leaf.note(groups.map_or(0, |groups| groups[row] as usize), x, sides);
-                }
-            }
-        }
     }
 }
 
@@ -152,44 +118,47 @@ impl NestedKernel {
 struct Block<'a> {
     kernel: &'a NestedKernel,
     set: InstructionSet,
-    /// How many outer axes are still to be gone through.
+    /// The axis that is gone through.
     height: usize,
     columns: &'a [&'a [f64]],
     /// The block's first row.
     first: usize,
+    /// Where the rows lie along the axes whose groups share their abscissae.
+    shared: &'a [Found],
 }
 
 impl Block<'_> {
-    /// The values of a block of rows, each in a group of its own below `height`.
+    /// The values of a block of rows, each in a group of its own of the axis `height`.
     #[inline(always)]
-    fn values(self, groups: &[u32; BLOCK], values: &mut [f64], mut noted: Option<&mut Noted<'_>>) {
-        let Self { kernel, set, height, columns, first } = self;
-        if height == 0 {
-            let x = &columns[kernel.leaf.column][first..];
-            return kernel.leaf_values(x, Some(groups), values, noted);
-        }
-        let (axis, segments) = &kernel.outer[height - 1];
+    fn values<L: Lanes>(self, lanes: L, groups: &[u32; BLOCK], values: &mut [f64], mut noted: Option<&mut Noted<'_>>) {
+        let Self { kernel, set, height, columns, first, shared } = self;
         let rows = values.len();
+        let axis = &kernel.axes[height];
         let column = &columns[axis.column][first..first + rows];
-        let mut clamped = [0.0; BLOCK];
+        let mut own = Found::default();
+        let clamped = if axis.is_shared() {
+            axis.places(groups, &shared[height].pieces, &mut own.pieces);
+            &shared[height].clamped
+        } else {
+            axis.find(column, Some(groups), &mut own);
+            &own.clamped
+        };
+        let takes_part = noted.as_deref_mut().map(|noted| {
+            axis.note(Some(groups), column, noted);
+            noted.takes_part
+        });
+        let Some(inside) = height.checked_sub(1) else {
+            lanes.interpolate(&kernel.pieces, clamped, &own.pieces, values);
+            return;
+        };
+        let segments = &kernel.segments[inside][..];
         let mut ends = [[0.0; BLOCK]; 2];
         let mut inner = [[0; BLOCK]; 2];
-        let mut found = [0; BLOCK];
-        let (clamped, found) = (&mut clamped[..rows], &mut found[..rows]);
-        axis.find(column, Some(groups), clamped, found);
         for row in 0..rows {
-            let segment = &segments[found[row] as usize];
+            let segment = &segments[own.pieces[row] as usize];
             (ends[0][row], ends[1][row]) = (segment.x0, segment.x1);
             (inner[0][row], inner[1][row]) = (segment.lower, segment.upper);
         }
-        let takes_part = noted.as_deref_mut().map(|noted| {
-            for row in 0..rows {
-                if noted.takes_part[row] {
-                    axis.note(groups[row] as usize, column[row], &mut noted.sides[row]);
-                }
-            }
-            noted.takes_part
-        });
         let mut upper_values = [0.0; BLOCK];
         let upper_values = &mut upper_values[..rows];
         for (side, values) in [&mut *values, &mut *upper_values].into_iter().enumerate() {
@@ -201,8 +170,8 @@ impl Block<'_> {
                     noted.takes_part[row] = takes_part[row] && !is_other_alone;
                 }
             }
-            let inside = Self { height: height - 1, ..self };
-            set.run(InnerValues { block: inside, groups: &inner[side], values, noted: noted.as_deref_mut() });
+            let block = Self { height: inside, ..self };
+            set.run(InnerValues { block, groups: &inner[side], values, noted: noted.as_deref_mut() });
         }
         if let (Some(noted), Some(takes_part)) = (noted, takes_part) {
             noted.takes_part = takes_part;
@@ -222,109 +191,25 @@ struct InnerValues<'a, 'b> {
     noted: Option<&'a mut Noted<'b>>,
 }
 
-impl pulp::NullaryFnOnce for InnerValues<'_, '_> {
+impl super::instruction_set::Operation for InnerValues<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
-        self.block.values(self.groups, self.values, self.noted);
-    }
-}
-
-impl Axis {
-    /// Clamps the coordinates of a block to the groups they are in and finds the pieces that hold them.
-    #[inline(always)]
-    fn find(&self, column: &[f64], groups: Option<&[u32; BLOCK]>, clamped: &mut [f64], pieces: &mut [u32]) {
-        match (self.search.kind(), self.search.steps()) {
-            (Search::LinearBuckets, 1) => self.find_by::<LINEAR, 1>(column, groups, clamped, pieces),
-            (Search::LinearBuckets, 2) => self.find_by::<LINEAR, 2>(column, groups, clamped, pieces),
-            (Search::LinearBuckets, _) => self.find_by::<LINEAR, 4>(column, groups, clamped, pieces),
-            (Search::BitBuckets, 1) => self.find_by::<BITS, 1>(column, groups, clamped, pieces),
-            (Search::BitBuckets, 2) => self.find_by::<BITS, 2>(column, groups, clamped, pieces),
-            (Search::BitBuckets, _) => self.find_by::<BITS, 4>(column, groups, clamped, pieces),
-            _ => self.find_by::<BISECTION, 0>(column, groups, clamped, pieces),
-        }
-    }
-
-    #[inline(always)]
-    fn find_by<const KIND: u8, const STEPS: usize>(
-        &self,
-        column: &[f64],
-        groups: Option<&[u32; BLOCK]>,
-        clamped: &mut [f64],
-        pieces: &mut [u32],
-    ) {
-        if let (Some(groups), true) = (groups, self.ranges.len() > 1) {
-            for ((clamped, &x), &group) in clamped.iter_mut().zip(column).zip(groups) {
-                *clamped = self.ranges[group as usize].clamp(x);
-            }
-            self.search.find::<KIND, STEPS>(clamped, |row| self.search.group(groups[row] as usize), pieces);
-        } else {
-            // One group for all: what it tells stays in registers.
-            let (range, group) = (self.ranges[0], self.search.group(0));
-            for (clamped, &x) in clamped.iter_mut().zip(column) {
-                *clamped = range.clamp(x);
-            }
-            self.search.find::<KIND, STEPS>(clamped, |_| group, pieces);
-        }
-    }
-
-    /// Notes whether `x` lies outside the group.
-    #[inline(always)]
-    fn note(&self, group: usize, x: f64, sides: &mut Sides) {
-        let range = &self.ranges[group];
-        if x < range.below {
-            sides.mark_below(self.column);
-        }
-        if x > range.above {
-            sides.mark_above(self.column);
-        }
-    }
-}
-
-impl GroupRange {
-    /// `x` within the range; NaN stays NaN.
-    #[inline(always)]
-    fn clamp(&self, x: f64) -> f64 {
-        let x = if x < self.least { self.least } else { x };
-        if x > self.greatest { self.greatest } else { x }
-    }
-}
-
-/// Collects the groups of an axis.
-#[derive(Default)]
-struct AxisBuilder {
-    ranges: Vec<GroupRange>,
-    breaks: Vec<Breaks>,
-}
-
-impl AxisBuilder {
-    fn push(&mut self, knots: &[f64], breaks: Vec<f64>, drops: bool) {
-        let (least, last) = (knots[0], knots[knots.len() - 1]);
-        let range = if knots.len() == 1 {
-            GroupRange { least, greatest: least, below: f64::NEG_INFINITY, above: f64::INFINITY }
-        } else {
-            GroupRange { least, greatest: if drops { last.next_up() } else { last }, below: least, above: last }
-        };
-        self.breaks.push(Breaks { least, greatest: range.greatest, at: breaks });
-        self.ranges.push(range);
-    }
-
-    fn build(self, column: usize) -> Axis {
-        Axis { column, search: GroupSearch::new(&self.breaks), ranges: self.ranges }
+    fn call<L: Lanes>(self, lanes: L) {
+        self.block.values(lanes, self.groups, self.values, self.noted);
     }
 }
 
 /// An axis with other axes inside it.
-fn outer_axis(level: &Level, groups: &[std::ops::Range<usize>]) -> (Axis, Vec<Segment>) {
+fn outer_axis(level: &Level, groups: &[Range<usize>]) -> (Axis, Vec<Segment>) {
     let mut segments = Vec::new();
-    let mut axis = AxisBuilder::default();
+    let mut breaks = Vec::new();
     // Knot j owns group j of the next level inside.
     let child = |knot: usize| u32::try_from(knot).expect("a table has fewer than 2^32 rows");
     for group in groups {
         let knots = &level.knots[group.clone()];
         let last = knots.len() - 1;
-        axis.push(knots, knots[last.min(1)..last].to_vec(), false);
+        breaks.push(knots[last.min(1)..last].to_vec());
         let segment = |left: usize, right: usize| Segment {
             x0: knots[left],
             x1: knots[right],
@@ -336,7 +221,7 @@ fn outer_axis(level: &Level, groups: &[std::ops::Range<usize>]) -> (Axis, Vec<Se
         }
         segments.extend((0..last).map(|left| segment(left, left + 1)));
     }
-    (axis.build(level.axis), segments)
+    (Axis::new(level, groups, breaks, false), segments)
 }
 
 /// [`crate::numbers::between`], operation by operation and without branches; NaN where a difference is extreme.

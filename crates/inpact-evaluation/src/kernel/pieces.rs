@@ -8,33 +8,26 @@ use std::hint::select_unpredictable;
 
 use crate::numbers::KernelSlope;
 
-/// What interpolation needs on one half segment.
+/// What interpolation needs on one half segment: the abscissa of the end it starts from and the value there,
+/// the slope and what its rounding took away; the slope is NaN where the segment has no kernel slope.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-pub(super) struct Piece {
-    /// The abscissa of the end it starts from.
-    pub(super) near: f64,
-    /// The value there.
-    pub(super) base: f64,
-    /// The slope and what its rounding took away; NaN where the segment has no kernel slope.
-    pub(super) high: f64,
-    pub(super) low: f64,
-}
+pub(crate) struct Piece(pub(super) [f64; 4]);
 
 impl Piece {
-    /// A piece on which the value is `base`.
-    pub(super) fn constant(near: f64, base: f64) -> Self {
-        Self { near, base, high: 0.0, low: 0.0 }
+    pub(super) fn new(near: f64, base: f64, (high, low): (f64, f64)) -> Self {
+        Self([near, base, high, low])
     }
 
     /// The value at `x`: [`crate::numbers::interpolate`], operation by operation; NaN where there is no kernel slope.
     #[inline(always)]
     pub(super) fn value(&self, x: f64) -> f64 {
-        let (offset, offset_error) = crate::numbers::two_difference(x, self.near);
-        let value = offset.mul_add(self.high, self.base);
-        let value = value + (offset * self.low + offset_error * self.high);
+        let [near, base, high, low] = self.0;
+        let (offset, offset_error) = crate::numbers::two_difference(x, near);
+        let value = offset.mul_add(high, base);
+        let value = value + (offset * low + offset_error * high);
         // A branch would be mispredicted wherever queries at knots, or clamped to the ends, are mixed with others.
-        select_unpredictable(x == self.near, self.base, value)
+        select_unpredictable(x == near, base, value)
     }
 }
 
@@ -66,24 +59,24 @@ pub(super) fn half_segments(
     let last = knots.len() - 1;
     for left in 0..last {
         let (x0, x1) = (knots[left], knots[left + 1]);
-        let (high, low) = slopes[left].parts();
+        let slope = slopes[left].parts();
         if left > 0 {
             breaks.push(x0);
         }
-        pieces.push(Piece { near: x0, base: values[left], high, low });
+        pieces.push(Piece::new(x0, values[left], slope));
         let right_half = last_of_left_half(x0, x1).next_up();
         // The right half of an inner segment may hold x1 alone, which begins the next one.
         if right_half < x1 || left + 1 == last {
             breaks.push(right_half);
-            pieces.push(Piece { near: x1, base: values[left + 1], high, low });
+            pieces.push(Piece::new(x1, values[left + 1], slope));
         }
     }
     if last == 0 {
-        pieces.push(Piece::constant(knots[0], values[0]));
+        pieces.push(Piece::new(knots[0], values[0], (0.0, 0.0)));
     } else if let Some(beyond) = beyond {
         let after = knots[last].next_up();
         breaks.push(after);
-        pieces.push(Piece::constant(after, beyond));
+        pieces.push(Piece::new(after, beyond, (0.0, 0.0)));
     }
     (pieces, breaks)
 }

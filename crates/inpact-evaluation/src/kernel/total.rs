@@ -53,11 +53,11 @@ struct BlockTotal<'a> {
     block: &'a [f64],
 }
 
-impl pulp::NullaryFnOnce for BlockTotal<'_> {
+impl super::instruction_set::Operation for BlockTotal<'_> {
     type Output = CompensatedSum;
 
     #[inline(always)]
-    fn call(self) -> CompensatedSum {
+    fn call<L: super::instruction_set::Lanes>(self, _: L) -> CompensatedSum {
         let mut sums = [0.0; LANES];
         let mut compensations = [0.0; LANES];
         let (rows, rest) = self.block.as_chunks::<LANES>();

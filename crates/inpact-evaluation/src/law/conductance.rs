@@ -12,8 +12,8 @@
 //! The conductance jumps where the two branches meet, where a pressure table alone opens, and at the last clearance under [`crate::table::Tail::Zero`].
 
 use super::contact::{Clearance, ContactPressure, ContactState};
+use crate::evaluator::FoundValue;
 use crate::table::{PiecewiseTable, Sides};
-use crate::table_form::FoundValue;
 
 /// The tables of a conductance: axis 0 clearance or pressure, axis 1 average temperature, then the field variables.
 #[derive(Clone, Debug)]

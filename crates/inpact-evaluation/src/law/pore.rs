@@ -26,9 +26,9 @@
 //! Source: semantics P-10 to P-42; Analysis User's Guide 37.4.1, Theory Guide 5.2.2 (6.14).
 
 use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
+use crate::evaluator::FoundValue;
 use crate::numbers::{Scaled, ratio, scaled_difference_product, two_difference};
 use crate::table::{PiecewiseTable, Sides};
-use crate::table_form::FoundValue;
 
 /// The pore fluid law of one surface interaction.
 #[derive(Clone, Debug)]

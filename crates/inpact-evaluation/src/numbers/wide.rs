@@ -76,7 +76,7 @@ impl Wide {
 
     /// The sum of a value and a smaller one; a value that is not finite stands alone.
     #[inline]
-    fn of_parts(high: f64, low: f64) -> Self {
+    pub(crate) fn of_parts(high: f64, low: f64) -> Self {
         let sum = high + low;
         let rest = low - (sum - high);
         Self { high: sum, low: if rest.is_finite() { rest } else { 0.0 } }

@@ -1,9 +1,9 @@
 //! What the parts of an evaluation cost, in nanoseconds a row on one core: enough to weigh cuts against each other, not a promise.
 //!
-//! Tables cost what [`crate::accuracy::cost`] says; the rest is measured with the speed page's benchmark on an x86-64 machine with AVX-512; other machines differ by a factor, hardly in the order.
+//! Tables cost what their [`Shape`] says; the rest is measured with the speed page's benchmark on an x86-64 machine with AVX-512; other machines differ by a factor, hardly in the order.
 
 use super::{AxisPlan, TablePlan};
-use crate::accuracy::{Columns, Method, Shape, cost};
+use crate::accuracy::{Method, Shape};
 
 /// Reading a number from a cell of comma-separated values.
 pub(super) const READ_NUMBER: f64 = 18.0;
@@ -17,21 +17,13 @@ pub(super) const COMPUTE_OUTPUT: f64 = 2.0;
 /// Finding a node's history and adding an increment to it.
 pub(super) const KEEP_HISTORY: f64 = 35.0;
 
-/// A value of a table with so many axes that are read, and so many rows, by its own kernel.
-fn of_table(axes: usize, rows: usize) -> f64 {
-    cost(&Method::Full, Shape::of_rows(axes, rows), Columns::Double)
-}
-
 impl TablePlan {
     /// The cost of a value of the whole table.
     pub(super) fn whole_cost(&self) -> f64 {
-        match &self.form {
-            Some(form) if self.axes.iter().all(|axis| axis.fold.is_none()) => form.full_cost,
-            _ => of_table(self.axes.iter().filter(|axis| axis.matters).count(), self.rows),
-        }
+        self.shape.cost(&Method::Full)
     }
 
-    /// The cost of a value of what is left of it, by its own kernel.
+    /// The cost of a value of what is left of it in f64.
     pub(super) fn folded_full_cost(&self) -> f64 {
         self.form.as_ref().map_or_else(|| self.folded_cost(), |form| form.full_cost)
     }
@@ -41,6 +33,7 @@ impl TablePlan {
         if let Some(form) = &self.form {
             return form.cost;
         }
-        of_table(self.axes.iter().filter(|axis| AxisPlan::is_read(axis)).count(), self.folded_rows)
+        let axes = self.axes.iter().filter(|axis| AxisPlan::is_read(axis)).count();
+        Shape { axes, ..self.shape }.cost(&Method::Full)
     }
 }

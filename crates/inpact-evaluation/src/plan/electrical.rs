@@ -9,6 +9,7 @@ use super::tables::{InteractionTables, electrical_axis, matters};
 use super::user::{UserPlan, plan_user};
 use super::wanted::columns_of;
 use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
+use crate::accuracy::Shape;
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::{Along, Output};
@@ -250,6 +251,7 @@ pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
         ends_in_zero: false,
         axes: axes.collect(),
         folded_rows: table.row_count(),
+        shape: Shape::of(table),
         not_folded: Vec::new(),
         form: None,
     }

@@ -3,7 +3,8 @@
 use super::make::Planner;
 use super::source::Source;
 use super::{AxisPlan, FormPlan, TablePlan};
-use crate::accuracy::{Columns, Method, Shape, Wanted, choose, cost};
+use crate::accuracy::{Method, Shape, Wanted, choose};
+use crate::evaluator::Evaluator;
 use crate::law::contact::ContactState;
 use crate::nodes::{Column, Part};
 use crate::numbers::mean;
@@ -29,18 +30,20 @@ pub(super) fn fold_and_choose(
 /// The form that a table will have.
 fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
     let choice = choose(table, wanted);
-    let refused = choice.candidates.iter().filter_map(|candidate| {
+    let refused = choice.refused.iter().filter_map(|candidate| {
         let refusal = candidate.refusal.as_ref()?;
         Some((candidate.method.to_string(), refusal.to_string()))
     });
-    let refused = refused.collect();
-    let full_cost = cost(&Method::Full, Shape::of(table), Columns::Double);
-    let (method, bound, cost) = match choice.chosen() {
-        Some(chosen) => (chosen.method.clone(), chosen.bound, chosen.cost),
-        None => (Method::Full, None, full_cost),
-    };
-    let missed = bound.and_then(|bound| wanted.missed_by(&bound));
-    FormPlan { method, bound, missed, cost, full_cost, refused }
+    let chosen = &choice.chosen;
+    FormPlan {
+        method: chosen.method.clone(),
+        bound: chosen.bound,
+        missed: chosen.bound.and_then(|bound| wanted.missed_by(&bound)),
+        cost: chosen.cost,
+        full_cost: Shape::of(table).cost(&Method::Full),
+        refused: refused.collect(),
+        evaluator: Evaluator::of_choice(table, choice),
+    }
 }
 
 fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -> Option<f64>) -> PiecewiseTable {
@@ -64,11 +67,11 @@ fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -
     folded
 }
 
-/// A table of a plan as it is evaluated.
-pub(crate) fn folded_as_planned(table: &PiecewiseTable, plan: &TablePlan) -> PiecewiseTable {
-    let folds = plan.axes.iter().enumerate().rev().filter_map(|(axis, of)| Some((axis, of.fold?)));
-    // The plan folded the same table along the same axes.
-    folds.fold(table.clone(), |table, (axis, at)| table.folded(axis, at).unwrap_or(table))
+impl TablePlan {
+    /// The table as it is evaluated; `None` for one that no row reaches.
+    pub(crate) fn evaluator(&self) -> Option<&Evaluator> {
+        self.form.as_ref().map(|form| &form.evaluator)
+    }
 }
 
 impl AxisPlan {

@@ -1,8 +1,9 @@
 //! From the rows of a deck to a table that can be evaluated: validation (semantics T-08 to T-10) and grouping (T-02, T-05).
 
 use std::fmt;
+use std::sync::Arc;
 
-use super::{AxisSummary, Level, PiecewiseTable, Tail};
+use super::{AxisSummary, Content, Level, PiecewiseTable, Tail};
 use crate::numbers::KernelSlope;
 
 /// Rows that do not form a table: which row it is, counted from zero, and what is wrong with it.
@@ -134,7 +135,7 @@ impl PiecewiseTable {
             .collect();
         let levels = levels_that_matter(axes, starts, &summaries);
         let slopes = row_slopes(&levels, &values);
-        Ok(Self { axis_count, tail, levels, values, slopes, axes: summaries, marks: None })
+        Ok(Self(Arc::new(Content { axis_count, tail, levels, values, slopes, axes: summaries, marks: None })))
     }
 }
 

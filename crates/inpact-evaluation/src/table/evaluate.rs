@@ -1,34 +1,18 @@
-//! Values and slopes of a table at a point: the scalar reference kernel.
+//! Values and slopes of a table at a point: one recursion over the axes, in the arithmetic that is wanted.
 //!
-//! The innermost axis is interpolated with [`interpolate`] (1.5 ulp), the outer ones with [`between`] (0.5 ulp each).
+//! In f64 the innermost axis is interpolated to 1.5 ulp, the outer ones to half an ulp each.
 //! In relative terms that is two roundings and one for each outer axis: a value of a table of non-negative rows is within n + 1 ulp of the exact one for n axes.
+//! In double-double every axis keeps 106 bits, so that the outer axes interpolate what the inner ones have found with both its parts.
 
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::{Level, Marks, PiecewiseTable, Sides, Tail};
-use crate::numbers::{between, interpolate, slope};
-
-/// The coordinates of a query: axis 0, then the others.
-#[derive(Clone, Copy)]
-struct Point<'a> {
-    first: f64,
-    others: &'a [f64],
-}
-
-impl Point<'_> {
-    /// The coordinate along `axis`; NaN where the caller gave none.
-    #[inline]
-    fn along(self, axis: usize) -> f64 {
-        match axis {
-            0 => self.first,
-            _ => self.others.get(axis - 1).copied().unwrap_or(f64::NAN),
-        }
-    }
-}
+use super::arithmetic::{AnyExponent, Arithmetic, Double, NotingSides, Plain, WithSlope};
+use super::{Level, PiecewiseTable, Point, Sides, Tail};
+use crate::numbers::Scaled;
 
 /// Where a coordinate lies among the abscissae of a group.
-pub(crate) enum Place {
+enum Place {
     Below,
     Knot(usize),
     Segment(usize),
@@ -47,76 +31,18 @@ impl PiecewiseTable {
 
     /// [`Self::value`] with the coordinate of axis 0 apart from the others.
     pub fn value_at(&self, first: f64, others: &[f64]) -> f64 {
-        self.descend_from_top(Point { first, others }, &mut |_, _| {})
+        self.evaluate(&mut Plain, Point { first, others }).unwrap_or(f64::NAN)
     }
 
     /// The value, and along which axes the point lies outside the range of a group that took part in it.
     pub fn value_and_sides_at(&self, first: f64, others: &[f64]) -> (f64, Sides) {
         let point = Point { first, others };
-        if let Some(marks) = &self.marks {
+        if let Some(marks) = &self.0.marks {
             return (self.value_at(first, others), marks.sides(point, self.is_undefined_at(point)));
         }
-        let mut sides = Sides::default();
-        let value = self.descend_from_top(point, &mut |axis, side| match side {
-            Ordering::Less => sides.mark_below(axis),
-            _ => sides.mark_above(axis),
-        });
-        (value, sides)
-    }
-
-    /// Whether it is not the rows that say which points lie outside: the table is what was left of a larger one.
-    pub(crate) fn marks_sides(&self) -> bool {
-        self.marks.is_some()
-    }
-
-    /// On which sides the points of some columns lie, for a table with marks.
-    pub(crate) fn mark_sides(&self, columns: &[&[f64]], sides: &mut [Sides]) {
-        let Some(marks) = &self.marks else { return };
-        sides.fill(marks.always);
-        for (axis, (least, greatest)) in &marks.ranges {
-            for (x, sides) in columns[*axis].iter().zip(sides.iter_mut()) {
-                if x < least {
-                    sides.mark_below(*axis);
-                }
-                if greatest < x {
-                    sides.mark_above(*axis);
-                }
-            }
-        }
-        // Where the value is undefined, so is the place.
-        for level in &self.levels {
-            for (x, sides) in columns[level.axis].iter().zip(sides.iter_mut()) {
-                if x.is_nan() {
-                    *sides = Sides::default();
-                }
-            }
-        }
-    }
-
-    /// The same table with marks, where the groups of each axis have one range; then no search is needed to tell which points lie outside.
-    pub(crate) fn with_marks(&self) -> Option<Self> {
-        if self.marks_sides() {
-            return Some(self.clone());
-        }
-        let mut groups = 0..1;
-        let mut ranges = Vec::new();
-        for level in self.levels.iter().rev() {
-            let mut bounds = groups.clone().map(|group| {
-                // The groups of the outermost level are one, those of another the children of the knots outside it.
-                let outside = self.levels.iter().rev().take_while(|other| other.axis != level.axis).last();
-                let knots = outside.map_or(0..level.knots.len(), |outside| outside.children_of(group));
-                (level.knots[knots.start], level.knots[knots.end - 1], knots.len())
-            });
-            let (least, greatest, first_count) = bounds.next()?;
-            let is_one_range =
-                first_count > 1 && bounds.all(|(first, last, count)| count > 1 && first == least && last == greatest);
-            if !is_one_range {
-                return None;
-            }
-            ranges.push((level.axis, (least, greatest)));
-            groups = 0..level.knots.len();
-        }
-        Some(Self { marks: Some(Marks { always: Sides::default(), ranges }), ..self.clone() })
+        let mut noting = NotingSides::default();
+        let value = self.evaluate(&mut noting, point).unwrap_or(f64::NAN);
+        (value, noting.sides)
     }
 
     /// Along which axes `point` lies outside the range of a group that takes part in the value there.
@@ -141,152 +67,105 @@ impl PiecewiseTable {
     /// Across outer axes it is interpolated as values are; the slope along an outer axis is that between the interpolated values of the two groups.
     /// NaN where a coordinate the table depends on is NaN; infinite where the slope exceeds the range of f64.
     pub fn slope_at(&self, axis: usize, first: f64, others: &[f64]) -> f64 {
-        let point = Point { first, others };
-        if self.is_undefined_at(point) {
-            return f64::NAN;
-        }
-        match self.levels.iter().position(|level| level.axis == axis) {
-            None => 0.0,
-            Some(target) => self.slope_along(target, self.top(), self.whole(), point),
-        }
+        let found = self.evaluate(&mut WithSlope { along: axis }, Point { first, others });
+        found.map_or(f64::NAN, |(_, slope)| slope)
     }
 
-    fn descend_from_top(&self, point: Point<'_>, note: &mut impl FnMut(usize, Ordering)) -> f64 {
-        if self.is_undefined_at(point) {
-            return f64::NAN;
+    /// The value at a point to 2⁻⁹⁸ of the exact one for values of one sign, otherwise of the largest that take part in it.
+    ///
+    /// `first` is the coordinate of axis 0, `others` are those of the following axes.
+    /// `None` where a coordinate the value depends on is NaN or missing; infinities are beyond the range, as in [`Self::value_at`].
+    pub fn reference_at(&self, first: f64, others: &[f64]) -> Option<Scaled> {
+        let point = Point { first, others };
+        let mut double = Double::default();
+        let (high, low) = self.evaluate(&mut double, point)?.parts();
+        if double.is_out_of_range {
+            return self.evaluate(&mut AnyExponent, point);
         }
-        self.descend(self.top(), self.whole(), point, note)
+        Some(Scaled::new(high) + Scaled::new(low))
+    }
+
+    /// [`Self::reference_at`] rounded once: within 0.501 ulp of the exact value for values of one sign. NaN where there is no value.
+    pub fn reference_value_at(&self, first: f64, others: &[f64]) -> f64 {
+        self.reference_at(first, others).map_or(f64::NAN, Scaled::to_f64)
+    }
+
+    /// The value at a point in any arithmetic; `None` where a coordinate is NaN along an axis the value depends on.
+    fn evaluate<A: Arithmetic>(&self, arithmetic: &mut A, point: Point<'_>) -> Option<A::Number> {
+        if self.is_undefined_at(point) {
+            return None;
+        }
+        // All knots of the outermost level are one group; of a table without levels the one row is the value.
+        let whole = 0..self.levels().last().map_or(1, |level| level.knots.len());
+        Some(self.group_value(arithmetic, self.levels().len(), whole, point))
     }
 
     /// Whether a coordinate is NaN along an axis the value depends on.
     fn is_undefined_at(&self, point: Point<'_>) -> bool {
-        self.levels.iter().any(|level| point.along(level.axis).is_nan())
-    }
-
-    /// The number of levels, each descent counting down from it.
-    fn top(&self) -> usize {
-        self.levels.len()
-    }
-
-    /// All knots of the outermost level, which is one group; for a table without levels its one row.
-    fn whole(&self) -> Range<usize> {
-        0..self.levels.last().map_or(1, |level| level.knots.len())
+        self.levels().iter().any(|level| point.along(level.axis).is_nan())
     }
 
     /// The value of one group: `knots` of the level below `height`, or the row itself at height 0.
     ///
     /// Goes down in a loop as long as one child decides, and into a recursion, at most one a level, where two are interpolated.
-    fn descend(
+    fn group_value<A: Arithmetic>(
         &self,
+        arithmetic: &mut A,
         mut height: usize,
         mut knots: Range<usize>,
         point: Point<'_>,
-        note: &mut impl FnMut(usize, Ordering),
-    ) -> f64 {
+    ) -> A::Number {
         while height > 0 {
-            let level = &self.levels[height - 1];
+            let level = &self.levels()[height - 1];
             let x = point.along(level.axis);
             let knot = match level.place(&knots, x) {
+                Place::Knot(left) if left + 1 < knots.end && arithmetic.looks_right_of_a_knot(level.axis) => {
+                    return self.segment_value(arithmetic, height, left, point);
+                }
                 Place::Knot(knot) => knot,
                 Place::Below => {
-                    note(level.axis, Ordering::Less);
+                    arithmetic.outside(level.axis, Ordering::Less);
                     knots.start
                 }
                 Place::Above => {
-                    note(level.axis, Ordering::Greater);
-                    if self.drops_to_zero_beyond(level) {
-                        return 0.0;
+                    arithmetic.outside(level.axis, Ordering::Greater);
+                    if level.axis == 0 && self.tail() == Tail::Zero {
+                        return arithmetic.of_row(0.0);
                     }
                     knots.end - 1
                 }
-                Place::Segment(left) => {
-                    let (x0, x1) = (level.knots[left], level.knots[left + 1]);
-                    if height == 1 {
-                        return interpolate(x, (x0, self.values[left]), (x1, self.values[left + 1]), self.slopes[left]);
-                    }
-                    let y0 = self.descend(height - 1, level.children_of(left), point, note);
-                    let y1 = self.descend(height - 1, level.children_of(left + 1), point, note);
-                    return between(x, (x0, y0), (x1, y1));
-                }
+                Place::Segment(left) => return self.segment_value(arithmetic, height, left, point),
             };
             height -= 1;
             knots = if height == 0 { knot..knot + 1 } else { level.children_of(knot) };
         }
-        self.values[knots.start]
+        arithmetic.of_row(self.values()[knots.start])
     }
 
-    /// The slope along the axis of level `target` of one group: `knots` of the level below `height`.
-    fn slope_along(&self, target: usize, mut height: usize, mut knots: Range<usize>, point: Point<'_>) -> f64 {
-        loop {
-            let level = &self.levels[height - 1];
-            let x = point.along(level.axis);
-            let place = level.place(&knots, x);
-            if height - 1 == target {
-                return match place {
-                    Place::Segment(left) => self.slope_of_segment(height, left, point),
-                    Place::Knot(left) if left + 1 < knots.end => self.slope_of_segment(height, left, point),
-                    _ => 0.0,
-                };
-            }
-            let knot = match place {
-                Place::Below => knots.start,
-                Place::Knot(knot) => knot,
-                Place::Above => knots.end - 1,
-                Place::Segment(left) => {
-                    let s0 = self.slope_along(target, height - 1, level.children_of(left), point);
-                    let s1 = self.slope_along(target, height - 1, level.children_of(left + 1), point);
-                    return between(x, (level.knots[left], s0), (level.knots[left + 1], s1));
-                }
-            };
-            height -= 1;
-            knots = level.children_of(knot);
+    /// The value on the segment that begins at knot `left` of the level below `height`.
+    fn segment_value<A: Arithmetic>(
+        &self,
+        arithmetic: &mut A,
+        height: usize,
+        left: usize,
+        point: Point<'_>,
+    ) -> A::Number {
+        let level = &self.levels()[height - 1];
+        let x = point.along(level.axis);
+        let (x0, x1) = (level.knots[left], level.knots[left + 1]);
+        if height == 1 {
+            let (y0, y1) = (self.values()[left], self.values()[left + 1]);
+            return arithmetic.between_rows(level.axis, x, (x0, y0), (x1, y1), self.slopes()[left]);
         }
-    }
-
-    /// The slope of the segment that begins at knot `left` of the level below `height`.
-    fn slope_of_segment(&self, height: usize, left: usize, point: Point<'_>) -> f64 {
-        let level = &self.levels[height - 1];
-        let end = |knot: usize| {
-            let value = if height == 1 {
-                self.values[knot]
-            } else {
-                self.descend(height - 1, level.children_of(knot), point, &mut |_, _| {})
-            };
-            (level.knots[knot], value)
-        };
-        slope(end(left), end(left + 1))
-    }
-
-    /// Whether the table is zero beyond the last knot of `level`.
-    fn drops_to_zero_beyond(&self, level: &Level) -> bool {
-        level.axis == 0 && self.tail == Tail::Zero
-    }
-}
-
-impl Marks {
-    /// On which sides a point lies; on none where the value is undefined.
-    fn sides(&self, point: Point<'_>, is_undefined: bool) -> Sides {
-        let mut sides = Sides::default();
-        if is_undefined {
-            return sides;
-        }
-        for (axis, (least, greatest)) in &self.ranges {
-            let x = point.along(*axis);
-            if x < *least {
-                sides.mark_below(*axis);
-            }
-            // Between two groups without a common range a point is below one and above the other.
-            if *greatest < x {
-                sides.mark_above(*axis);
-            }
-        }
-        sides.or(self.always)
+        let y0 = self.group_value(arithmetic, height - 1, level.children_of(left), point);
+        let y1 = self.group_value(arithmetic, height - 1, level.children_of(left + 1), point);
+        arithmetic.between(level.axis, x, (x0, y0), (x1, y1))
     }
 }
 
 impl Level {
     /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07).
-    pub(crate) fn place(&self, knots: &Range<usize>, x: f64) -> Place {
+    fn place(&self, knots: &Range<usize>, x: f64) -> Place {
         if knots.len() == 1 {
             return Place::Knot(knots.start);
         }

@@ -6,7 +6,8 @@
 //!
 //! Knows nothing of scenes: the plan decides what to fold.
 
-use super::{Marks, PiecewiseTable, Sides, Tail};
+use super::marks::Marks;
+use super::{PiecewiseTable, Sides, Tail};
 use crate::numbers::Scaled;
 use std::fmt;
 
@@ -78,40 +79,40 @@ impl PiecewiseTable {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn folded(&self, axis: usize, at: f64) -> Result<Self, FoldRefusal> {
-        let Some(target) = self.levels.iter().position(|level| level.axis == axis) else { return Ok(self.clone()) };
-        let mut folding = Folding { tail: self.tail, target, at, sides: None, axis, rows: 0 };
-        let whole = self.part(self.levels.len(), 0..self.levels.last().map_or(1, |level| level.knots.len()));
+        let Some(target) = self.levels().iter().position(|level| level.axis == axis) else { return Ok(self.clone()) };
+        let mut folding = Folding { tail: self.tail(), target, at, sides: None, axis, rows: 0 };
+        let whole = self.part(self.levels().len(), 0..self.levels().last().map_or(1, |level| level.knots.len()));
         let part = folding.fold(&whole)?;
-        let mut ranges = vec![None; self.levels.len()];
+        let mut ranges = vec![None; self.levels().len()];
         part.collect_ranges(&mut ranges)
-            .map_err(|level| FoldRefusal::RangesDiffer { axis: self.levels[level].axis })?;
+            .map_err(|level| FoldRefusal::RangesDiffer { axis: self.levels()[level].axis })?;
         let mut sides = folding.sides.unwrap_or_default();
-        if let Some(marks) = &self.marks {
+        if let Some(marks) = &self.0.marks {
             sides = sides.or(marks.always);
         }
-        let ranges = self.levels.iter().zip(ranges).filter_map(|(level, range)| Some((level.axis, range?)));
+        let ranges = self.levels().iter().zip(ranges).filter_map(|(level, range)| Some((level.axis, range?)));
         let marks = Marks { always: sides, ranges: ranges.collect() };
-        let width = self.axis_count + 1;
+        let width = self.axis_count() + 1;
         let mut cells = Vec::new();
-        let levels: Vec<usize> = self.levels.iter().map(|level| level.axis).collect();
+        let levels: Vec<usize> = self.levels().iter().map(|level| level.axis).collect();
         part.write_rows(&levels, &mut vec![0.0; width], &mut cells);
-        let table = Self::from_rows(&cells, width, self.tail).map_err(|_| FoldRefusal::TooManyRows)?;
-        Ok(Self { marks: Some(marks), ..table })
+        let table = Self::from_rows(&cells, width, self.tail()).map_err(|_| FoldRefusal::TooManyRows)?;
+        Ok(table.marked(marks))
     }
 
     /// The knots of the level below `height` as a part, with all that is inside.
     fn part(&self, height: usize, knots: std::ops::Range<usize>) -> Part {
         if height == 0 {
-            return Part::Value(Scaled::new(self.values[knots.start]));
+            return Part::Value(Scaled::new(self.values()[knots.start]));
         }
-        let level = &self.levels[height - 1];
+        let level = &self.levels()[height - 1];
         let children = knots.clone().map(|knot| {
             let inside = if height == 1 { knot..knot + 1 } else { level.children[knot]..level.children[knot + 1] };
             self.part(height - 1, inside)
         });
         let children = children.collect();
         let own = &level.knots[knots];
-        let range = match (&self.marks, own) {
+        let range = match (&self.0.marks, own) {
             (Some(marks), _) => marks.range(level.axis),
             (None, [first, .., last]) => (*first, *last),
             // A group of one row is met by every point (T-07).

@@ -1,7 +1,6 @@
 //! The work–precision diagram: error against time, the Pareto front, the copy of the same columns.
 
 use super::measure::Measured;
-use super::modes::Numbers;
 use super::report::{Names, how};
 use crate::chart::{Chart, Point};
 use crate::commands::tradeoff::LEAST_ERROR;
@@ -10,9 +9,6 @@ use crate::commands::tradeoff::cells::file_name;
 /// The diagram of all tables together.
 pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
     let Some(group) = measured.groups.last() else { return Chart::default() };
-    let has_singles = group.entries.iter().any(|entry| entry.numbers == Numbers::Single);
-    let roof = |of: &str, copy: f64| (copy, format!("roofline: copy of the {of} columns, {} ns", short(copy)));
-    let singles = has_singles.then(|| roof("f32", group.copy_of_singles));
     let points = group.entries.iter().map(|entry| Point {
         x: entry.time,
         y: entry.errors.largest.max(LEAST_ERROR),
@@ -26,7 +22,7 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
         x_title: "time of a row, ns".to_owned(),
         y_title: "largest error / largest value of the table".to_owned(),
         points: points.collect(),
-        vertical: singles.into_iter().chain([roof("f64", group.copy)]).collect(),
+        vertical: vec![(group.copy, format!("roofline: copy of the columns, {} ns", short(group.copy)))],
         horizontal: vec![(f64::EPSILON / 2.0, "½ ulp of the largest value".to_owned())],
         front_title: "Pareto front".to_owned(),
         footnote: format!("{}; bars go up to the error bound computed from the table", how(measured)),

@@ -1,6 +1,6 @@
 //! Times and errors of every mode.
 
-use super::modes::{Copied, MODES, Mode, Numbers, Prepared, share_of_copy};
+use super::modes::{Copied, MODES, Mode, Prepared, share_of_copy};
 use super::subjects::{Sample, Subject};
 use crate::commands::tradeoff::front::front;
 use crate::commands::tradeoff::rounds::least_times;
@@ -29,9 +29,8 @@ pub(super) struct Group {
     pub(super) rows_of_a_run: usize,
     /// Rows of the table itself; of all tables together.
     pub(super) table_rows: usize,
-    /// The time that a copy takes to move the coordinates and the value of a row, in ns: of f64 columns, of f32 columns.
+    /// The time that a copy takes to move the coordinates and the value of a row, in ns.
     pub(super) copy: f64,
-    pub(super) copy_of_singles: f64,
     pub(super) entries: Vec<Entry>,
     /// The modes that do not serve the table, and why.
     pub(super) refused: Vec<(&'static str, String)>,
@@ -43,7 +42,6 @@ pub(super) struct Entry {
     pub(super) mode: &'static str,
     /// The form of the table; of all tables together, nothing.
     pub(super) form: String,
-    pub(super) numbers: Numbers,
     /// The least time of a row, in ns.
     pub(super) time: f64,
     pub(super) errors: Errors,
@@ -64,7 +62,7 @@ pub(super) struct Bound {
     pub(super) pointwise: f64,
 }
 
-/// Differences from the exact value at the coordinates that the mode was given: f32 columns have coordinates of their own.
+/// Differences from the exact value.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Errors {
     /// As a part of the largest value of the table.
@@ -107,9 +105,9 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
             Err(reason) => refused.push((mode.name, reason)),
         }
     }
-    let (mut doubles, mut singles) = (Copied::doubles(repeated), Copied::singles(repeated));
+    let mut copied = Copied::new(repeated);
     let rows = repeated.rows();
-    let mut runs: Vec<Box<dyn FnMut() + '_>> = vec![Box::new(|| doubles.run()), Box::new(|| singles.run())];
+    let mut runs: Vec<Box<dyn FnMut() + '_>> = vec![Box::new(|| copied.run())];
     for (_, prepared) in &mut modes {
         runs.push(Box::new(|| prepared.run.run()));
     }
@@ -117,14 +115,13 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
     least_times(1, &mut runs);
     let times: Vec<f64> = least_times(rounds, &mut runs).iter().map(|time| time * 1e9 / rows as f64).collect();
     drop(runs);
-    let entries = modes.into_iter().zip(&times[2..]).map(|((mode, prepared), &time)| Entry {
+    let entries = modes.into_iter().zip(&times[1..]).map(|((mode, prepared), &time)| Entry {
         mode: mode.name,
         time,
         errors: errors(subject, &prepared),
         form: prepared.form,
-        numbers: mode.numbers,
         bound: Bound::of(&prepared.bound),
-        bytes: (mode.numbers.size() * (repeated.axes() + 1)) as f64,
+        bytes: (size_of::<f64>() * (repeated.axes() + 1)) as f64,
         on_front: false,
     });
     Group {
@@ -133,7 +130,6 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
         rows_of_a_run: rows,
         table_rows: subject.table.row_count(),
         copy: times[0] * share_of_copy(repeated),
-        copy_of_singles: times[1] * share_of_copy(repeated),
         entries: entries.collect(),
         refused,
     }
@@ -194,7 +190,6 @@ fn all_of(groups: &[Group]) -> Group {
         serves_any.then(|| Entry {
             mode: mode.name,
             form: String::new(),
-            numbers: mode.numbers,
             time: mean(|entry| entry.time),
             errors: Errors {
                 largest: largest(|entry| entry.errors.largest),
@@ -217,7 +212,6 @@ fn all_of(groups: &[Group]) -> Group {
         rows_of_a_run: groups.iter().map(|group| group.rows_of_a_run).sum(),
         table_rows: groups.iter().map(|group| group.table_rows).sum(),
         copy: groups.iter().map(|group| share(group) * group.copy).sum(),
-        copy_of_singles: groups.iter().map(|group| share(group) * group.copy_of_singles).sum(),
         entries: entries.collect(),
         refused: Vec::new(),
     }

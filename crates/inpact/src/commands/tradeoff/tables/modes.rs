@@ -3,25 +3,15 @@
 //! Values alone are computed, columns in, columns out, in blocks of the size that an evaluation has.
 
 use super::subjects::Subject;
-use inpact_evaluation::accuracy::{
-    Approximation, ErrorBound, Refusal, commensurate_cells, full_bound, reference_bound,
-};
+use inpact_evaluation::accuracy::{ErrorBound, Grid, Refusal, commensurate_cells, full_bound, reference_bound};
 use inpact_evaluation::kernel::TableKernel;
 use std::hint::black_box;
 
 /// A mode of evaluation.
 pub(super) struct Mode {
     pub(super) name: &'static str,
-    pub(super) numbers: Numbers,
     /// Makes it ready for a table, or says why it does not serve that table.
     pub(super) of: for<'a> fn(&'a Subject) -> Result<Prepared<'a>, String>,
-}
-
-/// What the numbers of the columns are, of coordinates and values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Numbers {
-    Double,
-    Single,
 }
 
 /// A mode made ready for a table and its rows.
@@ -45,16 +35,6 @@ pub(super) trait Run {
     fn coordinate(&self, axis: usize, row: usize) -> f64;
 }
 
-impl Numbers {
-    /// The size of a number, in bytes.
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::Double => 8,
-            Self::Single => 4,
-        }
-    }
-}
-
 /// The least exact that are timed beside [`MODES`] have these cells along each axis, by how many axes there are; the finest that stay in cache first.
 const GRIDS: [[usize; 3]; 3] = [[128, 32, 8], [30, 12, 4], [12, 6, 2]];
 
@@ -62,7 +42,6 @@ const GRIDS: [[usize; 3]; 3] = [[128, 32, 8], [30, 12, 4], [12, 6, 2]];
 pub(super) const MODES: &[Mode] = &[
     Mode {
         name: "reference",
-        numbers: Numbers::Double,
         of: |subject| {
             let table = &subject.table;
             let mut others = vec![f64::NAN; subject.columns.len().saturating_sub(1)];
@@ -80,28 +59,16 @@ pub(super) const MODES: &[Mode] = &[
     },
     Mode {
         name: "full",
-        numbers: Numbers::Double,
         of: |subject| {
             let kernel = TableKernel::new(&subject.table);
             let of_block = move |columns: &[&[f64]], values: &mut [f64]| kernel.values(columns, values);
             Ok(prepared(Doubles::new(subject, of_block), "kernel", full_bound(&subject.table)))
         },
     },
-    Mode {
-        name: "slope",
-        numbers: Numbers::Double,
-        of: |subject| doubles(subject, Approximation::slope(&subject.table)),
-    },
-    Mode { name: "grid exact", numbers: Numbers::Double, of: exact_grid },
-    Mode {
-        name: "single",
-        numbers: Numbers::Double,
-        of: |subject| doubles(subject, Approximation::single(&subject.table)),
-    },
-    Mode { name: "single f32", numbers: Numbers::Single, of: singles },
-    Mode { name: "grid fine", numbers: Numbers::Double, of: |subject| grid(subject, 0) },
-    Mode { name: "grid medium", numbers: Numbers::Double, of: |subject| grid(subject, 1) },
-    Mode { name: "grid coarse", numbers: Numbers::Double, of: |subject| grid(subject, 2) },
+    Mode { name: "grid exact", of: exact_grid },
+    Mode { name: "grid fine", of: |subject| grid(subject, 0) },
+    Mode { name: "grid medium", of: |subject| grid(subject, 1) },
+    Mode { name: "grid coarse", of: |subject| grid(subject, 2) },
 ];
 
 /// Rows are evaluated in blocks of so many, as the batches of an evaluation have.
@@ -111,12 +78,13 @@ fn prepared<'a>(run: impl Run + 'a, form: &str, bound: ErrorBound) -> Prepared<'
     Prepared { run: Box::new(run), form: form.to_owned(), bound }
 }
 
-/// A fast form from f64 columns to f64 values.
-fn doubles(subject: &Subject, made: Result<Approximation, Refusal>) -> Result<Prepared<'_>, String> {
-    let made = made.map_err(|refusal| refusal.to_string())?;
-    let (form, bound) = (made.form().to_string(), made.bound());
-    let of_block = move |columns: &[&[f64]], values: &mut [f64]| made.values(columns, values);
-    Ok(prepared(Doubles::new(subject, of_block), &form, bound))
+/// The table on a grid.
+fn resampled<'a>(subject: &'a Subject, cells: &[usize]) -> Result<Prepared<'a>, String> {
+    let grid = Grid::new(&subject.table, cells).map_err(|refusal| refusal.to_string())?;
+    let bound = grid.bound();
+    let cells: Vec<String> = cells.iter().map(usize::to_string).collect();
+    let of_block = move |columns: &[&[f64]], values: &mut [f64]| grid.values(columns, values);
+    Ok(prepared(Doubles::new(subject, of_block), &format!("grid {}", cells.join("x")), bound))
 }
 
 /// The grid that is the table itself up to rounding.
@@ -126,27 +94,14 @@ fn exact_grid(subject: &Subject) -> Result<Prepared<'_>, String> {
     }
     let cells = commensurate_cells(&subject.table)
         .ok_or_else(|| "no regular grid that stays in cache meets all abscissae".to_owned())?;
-    doubles(subject, Approximation::grid(&subject.table, &cells))
+    resampled(subject, &cells)
 }
 
 /// The grid of one of the usual sizes.
 fn grid(subject: &Subject, size: usize) -> Result<Prepared<'_>, String> {
     let axes = subject.axes();
     let cells = GRIDS.get(axes.saturating_sub(2)).map_or(1, |sizes| sizes[size]);
-    doubles(subject, Approximation::grid(&subject.table, &vec![cells; axes]))
-}
-
-/// The f32 form from f32 columns to f32 values.
-fn singles(subject: &Subject) -> Result<Prepared<'_>, String> {
-    let made = Approximation::single(&subject.table).map_err(|refusal| refusal.to_string())?;
-    let bound = made.bound();
-    Ok(prepared(Singles { columns: rounded(subject), made, output: vec![0.0; subject.rows()] }, "single", bound))
-}
-
-/// The columns in f32.
-#[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
-fn rounded(subject: &Subject) -> Vec<Vec<f32>> {
-    subject.columns.iter().map(|column| column.iter().map(|&x| x as f32).collect()).collect()
+    resampled(subject, &vec![cells; axes])
 }
 
 /// f64 columns through a function of blocks.
@@ -177,30 +132,8 @@ impl<F: FnMut(&[&[f64]], &mut [f64])> Run for Doubles<'_, F> {
     }
 }
 
-/// f32 columns through the f32 form.
-struct Singles {
-    columns: Vec<Vec<f32>>,
-    made: Approximation,
-    output: Vec<f32>,
-}
-
-impl Run for Singles {
-    fn run(&mut self) {
-        let columns: Vec<&[f32]> = self.columns.iter().map(Vec::as_slice).collect();
-        each_block(&columns, &mut self.output, |columns, values| self.made.values_single(columns, values));
-    }
-
-    fn value(&self, row: usize) -> f64 {
-        f64::from(self.output[row])
-    }
-
-    fn coordinate(&self, axis: usize, row: usize) -> f64 {
-        self.columns[axis].get(row).copied().map_or(f64::NAN, f64::from)
-    }
-}
-
-fn each_block<T>(columns: &[&[T]], output: &mut [T], mut of_block: impl FnMut(&[&[T]], &mut [T])) {
-    let mut block: Vec<&[T]> = Vec::with_capacity(columns.len());
+fn each_block(columns: &[&[f64]], output: &mut [f64], mut of_block: impl FnMut(&[&[f64]], &mut [f64])) {
+    let mut block: Vec<&[f64]> = Vec::with_capacity(columns.len());
     for (number, output) in output.chunks_mut(ROWS_OF_A_BLOCK).enumerate() {
         let start = number * ROWS_OF_A_BLOCK;
         block.clear();
@@ -211,24 +144,16 @@ fn each_block<T>(columns: &[&[T]], output: &mut [T], mut of_block: impl FnMut(&[
 }
 
 /// A copy of the same columns: what any mode must move at least.
-pub(super) struct Copied<T> {
-    columns: Vec<Vec<T>>,
-    output: Vec<T>,
+pub(super) struct Copied {
+    columns: Vec<Vec<f64>>,
+    output: Vec<f64>,
 }
 
-impl Copied<f64> {
-    pub(super) fn doubles(subject: &Subject) -> Self {
+impl Copied {
+    pub(super) fn new(subject: &Subject) -> Self {
         Self { columns: subject.columns.clone(), output: vec![0.0; subject.rows()] }
     }
-}
 
-impl Copied<f32> {
-    pub(super) fn singles(subject: &Subject) -> Self {
-        Self { columns: rounded(subject), output: vec![0.0; subject.rows()] }
-    }
-}
-
-impl<T: Copy> Copied<T> {
     /// Reads and writes each column, in the same blocks.
     pub(super) fn run(&mut self) {
         for column in self.columns.iter().filter(|column| !column.is_empty()) {

@@ -1,7 +1,6 @@
 //! What was measured, as text, comma-separated values and JSON.
 
 use super::measure::{Entry, Group, Measured};
-use super::modes::Numbers;
 use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
 use serde_json::{Value, json};
 
@@ -39,16 +38,11 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
             ];
             text += &line(&cells, WIDTHS, TEXTS);
         }
-        for (mode, form, time) in copies(group) {
-            let mut cells = [const { String::new() }; 13];
-            cells[1..5].clone_from_slice(&[
-                mode.to_owned(),
-                form.to_owned(),
-                format!("{time:.2}"),
-                format!("{:.3e}", 1e9 / time),
-            ]);
-            text += &line(&cells, WIDTHS, TEXTS);
-        }
+        let mut cells = [const { String::new() }; 13];
+        let copy = ["copy", "f64 columns"].map(str::to_owned);
+        cells[1..3].clone_from_slice(&copy);
+        cells[3..5].clone_from_slice(&[format!("{:.2}", group.copy), format!("{:.3e}", 1e9 / group.copy)]);
+        text += &line(&cells, WIDTHS, TEXTS);
         for (modes, reason) in by_reason(&group.refused) {
             text += &format!("  refused: {}: {reason}\n", modes.join(", "));
         }
@@ -75,15 +69,6 @@ const HEADER: [&str; 13] = [
 /// The widths of the columns, of which the first are texts.
 const WIDTHS: [usize; 13] = [1, 11, 13, 8, 9, 10, 8, 8, 8, 8, 8, 8, 9];
 const TEXTS: usize = 3;
-
-/// The rooflines of a group: their names, what is copied, the time of a row.
-fn copies(group: &Group) -> Vec<(&'static str, &'static str, f64)> {
-    let mut copies = vec![("copy", "f64 columns", group.copy)];
-    if group.entries.iter().any(|entry| entry.numbers == Numbers::Single) {
-        copies.push(("copy f32", "f32 columns", group.copy_of_singles));
-    }
-    copies
-}
 
 /// How it was measured.
 pub(super) fn how(measured: &Measured) -> String {
@@ -137,9 +122,7 @@ pub(super) fn csv(measured: &Measured) -> String {
             let numbers = numbers.map(|number| format!("{number:?}")).join(",");
             text += &format!("{table},{mode},{form},{numbers},{},\n", u8::from(*on_front));
         }
-        for (mode, form, time) in copies(group) {
-            text += &format!("{table},{mode},{form},{time:?},{:?},,,,,,,,,,\n", 1e9 / time);
-        }
+        text += &format!("{table},copy,f64 columns,{:?},{:?},,,,,,,,,,\n", group.copy, 1e9 / group.copy);
         for (mode, reason) in &group.refused {
             text += &format!("{table},{mode},,,,,,,,,,,,,{}\n", quoted(reason));
         }
@@ -150,11 +133,10 @@ pub(super) fn csv(measured: &Measured) -> String {
 /// For another program; a number that is not finite is null.
 pub(super) fn json(measured: &Measured, names: Names<'_>) -> String {
     let groups = measured.groups.iter().map(|group| {
-        let modes = group.entries.iter().map(|Entry { mode, form, numbers, time, errors, bound, bytes, on_front }| {
+        let modes = group.entries.iter().map(|Entry { mode, form, time, errors, bound, bytes, on_front }| {
             json!({
                 "mode": mode,
                 "form": form,
-                "columns": if *numbers == Numbers::Single { "f32" } else { "f64" },
                 "ns_per_row": time,
                 "rows_per_second": 1e9 / time,
                 "largest_error": errors.largest,
@@ -175,7 +157,6 @@ pub(super) fn json(measured: &Measured, names: Names<'_>) -> String {
             "rows": group.rows,
             "rows_of_a_run": group.rows_of_a_run,
             "copy_ns_per_row": group.copy,
-            "copy_f32_ns_per_row": group.copy_of_singles,
             "modes": modes.collect::<Vec<Value>>(),
             "refused": refused.collect::<Vec<Value>>(),
         })

@@ -1,28 +1,32 @@
-//! A table in the form in which it is evaluated: the accuracy that was asked for, over columns.
+//! A table and how it is evaluated: the accuracy that was asked for, over columns.
 //!
-//! What a law's tables mean stands in [`crate::table`]; how exactly and how fast their values are found is chosen here, once, when the laws are compiled.
+//! What a law's tables mean stands in [`crate::table`]; how exactly and how fast their values are found is chosen once ([`choose`]).
 
-use crate::accuracy::{Approximation, Choice, Method, Wanted, choose};
+use std::sync::Arc;
+
+use crate::accuracy::{Choice, Grid, Method, Wanted, choose};
 use crate::kernel::TableKernel;
 use crate::numbers::Scaled;
 use crate::table::{PiecewiseTable, Sides};
 
-/// A table ready for columns of coordinates.
+/// A table ready for columns of coordinates; it is made once and shared.
 #[derive(Clone, Debug)]
-pub struct TableForm {
+pub struct Evaluator(Arc<Ready>);
+
+#[derive(Debug)]
+struct Ready {
     table: PiecewiseTable,
-    means: Means,
+    method: Method,
     kernel: TableKernel,
-    /// The table with marks, if its axes have one range each: in a fast form it says which rows lie outside without another search.
-    marked: Option<PiecewiseTable>,
+    grid: Option<Resampled>,
 }
 
-/// How the values are found.
-#[derive(Clone, Debug)]
-enum Means {
-    Full,
-    Reference,
-    Fast(Approximation),
+/// What is needed beside the table where a grid stands in for it.
+#[derive(Debug)]
+struct Resampled {
+    grid: Grid,
+    /// The table with marks, if its axes have one range each: it says which rows lie outside without a search.
+    marked: Option<PiecewiseTable>,
 }
 
 /// The value of a table at a point.
@@ -58,28 +62,22 @@ pub struct SeenError {
     pub relative_to_largest: f64,
 }
 
-impl TableForm {
-    /// The table in the form that is chosen for it.
-    pub fn new(table: PiecewiseTable, wanted: Wanted) -> Self {
-        let choice = choose(&table, wanted);
-        let method = choice.chosen().map_or(Method::Full, |chosen| chosen.method.clone());
-        Self::of_choice(table, &method, choice)
+impl Evaluator {
+    /// The table, evaluated as is chosen for it.
+    pub fn new(table: &PiecewiseTable, wanted: Wanted) -> Self {
+        Self::of_choice(table, choose(table, wanted))
     }
 
-    fn of_choice(table: PiecewiseTable, method: &Method, choice: Choice) -> Self {
-        let means = match (method, choice.approximation) {
-            (Method::Reference, _) => Means::Reference,
-            (Method::Fast(_), Some(approximation)) => Means::Fast(approximation),
-            _ => Means::Full,
-        };
-        let kernel = TableKernel::new(&table);
-        let marked = table.with_marks();
-        Self { table, means, kernel, marked }
+    /// The table, evaluated as was chosen for it.
+    pub fn of_choice(table: &PiecewiseTable, choice: Choice) -> Self {
+        let grid = choice.grid.map(|grid| Resampled { grid, marked: table.with_marks() });
+        let (table, kernel) = (table.clone(), TableKernel::new(table));
+        Self(Arc::new(Ready { table, method: choice.chosen.method, kernel, grid }))
     }
 
     /// The table itself.
     pub fn table(&self) -> &PiecewiseTable {
-        &self.table
+        &self.0.table
     }
 
     /// The values at some points, one column of coordinates for each axis; a column that the table does not depend on may be empty.
@@ -87,48 +85,42 @@ impl TableForm {
         found.values.resize(rows, f64::NAN);
         found.sides.resize(rows, Sides::default());
         found.rests.clear();
-        match &self.means {
-            Means::Full => self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides),
-            Means::Fast(approximation) => {
-                match &self.marked {
-                    Some(marked) => marked.mark_sides(columns, &mut found.sides),
-                    // Which rows lie outside only the table itself can tell; the values are those of the form.
-                    None => self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides),
-                }
-                approximation.values(columns, &mut found.values);
-            }
-            Means::Reference => {
-                self.kernel.values_and_sides(columns, &mut found.values, &mut found.sides);
-                for row in 0..rows {
-                    let (value, rest) = self.reference_in(columns, row);
-                    found.values[row] = value;
-                    found.rests.push(rest);
-                }
+        let marked = self.0.grid.as_ref().and_then(|resampled| resampled.marked.as_ref());
+        match marked {
+            Some(marked) => marked.mark_sides(columns, &mut found.sides),
+            // Without one range an axis only the table itself can tell which rows lie outside.
+            None => self.0.kernel.values_and_sides(columns, &mut found.values, &mut found.sides),
+        }
+        if let Some(resampled) = &self.0.grid {
+            resampled.grid.values(columns, &mut found.values);
+        } else if self.0.method == Method::Reference {
+            for row in 0..rows {
+                let (value, rest) = self.reference_in(columns, row);
+                found.values[row] = value;
+                found.rests.push(rest);
             }
         }
     }
 
     /// The value at one point.
     pub fn value_at(&self, first: f64, others: &[f64]) -> FoundValue {
-        let (value, sides) = self.table.value_and_sides_at(first, others);
-        match &self.means {
-            Means::Full => FoundValue { value, rest: None, sides },
-            Means::Fast(approximation) => {
-                let point: Vec<f64> = std::iter::once(first).chain(others.iter().copied()).collect();
-                FoundValue { value: approximation.value(&point), rest: None, sides }
-            }
-            Means::Reference => {
-                let (value, rest) = self.reference_at(first, others);
-                FoundValue { value, rest: Some(rest), sides }
-            }
+        let (value, sides) = self.0.table.value_and_sides_at(first, others);
+        if let Some(resampled) = &self.0.grid {
+            let point: Vec<f64> = std::iter::once(first).chain(others.iter().copied()).collect();
+            return FoundValue { value: resampled.grid.value(&point), rest: None, sides };
         }
+        if self.0.method == Method::Reference {
+            let (value, rest) = self.reference_at(first, others);
+            return FoundValue { value, rest: Some(rest), sides };
+        }
+        FoundValue { value, rest: None, sides }
     }
 
     /// Compares some of the values found, evenly spread, with the reference.
     pub fn compare(&self, columns: &[&[f64]], values: &[f64], seen: &mut SeenError) {
         /// How many rows of a batch are compared.
         const SAMPLE: usize = 16;
-        let largest = self.table.values().iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let largest = self.0.table.values().iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
         for row in (0..values.len()).step_by(values.len().div_ceil(SAMPLE).max(1)) {
             let (reference, rest) = self.reference_in(columns, row);
             if !reference.is_finite() {
@@ -154,7 +146,14 @@ impl TableForm {
     }
 
     fn reference_at(&self, first: f64, others: &[f64]) -> (f64, f64) {
-        self.table.reference_at(first, others).map_or((f64::NAN, 0.0), Scaled::to_pair)
+        self.0.table.reference_at(first, others).map_or((f64::NAN, 0.0), Scaled::to_pair)
+    }
+}
+
+impl PartialEq for Evaluator {
+    /// The same table, evaluated in the same way.
+    fn eq(&self, other: &Self) -> bool {
+        self.0.table == other.0.table && self.0.method == other.0.method
     }
 }
 

@@ -1,9 +1,9 @@
-//! Tables in the forms in which they are evaluated: whatever the form, the same rows lie outside, and the values are those of the mode.
+//! Tables as they are evaluated: whatever the method, the same rows lie outside, and the values are those of the mode.
 
 mod table_judge;
 
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::table_form::{SeenError, TableForm, TableValues};
+use inpact_evaluation::evaluator::{Evaluator, SeenError, TableValues};
 use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Random, Rows, cases};
 
@@ -60,7 +60,7 @@ fn the_same_rows_lie_outside_in_every_form() {
         let columns = random_columns(&mut random, &rows, axes, 12);
         let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         for wanted in WANTED {
-            let form = TableForm::new(table.clone(), wanted);
+            let form = Evaluator::new(&table, wanted);
             let mut found = TableValues::default();
             form.evaluate(&slices, 12, &mut found);
             for row in 0..12 {

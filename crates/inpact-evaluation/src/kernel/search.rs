@@ -108,6 +108,41 @@ impl GroupSearch {
             let group = group_of(row);
             *bucket = group.first_bucket + group.key::<KIND>(x);
         }
+        self.pieces_of_buckets::<STEPS>(x, pieces);
+    }
+
+    /// [`Self::find`] where there is one group, with the clamping of `x` in the same loop as the keys.
+    /// Halving goes through all rows step by step, so that none waits for another.
+    #[inline(always)]
+    pub(super) fn find_in_one<const KIND: u8, const STEPS: usize>(
+        &self,
+        x: &[f64],
+        clamp: impl Fn(f64) -> f64,
+        clamped: &mut [f64],
+        pieces: &mut [u32],
+    ) {
+        let group = self.groups[0];
+        for ((&x, clamped), bucket) in x.iter().zip(&mut *clamped).zip(&mut *pieces) {
+            *clamped = clamp(x);
+            *bucket = if KIND == BISECTION { 0 } else { group.key::<KIND>(*clamped) };
+        }
+        if KIND != BISECTION {
+            return self.pieces_of_buckets::<STEPS>(clamped, pieces);
+        }
+        let mut count = group.piece_count;
+        while count > 1 {
+            let half = count / 2;
+            let ends = &self.ends[half as usize - 1..];
+            for (&x, piece) in clamped.iter().zip(&mut *pieces) {
+                *piece = std::hint::select_unpredictable(x >= ends[*piece as usize], *piece + half, *piece);
+            }
+            count -= half;
+        }
+    }
+
+    /// Replaces each row's bucket by the piece that holds its `x`.
+    #[inline(always)]
+    fn pieces_of_buckets<const STEPS: usize>(&self, x: &[f64], pieces: &mut [u32]) {
         let (buckets, ends) = (&self.buckets[..], &self.ends[..]);
         for (&x, piece) in x.iter().zip(pieces) {
             let mut found = buckets[*piece as usize];
