@@ -1,9 +1,9 @@
 //! Evaluates the interface laws of a deck on node data: conductance and current, heat, pore fluid flow.
 //!
 //! From the inside out: [`numbers`] are floating-point building blocks, [`table`] the nested piecewise-linear functions of the manual's tables,
-//! [`accuracy`] other forms of these, more exact or faster,
+//! [`accuracy`] how exactly they are evaluated, [`evaluator`] a table with what was chosen for it,
 //! [`law`] the interface laws as functions of plain inputs, [`history`] their integrals over time.
-//! [`kernel`] evaluates tables and laws over whole columns, vectorised, with the bits of the functions above.
+//! [`kernel`] evaluates tables over whole columns, vectorised, with the bits of the functions above.
 //! None of these knows a file or the parser's model.
 //!
 //! Around them: [`nodes`] reads node tables, [`plan`] puts a deck's model and a node table together, [`compile`] turns a plan into laws,

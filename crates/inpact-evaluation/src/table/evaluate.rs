@@ -12,7 +12,7 @@ use super::{Level, PiecewiseTable, Point, Sides, Tail};
 use crate::numbers::Scaled;
 
 /// Where a coordinate lies among the abscissae of a group.
-enum Place {
+pub(super) enum Place {
     Below,
     Knot(usize),
     Segment(usize),
@@ -165,7 +165,7 @@ impl PiecewiseTable {
 
 impl Level {
     /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07).
-    fn place(&self, knots: &Range<usize>, x: f64) -> Place {
+    pub(super) fn place(&self, knots: &Range<usize>, x: f64) -> Place {
         if knots.len() == 1 {
             return Place::Knot(knots.start);
         }

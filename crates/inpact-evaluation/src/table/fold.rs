@@ -6,10 +6,11 @@
 //!
 //! Knows nothing of scenes: the plan decides what to fold.
 
+use super::evaluate::Place;
 use super::marks::Marks;
-use super::{PiecewiseTable, Sides, Tail};
-use crate::numbers::Scaled;
+use super::{Level, PiecewiseTable, Sides, Tail};
 use std::fmt;
+use std::ops::Range;
 
 /// The most rows a folded table may have; groups without a common abscissa add up.
 const MOST_ROWS: usize = 1 << 20;
@@ -40,23 +41,6 @@ impl fmt::Display for FoldRefusal {
 
 impl std::error::Error for FoldRefusal {}
 
-/// A part of a table while it is folded.
-#[derive(Clone, Debug)]
-enum Part {
-    Value(Scaled),
-    Group(Group),
-}
-
-/// A group of one axis: its abscissae and what is inside.
-#[derive(Clone, Debug)]
-struct Group {
-    level: usize,
-    knots: Vec<f64>,
-    children: Vec<Part>,
-    /// Below the first and above the second a point counts as outside.
-    range: (f64, f64),
-}
-
 impl PiecewiseTable {
     /// The table for a finite coordinate `at` along `axis`, as a table with the same axes that no longer depends on that one.
     ///
@@ -80,180 +64,137 @@ impl PiecewiseTable {
     /// ```
     pub fn folded(&self, axis: usize, at: f64) -> Result<Self, FoldRefusal> {
         let Some(target) = self.levels().iter().position(|level| level.axis == axis) else { return Ok(self.clone()) };
-        let mut folding = Folding { tail: self.tail(), target, at, sides: None, axis, rows: 0 };
-        let whole = self.part(self.levels().len(), 0..self.levels().last().map_or(1, |level| level.knots.len()));
-        let part = folding.fold(&whole)?;
-        let mut ranges = vec![None; self.levels().len()];
-        part.collect_ranges(&mut ranges)
-            .map_err(|level| FoldRefusal::RangesDiffer { axis: self.levels()[level].axis })?;
-        let mut sides = folding.sides.unwrap_or_default();
-        if let Some(marks) = &self.0.marks {
-            sides = sides.or(marks.always);
-        }
-        let ranges = self.levels().iter().zip(ranges).filter_map(|(level, range)| Some((level.axis, range?)));
-        let marks = Marks { always: sides, ranges: ranges.collect() };
-        let width = self.axis_count() + 1;
-        let mut cells = Vec::new();
-        let levels: Vec<usize> = self.levels().iter().map(|level| level.axis).collect();
-        part.write_rows(&levels, &mut vec![0.0; width], &mut cells);
-        let table = Self::from_rows(&cells, width, self.tail()).map_err(|_| FoldRefusal::TooManyRows)?;
-        Ok(table.marked(marks))
-    }
-
-    /// The knots of the level below `height` as a part, with all that is inside.
-    fn part(&self, height: usize, knots: std::ops::Range<usize>) -> Part {
-        if height == 0 {
-            return Part::Value(Scaled::new(self.values()[knots.start]));
-        }
-        let level = &self.levels()[height - 1];
-        let children = knots.clone().map(|knot| {
-            let inside = if height == 1 { knot..knot + 1 } else { level.children[knot]..level.children[knot + 1] };
-            self.part(height - 1, inside)
-        });
-        let children = children.collect();
-        let own = &level.knots[knots];
-        let range = match (&self.0.marks, own) {
-            (Some(marks), _) => marks.range(level.axis),
-            (None, [first, .., last]) => (*first, *last),
-            // A group of one row is met by every point (T-07).
-            _ => (f64::NEG_INFINITY, f64::INFINITY),
+        let height = self.levels().len();
+        let mut point = vec![0.0; self.axis_count()];
+        point[axis] = at;
+        let mut folding = Folding {
+            table: self,
+            target,
+            point,
+            sides: Sides::default(),
+            ranges: vec![None; height],
+            cells: Vec::new(),
         };
-        Part::Group(Group { level: height - 1, knots: own.to_vec(), children, range })
+        let whole = 0..self.levels()[height - 1].knots.len();
+        folding.fold(height, &[whole])?;
+        let (sides, ranges) = (folding.sides, folding.ranges);
+        let always = self.0.marks.as_ref().map_or(sides, |marks| sides.or(marks.always));
+        let ranges = self.levels().iter().zip(ranges).filter(|(level, _)| level.axis != axis);
+        let ranges = ranges.filter_map(|(level, range)| Some((level.axis, range?))).collect();
+        let table = Self::from_rows(&folding.cells, self.axis_count() + 1, self.tail());
+        Ok(table.map_err(|_| FoldRefusal::TooManyRows)?.marked(Marks { always, ranges }))
     }
 }
 
 /// A table being folded.
-struct Folding {
-    tail: Tail,
+struct Folding<'a> {
+    table: &'a PiecewiseTable,
+    /// The level of the axis that is folded away.
     target: usize,
-    axis: usize,
-    at: f64,
-    /// Where `at` lies along the folded axis, once a group of it was met.
-    sides: Option<Sides>,
-    rows: usize,
+    /// The coordinates of the row that is next, that along the folded axis among them.
+    point: Vec<f64>,
+    /// On which sides of the folded axis the point lies.
+    sides: Sides,
+    /// For each level the coordinates below and above which a point counts as outside.
+    /// Of the folded one a range is noted as well: none but the sides of the point count.
+    ranges: Vec<Option<(f64, f64)>>,
+    /// The rows of the folded table.
+    cells: Vec<f64>,
 }
 
-impl Folding {
-    fn fold(&mut self, part: &Part) -> Result<Part, FoldRefusal> {
-        let Part::Group(group) = part else { return Ok(part.clone()) };
-        if group.level == self.target {
-            self.note_sides(group)?;
-            let drops = group.level == 0
-                && self.axis == 0
-                && self.tail == Tail::Zero
-                && group.knots.len() > 1
-                && group.knots.last().is_some_and(|last| *last < self.at);
-            return if drops { Ok(Part::Value(Scaled::ZERO)) } else { self.at_coordinate(group, self.at) };
+impl Folding<'_> {
+    /// Adds the rows of the groups below `height` that the folded table interpolates between: one group, or after the folded axis several that become one.
+    fn fold(&mut self, height: usize, groups: &[Range<usize>]) -> Result<(), FoldRefusal> {
+        let Some(index) = height.checked_sub(1) else { return self.add_row() };
+        let level = &self.table.levels()[index];
+        if index == self.target {
+            self.note_sides(level, groups)?;
+            let inside = inside(level, index, groups, self.point[level.axis]);
+            return self.fold(index, &inside);
         }
-        let children: Result<Vec<Part>, FoldRefusal> = group.children.iter().map(|child| self.fold(child)).collect();
-        Ok(Part::Group(Group { children: children?, ..group.clone() }))
+        let range = groups.iter().map(|group| self.range(level, group));
+        let range = range.fold((f64::NEG_INFINITY, f64::INFINITY), |a, b| (a.0.max(b.0), a.1.min(b.1)));
+        if self.ranges[index].replace(range).is_some_and(|before| before != range) {
+            return Err(FoldRefusal::RangesDiffer { axis: level.axis });
+        }
+        let drop_of = |group: &Range<usize>| (group.len() > 1).then(|| level.knots[group.end - 1]);
+        let drops = index == 0 && self.table.tail() == Tail::Zero;
+        if drops && groups.iter().any(|group| drop_of(group) != drop_of(&groups[0])) {
+            return Err(FoldRefusal::DropsDiffer);
+        }
+        for x in common_knots(level, groups) {
+            self.point[level.axis] = x;
+            self.fold(index, &inside(level, index, groups, x))?;
+        }
+        Ok(())
+    }
+
+    /// The value at the point, rounded once from 106 bits, as a row.
+    fn add_row(&mut self) -> Result<(), FoldRefusal> {
+        let axis = self.table.levels()[self.target].axis;
+        self.cells.push(self.table.reference_value_at(self.point[0], &self.point[1..]));
+        let row = self.point.iter().enumerate().map(|(of, x)| if of == axis { 0.0 } else { *x });
+        self.cells.extend(row);
+        if MOST_ROWS * (self.point.len() + 1) < self.cells.len() { Err(FoldRefusal::TooManyRows) } else { Ok(()) }
     }
 
     /// All groups of the folded axis must lie on the same side of the coordinate.
-    fn note_sides(&mut self, group: &Group) -> Result<(), FoldRefusal> {
-        let mut sides = Sides::default();
-        if self.at < group.range.0 {
-            sides.mark_below(self.axis);
-        }
-        if self.at > group.range.1 {
-            sides.mark_above(self.axis);
-        }
-        match self.sides.replace(sides) {
-            Some(before) if before != sides => Err(FoldRefusal::RangesDiffer { axis: self.axis }),
-            _ => Ok(()),
-        }
-    }
-
-    /// What a group is at one coordinate of its axis.
-    fn at_coordinate(&mut self, group: &Group, x: f64) -> Result<Part, FoldRefusal> {
-        let not_above = group.knots.partition_point(|knot| *knot <= x);
-        let last = group.knots.len() - 1;
-        if not_above == 0 {
-            return Ok(group.children[0].clone());
-        }
-        let left = not_above - 1;
-        if left == last || group.knots[left] == x {
-            return Ok(group.children[left].clone());
-        }
-        let (start, end) = (group.knots[left], group.knots[left + 1]);
-        let width = Scaled::difference(end, start);
-        // From the nearer end, so that a small value keeps its digits beside a large one.
-        if x - start <= end - x {
-            self.between(Scaled::difference(x, start) / width, &group.children[left], &group.children[left + 1])
-        } else {
-            self.between(Scaled::difference(end, x) / width, &group.children[left + 1], &group.children[left])
-        }
-    }
-
-    /// The part a `weight` of the way, at most half, from one to the other.
-    fn between(&mut self, weight: Scaled, near: &Part, far: &Part) -> Result<Part, FoldRefusal> {
-        match (near, far) {
-            (Part::Group(near), Part::Group(far)) => {
-                if near.level == 0 && self.tail == Tail::Zero && drop_of(near) != drop_of(far) {
-                    return Err(FoldRefusal::DropsDiffer);
-                }
-                let knots = common_knots(&near.knots, &far.knots);
-                self.rows += knots.len();
-                if self.rows > MOST_ROWS {
-                    return Err(FoldRefusal::TooManyRows);
-                }
-                let children = knots.iter().map(|&knot| {
-                    let near = self.at_coordinate(near, knot)?;
-                    let far = self.at_coordinate(far, knot)?;
-                    self.between(weight, &near, &far)
-                });
-                let children: Result<Vec<Part>, FoldRefusal> = children.collect();
-                let range = (near.range.0.max(far.range.0), near.range.1.min(far.range.1));
-                Ok(Part::Group(Group { level: near.level, children: children?, knots, range }))
+    fn note_sides(&mut self, level: &Level, groups: &[Range<usize>]) -> Result<(), FoldRefusal> {
+        for group in groups {
+            let (least, greatest) = self.range(level, group);
+            let mut sides = Sides::default();
+            if self.point[level.axis] < least {
+                sides.mark_below(level.axis);
             }
-            (Part::Value(near), Part::Value(far)) => Ok(Part::Value(*near + weight * (*far + -*near))),
-            // Every group of a table has the same axes inside.
-            _ => Ok(near.clone()),
+            if greatest < self.point[level.axis] {
+                sides.mark_above(level.axis);
+            }
+            // The range of the folded level says that a group of it was met before.
+            let is_first = self.ranges[self.target].replace((least, greatest)).is_none();
+            if !is_first && sides != self.sides {
+                return Err(FoldRefusal::RangesDiffer { axis: level.axis });
+            }
+            self.sides = sides;
+        }
+        Ok(())
+    }
+
+    /// Below the first and above the second a point is outside a group.
+    fn range(&self, level: &Level, group: &Range<usize>) -> (f64, f64) {
+        match (&self.table.0.marks, &level.knots[group.clone()]) {
+            (Some(marks), _) => marks.range(level.axis),
+            (None, [first, .., last]) => (*first, *last),
+            // A group of one row is met by every point (T-07).
+            _ => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 }
 
-/// The abscissae of two groups together; a group of one row is constant and adds none (T-07).
-fn common_knots(a: &[f64], b: &[f64]) -> Vec<f64> {
-    if a.len() == 1 || b.len() == 1 {
-        return if a.len() == 1 { b.to_vec() } else { a.to_vec() };
-    }
-    let mut knots: Vec<f64> = a.iter().chain(b).copied().collect();
-    knots.sort_unstable_by(f64::total_cmp);
-    // Abscissae are compared as numbers (T-10): −0 and 0 are one.
-    knots.dedup();
-    knots
+/// The groups below the level `index` that take part in the values of some of its groups at `x`.
+fn inside(level: &Level, index: usize, groups: &[Range<usize>], x: f64) -> Vec<Range<usize>> {
+    let child = |knot: usize| if index == 0 { knot..knot + 1 } else { level.children_of(knot) };
+    let of_group = |group: &Range<usize>| match level.place(group, x) {
+        Place::Below => vec![child(group.start)],
+        Place::Knot(knot) => vec![child(knot)],
+        Place::Segment(left) => vec![child(left), child(left + 1)],
+        Place::Above => vec![child(group.end - 1)],
+    };
+    groups.iter().flat_map(of_group).collect()
 }
 
-/// Where a group of axis 0 drops to zero; nowhere with one row (T-07).
-fn drop_of(group: &Group) -> Option<f64> {
-    group.knots.last().copied().filter(|_| group.knots.len() > 1)
-}
-
-impl Part {
-    /// Puts the common range of the groups of each level into `ranges`; the level whose groups have none in common is the error.
-    fn collect_ranges(&self, ranges: &mut [Option<(f64, f64)>]) -> Result<(), usize> {
-        let Self::Group(group) = self else { return Ok(()) };
-        match ranges[group.level].replace(group.range) {
-            Some(before) if before != group.range => return Err(group.level),
-            _ => {}
-        }
-        group.children.iter().try_for_each(|child| child.collect_ranges(ranges))
-    }
-
-    /// Adds the rows of the part; `row` holds the abscissae outside it.
-    fn write_rows(&self, axes: &[usize], row: &mut [f64], cells: &mut Vec<f64>) {
-        match self {
-            Self::Value(value) => {
-                row[0] = value.to_f64();
-                cells.extend_from_slice(row);
-            }
-            Self::Group(group) => {
-                for (knot, child) in group.knots.iter().zip(&group.children) {
-                    row[axes[group.level] + 1] = *knot;
-                    child.write_rows(axes, row, cells);
-                }
-            }
+/// The abscissae of some groups together; a group of one row is constant and adds none (T-07).
+fn common_knots(level: &Level, groups: &[Range<usize>]) -> Vec<f64> {
+    let several: Vec<&Range<usize>> = groups.iter().filter(|group| group.len() > 1).collect();
+    match several[..] {
+        [] => vec![level.knots[groups[0].start]],
+        [only] => level.knots[only.clone()].to_vec(),
+        _ => {
+            let mut knots: Vec<f64> =
+                several.into_iter().flat_map(|group| &level.knots[group.clone()]).copied().collect();
+            knots.sort_unstable_by(f64::total_cmp);
+            // Abscissae are compared as numbers (T-10): −0 and 0 are one.
+            knots.dedup();
+            knots
         }
     }
 }
