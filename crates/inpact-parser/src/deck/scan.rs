@@ -11,7 +11,7 @@ use super::survey::Survey;
 use super::{
     Block, Deck, KeywordLine, LineNote, LineNoteKind, Parameter, Source, byte_order_mark, items, keyword_line,
 };
-use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, ParameterKind, RowShape};
+use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape, ValueUse};
 use crate::span::{SourceId, Span};
 use std::ops::Range;
 
@@ -86,6 +86,8 @@ struct OpenKeyword {
     text: Vec<u8>,
     /// How much of `text` belongs to the keyword line for sure: comments at its end do not.
     accepted: usize,
+    /// Whether the comma at its end is answered by what may be a flag, or may be in the file that includes this one.
+    is_answered: bool,
 }
 
 /// Why a line is taken down while it goes by.
@@ -273,7 +275,14 @@ impl<'grammar> Scanner<'grammar> {
         self.close_block();
         let may_continue = self.options.grammar.dialect() == Dialect::Abaqus && keyword_line::ends_in_comma(line);
         let id = if may_continue { id_of(&line[keyword_line::parse(line).name], self.options.grammar) } else { None };
-        self.open_keyword = Some(OpenKeyword { start: self.offset, id, text: line.to_vec(), accepted: line.len() });
+        self.open_keyword = Some(OpenKeyword {
+            start: self.offset,
+            id,
+            text: line.to_vec(),
+            accepted: line.len(),
+            // What stands behind the last line of an included file is in another one.
+            is_answered: may_continue && self.id != SourceId::ROOT,
+        });
         self.source.keep(self.offset, self.line, line);
         self.block.keeps_rows = KeepsRows::All;
         self.block.rows_start = self.offset;
@@ -290,7 +299,9 @@ impl<'grammar> Scanner<'grammar> {
         let line = &bytes[at..end];
         let Some(open) = &mut self.open_keyword else { return at };
         let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
-        if !is_comment && !continues(open.id, line, self.options.grammar) {
+        let behind = if is_comment { None } else { Some(behind_comma(open.id, line, self.options.grammar)) };
+        if let Some(Behind::PerhapsFlags | Behind::NoParameters) = behind {
+            open.is_answered = behind == Some(Behind::PerhapsFlags);
             self.close_keyword();
             return at;
         }
@@ -311,7 +322,10 @@ impl<'grammar> Scanner<'grammar> {
     fn close_keyword(&mut self) {
         let Some(open) = self.open_keyword.take() else { return };
         let text = &open.text[..open.accepted];
-        let keyword = keyword_line(text, self.id, open.start, self.options.grammar);
+        let mut keyword = keyword_line(text, self.id, open.start, self.options.grammar);
+        if open.is_answered {
+            keyword.dangling_comma = None;
+        }
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
         self.block = OpenBlock {
             rows_start: keyword.span.end,
@@ -382,28 +396,66 @@ fn end_of_last_line(bytes: &[u8]) -> usize {
     memchr::memrchr2(b'\n', b'\r', certain).map_or(0, |last| last + 1)
 }
 
-/// Whether `line` reads as parameters of the keyword line `so_far`: it has `=`, or its words are flags the keyword knows (S-19).
-fn continues(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> bool {
-    if line_kind(line) != LineKind::Data {
-        return false;
-    }
+/// How a line reads behind a keyword line that ends in a comma (S-19).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Behind {
+    /// As parameters of the keyword: it goes on with them.
+    Parameters,
+    /// As words that may be flags of a keyword whose parameters are not all known here.
+    ///
+    /// The line is read as a row, and the comma in front of it is nothing to complain about: without it a flag would be one.
+    PerhapsFlags,
+    /// As something else: the comma is answered by nothing.
+    NoParameters,
+}
+
+/// How `line` reads behind a keyword line: as its parameters if it has `=`, or if its words are flags the keyword knows (S-19).
+fn behind_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> Behind {
     let definition = keyword.and_then(|id| grammar.keyword(id).definition());
+    let knows_all = definition.is_some_and(|definition| definition.parameters_complete);
+    match line_kind(line) {
+        // What a blank line means here is said nowhere.
+        LineKind::Blank if !knows_all => return Behind::PerhapsFlags,
+        LineKind::Data => {}
+        _ => return Behind::NoParameters,
+    }
     let is_parameter = |item: &[u8]| {
         let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
         let known = definition.map_or(Lookup::Unknown, |definition| grammar.parameter_named(definition, name));
         let has_value = item.contains(&b'=');
         match (definition, known) {
             (Some(definition), Lookup::Exact(index) | Lookup::Abbreviated(index)) => {
-                has_value || definition.parameters[index].kind == ParameterKind::Flag
+                has_value || definition.parameters[index].value_use() != ValueUse::Always
             }
             // Rows of free text may hold `=` without being parameters: `x = 5` behind `*PARAMETER,`.
-            (Some(definition), _) => has_value && definition.rows() != RowShape::Text,
+            (Some(definition), _) => has_value && (definition.rows() != RowShape::Text || !knows_all),
             (None, _) => has_value,
         }
     };
     let has_value = line.contains(&b'=');
     let mut words = items(line).map(|range| &line[range]).filter(|item| !item.is_empty()).peekable();
-    words.peek().is_some() && if has_value { words.any(is_parameter) } else { words.all(is_parameter) }
+    let is_empty = words.peek().is_none();
+    let mut perhaps = !knows_all && !is_empty;
+    let continues = if has_value {
+        words.any(is_parameter)
+    } else {
+        !is_empty
+            && words.fold(true, |all, word| {
+                perhaps &= is_like_a_flag(word);
+                all && is_parameter(word)
+            })
+    };
+    match (continues, perhaps) {
+        (true, _) => Behind::Parameters,
+        (false, true) => Behind::PerhapsFlags,
+        (false, false) => Behind::NoParameters,
+    }
+}
+
+/// Whether a word could be the name of a parameter: letters first, then letters, digits, blanks and dashes.
+fn is_like_a_flag(word: &[u8]) -> bool {
+    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b' ' | b'\t' | b'-' | b'_');
+    word.first().is_some_and(u8::is_ascii_alphabetic) && word.iter().all(is_inside)
 }
 
 fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {

@@ -8,7 +8,7 @@ use inpact_parser::span::Span;
 declare_rule! {
     /// A keyword line ends in a comma, and the next line does not read as its continuation.
     ///
-    /// A continuation has `=` in it, or its words are parameters of the keyword.
+    /// A continuation has `=` in it, or its words are flags of the keyword.
     ///
     /// ## Why
     /// A comma at the end of a keyword line says that the next line goes on with its parameters.
@@ -37,6 +37,14 @@ declare_rule! {
     /// *SURFACE INTERACTION, NAME=A
     /// *CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=0.1,
     ///  CUTOFF GAP FILL=0.2
+    /// ```
+    ///
+    /// So is one behind which a flag may stand, of a keyword whose parameters inpact does not know:
+    ///
+    /// ```inp
+    /// *ELSET, ELSET=LEFT,
+    /// GENERATE
+    /// 1, 5, 1
     /// ```
     "S003", "dangling-comma", Warning, fix: Safe, source: "S-19"
 }

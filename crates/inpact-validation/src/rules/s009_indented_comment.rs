@@ -4,7 +4,8 @@ use crate::diagnostic::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::lines::{LineKind, line_kind, lines};
 use inpact_parser::deck::{Block, LineNote, LineNoteKind};
-use inpact_parser::span::Span;
+use inpact_parser::grammar::RowShape;
+use inpact_parser::span::{SourceId, Span};
 
 declare_rule! {
     /// A comment stands behind blanks: its `**` is not in the first two columns.
@@ -38,6 +39,14 @@ declare_rule! {
     /// 3.E7, 1.E7
     /// ** and not beyond
     /// ```
+    ///
+    /// In the title of an analysis or of a step such a line is text like any other:
+    ///
+    /// ```inp
+    /// *HEADING
+    /// Brake disc, run 12
+    ///    ** second line of the title
+    /// ```
     "S009", "indented-comment", Warning, fix: Safe, source: "S-04"
 }
 
@@ -52,19 +61,47 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let later = blocks
             .partition_point(|block| (block.rows.source, block.rows.start) <= (note.span.source, note.span.start));
         let block = later.checked_sub(1).map(|last| blocks[last]).filter(|block| block.rows.contains(note.span));
+        let place = Place::of(context, block);
+        if matches!(place, Place::Title) {
+            continue;
+        }
         let blanks = indentation(context.deck.text(note.span));
         let start = note.span.start + blanks as u64;
         let found = report.at(Span::new(note.span.source, start, note.span.end), "comment behind blanks");
-        found.label("begins in the first column only").help("take the blanks before `**` away").fix(
-            FixSafety::Safe,
-            "take the blanks away",
-            edits(context, note, block),
-        );
+        found.label("begins in the first column only").help("take the blanks before `**` away");
+        if matches!(place, Place::Rows) {
+            found.fix(FixSafety::Safe, "take the blanks away", edits(context, note, block));
+        }
         match note.lines {
             1 => found
                 .note("by the manual this is a keyword line, which Abaqus may refuse; it is read as a comment here"),
             lines => found.note(format!("{lines} comments of this block stand behind blanks; this is the first")),
         };
+    }
+}
+
+/// What the lines around a comment are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// Rows of items, among which it is a comment.
+    Rows,
+    /// The title of the analysis or of a step: free text, which only an asterisk in the first column ends (S-70, S-72).
+    Title,
+    /// Statements of *PARAMETER, where `**` behind blanks may go on with an expression (S-60), or rows that go on from
+    /// another file, of which nobody knows here what they are.
+    Unclear,
+}
+
+impl Place {
+    fn of(context: &Context<'_>, block: Option<&Block>) -> Self {
+        let Some(block) = block else { return Self::Rows };
+        let definition = block.keyword_id().and_then(|id| context.grammar.keyword(id).definition());
+        match definition {
+            Some(definition) if definition.name == "PARAMETER" => Self::Unclear,
+            Some(definition) if definition.rows() == RowShape::Text => Self::Title,
+            None if block.keyword.is_none() && block.rows.source != SourceId::ROOT => Self::Unclear,
+            _ => Self::Rows,
+        }
     }
 }
 

@@ -2,9 +2,11 @@
 
 use crate::diagnostic::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::KeywordLine;
 use inpact_parser::deck::lines::next_line;
 use inpact_parser::problem::ProblemKind;
 use inpact_parser::span::Span;
+use std::collections::HashSet;
 
 declare_rule! {
     /// An empty line stands among the rows of a table, or behind the last of them.
@@ -35,16 +37,21 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    // Behind the comma of a keyword line the next line would become its continuation (S-19).
+    let ends_in_comma = |keyword: &&KeywordLine| context.deck.text(keyword.span).trim_ascii_end().ends_with(b",");
+    let open: HashSet<Span> = context.keyword_lines().filter(ends_in_comma).map(|keyword| keyword.span).collect();
     for problem in context.problems.iter().filter(|problem| problem.kind == ProblemKind::BlankRow) {
         let line = problem.span;
         // The line end stands behind the span of the line; the longest is CR LF.
         let behind = context.deck.text(Span::new(line.source, line.end, line.end + 2));
         let whole = Span::new(line.source, line.start, line.end + next_line(behind, 0) as u64);
-        report
-            .at(line, "empty line among the rows of a table")
+        let found = report.at(line, "empty line among the rows of a table");
+        found
             .label("skipped")
             .note("an empty line is no comment, and a program may read it as a row of zeros")
-            .help("take the line away")
-            .fix(FixSafety::Safe, "take the empty line away", vec![Edit::delete(whole)]);
+            .help("take the line away");
+        if !open.contains(&problem.keyword) {
+            found.fix(FixSafety::Safe, "take the empty line away", vec![Edit::delete(whole)]);
+        }
     }
 }

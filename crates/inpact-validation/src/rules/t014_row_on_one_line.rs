@@ -44,28 +44,33 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let ProblemKind::RowOnOneLine { lines, first: on_first, following } = first.problem.kind else { continue };
         let of_block =
             context.problems[first.index..].iter().take_while(|problem| problem.keyword == first.problem.keyword);
-        let edits = of_block.filter(|problem| is_meant(&problem.kind)).flat_map(|problem| breaks(context, problem));
+        let edits = of_block.filter(|problem| is_meant(&problem.kind)).map(|problem| breaks(context, problem));
         let more = and_more(first.more, "row of this table does", "rows of this table do");
-        report
-            .at(first.problem.span, format!("row stands on one line and should go over {lines}"))
+        let found = report.at(first.problem.span, format!("row stands on one line and should go over {lines}"));
+        found
             .label(format!("{on_first} items belong on the first line, {following} at most on every further one"))
             .also(context.trimmed(first.problem.keyword), "the option")
             .note(format!("a line holds eight items at most{more}"))
-            .help("break the rows")
-            .fix(FixSafety::Safe, "break the rows of the table", edits.collect());
+            .help("break the rows");
+        // A line that begins with an asterisk is a keyword line, whatever row it was a part of.
+        if let Some(edits) = edits.collect::<Option<Vec<_>>>() {
+            found.fix(FixSafety::Safe, "break the rows of the table", edits.concat());
+        }
     }
 }
 
-/// The edits that break a row: a line end in the place of a comma, and the blanks that the row begins with.
-fn breaks(context: &Context<'_>, problem: &Problem) -> Vec<Edit> {
-    let ProblemKind::RowOnOneLine { first, following, .. } = problem.kind else { return Vec::new() };
+/// The edits that break a row: a line end in the place of a comma, and the blanks that the row begins with; `None` where
+/// a line would begin with what makes it no row.
+fn breaks(context: &Context<'_>, problem: &Problem) -> Option<Vec<Edit>> {
+    let ProblemKind::RowOnOneLine { first, following, .. } = problem.kind else { return Some(Vec::new()) };
     let items: Vec<Span> =
         context.deck.data_lines_in(problem.span).flat_map(|line| line.items().collect::<Vec<_>>()).collect();
     let line_end = line_end_and_indentation(context, problem.span);
     let starts = (first..items.len()).step_by(following.max(1));
     let edit = |start: usize| {
         let comma = Span::new(problem.span.source, items[start - 1].end, items[start].start);
-        Edit::new(comma, line_end.clone())
+        let begins_row = !context.deck.text(items[start]).starts_with(b"*");
+        begins_row.then(|| Edit::new(comma, line_end.clone()))
     };
     starts.filter(|start| *start > 0).map(edit).collect()
 }
