@@ -7,51 +7,14 @@
 #[expect(unreachable_pub, reason = "the same file is the library of the fuzz targets")]
 mod targets;
 
+#[path = "support/mutation.rs"]
+mod mutation;
+
+use mutation::{Chance, files, project};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
 
 /// The most bytes of an input, so that none takes long.
 const MOST_BYTES: usize = 3000;
-
-/// SplitMix64: numbers by chance, the same in every run.
-struct Chance(u64);
-
-impl Chance {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// A number from 0 up to but without `end`; 0 when there is none.
-    fn below(&mut self, end: usize) -> usize {
-        usize::try_from(self.next() % end.max(1) as u64).expect("smaller than a usize")
-    }
-
-    fn one_of<'items>(&mut self, items: &'items [Vec<u8>]) -> &'items [u8] {
-        &items[self.below(items.len())]
-    }
-}
-
-fn project() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// The files of a folder and of those in it, in the order of their names.
-fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
-    let mut paths: Vec<PathBuf> =
-        std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("readable").path()).collect();
-    paths.sort();
-    let contents = paths.iter().map(|path| match path {
-        path if path.is_dir() => files(path, extension),
-        path if path.extension().is_some_and(|found| found == extension) => {
-            vec![std::fs::read(path).expect("readable")]
-        }
-        _ => Vec::new(),
-    });
-    contents.flatten().collect()
-}
 
 fn decks() -> Vec<Vec<u8>> {
     [files(&project().join("fuzz/seeds/decks"), "inp"), files(&project().join("decks"), "inp")].concat()

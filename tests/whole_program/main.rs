@@ -29,4 +29,5 @@ mod solve_transient;
 mod solve_wrong;
 mod tradeoff;
 mod tradeoff_scene;
+mod wild;
 mod write;

@@ -1,6 +1,7 @@
 //! The language of *PARAMETER: definitions that are executed, values that replace `<name>` (S-60 to S-66).
 //!
-//! The data lines of *PARAMETER are a part of Python 2: `name = expression`, with integers that divide as integers.
+//! The data lines of *PARAMETER are a part of Python: `name = expression`.
+//! Up to release 2023 it is Python 2, whose integers divide as integers; from 2024 on Python 3, whose division is true ([`Division`]).
 //! [`define`] executes the lines of one block; called for every block of the deck in order, it leaves the final values
 //! in [`Parameters`], which [`substitute`] then puts in place of every `<name>`, also of one that stands further up (S-61).
 //!
@@ -13,6 +14,7 @@
 //! `min` and `max` are not listed in S-60 but decks call them.
 
 mod arithmetic;
+mod division;
 mod evaluate;
 mod functions;
 mod lexer;
@@ -23,6 +25,7 @@ mod statement;
 mod substitute;
 mod value;
 
+pub use division::{Division, IntegerDivision};
 pub use logical_line::StatementLine;
 pub use parameters::{Definition, Parameters};
 pub use statement::define;

@@ -111,7 +111,7 @@ pub enum ConstraintMethod {
 }
 
 /// *GAP HEAT GENERATION (2.5).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HeatGeneration {
     /// The keyword line.
     pub span: Span,
@@ -123,6 +123,8 @@ pub struct HeatGeneration {
     pub slave_weight: f64,
     /// The relative speed of the surfaces, dimension L T⁻¹, where a row of CalculiX gives one (K-38); it is no part of the JSON view.
     pub slip_rate: Option<f64>,
+    /// What stands in the items that are not written as a number, as in [`Table::texts`]: 0 is the fraction, 1 the weight.
+    pub texts: Vec<CellText>,
 }
 
 /// A keyword with its parameters and rows, not interpreted further.

@@ -72,14 +72,54 @@ pub fn read_integer(text: &[u8]) -> Result<i64, NumberError> {
     std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()).ok_or(NumberError::NotAnInteger)
 }
 
-/// The shortest text that reads back to the same f64, with a point or an exponent so that it is a float: `10.`, `1.5`, `2E-07`.
+/// A text that reads back to the same f64, with a point or an exponent so that it is a float: `10.`, `1.5`, `2E-7`.
+///
+/// It has at most [`FLOAT_CHARACTERS`] wherever such a text exists: of 17 digits the point may have to go
+/// (`12345678901234569E7`), and a few numbers with an exponent below -9 have none (S-34).
 pub fn float_text(value: f64) -> String {
     let magnitude = value.abs();
-    if magnitude != 0.0 && !(1e-4..1e16).contains(&magnitude) {
-        return format!("{value:E}");
+    let usual = if magnitude != 0.0 && !(1e-4..1e16).contains(&magnitude) {
+        format!("{value:E}")
+    } else {
+        let text = value.to_string();
+        if text.contains('.') { text } else { text + "." }
+    };
+    if usual.len() <= FLOAT_CHARACTERS || !value.is_finite() {
+        return usual;
     }
-    let text = value.to_string();
-    if text.contains('.') { text } else { text + "." }
+    shortest(&format!("{value:e}")).filter(|text| text.len() <= FLOAT_CHARACTERS).unwrap_or(usual)
+}
+
+/// The nearest number that [`FLOAT_CHARACTERS`] can say, as text: [`float_text`] where that fits.
+pub fn float_text_that_fits(value: f64) -> String {
+    let mut digits = 17;
+    loop {
+        let rounded = format!("{value:.*e}", digits - 1);
+        match rounded.parse().map(float_text) {
+            Ok(text) if text.len() <= FLOAT_CHARACTERS || digits == 1 => return text,
+            _ => digits -= 1,
+        }
+    }
+}
+
+/// The shortest way to write the digits of `1.2345e-6`: the point anywhere, or none, and an exponent unless it is zero.
+fn shortest(scientific: &str) -> Option<String> {
+    let (mantissa, exponent) = scientific.split_once('e')?;
+    let exponent: i32 = exponent.parse().ok()?;
+    let (sign, unsigned) = mantissa.strip_prefix('-').map_or(("", mantissa), |unsigned| ("-", unsigned));
+    let digits = unsigned.replace('.', "");
+    let count = i32::try_from(digits.len()).ok()?;
+    let with_point = |before: i32| {
+        let (whole, rest) = digits.split_at(usize::try_from(before).unwrap_or(0));
+        match exponent - (before - 1) {
+            0 => format!("{sign}{whole}.{rest}"),
+            power if rest.is_empty() => format!("{sign}{whole}E{power}"),
+            power => format!("{sign}{whole}.{rest}E{power}"),
+        }
+    };
+    let zeros = usize::try_from(-exponent - 1).ok().filter(|zeros| *zeros < FLOAT_CHARACTERS);
+    let without_exponent = zeros.map(|zeros| format!("{sign}.{}{digits}", "0".repeat(zeros)));
+    (0..=count).map(with_point).chain(without_exponent).min_by_key(String::len)
 }
 
 #[cfg(test)]
@@ -109,6 +149,26 @@ mod tests {
         for value in [f64::MAX, f64::MIN_POSITIVE, 5e-324, -1.0 / 3.0, 123_456.789e-3] {
             assert_eq!(read_float(float_text(value).as_bytes()).map(f64::to_bits), Ok(value.to_bits()));
         }
+    }
+
+    #[test]
+    fn s_34_no_more_than_twenty_characters_where_they_do() {
+        let cases = [
+            (1.234_567_890_123_456_9e23, "12345678901234569E7"),
+            (-0.012_345_678_901_234_567, "-.012345678901234567"),
+            (0.001_234_567_890_123_456_7, ".0012345678901234567"),
+            (0.300_000_000_000_000_04, "0.30000000000000004"),
+            (-1.234_567_890_123_456_8e15, "-1234567890123456.8"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(float_text(value), text);
+            assert_eq!(read_float(text.as_bytes()).map(f64::to_bits), Ok(value.to_bits()), "{text}");
+        }
+        // Seventeen digits, a sign and an exponent of three digits: no text of twenty characters says it.
+        let long = -1.234_567_890_123_456_8e-150;
+        assert_eq!(float_text(long), "-1.2345678901234568E-150");
+        assert_eq!(float_text_that_fits(long), "-12345678901235E-163");
+        assert_eq!(float_text_that_fits(0.1), "0.1");
     }
 
     #[test]

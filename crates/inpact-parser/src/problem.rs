@@ -51,6 +51,13 @@ pub enum ProblemKind {
         /// How many the last row has.
         given: usize,
     },
+    /// PROPERTIES=n of a *SURFACE INTERACTION, USER and the number of values below it differ (K-02, K-03).
+    PropertyCount {
+        /// What PROPERTIES says; 0 where it is not given.
+        stated: usize,
+        /// How many values there are.
+        given: usize,
+    },
     /// A row behind the first, of an option that has only one (S-38).
     SurplusRow,
     /// A row that should go over several lines stands on one; read all the same (K-53).

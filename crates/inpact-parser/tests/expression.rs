@@ -3,6 +3,7 @@
 use inpact_parser::expression::{
     ExpressionProblem, Parameters, StatementLine, SubstitutionError, Value, define, references, substitute,
 };
+use inpact_parser::grammar::Release;
 use inpact_parser::span::{SourceId, Span};
 
 /// The lines of one block that begins its file.
@@ -22,7 +23,7 @@ fn lines_of(text: &str, source: SourceId) -> Vec<StatementLine<'_>> {
 }
 
 fn run(text: &str) -> (Parameters, Vec<ExpressionProblem>) {
-    let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+    let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
     define(lines(text), &mut parameters, &mut problems);
     (parameters, problems)
 }
@@ -63,6 +64,23 @@ fn a_08_integers_divide_as_integers() {
     assert_eq!(parameters.value("sg"), Some(&Value::Integer(1)));
     assert_eq!(substitute("<sg>, 0.", &parameters).unwrap(), "1, 0.");
     assert_eq!(defined("a = -5/4\nb = 5./4\nc = 5/4.\nd = -(5/4)"), ["a = -2", "b = 1.25", "c = 1.25", "d = -1"]);
+}
+
+/// From release 2024 on the Python of Abaqus is the third, and `/` of integers gives a real number.
+#[test]
+fn a_08_integers_divide_truly_from_2024_on() {
+    let mut parameters = Parameters::of_release(Release::R2024);
+    let text = "a = 5/4\nb = -5/4\nc = 8/4\nd = 5//4\ne = 7/2*2";
+    let lines = text.lines().map(|line| StatementLine { span: Span::default(), text: line.as_bytes() });
+    let mut problems = Vec::new();
+    define(lines, &mut parameters, &mut problems);
+    assert_eq!(problems, []);
+    let values: Vec<String> =
+        parameters.definitions().iter().map(|found| found.value.as_ref().unwrap().to_string()).collect();
+    assert_eq!(values, ["1.25", "-1.25", "2.", "1", "7."]);
+    let remainders = parameters.integer_divisions().iter().map(|found| (found.floor.clone(), found.quotient.clone()));
+    let expected = [(1, 1.25), (-2, -1.25), (3, 3.5)].map(|(floor, real)| (Value::Integer(floor), Value::Real(real)));
+    assert_eq!(remainders.collect::<Vec<_>>(), expected);
 }
 
 #[test]
@@ -119,7 +137,7 @@ fn a_missing_parenthesis_does_not_swallow_the_next_definition() {
 fn a_statement_can_go_on_in_another_file() {
     let mut all = lines_of("a = 1 + \\", SourceId::ROOT);
     all.extend(lines_of("  2 + x", SourceId(1)));
-    let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+    let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
     define(all, &mut parameters, &mut problems);
     assert_eq!(problems[0].span, Span::new(SourceId(1), 6, 7));
     assert_eq!(parameters.definitions()[0].span, Span::new(SourceId::ROOT, 0, 9));
@@ -143,7 +161,7 @@ fn the_last_value_counts_and_nothing_is_deferred() {
 
 #[test]
 fn blocks_continue_each_other() {
-    let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+    let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
     define(lines("a = 2"), &mut parameters, &mut problems);
     define(lines("b = a**3"), &mut parameters, &mut problems);
     assert_eq!((problems, parameters.value("b")), (Vec::new(), Some(&Value::Integer(8))));
@@ -316,7 +334,7 @@ fn texts_that_are_none() {
         "the text holds the escape `\\t`, a control character in Python",
         "write `\\\\t` for a backslash before `t`",
     );
-    let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+    let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
     let latin_1 = b"a = 'd\xFCnn' # d\xFCnn";
     let span = Span::new(SourceId::ROOT, 0, latin_1.len() as u64);
     define([StatementLine { span, text: latin_1 }], &mut parameters, &mut problems);

@@ -1,10 +1,11 @@
 //! Values of expressions: every operator and function of *PARAMETER against what Python 2.7 gives (S-60).
 
 use inpact_parser::expression::{Parameters, StatementLine, Value, define};
+use inpact_parser::grammar::Release;
 use inpact_parser::span::{SourceId, Span};
 
 fn evaluate(expression: &str) -> Result<Value, String> {
-    let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+    let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
     let statement = format!("x = {expression}");
     let span = Span::new(SourceId::ROOT, 0, statement.len() as u64);
     define([StatementLine { span, text: statement.as_bytes() }], &mut parameters, &mut problems);

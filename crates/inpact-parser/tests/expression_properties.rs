@@ -1,6 +1,7 @@
 //! Any bytes end in values or problems, and arithmetic agrees with a reference that works on the tree.
 
 use inpact_parser::expression::{Parameters, StatementLine, Value, define, references, substitute};
+use inpact_parser::grammar::Release;
 use inpact_parser::span::{SourceId, Span};
 use proptest::prelude::*;
 
@@ -158,7 +159,7 @@ fn reference_real(left: f64, operator: &str, right: f64) -> Option<Number> {
 }
 
 fn evaluate(expression: &str) -> Option<Number> {
-    let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+    let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
     let statement = format!("x = {expression}");
     let span = Span::new(SourceId::ROOT, 0, statement.len() as u64);
     define([StatementLine { span, text: statement.as_bytes() }], &mut parameters, &mut problems);
@@ -242,7 +243,7 @@ proptest! {
                 StatementLine { span, text }
             })
             .collect();
-        let (mut parameters, mut problems) = (Parameters::new(), Vec::new());
+        let (mut parameters, mut problems) = (Parameters::of_release(Release::R2022), Vec::new());
         define(lines, &mut parameters, &mut problems);
         let of_problems = problems.iter().map(|problem| problem.span);
         let of_definitions = parameters.definitions().iter().map(|definition| definition.span);

@@ -106,6 +106,7 @@ fn interaction() -> impl Strategy<Value = Interaction> {
             fraction,
             slave_weight,
             slip_rate: None,
+            texts: Vec::new(),
         });
         interaction.other = other;
         interaction

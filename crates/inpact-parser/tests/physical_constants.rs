@@ -42,6 +42,7 @@ fn the_speed_of_a_row_of_calculix() {
         let model = model_of(&deck, &grammar);
         model.interactions[&Name::new("A")]
             .gap_heat_generation
+            .as_ref()
             .map(|heat| (heat.fraction, heat.slave_weight, heat.slip_rate))
     };
     assert_eq!(speed("0.8, 0.25, 3.0"), Some((0.8, 0.25, Some(3.0))));
@@ -49,5 +50,5 @@ fn the_speed_of_a_row_of_calculix() {
     assert_eq!(speed("0.8, 0.25, -1."), Some((0.8, 0.25, None)));
     assert_eq!(speed("0.8"), Some((0.8, 0.5, None)));
     let model = model_of("*SURFACE INTERACTION, NAME=A\n*GAP HEAT GENERATION\n0.8, 0.25\n", Grammar::builtin());
-    assert_eq!(model.interactions[&Name::new("A")].gap_heat_generation.map(|heat| heat.slip_rate), Some(None));
+    assert_eq!(model.interactions[&Name::new("A")].gap_heat_generation.as_ref().map(|heat| heat.slip_rate), Some(None));
 }

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::directives::{self, Directive};
+use crate::lost::{lost_lines, without_consequences};
 use crate::rule::{Context, Report, Rule};
 use crate::rules::{RULES, s018_ignore_without_effect};
 use crate::tables::{all_tables, radiation_tables};
@@ -14,7 +15,10 @@ use std::time::{Duration, Instant};
 /// Checks a deck and its model by every rule; findings come in the order of the deck.
 pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
     let radiation = radiation_tables(deck, grammar, model);
-    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation) };
+    let lost_lines = lost_lines(deck, grammar);
+    let caused = if lost_lines.is_empty() { Vec::new() } else { without_consequences(problems, &lost_lines) };
+    let problems = if lost_lines.is_empty() { problems } else { &caused };
+    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation), lost_lines };
     let mut diagnostics = Vec::new();
     for rule in RULES {
         let mut report = Report::new(rule, &mut diagnostics);
@@ -35,7 +39,10 @@ pub fn time_rules(
     problems: &[Problem],
 ) -> Vec<(&'static str, Duration)> {
     let radiation = radiation_tables(deck, grammar, model);
-    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation) };
+    let lost_lines = lost_lines(deck, grammar);
+    let caused = if lost_lines.is_empty() { Vec::new() } else { without_consequences(problems, &lost_lines) };
+    let problems = if lost_lines.is_empty() { problems } else { &caused };
+    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation), lost_lines };
     let time = |rule: &&'static Rule| {
         let start = Instant::now();
         let mut diagnostics = Vec::new();

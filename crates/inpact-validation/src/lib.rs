@@ -10,9 +10,12 @@ pub mod rule;
 
 pub mod rules;
 
+mod assembly;
 mod checking;
 
 mod heat;
+mod invisible;
+mod lost;
 
 mod order;
 

@@ -176,18 +176,14 @@ pub(crate) fn uses_of_surfaces(context: &Context<'_>) -> Vec<Use> {
     pairs.chain(assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT"))).collect()
 }
 
-/// The last part of a dotted name, the name inside its part or instance (S-44); `None` when there is one part only.
-pub(crate) fn last_component(name: &Name) -> Option<Name> {
+/// The parts of a dotted name, as many as it has periods outside quotes and one more (S-44).
+pub(crate) fn components(name: &Name) -> Vec<Name> {
     let mut quoted = false;
-    let mut last_dot = None;
-    for (at, character) in name.written().char_indices() {
-        match character {
-            '"' => quoted = !quoted,
-            '.' if !quoted => last_dot = Some(at),
-            _ => {}
-        }
-    }
-    last_dot.map(|at| Name::new(&name.written()[at + 1..]))
+    let is_dot = |character: char| {
+        quoted ^= character == '"';
+        character == '.' && !quoted
+    };
+    name.written().split(is_dot).map(Name::new).collect()
 }
 
 /// The names that are not defined, each where it stands first, and how often it stands again.
@@ -211,11 +207,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dotted_names_end_in_the_name_inside_the_instance() {
-        let last = |text: &str| last_component(&Name::new(text)).map(|name| name.to_string());
-        assert_eq!(last("Assembly-1.Instance-1.Surf-1").as_deref(), Some("Surf-1"));
-        assert_eq!(last("Hinge.\"Set 1.2\"").as_deref(), Some("\"Set 1.2\""));
-        assert_eq!(last("\"a.b\""), None);
-        assert_eq!(last("Surf-1"), None);
+    fn s_44_dotted_names_are_cut_outside_quotes() {
+        let parts = |text: &str| components(&Name::new(text)).iter().map(Name::to_string).collect::<Vec<_>>();
+        assert_eq!(parts("Assembly-1.Instance-1.Surf-1"), ["Assembly-1", "Instance-1", "Surf-1"]);
+        assert_eq!(parts("Hinge.\"Set 1.2\""), ["Hinge", "\"Set 1.2\""]);
+        assert_eq!(parts("\"a.b\""), ["\"a.b\""]);
+        assert_eq!(parts("Surf-1"), ["Surf-1"]);
     }
 }

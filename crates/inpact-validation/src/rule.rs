@@ -1,6 +1,7 @@
 //! What a rule is, what it sees, and how it reports.
 
 use crate::diagnostic::{Diagnostic, Label, Severity};
+use crate::lost::LostLine;
 use crate::tables::trimmed;
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
 use inpact_parser::expression::substitute;
@@ -72,6 +73,8 @@ pub struct Context<'a> {
     pub problems: &'a [Problem],
     /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
     pub tables: Vec<TableOf<'a>>,
+    /// The rows that read exactly as keyword lines (S021).
+    pub lost_lines: Vec<LostLine<'a>>,
 }
 
 /// A block whose keyword the grammar defines.

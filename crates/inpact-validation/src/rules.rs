@@ -73,6 +73,8 @@ list_rules! {
     s016_invalid_parameter_expression,
     s017_parameters_from_table,
     s018_ignore_without_effect,
+    s019_integer_division,
+    s021_lost_asterisk,
     t001_not_ascending,
     t002_duplicate_abscissa,
     t003_group_not_ascending,

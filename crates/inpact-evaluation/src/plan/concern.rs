@@ -1,12 +1,24 @@
-//! Which findings of a check concern the interactions of an evaluation.
+//! Which findings of a check concern the interactions of an evaluation: those about what feeds it, and about what could.
+//!
+//! The one place that decides which errors of a deck are errors of a run.
+//!
+//! | what feeds an interaction | its findings concern it |
+//! |---|---|
+//! | its block and those of its sub-options, rows in other files too | all |
+//! | an *INCLUDE inside or right behind these, which may go on with them (S-51) | all |
+//! | a sub-option that stands behind it and is misplaced: it may be meant for it | K012, K013 |
+//! | *PARAMETER, and every *INCLUDE, where a `<name>` stands in these blocks (S-61, S-65) | all |
+//! | *PHYSICAL CONSTANTS, where it radiates (2.6) | all |
 
-use inpact_parser::deck::Deck;
+use inpact_parser::deck::{Block, Deck};
+use inpact_parser::expression::references;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Model, Name};
-use inpact_parser::span::Span;
+use inpact_parser::span::{SourceId, Span};
 use inpact_validation::Diagnostic;
+use std::collections::HashSet;
 
-/// The findings that lie in the blocks of interactions of these names, their sub-options included.
+/// The findings about what feeds the interactions of these names, or could.
 ///
 /// An unknown keyword counts to the interaction it follows: it may be a misspelt sub-option.
 pub fn concerning<'a>(
@@ -16,33 +28,80 @@ pub fn concerning<'a>(
     model: &Model,
     names: &[&Name],
 ) -> Vec<&'a Diagnostic> {
-    let regions = regions(deck, grammar, model, names);
+    let mut regions = regions(deck, grammar, model, names);
+    // Blocks do not overlap: the one that begins last before a place is the only one that may hold it.
+    regions.sort_unstable_by_key(|region| (region.span.source, region.span.start));
     let concerns = |found: &&Diagnostic| {
         let span = found.primary.span;
-        regions
-            .iter()
-            .any(|region| region.source == span.source && region.start <= span.start && span.start < region.end)
+        let starts_before = |region: &Region| (region.span.source, region.span.start) <= (span.source, span.start);
+        let region = regions.partition_point(starts_before).checked_sub(1).map(|before| regions[before]);
+        region.is_some_and(|region| {
+            let is_inside = region.span.source == span.source && span.start < region.span.end;
+            is_inside && (region.part == Part::Feeds || matches!(found.code, "K012" | "K013"))
+        })
     };
     diagnostics.iter().filter(concerns).collect()
 }
 
-/// The spans of the blocks that belong to the interactions of these names.
-fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Vec<Span> {
-    let wanted = model.all_interactions().filter(|interaction| names.contains(&&interaction.name));
-    let starts: Vec<Span> = wanted.map(|interaction| interaction.span).collect();
-    let begins = |span: Span| starts.iter().any(|start| start.source == span.source && start.start == span.start);
-    let mut is_within = false;
+/// A block that has to do with the interactions of an evaluation.
+#[derive(Debug, Clone, Copy)]
+struct Region {
+    span: Span,
+    part: Part,
+}
+
+/// What a block has to do with them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// It says what they are, or what they depend on.
+    Feeds,
+    /// It does so if it is misplaced.
+    FeedsIfMisplaced,
+}
+
+/// The blocks that have to do with the interactions of these names.
+fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Vec<Region> {
+    let names: HashSet<&Name> = names.iter().copied().collect();
+    let wanted = || model.all_interactions().filter(|interaction| names.contains(&interaction.name));
+    let starts: HashSet<(SourceId, u64)> = wanted().map(|of| (of.span.source, of.span.start)).collect();
+    let begins = |span: Span| starts.contains(&(span.source, span.start));
+    let radiates = wanted().any(|interaction| interaction.other.iter().any(|option| option.keyword == "GAP RADIATION"));
+    let (mut is_within, mut was_last, mut has_symbols) = (false, false, false);
     let mut regions = Vec::new();
+    let mut of_symbols = Vec::new();
     for block in deck.blocks() {
         let name = block.keyword_id().map(|id| grammar.keyword(id).name.as_str());
-        is_within = match (name, block.keyword_id()) {
-            (Some("SURFACE INTERACTION"), _) => begins(block.span_of_keyword()),
-            (_, Some(id)) => is_within && grammar.is_interaction_option(id),
-            (_, None) => is_within,
-        };
-        if is_within {
-            regions.push(block.span());
+        match (name, block.keyword_id()) {
+            // They stand inside every block (S-51, S-66).
+            (Some("INCLUDE" | "PARAMETER"), _) => {}
+            (Some("SURFACE INTERACTION"), _) => {
+                is_within = begins(block.span_of_keyword());
+                was_last = is_within;
+            }
+            (_, Some(id)) => is_within = is_within && grammar.is_interaction_option(id),
+            (_, None) => {}
+        }
+        let span = block.span();
+        let is_option = block.keyword_id().is_some_and(|id| grammar.is_interaction_option(id));
+        match name {
+            Some("PARAMETER") => of_symbols.push(Region { span, part: Part::Feeds }),
+            Some("INCLUDE") if !is_within => of_symbols.push(Region { span, part: Part::Feeds }),
+            Some("PHYSICAL CONSTANTS") if radiates => regions.push(Region { span, part: Part::Feeds }),
+            _ if is_within => {
+                has_symbols |= names_parameters(deck, block);
+                regions.push(Region { span, part: Part::Feeds });
+            }
+            _ if was_last && is_option => regions.push(Region { span, part: Part::FeedsIfMisplaced }),
+            _ => {}
         }
     }
+    if has_symbols {
+        regions.append(&mut of_symbols);
+    }
     regions
+}
+
+/// Whether a `<name>` stands in a block.
+fn names_parameters(deck: &Deck, block: &Block) -> bool {
+    references(deck.text(block.span())).next().is_some()
 }

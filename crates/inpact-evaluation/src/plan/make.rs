@@ -200,7 +200,7 @@ pub(crate) fn generation_of(interaction: &Interaction) -> Option<HeatGeneration>
     if interaction.has_parameter("USER") {
         return None;
     }
-    let given = interaction.gap_heat_generation;
+    let given = interaction.gap_heat_generation.as_ref();
     Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
         fraction: given.fraction,
         slave_weight: given.slave_weight,

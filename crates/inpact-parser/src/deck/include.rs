@@ -160,7 +160,7 @@ impl Assembly<'_> {
     }
 
     fn include(&mut self, keyword: &KeywordLine) -> Include {
-        // CalculiX has FILE for INPUT as well.
+        // CalculiX has FILE for INPUT as well, and decks for Abaqus have it too.
         let name = self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE"));
         let outcome = match name {
             _ if self.is_given(keyword, "PASSWORD") => IncludeOutcome::Encrypted,

@@ -2,6 +2,7 @@
 //!
 //! Integers are computed in 128 bits and must come out within 64; real numbers must come out finite.
 
+use super::division::Division;
 use super::value::Value;
 use super::{Complaint, MAX_TEXT};
 
@@ -33,8 +34,11 @@ impl Operator {
 }
 
 /// `left operator right`.
-pub(super) fn binary(left: Value, operator: Operator, right: &Value) -> Result<Value, Complaint> {
+pub(super) fn binary(left: Value, operator: Operator, right: &Value, division: Division) -> Result<Value, Complaint> {
     match (left, right) {
+        (Value::Integer(left), Value::Integer(right)) if operator == Operator::Divide && division == Division::True => {
+            true_division(left, *right)
+        }
         (Value::Integer(left), Value::Integer(right)) => integers(left, operator, *right),
         (Value::Text(left), Value::Text(right)) if operator == Operator::Add => concatenate(left, right),
         (left, right) => match (left.as_number(), right.as_number()) {
@@ -120,6 +124,24 @@ fn integers(left: i64, operator: Operator, right: i64) -> Result<Value, Complain
         Operator::Power if right < 0 => real_power(left as f64, right as f64),
         Operator::Power => integer_power(left, right),
     }
+}
+
+/// The quotient as a real number, correctly rounded where both integers have no more than 53 bits.
+fn true_division(left: i64, right: i64) -> Result<Value, Complaint> {
+    if right == 0 {
+        return Err(division_by_zero(left));
+    }
+    Ok(Value::Real(left as f64 / right as f64))
+}
+
+/// What a division of integers gives in either way, where there is a remainder.
+pub(super) fn with_remainder(left: &Value, right: &Value) -> Option<(Value, Value)> {
+    let (Value::Integer(left), Value::Integer(right)) = (left, right) else { return None };
+    let (floor, remainder) = floor_division(i128::from(*left), i128::from(*right)).ok()?;
+    if remainder == 0 {
+        return None;
+    }
+    Some((integer(floor).ok()?, true_division(*left, *right).ok()?))
 }
 
 /// Quotient towards minus infinity, and the remainder, which has the divisor's sign.

@@ -2,7 +2,7 @@
 //!
 //! No recursion, so that no text, however deep it nests, can use up the stack of the program.
 
-use super::arithmetic::{Operator, binary, negate, unsigned};
+use super::arithmetic::{Operator, binary, negate, unsigned, with_remainder};
 use super::functions::{Function, function, names};
 use super::lexer::{Lexer, Token};
 use super::literal::{integer_literal, malformed_number, real_literal, text_literal};
@@ -85,6 +85,16 @@ pub(super) struct Evaluator<'a> {
     pub(super) end_of_last: usize,
     pending: Vec<Pending>,
     depth: usize,
+    /// The divisions of integers so far that leave a remainder.
+    pub(super) divisions: Vec<Remainder>,
+}
+
+/// A division of integers with a remainder, as places in the text.
+pub(super) struct Remainder {
+    pub(super) dividend: Range<usize>,
+    pub(super) divisor: Range<usize>,
+    pub(super) floor: Value,
+    pub(super) quotient: Value,
 }
 
 /// A complaint about a part of the text.
@@ -102,7 +112,17 @@ impl<'a> Evaluator<'a> {
     pub(super) fn new(text: &'a [u8], from: usize, parameters: &'a Parameters) -> Self {
         let mut lexer = Lexer::new(text, from);
         let (token, range) = lexer.next_token();
-        Self { text, lexer, parameters, token, range, end_of_last: from, pending: Vec::new(), depth: 0 }
+        Self {
+            text,
+            lexer,
+            parameters,
+            token,
+            range,
+            end_of_last: from,
+            pending: Vec::new(),
+            depth: 0,
+            divisions: Vec::new(),
+        }
     }
 
     /// Goes on to the next token and gives the range of the one passed.
@@ -177,7 +197,14 @@ impl<'a> Evaluator<'a> {
                 Some(Pending::Sign(Operator::Subtract, start)) => (start..operand.range.end, negate(&operand.value)),
                 Some(Pending::Sign(_, start)) => (start..operand.range.end, unsigned(operand.value)),
                 Some(Pending::Binary(left, operator)) => {
-                    (left.range.start..operand.range.end, binary(left.value, operator, &operand.value))
+                    let range = left.range.start..operand.range.end;
+                    if operator == Operator::Divide
+                        && let Some((floor, quotient)) = with_remainder(&left.value, &operand.value)
+                    {
+                        let (dividend, divisor) = (left.range, operand.range.clone());
+                        self.divisions.push(Remainder { dividend, divisor, floor, quotient });
+                    }
+                    (range, binary(left.value, operator, &operand.value, self.parameters.division()))
                 }
                 _ => unreachable!("only signs and operators bind"),
             };

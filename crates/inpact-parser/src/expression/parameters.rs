@@ -1,6 +1,8 @@
 //! The parameters of a deck: every definition, and the value that counts in the end.
 
+use super::division::{Division, IntegerDivision};
 use super::value::Value;
+use crate::grammar::Release;
 use crate::span::Span;
 use std::collections::HashMap;
 
@@ -26,12 +28,31 @@ pub struct Parameters {
     of_lower_case: HashMap<String, usize>,
     /// The bytes of all text values.
     pub(super) text_bytes: usize,
+    /// How integers are divided.
+    division: Division,
+    /// The divisions of integers that leave a remainder, in the order of execution.
+    pub(super) integer_divisions: Vec<IntegerDivision>,
 }
 
 impl Parameters {
-    /// No parameter.
+    /// No parameter, in the newest release.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// No parameter, in the Python that a release carries (S-60).
+    pub fn of_release(release: Release) -> Self {
+        Self { division: Division::of_release(release), ..Self::default() }
+    }
+
+    /// How integers are divided.
+    pub fn division(&self) -> Division {
+        self.division
+    }
+
+    /// The divisions of integers that leave a remainder, so that what they give depends on the release (S019).
+    pub fn integer_divisions(&self) -> &[IntegerDivision] {
+        &self.integer_divisions
     }
 
     /// Every definition, in the order of execution.
@@ -66,6 +87,7 @@ impl Parameters {
     /// Forgets where the definitions stand, so that two decks that define the same compare equal.
     pub(crate) fn forget_places(&mut self) {
         self.definitions.iter_mut().for_each(|definition| definition.span = Span::default());
+        self.integer_divisions.clear();
     }
 
     pub(super) fn push(&mut self, definition: Definition) {

@@ -1,6 +1,7 @@
 //! Statements: one definition each, several on a line with `;` between them.
 
-use super::evaluate::{Evaluator, Stop, is_reserved, stop};
+use super::division::IntegerDivision;
+use super::evaluate::{Evaluator, Remainder, Stop, is_reserved, stop};
 use super::lexer::Token;
 use super::logical_line::{LogicalLine, StatementLine, next_logical_line};
 use super::parameters::{Definition, Parameters};
@@ -34,6 +35,7 @@ struct Statement {
     /// The expression, as far as it could be told.
     expression: Range<usize>,
     outcome: Result<Value, Stop>,
+    divisions: Vec<Remainder>,
     /// Where the next statement begins.
     end: usize,
 }
@@ -52,7 +54,8 @@ fn execute(text: &[u8], from: usize, parameters: &Parameters) -> Option<Statemen
         evaluator.advance();
     }
     let expression = expression.unwrap_or(evaluator.end_of_last)..evaluator.end_of_last;
-    Some(Statement { names, expression, outcome, end: evaluator.range.end })
+    let divisions = std::mem::take(&mut evaluator.divisions);
+    Some(Statement { names, expression, outcome, divisions, end: evaluator.range.end })
 }
 
 /// `name = expression`; the name and where the expression begins are told even when there is a problem.
@@ -156,6 +159,12 @@ fn record(
     parameters: &mut Parameters,
     problems: &mut Vec<ExpressionProblem>,
 ) {
+    for Remainder { dividend, divisor, floor, quotient } in statement.divisions {
+        let place = |range: &Range<usize>| line.place(range);
+        let span = place(&(dividend.start..divisor.end));
+        let (dividend, divisor) = (place(&dividend), place(&divisor));
+        parameters.integer_divisions.push(IntegerDivision { span, dividend, divisor, floor, quotient });
+    }
     let value = match statement.outcome {
         Ok(value) => {
             within_budget(value, parameters).or_else(|complaint| stop(statement.expression.clone(), complaint))

@@ -74,6 +74,11 @@ pub struct ParameterDefinition {
     /// The parameters that it must not stand beside.
     #[serde(default)]
     pub excludes: Vec<String>,
+    /// The parameter of the same keyword that is meant by it, where decks have this name for it and no manual does.
+    pub stands_for: Option<String>,
+    /// The options that must not stand in the block that this keyword opens, beside the parameter (K-05).
+    #[serde(default)]
+    pub excludes_options: Vec<String>,
     /// The parameters beside which it means nothing (K-12).
     #[serde(default)]
     pub ignored_with: Vec<String>,
@@ -216,6 +221,7 @@ impl Definition {
             parameter.choices.clear();
             parameter.needs.clear();
             parameter.excludes.clear();
+            parameter.excludes_options.clear();
             parameter.ignored_with.clear();
         }
     }
@@ -258,7 +264,7 @@ impl ParameterDefinition {
     }
 
     fn contradiction(&self, has_parameter: impl Fn(&str) -> bool) -> Option<String> {
-        let mut related = self.needs.iter().chain(&self.excludes).chain(&self.ignored_with);
+        let mut related = self.needs.iter().chain(&self.excludes).chain(&self.ignored_with).chain(&self.stands_for);
         if let Some(unknown) = related.find(|name| !has_parameter(name) || **name == self.name) {
             return Some(format!("`{unknown}` is no other parameter of the keyword"));
         }

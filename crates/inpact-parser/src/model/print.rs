@@ -31,8 +31,14 @@ pub struct PrintError {
 pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
     let mut out = String::new();
     print_parameters(&mut out, model.parameters.definitions());
+    let is_explicit = |procedure: &Procedure| {
+        let definition = grammar.id_of(&procedure.option.keyword).and_then(|id| grammar.keyword(id).definition());
+        let knows = definition.is_some_and(|definition| definition.parameter("EXPLICIT").is_some());
+        knows && procedure.option.parameter("EXPLICIT").is_some()
+    };
+    let has_explicit_step = model.procedures.iter().any(is_explicit);
     for interaction in model.interactions.values() {
-        print_interaction(&mut out, interaction, grammar);
+        print_interaction(&mut out, interaction, has_explicit_step, grammar);
     }
     for pair in &model.contact_pairs {
         print_contact_pair(&mut out, pair);
@@ -82,7 +88,8 @@ fn print_parameters(out: &mut String, definitions: &[expression::Definition]) {
     }
 }
 
-fn print_interaction(out: &mut String, interaction: &Interaction, grammar: &Grammar) {
+/// The interaction with its sub-options; in a deck with an Explicit step its rows are properties alone (K-03).
+fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_step: bool, grammar: &Grammar) {
     let name = GivenParameter {
         name: "NAME".to_owned(),
         value: Some(interaction.name.written().to_owned()),
@@ -92,11 +99,15 @@ fn print_interaction(out: &mut String, interaction: &Interaction, grammar: &Gram
     let parameters: Vec<_> = named.then_some(&name).into_iter().chain(&interaction.parameters).collect();
     print_keyword(out, "SURFACE INTERACTION", parameters);
     let is_default = interaction.thickness.to_bits() == 1.0_f64.to_bits();
-    if !is_default || !interaction.properties.is_empty() {
+    let rows_are_properties = has_explicit_step
+        || interaction.parameters.iter().any(|parameter| parameter.name == "USER" && parameter.value.is_some());
+    let is_user = interaction.has_parameter("USER");
+    if !(is_user && rows_are_properties) && (!is_default || !interaction.properties.is_empty()) {
         let _ = writeln!(out, "{},", float_text(interaction.thickness));
     }
     for line in interaction.properties.chunks(8) {
-        let _ = writeln!(out, "{}", line.iter().map(|value| float_text(*value)).collect::<Vec<_>>().join(", "));
+        let items = line.iter().map(|value| float_text(*value)).collect::<Vec<_>>().join(", ");
+        let _ = writeln!(out, "{items}");
     }
     if let Some(law) = &interaction.gap_electrical_conductance {
         print_electrical(out, law, grammar);
@@ -106,9 +117,12 @@ fn print_interaction(out: &mut String, interaction: &Interaction, grammar: &Gram
     }
     if let Some(heat) = &interaction.gap_heat_generation {
         print_keyword(out, "GAP HEAT GENERATION", []);
-        let items = [Some(heat.fraction), Some(heat.slave_weight), heat.slip_rate];
-        let items: Vec<String> = items.into_iter().flatten().map(float_text).collect();
-        let _ = writeln!(out, "{}", items.join(", "));
+        let values = [Some(heat.fraction), Some(heat.slave_weight), heat.slip_rate];
+        let items = values.into_iter().flatten().enumerate().map(|(cell, value)| {
+            let text = heat.texts.iter().find(|text| text.cell == cell);
+            text.map_or_else(|| float_text(value), |text| text.text.clone())
+        });
+        let _ = writeln!(out, "{}", items.collect::<Vec<_>>().join(", "));
     }
     for option in &interaction.other {
         print_option(out, option, grammar);
@@ -183,7 +197,9 @@ fn print_rows(out: &mut String, table: &Table, definition: Option<&Definition>) 
     });
     let texts: Vec<String> = texts.collect();
     for row in texts.chunks(width.max(1)) {
-        let (first, further) = row.split_at(first_line.min(row.len()));
+        // A line that begins with an asterisk is no row: then the whole row stands on one line (K-53).
+        let begins_keyword = row.iter().skip(1).any(|item| item.starts_with('*'));
+        let (first, further) = row.split_at(if begins_keyword { row.len() } else { first_line.min(row.len()) });
         for line in std::iter::once(first).chain(further.chunks(following)) {
             let _ = writeln!(out, "{}", line.join(", "));
         }
@@ -226,23 +242,28 @@ fn print_property_assignments(out: &mut String, assignments: &[PropertyAssignmen
     }
 }
 
-/// Each procedure in the step it belongs to.
+/// Each procedure in the step it belongs to, or between steps; the order is that of the list.
 fn print_procedures(out: &mut String, procedures: &[Procedure]) {
-    let last = procedures.iter().map(|procedure| procedure.step).max().unwrap_or(0);
-    for step in 0..=last {
-        let of_step: Vec<_> = procedures.iter().filter(|procedure| procedure.step == step).collect();
-        if step > 0 {
-            print_keyword(out, "STEP", []);
-        }
-        for procedure in of_step {
-            print_keyword(out, &procedure.option.keyword, &procedure.option.parameters);
-            for row in &procedure.option.rows {
-                let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
-            }
-        }
-        if step > 0 {
+    let (mut steps, mut is_open) = (0, false);
+    for procedure in procedures {
+        if is_open && procedure.step != steps {
             print_keyword(out, "END STEP", []);
+            is_open = false;
         }
+        while steps < procedure.step {
+            if is_open {
+                print_keyword(out, "END STEP", []);
+            }
+            print_keyword(out, "STEP", []);
+            (steps, is_open) = (steps + 1, true);
+        }
+        print_keyword(out, &procedure.option.keyword, &procedure.option.parameters);
+        for row in &procedure.option.rows {
+            let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
+        }
+    }
+    if is_open {
+        print_keyword(out, "END STEP", []);
     }
 }
 
@@ -255,7 +276,7 @@ fn print_keyword<'a>(out: &mut String, keyword: &str, parameters: impl IntoItera
         };
         line.push(',');
         // A flag alone on a continuation line is taken for data by some readers, a value is not (S-19).
-        if line.len() + text.len() > KEYWORD_LINE && parameter.value.is_some() {
+        if line.len() + text.len() > KEYWORD_LINE && parameter.value.is_some() && !text.starts_with('*') {
             let _ = writeln!(out, "{line}");
             line.clear();
         }

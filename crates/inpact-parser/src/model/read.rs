@@ -10,6 +10,7 @@ mod uses;
 
 use super::{Interaction, Model};
 use crate::deck::{Block, Deck, KeywordLine};
+use crate::expression::Parameters;
 use crate::grammar::{Grammar, KeywordId, Level};
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
@@ -33,7 +34,9 @@ pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
         levels: Vec::new(),
         steps: 0,
         explicit: false,
+        has_explicit_step: deck.blocks().iter().any(|block| is_explicit_procedure(block, grammar)),
     };
+    reader.model.parameters = Parameters::of_release(grammar.release());
     // All definitions of the deck come first, wherever they stand (S-61).
     for block in deck.blocks() {
         reader.define_parameters(block);
@@ -61,6 +64,17 @@ struct Reader<'a> {
     steps: usize,
     /// Whether the open step is one of Abaqus/Explicit, where interactions may stand in a step (S-73).
     explicit: bool,
+    /// Whether any step of the deck is one of Abaqus/Explicit: then user interactions are its (K-03).
+    has_explicit_step: bool,
+}
+
+fn is_explicit_procedure(block: &Block, grammar: &Grammar) -> bool {
+    let (Some(keyword), Some(id)) = (&block.keyword, block.keyword_id()) else { return false };
+    let Some(definition) = grammar.keyword(id).definition().filter(|definition| definition.procedure) else {
+        return false;
+    };
+    let is_explicit = |index: usize| definition.parameters[index].name == "EXPLICIT";
+    keyword.parameters.iter().any(|parameter| parameter.index().is_some_and(is_explicit))
 }
 
 impl<'a> Reader<'a> {

@@ -135,5 +135,5 @@ fn electrical_properties(interaction: &Interaction) -> Vec<Span> {
 fn thermal_properties(interaction: &Interaction) -> Vec<Span> {
     let is_thermal = |keyword: &str| matches!(keyword, "GAP CONDUCTANCE" | "GAP RADIATION");
     let other = interaction.other.iter().filter(|option| is_thermal(&option.keyword)).map(|option| option.span);
-    other.chain(interaction.gap_heat_generation.map(|heat| heat.span)).collect()
+    other.chain(interaction.gap_heat_generation.as_ref().map(|heat| heat.span)).collect()
 }

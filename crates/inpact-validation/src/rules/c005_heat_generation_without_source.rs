@@ -39,7 +39,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     let changed = changed_in_steps(context);
     for interaction in without.into_iter().filter(|interaction| !changed.contains(&interaction.name)) {
-        let Some(heat) = interaction.gap_heat_generation else { continue };
+        let Some(heat) = &interaction.gap_heat_generation else { continue };
         report
             .at(heat.span, "heat generation without friction or electrical conductance")
             .label("nothing dissipates energy here")

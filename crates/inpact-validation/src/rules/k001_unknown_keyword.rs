@@ -1,11 +1,13 @@
 //! K001: keyword lines whose words mean no keyword.
 
 use super::k015_not_in_release::keyword_of_other_release;
-use crate::diagnostic::Severity;
+use crate::diagnostic::{Diagnostic, Edit, FixSafety, Severity};
+use crate::invisible;
 use crate::rule::{Context, Report, declare_rule};
 use crate::words::did_you_mean;
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::{Dialect, Grammar, Lookup};
+use inpact_parser::span::Span;
 
 declare_rule! {
     /// The words behind an asterisk are no keyword of Abaqus, nor the beginning of one.
@@ -41,7 +43,17 @@ declare_rule! {
     /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
     /// 1.E6, 0.
     /// ```
-    "K001", "unknown-keyword", Error, fix: None, source: "S-13, S-15"
+    ///
+    /// A no-break space, which looks like a blank, is none:
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=A
+    /// ```
+    ///
+    /// ```inp,fixed
+    /// *SURFACE INTERACTION, NAME=A
+    /// ```
+    "K001", "unknown-keyword", Error, fix: ChangesMeaning, source: "S-13, S-15"
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
@@ -51,7 +63,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             continue;
         }
         let name = context.shown(keyword.name);
-        let found = if name.is_empty() {
+        let found = if let Some(found) = say_hidden(context, report, keyword) {
+            found
+        } else if name.is_empty() {
             let found = report.at(keyword.visible_span(context.deck), "an asterisk without a keyword");
             found.label("nothing stands behind it").help(COMMENT)
         } else {
@@ -69,6 +83,29 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             found.severity(Severity::Warning);
         }
     }
+}
+
+/// A keyword that is one but for characters which are not what they look like.
+fn say_hidden<'r>(
+    context: &Context<'_>,
+    report: &'r mut Report<'_>,
+    keyword: &KeywordLine,
+) -> Option<&'r mut Diagnostic> {
+    let written = context.deck.text(keyword.name);
+    let first = invisible::first(written)?;
+    let plain = invisible::plain(written);
+    if !matches!(context.grammar.keyword_named(&plain), Lookup::Exact(_) | Lookup::Abbreviated(_)) {
+        return None;
+    }
+    let place = |hidden: &invisible::Hidden| {
+        let (start, end) = (hidden.start as u64, hidden.end as u64);
+        Span::new(keyword.name.source, keyword.name.start + start, keyword.name.start + end)
+    };
+    let edits = invisible::all(written).map(|hidden| Edit::new(place(&hidden), hidden.plain)).collect();
+    let plain = String::from_utf8_lossy(&plain).into_owned();
+    let found = report.at(place(&first), format!("{} stands in `*{plain}`, which is no keyword so", first.name));
+    found.label("not what it looks like").help(first.help());
+    Some(found.fix(FixSafety::ChangesMeaning, format!("write `*{plain}`"), edits))
 }
 
 /// What to do about a line that has one asterisk by mistake.

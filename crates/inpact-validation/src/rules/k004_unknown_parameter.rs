@@ -2,12 +2,14 @@
 
 use super::k015_not_in_release::parameter_of_other_release;
 use super::s005_unterminated_quote::open_quote;
-use crate::diagnostic::{Edit, FixSafety};
-use crate::parameter::given_as;
+use crate::diagnostic::{Edit, FixSafety, Severity};
+use crate::invisible;
+use crate::parameter::{self, GivenParameter, given_as};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use crate::words::{alternatives, did_you_mean};
 use inpact_parser::deck::Parameter;
 use inpact_parser::grammar::{Lookup, ParameterDefinition, ValueUse};
+use inpact_parser::span::Span;
 
 declare_rule! {
     /// A keyword line gives a parameter that the keyword does not have.
@@ -41,6 +43,11 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for given in parameter::all_given(context) {
+        if let Some(meant) = &given.definition.stands_for {
+            say_other_name(report, &given, meant);
+        }
+    }
     for block in context.defined_blocks().filter(|block| block.definition.parameters_complete) {
         for parameter in &block.keyword.parameters {
             let is_cut = open_quote(context.deck.text(parameter.span())).is_some();
@@ -61,6 +68,22 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
             .label("a name is missing before `=`")
             .help("write the name of the parameter before `=`");
         return;
+    }
+    let written = context.deck.text(parameter.name);
+    if let Some(first) = invisible::first(written) {
+        let plain = invisible::plain(written);
+        let plain = plain.trim_ascii();
+        if context.grammar.parameter_named(block.definition, plain) != Lookup::Unknown {
+            let at = |offset: usize| parameter.name.start + offset as u64;
+            let place = Span::new(parameter.name.source, at(first.start), at(first.end));
+            let plain = String::from_utf8_lossy(plain).into_owned();
+            report
+                .at(place, format!("{} stands in the parameter `{plain}` of `*{keyword}`", first.name))
+                .label("not what it looks like")
+                .help(first.help())
+                .fix(FixSafety::ChangesMeaning, format!("write `{plain}`"), vec![Edit::new(parameter.name, plain)]);
+            return;
+        }
     }
     let message = format!("`*{keyword}` has no parameter `{}`", context.shown(parameter.name));
     // A suggestion costs a comparison with every name, and a finding that is only counted shows none.
@@ -83,6 +106,18 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
     if let Some(meant) = only_candidate(block, parameter, &near) {
         found.fix(FixSafety::ChangesMeaning, format!("write `{meant}`"), vec![Edit::new(parameter.name, meant)]);
     }
+}
+
+/// A parameter that the keyword does not have, and that stands for one that it has in decks that ran all the same.
+fn say_other_name(report: &mut Report<'_>, given: &GivenParameter<'_>, meant: &str) {
+    let (name, keyword) = (&given.definition.name, given.block.name);
+    report
+        .at(given.parameter.name, format!("`{name}` of `*{keyword}` is read as `{meant}`"))
+        .severity(Severity::Note)
+        .label("not in the manual")
+        .note(given.definition.description.clone())
+        .help(format!("write `{meant}`"))
+        .fix(FixSafety::ChangesMeaning, format!("write `{meant}`"), vec![Edit::new(given.parameter.name, meant)]);
 }
 
 /// The one name that is near, when it is not given already and wants a value just as this one has it.

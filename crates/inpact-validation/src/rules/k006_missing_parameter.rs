@@ -2,7 +2,7 @@
 
 use crate::parameter::may_be_given;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::grammar::ValueUse;
+use inpact_parser::grammar::{ParameterDefinition, ValueUse};
 
 declare_rule! {
     /// A keyword line lacks a parameter that the keyword cannot do without.
@@ -29,7 +29,11 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks() {
         for required in block.definition.parameters.iter().filter(|parameter| parameter.required) {
-            if may_be_given(context, block, &required.name) {
+            let stands_for = |other: &&ParameterDefinition| other.stands_for.as_ref() == Some(&required.name);
+            let mut other_names = block.definition.parameters.iter().filter(stands_for);
+            if may_be_given(context, block, &required.name)
+                || other_names.any(|other| may_be_given(context, block, &other.name))
+            {
                 continue;
             }
             let name = &required.name;

@@ -21,10 +21,19 @@ declare_rule! {
     /// *SURFACE INTERACTION, NAME=A
     /// *FRICTION, ROUGH
     /// ```
+    /// Options can be excluded as well: a user subroutine gives the pressure and the friction of an interaction.
+    ///
+    /// ```inp,expect
+    /// ** inpact: ignore C002 -- UINTER is in weld.f
+    /// *SURFACE INTERACTION, NAME=WELD, USER
+    /// 1.,
+    /// *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD
+    /// ```
     "K016", "conflicting-parameters", Error, fix: None, source: "K-05, S-17"
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    check_options(context, report);
     for block in context.defined_blocks().filter(|block| !is_borrowed(context, *block)) {
         // Each finding is about a parameter and one that stands before it, so that a pair is found once.
         let given = given_once(block);
@@ -41,6 +50,26 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .also(earlier.parameter.span(), format!("`{other}` stands here"))
                 .note(format!("`{name}`: {}", later.definition.description))
                 .help("take one of them away");
+        }
+    }
+}
+
+/// Options in the block of an interaction that one of its parameters excludes (K-05).
+fn check_options(context: &Context<'_>, report: &mut Report<'_>) {
+    let definition = context.grammar.id_of("SURFACE INTERACTION").and_then(|id| context.grammar.keyword(id).definition());
+    let Some(definition) = definition else { return };
+    for interaction in context.model.all_interactions() {
+        for given in &interaction.parameters {
+            let Some(known) = definition.parameter(&given.name) else { continue };
+            for option in interaction.other.iter().filter(|option| known.excludes_options.contains(&option.keyword)) {
+                let (keyword, name) = (&option.keyword, &given.name);
+                report
+                    .at(option.span, format!("`*{keyword}` must not stand in an interaction with `{name}`"))
+                    .label(format!("excluded by `{name}`"))
+                    .also(given.span, format!("`{name}` stands here"))
+                    .note(format!("`{name}`: {}", known.description))
+                    .help(format!("take `*{keyword}` out, or `{name}`"));
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 //! R004: surfaces that are named and not defined.
 
+use crate::assembly::Assembly;
 use crate::quantity::and_more;
-use crate::references::{Definitions, last_component, missing, suggestion, uses_of_surfaces};
+use crate::references::{Definitions, missing, suggestion, uses_of_surfaces};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
@@ -46,15 +47,16 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         return;
     }
     let definitions = Definitions::surfaces(context);
-    let is_in_instance = |name: &_| last_component(name).is_some_and(|last| definitions.has(&last));
-    uses.retain(|used| !is_in_instance(&used.name));
+    let assembly = Assembly::of(context);
+    uses.retain(|used| !assembly.has(&used.name, &definitions));
     for (index, (first, more)) in missing(&uses, &definitions).into_iter().enumerate() {
         let found = report.at(first.span, format!("surface `{}` is not defined", first.name));
         let more = and_more(more, "place names it", "places name it");
         found.label(format!("named by `*{}`", first.keyword));
         found.note(format!("a contact surface must be defined by `*SURFACE`{more}"));
         let define = || format!("define it: `*SURFACE, NAME={}`", first.name);
-        found.help(suggestion(&definitions, &first.name, index).unwrap_or_else(define));
+        let help = assembly.help(&first.name, &definitions).or_else(|| suggestion(&definitions, &first.name, index));
+        found.help(help.unwrap_or_else(define));
     }
 }
 

@@ -29,7 +29,8 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let Some(first) = leading_lines(context).next() else { return };
-    if reading(context) == Reading::NoDeck {
+    let is_lost = context.lost_lines.iter().any(|line| line.span == first.span);
+    if is_lost || reading(context) == Reading::NoDeck {
         return;
     }
     let found = report.at(first.span, "data before the first keyword line belongs to no option");

@@ -2,10 +2,11 @@
 
 use super::s005_unterminated_quote::open_quote;
 use crate::diagnostic::{Edit, FixSafety};
+use crate::invisible::{self, Hidden};
 use crate::parameter::{self, substituted};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ParameterKind;
-use inpact_parser::number::NumberError;
+use inpact_parser::number::{NumberError, read_float};
 use inpact_parser::problem::ProblemKind;
 use inpact_parser::span::Span;
 
@@ -99,9 +100,42 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, span: Span, error: Number
                 .help("check the exponent");
         }
         NumberError::Malformed | NumberError::NotAnInteger => {
+            if let Some(hidden) = invisible::first(written)
+                && read_float(invisible::plain(written).trim_ascii()).is_ok()
+            {
+                say_hidden(report, span, &hidden, written);
+                return;
+            }
             report.at(span, format!("{item} {place} is no number")).label("should be a number").help(help(&text));
         }
     }
+}
+
+/// A number that is one but for a character which is not what it looks like.
+fn say_hidden(report: &mut Report<'_>, span: Span, hidden: &Hidden, written: &[u8]) {
+    let at = span.start + hidden.start as u64;
+    let place = Span::new(span.source, at, span.start + hidden.end as u64);
+    let edits = invisible::all(written).map(|hidden| {
+        let range = hidden.range();
+        let span = Span::new(span.source, span.start + range.start as u64, span.start + range.end as u64);
+        Edit::new(span, hidden.plain)
+    });
+    let mended = invisible::plain(written).escape_ascii().to_string();
+    report
+        .at(place, format!("{} stands in the number `{mended}`", hidden.name))
+        .label("not what it looks like")
+        .help(hidden.help())
+        .fix(FixSafety::ChangesMeaning, format!("write `{mended}`"), edits.collect());
+}
+
+/// Whether a number stands in front, and behind it what is a comment in some language.
+fn has_comment(text: &[u8]) -> bool {
+    const MARKS: [&[u8]; 6] = [b"**", b"!", b"#", b"//", b"$", b";"];
+    let Some(end) = text.iter().position(|byte| byte.is_ascii_whitespace() || b"*!#/$;".contains(byte)) else {
+        return false;
+    };
+    let behind = text[end..].trim_ascii_start();
+    read_float(&text[..end]).is_ok() && MARKS.iter().any(|mark| behind.starts_with(mark))
 }
 
 /// What may be meant by something that is no number.
@@ -112,6 +146,8 @@ fn help(text: &[u8]) -> &'static str {
         "write a finite number"
     } else if unsigned.first_chunk().is_some_and(|start: &[u8; 2]| start.eq_ignore_ascii_case(b"0x")) {
         "write the number in decimal digits"
+    } else if has_comment(text) {
+        "a comment stands on a line of its own that begins with `**`: move it there"
     } else if text.iter().any(u8::is_ascii_whitespace) {
         "put a comma between the items"
     } else if text.contains(&b'_') && text.iter().any(u8::is_ascii_digit) {

@@ -3,7 +3,7 @@
 use crate::parameter::{self, GivenParameter};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ParameterKind;
-use inpact_parser::number::{FLOAT_CHARACTERS, INTEGER_DIGITS};
+use inpact_parser::number::{FLOAT_CHARACTERS, INTEGER_DIGITS, float_text, float_text_that_fits, read_float};
 use inpact_parser::problem::ProblemKind;
 
 declare_rule! {
@@ -47,7 +47,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let shown = context.shown(span);
         let diagnostic =
             report.at(span, format!("`{shown}` has {characters} characters: a float has {FLOAT_CHARACTERS} at most"));
-        diagnostic.label("read in full here").help("write fewer digits: 17 tell any two numbers apart");
+        let number = read_float(context.deck.text(span)).unwrap_or(f64::NAN);
+        diagnostic.label("read in full here").help(shorter(number));
         if count > 1 {
             diagnostic.note(format!("{count} numbers of this block are too long; this is the first"));
         }
@@ -55,6 +56,16 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for given in parameter::all_given(context) {
         check_parameter(context, &given, report);
     }
+}
+
+/// The same number within the limit, or the nearest one that the limit allows (S-34).
+fn shorter(number: f64) -> String {
+    let text = float_text(number);
+    if text.len() <= FLOAT_CHARACTERS {
+        return format!("write `{text}`, which is the same number");
+    }
+    let nearest = float_text_that_fits(number);
+    format!("no {FLOAT_CHARACTERS} characters say this number: `{nearest}` is the nearest that they do")
 }
 
 fn check_parameter(context: &Context<'_>, given: &GivenParameter<'_>, report: &mut Report<'_>) {
@@ -78,5 +89,9 @@ fn check_parameter(context: &Context<'_>, given: &GivenParameter<'_>, report: &m
         }
         _ => return,
     };
-    report.at(value, message).label("read in full here").help("write fewer digits");
+    let help = match given.definition.kind {
+        ParameterKind::Float => shorter(number),
+        _ => "write fewer digits".to_owned(),
+    };
+    report.at(value, message).label("read in full here").help(help);
 }

@@ -4,7 +4,7 @@ use crate::diagnostic::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::deck::lines::next_line;
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 
@@ -37,9 +37,15 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    // Behind the comma of a keyword line the next line would become its continuation (S-19).
     let ends_in_comma = |keyword: &&KeywordLine| context.deck.text(keyword.span).trim_ascii_end().ends_with(b",");
     let open: HashSet<Span> = context.keyword_lines().filter(ends_in_comma).map(|keyword| keyword.span).collect();
+    // Behind the comma of a keyword line the line that comes up would become its continuation (S-19).
+    let holds_off = |problem: &Problem| {
+        let keyword = problem.keyword;
+        let is_here = open.contains(&keyword) && keyword.source == problem.span.source;
+        let between = Span::new(keyword.source, keyword.end, problem.span.start.max(keyword.end));
+        is_here && context.deck.data_lines_in(between).all(|line| line.is_blank())
+    };
     for problem in context.problems.iter().filter(|problem| problem.kind == ProblemKind::BlankRow) {
         let line = problem.span;
         // The line end stands behind the span of the line; the longest is CR LF.
@@ -50,7 +56,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .label("skipped")
             .note("an empty line is no comment, and a program may read it as a row of zeros")
             .help("take the line away");
-        if !open.contains(&problem.keyword) {
+        if !holds_off(problem) {
             found.fix(FixSafety::Safe, "take the empty line away", vec![Edit::delete(whole)]);
         }
     }

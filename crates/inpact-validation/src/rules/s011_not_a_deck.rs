@@ -59,7 +59,7 @@ pub(super) fn leading_lines<'a>(context: &Context<'a>) -> impl Iterator<Item = D
 
 /// What the file reads as.
 pub(super) fn reading(context: &Context<'_>) -> Reading {
-    if context.keyword_lines().next().is_some() {
+    if context.keyword_lines().next().is_some() || !context.lost_lines.is_empty() {
         return Reading::Rows;
     }
     let (mut rows, mut others) = (0_usize, 0_usize);

@@ -31,6 +31,16 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         // A file without a name is a missing parameter (K006).
         let (IncludeOutcome::Unreadable(reason), Some(name)) = (&include.outcome, include.name) else { continue };
         let shown = context.shown(name);
+        let has_blanks = !shown.starts_with('"') && shown.contains(|character: char| character.is_ascii_whitespace());
+        if has_blanks {
+            let sought: String = shown.split_ascii_whitespace().collect();
+            report
+                .at(name, format!("`{sought}` cannot be included: {reason}"))
+                .label("blanks are dropped from a name without quotes")
+                .note("the rest of the deck is checked without it")
+                .help(format!("write `\"{shown}\"` if blanks are part of the name"));
+            continue;
+        }
         report
             .at(name, format!("`{shown}` cannot be included: {reason}"))
             .label("not read")

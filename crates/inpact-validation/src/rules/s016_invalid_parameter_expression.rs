@@ -6,7 +6,7 @@ use inpact_parser::problem::ProblemKind;
 declare_rule! {
     /// A row of *PARAMETER is no statement that can be executed.
     ///
-    /// Rows of *PARAMETER are `name = expression`, as Python reads them: `**` is a power, `#` begins a comment, and an integer divided by an integer is an integer.
+    /// Rows of *PARAMETER are `name = expression`, as Python reads them: `**` is a power, and `#` begins a comment.
     ///
     /// ## Why
     /// Abaqus stops at a statement that Python cannot execute.

@@ -38,6 +38,17 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for problem in context.problems {
+        let ProblemKind::PropertyCount { stated, given } = problem.kind else { continue };
+        if stated < given {
+            report
+                .at(context.trimmed(problem.span), format!("{}, and `PROPERTIES` is {stated}", count(given, "value")))
+                .label("too much")
+                .also(context.trimmed(problem.keyword), "the option")
+                .note("`PROPERTIES` is the number of values that the user subroutine is given")
+                .help(format!("write `PROPERTIES={given}`, or take the values out"));
+        }
+    }
     // No item at all is allowed on a row that has no place: that is T017.
     let surplus = |kind: &ProblemKind| matches!(kind, ProblemKind::TooManyItems { allowed, .. } if *allowed > 0);
     // Where rows are too much as well, a keyword is missing in front of all of them: T017 says so.

@@ -37,6 +37,17 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    for problem in context.problems {
+        let ProblemKind::PropertyCount { stated, given } = problem.kind else { continue };
+        if given < stated {
+            report
+                .at(context.trimmed(problem.span), format!("`PROPERTIES={stated}`, and {} given", are(given)))
+                .label("the properties end here")
+                .also(context.trimmed(problem.keyword), format!("{} should follow", count(stated, "value")))
+                .note("eight values stand on a line; without an Explicit step the thickness has the first line for itself")
+                .help(format!("give {stated} values, or write `PROPERTIES={given}`"));
+        }
+    }
     // A row with too many items says the same of the table, at a better place.
     let is_meant =
         |kind: &ProblemKind| matches!(kind, ProblemKind::IncompleteRow { .. } | ProblemKind::TooManyItems { .. });
@@ -50,4 +61,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .note("the number of lines of the table must be a multiple of the lines of a row")
             .help("look for a row that lacks a line, and check `DEPENDENCIES`");
     }
+}
+
+/// `1 value is`, `3 values are`.
+fn are(values: usize) -> String {
+    let verb = if values == 1 { "is" } else { "are" };
+    format!("{} {verb}", count(values, "value"))
 }

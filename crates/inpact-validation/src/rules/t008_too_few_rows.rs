@@ -1,10 +1,11 @@
 //! T008: tables with fewer rows than their option needs.
 
 use crate::diagnostic::Severity;
-use crate::quantity::column_words;
+use crate::order::falls;
+use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
-use inpact_parser::model::TableKind;
+use inpact_parser::model::{Table, TableKind, TableOf};
 
 declare_rule! {
     /// A table has one row where its option needs two.
@@ -40,7 +41,15 @@ declare_rule! {
     /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
     /// 1.E6,
     /// ```
-    "T008", "too-few-rows", Error, fix: None, source: "Q-10, K-10, K-30, T-27"
+    /// Each temperature and field variable has a table of its own, and each needs its two rows:
+    ///
+    /// ```inp,expect
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP CONDUCTANCE
+    /// 30., 0., 20.
+    /// 25., 0., 400.
+    /// ```
+    "T008", "too-few-rows", Error, fix: None, source: "Q-10, Q-38, K-10, K-30, T-27"
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
@@ -62,4 +71,32 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
         found.help(format!("add a row with the {axis} up to which the value holds"));
     }
+    for of in sound_tables(context).filter(|of| of.table.row_count() > 1 && is_thermal_clearance(of)) {
+        // Out of order the second row may stand elsewhere (T003), and a cell without a number may be in it (S006).
+        if of.table.values.iter().any(|value| value.is_nan()) || falls(of.table, |column| column > 1).is_some() {
+            continue;
+        }
+        let mut alone = of.table.groups().filter(|group| group.len() == 1).map(|group| group.start);
+        let Some(row) = alone.next() else { continue };
+        let more = and_more(alone.count(), "group has one row", "groups have one row");
+        report
+            .at(of.table.row_span(row), format!("one row against clearance for {}", group_of(of.table, row)))
+            .label("the only row of its group")
+            .also(context.trimmed(of.table.keyword), "the option")
+            .note(format!("each combination of temperature, mass flow and field variables needs two rows or more{more}"))
+            .help("add a row with the clearance up to which the value holds");
+    }
+}
+
+/// Whether every group of the table needs two rows (Q-38).
+pub(crate) fn is_thermal_clearance(of: &TableOf<'_>) -> bool {
+    of.kind == TableKind::ThermalClearance
+}
+
+/// The values that a group has in common.
+fn group_of(table: &Table, row: usize) -> String {
+    let values = table.columns.iter().zip(table.row(row)).skip(2);
+    let values: Vec<String> =
+        values.map(|(column, value)| format!("{} = {}", column_words(column), number(*value))).collect();
+    values.join(", ")
 }

@@ -6,6 +6,7 @@
 
 use crate::expression::references;
 use crate::json::required;
+use crate::number::read_float;
 use indexmap::IndexMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -22,6 +23,8 @@ pub(super) struct Document {
     /// The definitions of *PARAMETER, in the order in which they are executed.
     pub(super) parameters: Vec<ParameterDocument>,
     /// The interactions by name, in the order of the deck.
+    #[serde(deserialize_with = "unique_keys")]
+    #[cfg_attr(test, schemars(with = "IndexMap<String, InteractionDocument>"))]
     pub(super) interactions: IndexMap<String, InteractionDocument>,
     /// The *CONTACT PAIR options, in the order of the deck.
     pub(super) contact_pairs: Vec<ContactPairDocument>,
@@ -88,7 +91,7 @@ pub(super) struct InteractionDocument {
 }
 
 /// Parameters by name; a flag has the value `null`.
-pub(super) type GivenDocuments = IndexMap<String, Option<String>>;
+pub(super) type GivenDocuments = Unique<Option<String>>;
 
 /// *GAP ELECTRICAL CONDUCTANCE: `{"user": true}`, or the tables of both branches, `null` for one that is not given.
 #[expect(clippy::option_option, reason = "a branch that is not there differs from one that is null")]
@@ -154,9 +157,9 @@ pub(super) enum MethodDocument {
 #[serde(deny_unknown_fields, expecting = "a heat generation: an object")]
 pub(super) struct HeatDocument {
     /// η, the fraction of dissipated energy that becomes heat; without dimension.
-    pub(super) fraction: f64,
+    pub(super) fraction: Cell,
     /// f, the fraction of that heat that goes into the slave surface; without dimension.
-    pub(super) slave_weight: f64,
+    pub(super) slave_weight: Cell,
 }
 
 /// A keyword with its parameters and rows, not interpreted further.
@@ -257,9 +260,9 @@ pub(super) enum RegimeDocument {
 }
 
 /// A number; `{"text": "<name>", "value": 1.5}` for one that is written with parameters (S-62); or the text of a cell
-/// that is no number.
+/// that is no number: a parameter without a value, or what is malformed in the deck.
 ///
-/// On the way back a text must have a parameter in it: a number that is malformed in the deck is to be mended.
+/// What the deck could not say is refused on the way back: a number in quotes, and what two items or a comment would be.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
@@ -317,7 +320,7 @@ impl<'de> serde::de::Visitor<'de> for CellVisitor {
     }
 
     fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Cell, E> {
-        if references(value.as_bytes()).next().is_some() {
+        if is_no_number(value) {
             return Ok(Cell::Text(value.to_owned()));
         }
         Err(E::invalid_value(serde::de::Unexpected::Str(value), &self))
@@ -330,6 +333,82 @@ impl<'de> serde::de::Visitor<'de> for CellVisitor {
         }
         Err(serde::de::Error::invalid_value(serde::de::Unexpected::Str(&cell.text), &self))
     }
+}
+
+impl Cell {
+    /// The number; NaN for a text that has none.
+    pub(super) fn value(&self) -> f64 {
+        match self {
+            Self::Number(value) => *value,
+            Self::Symbolic(cell) => cell.value,
+            Self::Text(_) => f64::NAN,
+        }
+    }
+}
+
+/// Whether a text can stand in a cell of a deck and is no number there.
+fn is_no_number(text: &str) -> bool {
+    let item = text.trim_matches(|character: char| character.is_ascii_whitespace());
+    !text.is_empty() && item.len() == text.len() && read_float(text.as_bytes()).is_err()
+}
+
+/// An object none of whose keys stands twice: the second would replace the first without a word.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Unique<V>(pub(super) IndexMap<String, V>);
+
+impl<V: Serialize> Serialize for Unique<V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl<'de, V: Deserialize<'de>> Deserialize<'de> for Unique<V> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        unique_keys(deserializer).map(Self)
+    }
+}
+
+#[cfg(test)]
+impl<V: schemars::JsonSchema> schemars::JsonSchema for Unique<V> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        IndexMap::<String, V>::schema_name()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        IndexMap::<String, V>::json_schema(generator)
+    }
+}
+
+/// Reads an object and refuses a key that stands twice.
+fn unique_keys<'de, D: Deserializer<'de>, V: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<IndexMap<String, V>, D::Error> {
+    struct UniqueKeys<V>(std::marker::PhantomData<V>);
+
+    impl<'de, V: Deserialize<'de>> serde::de::Visitor<'de> for UniqueKeys<V> {
+        type Value = IndexMap<String, V>;
+
+        fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            formatter.write_str("a map")
+        }
+
+        fn visit_map<A: serde::de::MapAccess<'de>>(self, mut entries: A) -> Result<Self::Value, A::Error> {
+            let mut map = IndexMap::new();
+            while let Some(key) = entries.next_key::<String>()? {
+                if map.contains_key(&key) {
+                    return Err(serde::de::Error::custom(format_args!("the key `{key}` stands twice")));
+                }
+                map.insert(key, entries.next_value()?);
+            }
+            Ok(map)
+        }
+    }
+
+    deserializer.deserialize_map(UniqueKeys(std::marker::PhantomData))
 }
 
 /// Written out because the three forms are told apart by hand.

@@ -7,12 +7,16 @@ use super::document::{
     TableDocument,
 };
 use crate::expression::{Parameters, StatementLine, define};
+use crate::grammar::Release;
 use crate::json::{JsonError, parse};
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
     HeatGeneration, Interaction, Model, Name, Procedure, PropertyAssignment, Reference, SubOption, SurfacePair, Table,
 };
 use crate::span::{SourceId, Span};
+
+/// The greatest number of a step: every step up to it is written, also those without a procedure.
+const MOST_STEPS: usize = 100_000;
 
 /// Reads the model view back.
 ///
@@ -45,8 +49,15 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
 }
 
 /// Executes the definitions again; what the JSON says of their values must agree.
+///
+/// The values are those of some release: where they are not those of the newest, they may be those of an older one (S-60).
 fn parameters(documents: &[ParameterDocument]) -> Result<Parameters, JsonError> {
-    let mut parameters = Parameters::new();
+    parameters_of(documents, Release::NEWEST)
+        .or_else(|error| parameters_of(documents, Release::R2022).map_err(|_| error))
+}
+
+fn parameters_of(documents: &[ParameterDocument], release: Release) -> Result<Parameters, JsonError> {
+    let mut parameters = Parameters::of_release(release);
     for (index, document) in documents.iter().enumerate() {
         let statement = format!("{} = {}", document.name, document.expression);
         let line = StatementLine { span: Span::default(), text: statement.as_bytes() };
@@ -84,9 +95,10 @@ impl InteractionDocument {
         interaction.gap_heat_generation = self.gap_heat_generation.map(|heat| HeatGeneration {
             span: Span::default(),
             row: None,
-            fraction: heat.fraction,
-            slave_weight: heat.slave_weight,
+            fraction: heat.fraction.value(),
+            slave_weight: heat.slave_weight.value(),
             slip_rate: None,
+            texts: [heat.fraction, heat.slave_weight].into_iter().enumerate().filter_map(written).collect(),
         });
         let other = self.other.into_iter().enumerate();
         interaction.other = other
@@ -96,8 +108,16 @@ impl InteractionDocument {
     }
 }
 
+/// What stands in a cell that is not written as a number.
+fn written((place, cell): (usize, Cell)) -> Option<CellText> {
+    match cell {
+        Cell::Number(_) => None,
+        Cell::Symbolic(SymbolicCell { text, .. }) | Cell::Text(text) => Some(CellText { cell: place, text }),
+    }
+}
+
 fn given_parameters(parameters: GivenDocuments) -> Vec<GivenParameter> {
-    parameters.into_iter().map(|(name, value)| GivenParameter { name, value, span: Span::default() }).collect()
+    parameters.0.into_iter().map(|(name, value)| GivenParameter { name, value, span: Span::default() }).collect()
 }
 
 impl ElectricalDocument {
@@ -161,17 +181,9 @@ impl TableDocument {
                 return Err(JsonError::new(format!("{path}.rows[{index}]"), message));
             }
             for cell in row {
-                match cell {
-                    Cell::Number(value) => table.values.push(value),
-                    Cell::Symbolic(SymbolicCell { text, value }) => {
-                        table.texts.push(CellText { cell: table.values.len(), text });
-                        table.values.push(value);
-                    }
-                    Cell::Text(text) => {
-                        table.texts.push(CellText { cell: table.values.len(), text });
-                        table.values.push(f64::NAN);
-                    }
-                }
+                let value = cell.value();
+                table.texts.extend(written((table.values.len(), cell)));
+                table.values.push(value);
             }
         }
         Ok(table)
@@ -229,6 +241,10 @@ impl ProcedureDocument {
             table: None,
             rows: self.rows,
         };
+        if self.step > MOST_STEPS {
+            let message = format!("a deck has {MOST_STEPS} steps at most here");
+            return Err(JsonError::new(format!("procedures[{index}].step"), message));
+        }
         let procedure = Procedure { step: self.step, option };
         let derived = ProcedureDocument::from(&procedure).regime;
         if self.regime.is_some() && self.regime != derived {

@@ -4,13 +4,13 @@ use super::SCHEMA;
 use super::document::{
     AssignmentDocument, Cell, ContactPairDocument, Document, ElectricalDocument, GivenDocuments, HeatDocument,
     InteractionDocument, MethodDocument, ParameterDocument, PermeabilityDocument, ProcedureDocument, RegimeDocument,
-    SubOptionDocument, SurfacePairDocument, SymbolicCell, TableDocument, ValueDocument,
+    SubOptionDocument, SurfacePairDocument, SymbolicCell, TableDocument, Unique, ValueDocument,
 };
 use crate::expression::{self, Value};
 use crate::json::layout;
 use crate::model::{
-    ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction, Model,
-    Procedure, PropertyAssignment, Reference, Regime, SubOption, Table,
+    CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction,
+    Model, Procedure, PropertyAssignment, Reference, Regime, SubOption, Table,
 };
 
 /// The model view of a deck as pretty-printed JSON; `source` is the name of the deck.
@@ -38,9 +38,10 @@ impl From<&Interaction> for InteractionDocument {
             properties: interaction.properties.clone(),
             gap_electrical_conductance: interaction.gap_electrical_conductance.as_ref().map(Into::into),
             contact_permeability: interaction.contact_permeability.as_ref().map(Into::into),
-            gap_heat_generation: interaction
-                .gap_heat_generation
-                .map(|heat| HeatDocument { fraction: heat.fraction, slave_weight: heat.slave_weight }),
+            gap_heat_generation: interaction.gap_heat_generation.as_ref().map(|heat| HeatDocument {
+                fraction: cell(heat.fraction, heat.texts.iter().find(|text| text.cell == 0)),
+                slave_weight: cell(heat.slave_weight, heat.texts.iter().find(|text| text.cell == 1)),
+            }),
             other: interaction.other.iter().map(Into::into).collect(),
         }
     }
@@ -58,7 +59,7 @@ impl From<&expression::Definition> for ParameterDocument {
 }
 
 fn given_documents(parameters: &[GivenParameter]) -> GivenDocuments {
-    parameters.iter().map(|parameter| (parameter.name.clone(), parameter.value.clone())).collect()
+    Unique(parameters.iter().map(|parameter| (parameter.name.clone(), parameter.value.clone())).collect())
 }
 
 impl From<&ElectricalConductance> for ElectricalDocument {
@@ -104,16 +105,21 @@ impl From<&SubOption> for SubOptionDocument {
 impl From<&Table> for TableDocument {
     fn from(table: &Table) -> Self {
         let mut texts = table.texts.iter().peekable();
-        let mut cells = table.values.iter().enumerate().map(|(cell, value)| {
-            let text = texts.next_if(|text| text.cell == cell);
-            match text.map(|text| text.text.clone()) {
-                None => Cell::Number(*value),
-                Some(text) if value.is_nan() => Cell::Text(text),
-                Some(text) => Cell::Symbolic(SymbolicCell { text, value: *value }),
-            }
+        let mut cells = table.values.iter().enumerate().map(|(place, value)| {
+            let text = texts.next_if(|text| text.cell == place);
+            cell(*value, text)
         });
         let rows = (0..table.row_count()).map(|_| cells.by_ref().take(table.width()).collect());
         Self { columns: table.columns.clone(), rows: rows.collect() }
+    }
+}
+
+/// A number, with what stands in its place where it is not written as one.
+fn cell(value: f64, text: Option<&CellText>) -> Cell {
+    match text.map(|text| text.text.clone()) {
+        None => Cell::Number(value),
+        Some(text) if value.is_nan() => Cell::Text(text),
+        Some(text) => Cell::Symbolic(SymbolicCell { text, value }),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Any option: its parameters and its rows, as the grammar describes them.
 
 use super::Reader;
+use crate::deck::lines::lines;
 use crate::deck::{Block, KeywordLine, Parameter};
 use crate::grammar::{Definition, KeywordId, RowShape};
 use crate::model::rows::read_table;
@@ -84,9 +85,9 @@ impl Reader<'_> {
         let given = option.keyword.parameters.iter().map(|parameter| GivenParameter {
             name: match parameter.index() {
                 Some(index) => option.definition.parameters[index].name.clone(),
-                None => self.deck.shown(parameter.name),
+                None => on_one_line(&self.deck.shown(parameter.name)),
             },
-            value: parameter.value.map(|value| self.deck.shown(value)),
+            value: parameter.value.map(|value| on_one_line(&self.deck.shown(value))),
             span: parameter.span(),
         });
         given.collect()
@@ -95,6 +96,15 @@ impl Reader<'_> {
     pub(super) fn reference(&self, span: Span) -> Option<Reference> {
         (!span.is_empty()).then(|| Reference { name: Name::new(&self.value_text(span)), span })
     }
+}
+
+/// What a keyword line says over several lines, on one: line ends mean what blanks do (S-11), comments between mean nothing.
+fn on_one_line(text: &str) -> String {
+    if !text.contains(['\n', '\r']) {
+        return text.to_owned();
+    }
+    let lines = lines(text.as_bytes()).map(|range| text[range].trim());
+    lines.filter(|line| !line.starts_with("**")).collect::<Vec<_>>().join(" ")
 }
 
 /// Takes the last parameter of that name out of the list.

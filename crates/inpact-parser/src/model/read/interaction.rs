@@ -2,12 +2,14 @@
 
 use super::Reader;
 use super::entry::{Entry, take};
-use crate::deck::KeywordLine;
+use crate::deck::{DataLine, KeywordLine};
+use crate::expression::substitute;
 use crate::grammar::KeywordId;
+use crate::model::rows::undefined_parameter;
 use crate::model::{
     ConstraintMethod, ContactPermeability, HeatGeneration, Interaction, Name, SetAside, SetAsideItem, SetAsideReason,
 };
-use crate::number::read_float;
+use crate::number::{read_float, read_integer};
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
 
@@ -27,28 +29,74 @@ impl Reader<'_> {
         self.interaction = Some(interaction);
     }
 
-    /// The thickness on the first line; with USER the properties on the further ones (K-01, K-02).
+    /// The thickness on the first line; with USER the properties on the further ones (K-01, K-02), in Explicit on all (K-03).
     pub(super) fn read_interaction_rows(&mut self, option: Entry<'_>, is_user: bool, interaction: &mut Interaction) {
         let constants = if is_user { 8 } else { 0 };
+        let has_thickness = !(is_user && self.rows_are_properties(option));
         for (index, line) in self.deck.data_lines(option.block).enumerate() {
-            let allowed = if index == 0 { 1 } else { constants };
+            let is_thickness = has_thickness && index == 0;
+            let allowed = if is_thickness { 1 } else { constants };
             let given = line.items().filter(|item| !item.is_empty()).count();
             if given > allowed {
                 let kind = ProblemKind::TooManyItems { allowed, given, lines: 1 };
                 self.problems.push(Problem { kind, span: line.span, keyword: option.keyword.span });
             }
-            for item in line.items().filter(|item| !item.is_empty()).take(allowed) {
-                match read_float(self.deck.text(item)) {
-                    Ok(value) if index == 0 => interaction.thickness = value,
+            let used = line.items().collect::<Vec<_>>();
+            let used = used.iter().rposition(|item| !item.is_empty()).map_or(0, |last| last + 1);
+            for item in line.items().take(used.min(allowed)) {
+                if item.is_empty() {
+                    // The default of the thickness stays; a property that is left out is zero (S-32).
+                    interaction.properties.extend((!is_thickness).then_some(0.0));
+                    continue;
+                }
+                let text = match substitute(&self.deck.shown(item), &self.model.parameters) {
+                    Ok(text) => text.into_owned(),
+                    Err(error) => {
+                        let keyword = option.keyword.span;
+                        self.problems.extend(undefined_parameter(&error, &self.model.parameters, item, keyword));
+                        continue;
+                    }
+                };
+                match read_float(text.trim().as_bytes()) {
+                    Ok(value) if is_thickness => interaction.thickness = value,
                     Ok(value) => interaction.properties.push(value),
                     Err(error) => {
-                        let column = if index == 0 { "thickness" } else { "property" }.to_owned();
+                        let column = if is_thickness { "thickness" } else { "property" }.to_owned();
                         let kind = ProblemKind::MalformedNumber { error, column };
                         self.problems.push(Problem { kind, span: item, keyword: option.keyword.span });
                     }
                 }
             }
         }
+        self.count_properties(option, is_user);
+    }
+
+    /// Compares PROPERTIES=n with the number of values (K-02, K-03).
+    fn count_properties(&mut self, option: Entry<'_>, is_user: bool) {
+        let stated = match self.value_of(option, "PROPERTIES") {
+            None => Some(0),
+            Some(value) => read_integer(value.as_bytes()).ok().and_then(|number| usize::try_from(number).ok()),
+        };
+        let Some(stated) = stated.filter(|_| is_user) else { return };
+        let lines = self.deck.data_lines(option.block).skip(usize::from(!self.rows_are_properties(option)));
+        let lines: Vec<_> = lines.collect();
+        let given = lines.iter().flat_map(DataLine::items).filter(|item| !item.is_empty()).count();
+        // An empty item in the middle is a value of zero (S-32), so that the last one may be one of those stated.
+        let positions = lines.iter().enumerate().filter_map(|(index, line)| {
+            let last = line.items().enumerate().filter(|(_, item)| !item.is_empty()).last()?.0;
+            Some(8 * index + last + 1)
+        });
+        let reached = positions.max().unwrap_or(0).max(given);
+        if reached != stated {
+            let span = lines.last().map_or(option.keyword.visible_span(self.deck), |line| line.span);
+            let kind = ProblemKind::PropertyCount { stated, given: reached };
+            self.problems.push(Problem { kind, span, keyword: option.keyword.span });
+        }
+    }
+
+    /// Whether the rows are those of Explicit: the subroutine is VUINTERACTION, or a step of the deck is Explicit (K-03).
+    fn rows_are_properties(&self, option: Entry<'_>) -> bool {
+        self.has_explicit_step || option.parameter("USER").is_some_and(|user| user.value.is_some())
     }
 
     pub(super) fn leave_interaction(&mut self, id: KeywordId, keyword: &KeywordLine) {
@@ -168,7 +216,8 @@ impl Reader<'_> {
         }
         // Below zero CalculiX computes it, which is what a row without it says too.
         let slip_rate = values.get(2).copied().filter(|speed| 0.0 <= *speed);
-        let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate };
+        let texts = table.iter().flat_map(|table| &table.texts).filter(|text| text.cell < 2).cloned().collect();
+        let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate, texts };
         if let Some(earlier) = interaction.gap_heat_generation.replace(heat) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::HeatGeneration(earlier));
         }

@@ -51,7 +51,8 @@ impl Reader<'_> {
 
     pub(super) fn read_procedure(&mut self, option: Entry<'_>) {
         self.explicit |= option.is_given("EXPLICIT");
-        let step = if self.level().0 == Level::Step { self.steps } else { 0 };
+        let in_step = self.levels.iter().any(|(level, _)| *level == Level::Step);
+        let step = if in_step { self.steps } else { 0 };
         let rows = self.texts(option.block);
         let option = SubOption { rows, table: None, ..self.generic(option) };
         self.model.procedures.push(Procedure { step, option });

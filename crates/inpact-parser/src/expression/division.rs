@@ -1,0 +1,37 @@
+//! What `/` does between two integers, which depends on the release (S-60).
+
+use super::value::Value;
+use crate::grammar::Release;
+use crate::span::Span;
+
+/// How an integer is divided by an integer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Division {
+    /// As Python 2 does, towards minus infinity: 5/4 = 1 (before release 2024).
+    Floor,
+    /// As Python 3 does: 5/4 = 1.25 (from release 2024 on).
+    #[default]
+    True,
+}
+
+impl Division {
+    /// That of the Python which a release carries.
+    pub fn of_release(release: Release) -> Self {
+        if release < Release::R2024 { Self::Floor } else { Self::True }
+    }
+}
+
+/// A `/` between two integers that leaves a remainder: what it gives depends on the release (S019).
+#[derive(Debug, Clone, PartialEq)]
+pub struct IntegerDivision {
+    /// Dividend and divisor with what stands between them.
+    pub span: Span,
+    /// The dividend as it is written.
+    pub dividend: Span,
+    /// The divisor as it is written.
+    pub divisor: Span,
+    /// What it gives before release 2024.
+    pub floor: Value,
+    /// What it gives from release 2024 on.
+    pub quotient: Value,
+}

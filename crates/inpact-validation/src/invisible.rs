@@ -1,0 +1,97 @@
+//! Characters that look like nothing, or like another one: blanks, marks and dashes that a text editor puts in (S-01).
+
+use std::ops::Range;
+
+/// A character that is not what it looks like.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Hidden {
+    /// Where it begins in the text.
+    pub(crate) start: usize,
+    /// Where it ends.
+    pub(crate) end: usize,
+    /// What it is called, with its number.
+    pub(crate) name: String,
+    /// What is meant in its place.
+    pub(crate) plain: &'static str,
+}
+
+impl Hidden {
+    /// Where it stands in the text.
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.start..self.end
+    }
+
+    /// What to do about it.
+    pub(crate) fn help(&self) -> &'static str {
+        match self.plain {
+            "" => "take the character away",
+            " " => "write a blank in its place",
+            _ => "write `-` in its place",
+        }
+    }
+}
+
+/// The first such character of a text.
+pub(crate) fn first(text: &[u8]) -> Option<Hidden> {
+    all(text).next()
+}
+
+/// All such characters of a text, in order.
+pub(crate) fn all(text: &[u8]) -> impl Iterator<Item = Hidden> {
+    let mut at = 0;
+    let characters = text.utf8_chunks().flat_map(move |chunk| {
+        let start = at;
+        at += chunk.valid().len() + chunk.invalid().len();
+        chunk.valid().char_indices().map(move |(offset, character)| (start + offset, character)).collect::<Vec<_>>()
+    });
+    characters.filter_map(|(start, character)| {
+        let (name, plain) = known(character)?;
+        let name = format!("{name} (U+{:04X})", u32::from(character));
+        Some(Hidden { start, end: start + character.len_utf8(), name, plain })
+    })
+}
+
+/// The text with what is meant in the place of every such character.
+pub(crate) fn plain(text: &[u8]) -> Vec<u8> {
+    let mut result = Vec::with_capacity(text.len());
+    let mut copied = 0;
+    for hidden in all(text) {
+        result.extend_from_slice(&text[copied..hidden.start]);
+        result.extend_from_slice(hidden.plain.as_bytes());
+        copied = hidden.end;
+    }
+    result.extend_from_slice(&text[copied..]);
+    result
+}
+
+fn known(character: char) -> Option<(&'static str, &'static str)> {
+    Some(match character {
+        '\u{A0}' => ("a no-break space", " "),
+        '\u{202F}' => ("a narrow no-break space", " "),
+        '\u{2000}'..='\u{200A}' | '\u{3000}' => ("a space that is none of ASCII", " "),
+        '\u{FEFF}' => ("a byte order mark", ""),
+        '\u{200B}'..='\u{200D}' | '\u{2060}' => ("a character without width", ""),
+        '\u{AD}' => ("a soft hyphen", ""),
+        '\u{2212}' => ("a minus sign that is not `-`", "-"),
+        '\u{2010}'..='\u{2015}' => ("a dash that is not `-`", "-"),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn invisible_characters_are_found_among_any_bytes() {
+        let text = b"a\xFF\xC2\xA0b\xE2\x88\x923";
+        let found: Vec<_> = all(text).map(|hidden| (hidden.range(), hidden.plain)).collect();
+        assert_eq!(found, [(2..4, " "), (5..8, "-")]);
+        assert_eq!(plain(text), b"a\xFF b-3");
+        assert_eq!(first(b"plain"), None);
+        assert_eq!(
+            first("\u{FEFF}*STEP".as_bytes()).map(|hidden| hidden.name).as_deref(),
+            Some("a byte order mark (U+FEFF)")
+        );
+    }
+}

@@ -1,0 +1,78 @@
+//! Keyword lines that have lost their asterisk, and what follows from that in the block they stand in.
+//!
+//! They are rows of the option above, and so are the rows behind them: what is wrong with these has one cause (S021).
+
+use crate::invisible;
+use inpact_parser::deck::{DataLine, Deck, items};
+use inpact_parser::grammar::{Grammar, Lookup, RowShape};
+use inpact_parser::problem::Problem;
+use inpact_parser::span::Span;
+
+/// A row that reads exactly as a keyword line.
+#[derive(Debug, Clone, Copy)]
+pub struct LostLine<'a> {
+    /// The row.
+    pub(crate) span: Span,
+    /// The keyword line of the block it stands in; an empty span before the first.
+    pub(crate) keyword: Span,
+    /// The keyword that is meant.
+    pub(crate) meant: &'a str,
+}
+
+/// The rows that read as keyword lines, as far as the deck holds their text.
+pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<'a>> {
+    let mut lost = Vec::new();
+    for block in deck.blocks() {
+        let definition = block.keyword_id().and_then(|id| grammar.keyword(id).definition());
+        if definition.is_some_and(|definition| definition.rows() == RowShape::Text) {
+            continue;
+        }
+        let keyword = block.span_of_keyword();
+        let lines = deck.data_lines_in(block.rows);
+        lost.extend(
+            lines.filter_map(|line| Some(LostLine { span: line.span, keyword, meant: meant_by(grammar, line)? })),
+        );
+    }
+    lost
+}
+
+/// The problems that are not such a row's, nor those of rows behind one.
+pub(crate) fn without_consequences(problems: &[Problem], lost: &[LostLine<'_>]) -> Vec<Problem> {
+    let follows = |problem: &Problem| {
+        let of_block = lost.iter().filter(|line| line.keyword == problem.keyword);
+        of_block
+            .map(|line| line.span)
+            .any(|line| line.source == problem.span.source && line.start <= problem.span.start)
+    };
+    problems.iter().filter(|problem| !follows(problem)).cloned().collect()
+}
+
+/// The keyword that a row would mean with an asterisk in front: its words in full, and parameters of it alone behind them.
+fn meant_by<'a>(grammar: &'a Grammar, line: DataLine<'_>) -> Option<&'a str> {
+    let text = line.text.trim_ascii_start();
+    let is_hidden = !text.first()?.is_ascii();
+    let visible = if is_hidden {
+        let hidden = invisible::first(text).filter(|hidden| hidden.start == 0)?;
+        text[hidden.end..].strip_prefix(b"*")?
+    } else {
+        text
+    };
+    if !visible.first()?.is_ascii_alphabetic() {
+        return None;
+    }
+    let mut items = items(visible).map(|item| &visible[item]);
+    let Lookup::Exact(id) = grammar.keyword_named(items.next()?) else { return None };
+    let keyword = grammar.keyword(id);
+    let definition = keyword.definition()?;
+    let mut has_parameter = false;
+    for item in items.filter(|item| !item.is_empty()) {
+        let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
+        if !matches!(grammar.parameter_named(definition, name), Lookup::Exact(_) | Lookup::Abbreviated(_)) {
+            return None;
+        }
+        has_parameter = true;
+    }
+    // A single word may be the name of a set or a surface.
+    let is_name = !has_parameter && !keyword.name.contains(' ');
+    (is_hidden || !is_name).then_some(keyword.name.as_str())
+}
