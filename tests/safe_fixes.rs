@@ -319,6 +319,37 @@ fn decks_changed_by_chance() {
     eprintln!("{run} decks in two dialects: every safe fix, fmt, both views of JSON and back, check");
 }
 
+/// What fixes once made of legal decks: the second reading sees each of them.
+#[test]
+fn the_second_reading_tells_decks_apart() {
+    for (before, after) in [
+        ("*ELSET, ELSET=E,\nGENERATE\n1, 5, 1\n", "*ELSET, ELSET=E\nGENERATE\n1, 5, 1\n"),
+        ("*STEP,\nNLGEOM\n", "*STEP\nNLGEOM\n"),
+        ("*BOUNDARY, TYPE=VELOCITY,\nFIXED\n", "*BOUNDARY, TYPE=VELOCITY\nFIXED\n"),
+        ("*HEADING\n  ** title\n", "*HEADING\n** title\n"),
+        ("*SURFACE INTERACTION, NAME=A,\nUSER\n", "*SURFACE INTERACTION, NAME=A\nUSER\n"),
+        ("*GAP CONDUCTANCE, PRESSURE,\n\nUSER\n", "*GAP CONDUCTANCE, PRESSURE,\nUSER\n"),
+        ("*GAP E, DEP=6\n1,2,3,4,5,6,7,8,*9\n", "*GAP E, DEP=6\n1,2,3,4,5,6,7,8\n*9\n"),
+        ("*GAP C\n1., 2.\n", "*GAP H\n1., 2.\n"),
+    ] {
+        assert_ne!(
+            read_by_semantics(before.as_bytes(), &LANGUAGE),
+            read_by_semantics(after.as_bytes(), &LANGUAGE),
+            "{before}"
+        );
+    }
+    for (before, after) in [
+        ("*GAPE, DEP=6\n1,2,3,4,5,6,7,8,9\n", "*GAP ELECTRICAL CONDUCTANCE, DEP=6\n1,2,3,4,5,6,7,8\n9\n"),
+        ("*NODE,\n1, 0.\n  ** c\n\n2, 0.\n", "*NODE\n1, 0.\n** c\n2, 0.\n"),
+    ] {
+        assert_eq!(
+            read_by_semantics(before.as_bytes(), &LANGUAGE),
+            read_by_semantics(after.as_bytes(), &LANGUAGE),
+            "{before}"
+        );
+    }
+}
+
 /// Public decks: safe fixes alone, since they are large.
 #[test]
 fn public_decks() {

@@ -26,7 +26,8 @@ impl Chance {
 
 /// The folder of the project.
 pub(crate) fn project() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    folders.find(|folder| folder.join("grammar/keywords").is_dir()).expect("the project").to_owned()
 }
 
 /// The files of a folder and of those in it, in the order of their names.

@@ -74,7 +74,7 @@ fn the_third_item_of_gap_heat_generation_and_the_file_of_include() {
     let folder = Folder::with(&[("heat.inp", heat), ("d.inp", "*INCLUDE, FILE=heat.inp\n")]);
     assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec![], 0));
     let (found, code) = check(&folder, &[]);
-    assert_eq!((found, code), (vec!["error[K006]".to_owned(), "error[K004]".to_owned()], 1));
+    assert_eq!((found, code), (vec!["note[K004]".to_owned(), "error[T006]".to_owned()], 1));
     folder.write("d.inp", heat);
     let (found, code) = check(&folder, &[]);
     assert_eq!(code, 1);

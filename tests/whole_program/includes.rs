@@ -184,7 +184,7 @@ fn symbols_stand_in_the_json_with_their_values_and_come_back_as_symbols() {
 fn a_08_integers_divide_as_integers() {
     let deck = "*PARAMETER\nsg = 5/4\n*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n<sg>, 0.\n";
     let folder = Folder::with(&[("a.inp", deck), ("n.csv", "node,clearance,pressure\n1,0,1\n")]);
-    let run = folder.inpact(&["eval", "a.inp", "--nodes", "n.csv"]);
+    let run = folder.inpact(&["eval", "--release", "2022", "a.inp", "--nodes", "n.csv"]);
     assert_eq!(run.output, "node,WEIGHT,conductance,status\n1,0.5,1,closed\n", "{}", run.errors);
 }
 

@@ -96,7 +96,7 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
         span: interaction.span,
     };
     let named = !interaction.name.written().is_empty();
-    let parameters: Vec<_> = named.then_some(&name).into_iter().chain(&interaction.parameters).collect();
+    let parameters = with_meant(named.then_some(&name), &interaction.parameters);
     print_keyword(out, "SURFACE INTERACTION", parameters);
     let is_default = interaction.thickness.to_bits() == 1.0_f64.to_bits();
     let rows_are_properties = has_explicit_step
@@ -122,11 +122,21 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
             let text = heat.texts.iter().find(|text| text.cell == cell);
             text.map_or_else(|| float_text(value), |text| text.text.clone())
         });
-        let _ = writeln!(out, "{}", items.collect::<Vec<_>>().join(", "));
+        let _ = writeln!(out, "{}", joined(&items.collect::<Vec<_>>()));
     }
     for option in &interaction.other {
         print_option(out, option, grammar);
     }
+}
+
+/// A parameter that counts before the others; behind them where they have it too, since the last setting counts (Q-7).
+fn with_meant<'a>(meant: Option<&'a GivenParameter>, others: &'a [GivenParameter]) -> Vec<&'a GivenParameter> {
+    let mut all: Vec<_> = others.iter().collect();
+    if let Some(meant) = meant {
+        let is_repeated = others.iter().any(|other| other.name == meant.name);
+        all.insert(if is_repeated { all.len() } else { 0 }, meant);
+    }
+    all
 }
 
 fn print_electrical(out: &mut String, law: &ElectricalConductance, grammar: &Grammar) {
@@ -201,7 +211,7 @@ fn print_rows(out: &mut String, table: &Table, definition: Option<&Definition>) 
         let begins_keyword = row.iter().skip(1).any(|item| item.starts_with('*'));
         let (first, further) = row.split_at(if begins_keyword { row.len() } else { first_line.min(row.len()) });
         for line in std::iter::once(first).chain(further.chunks(following)) {
-            let _ = writeln!(out, "{}", line.join(", "));
+            let _ = writeln!(out, "{}", joined(line));
         }
     }
 }
@@ -217,15 +227,23 @@ fn print_option(out: &mut String, option: &SubOption, grammar: &Grammar) {
     }
 }
 
+/// The items of a line; nothing stands behind one whose quote does not close, since it would be a part of it (S-41).
+fn joined(items: &[String]) -> String {
+    let open = items.iter().position(|item| has_open_quote(item));
+    items[..open.map_or(items.len(), |open| open + 1)].join(", ")
+}
+
+fn has_open_quote(text: &str) -> bool {
+    text.matches('"').count() % 2 == 1
+}
+
 fn print_contact_pair(out: &mut String, pair: &ContactPair) {
     let interaction = pair.interaction.as_ref().map(|found| parameter("INTERACTION", Some(found.name.to_string())));
-    let parameters: Vec<_> = interaction.iter().chain(&pair.parameters).collect();
-    print_keyword(out, "CONTACT PAIR", parameters);
+    print_keyword(out, "CONTACT PAIR", with_meant(interaction.as_ref(), &pair.parameters));
     for surfaces in &pair.pairs {
-        let _ = match &surfaces.master {
-            Some(master) => writeln!(out, "{}, {}", surfaces.slave.name, master.name),
-            None => writeln!(out, "{},", surfaces.slave.name),
-        };
+        let master = surfaces.master.as_ref().map_or_else(String::new, |master| format!(" {}", master.name));
+        let slave = surfaces.slave.name.to_string();
+        let _ = if has_open_quote(&slave) { writeln!(out, "{slave}") } else { writeln!(out, "{slave},{master}") };
     }
 }
 
@@ -238,7 +256,7 @@ fn print_property_assignments(out: &mut String, assignments: &[PropertyAssignmen
     let text = |reference: &Option<Reference>| reference.as_ref().map_or(String::new(), |found| found.name.to_string());
     for assignment in assignments {
         let items = [&assignment.first, &assignment.second, &assignment.interaction].map(text);
-        let _ = writeln!(out, "{}", items.join(", "));
+        let _ = writeln!(out, "{}", joined(&items));
     }
 }
 
@@ -269,7 +287,10 @@ fn print_procedures(out: &mut String, procedures: &[Procedure]) {
 
 fn print_keyword<'a>(out: &mut String, keyword: &str, parameters: impl IntoIterator<Item = &'a GivenParameter>) {
     let mut line = format!("*{keyword}");
-    for parameter in parameters {
+    // Nothing is read behind a quote that does not close.
+    let is_open = |parameter: &&GivenParameter| parameter.value.as_deref().is_some_and(has_open_quote);
+    let (last, first): (Vec<_>, Vec<_>) = parameters.into_iter().partition(is_open);
+    for parameter in first.into_iter().chain(last) {
         let text = match &parameter.value {
             Some(value) => format!("{}={value}", parameter.name),
             None => parameter.name.clone(),

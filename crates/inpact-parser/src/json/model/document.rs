@@ -422,7 +422,7 @@ impl schemars::JsonSchema for Cell {
         let symbolic = generator.subschema_for::<SymbolicCell>();
         schemars::json_schema!({
             "description": "A number, as it is or written with parameters; or the text of a cell that has no number. \
-                            Such a text is read back only when a parameter, `<name>`, stands in it.",
+                            A number in quotes is refused on the way back.",
             "anyOf": [{"type": "number"}, symbolic, {"type": "string"}],
         })
     }
