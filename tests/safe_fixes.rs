@@ -149,7 +149,7 @@ fn changed(seeds: &[Vec<u8>], chance: &mut Chance) -> Vec<u8> {
             }
         }
     }
-    for _ in 0..1 + chance.below(12) {
+    for _ in 0..=chance.below(12) {
         let at = chance.below(lines.len() + 1);
         let first = chance.below(LINES.len());
         // Lines that stand beside one another in the list make sense together.

@@ -63,10 +63,6 @@ impl Language {
         }
     }
 
-    fn is_title(&self, keyword: &str) -> bool {
-        matches!(keyword, "HEADING" | "STEP")
-    }
-
     /// How the line behind a comma reads (S-19): as parameters, perhaps as such, or not.
     fn behind_comma(&self, keyword: &str, line: &str) -> Behind {
         let known = self.flags.get(keyword);
@@ -107,6 +103,11 @@ impl Language {
     }
 }
 
+/// Whether the lines behind a keyword are its title (S-70, S-72).
+fn is_title(keyword: &str) -> bool {
+    matches!(keyword, "HEADING" | "STEP")
+}
+
 /// How a line reads behind a comma.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Behind {
@@ -130,7 +131,7 @@ pub(crate) fn read(bytes: &[u8], language: &Language) -> Reading {
         at += 1;
         let begun = trimmed_start(line);
         let open = reading.last_mut().expect("there is always one");
-        let is_title = language.is_title(&open.keyword);
+        let is_title = is_title(&open.keyword);
         match () {
             () if line.starts_with("**") => {}
             () if begun.starts_with("**") && !is_title => {}

@@ -101,8 +101,9 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
     let is_default = interaction.thickness.to_bits() == 1.0_f64.to_bits();
     let rows_are_properties = has_explicit_step
         || interaction.parameters.iter().any(|parameter| parameter.name == "USER" && parameter.value.is_some());
-    let is_user = interaction.has_parameter("USER");
-    if !(is_user && rows_are_properties) && (!is_default || !interaction.properties.is_empty()) {
+    let has_thickness = !(rows_are_properties && interaction.has_parameter("USER"));
+    let is_needed = !is_default || !interaction.properties.is_empty();
+    if has_thickness && is_needed {
         let _ = writeln!(out, "{},", float_text(interaction.thickness));
     }
     for line in interaction.properties.chunks(8) {
