@@ -10,7 +10,7 @@
 //! | elements | [`ElementType`], [`ElementShape`], [`FaceLabel`], [`FreeFaces`] | |
 //! | faces | [`FaceShape`] | [`Patch`] |
 //! | surfaces | [`Surface`] | [`Placed`], [`node_areas`], [`node_normals`] |
-//! | pairs | | [`Master`], [`Projection`], [`sheet_shift`] |
+//! | pairs | | [`Master`], [`Projection`], [`sheet_shift`], [`contact_nodes`] |
 //!
 //! ```
 //! use inpact_geometry::{DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, NodeId, Placed, Shares, Surface, node_areas, node_normals};
@@ -53,6 +53,7 @@ mod coordinates;
 mod area;
 mod closest;
 mod normal;
+mod pair;
 mod projection;
 mod search;
 mod sheet;
@@ -69,6 +70,7 @@ pub use face_shape::{FaceShape, MAX_NODES};
 pub use free_faces::FreeFaces;
 pub use ids::{FaceId, NodeId};
 pub use normal::{node_normal, node_normals};
+pub use pair::{ContactNode, PairOptions, contact_nodes};
 pub use patch::Patch;
 pub use projection::{DEFAULT_EXTENSION, Projection};
 pub use search::Master;

@@ -22,6 +22,8 @@ pub mod expression;
 
 pub mod model;
 
+pub mod mesh;
+
 pub mod format;
 
 pub mod json;

@@ -1,0 +1,95 @@
+//! A contact pair: area, normal and clearance of every slave node in one call.
+
+use crate::area::{Extent, Shares, node_areas};
+use crate::coordinates::Placed;
+use crate::normal::node_normals;
+use crate::projection::Projection;
+use crate::search::Master;
+use crate::sheet::node_shifts;
+use crate::{GeometryError, NodeId, Point, Vector};
+
+/// How the geometry of a pair is to be found.
+#[derive(Clone, Copy, Debug)]
+pub struct PairOptions<'a> {
+    /// How the area of a slave face is shared among its nodes.
+    pub shares: Shares,
+    /// What makes an area of a slave face.
+    pub extent: Extent<'a>,
+    /// How far each slave face lies from its nodes along its normal (L), by face; empty where all are solids.
+    pub slave_shifts: &'a [f64],
+    /// The same of the master.
+    pub master_shifts: &'a [f64],
+    /// How far, as a share of an edge, a node may lie beyond the master's outer edge.
+    pub extension: f64,
+}
+
+/// What a contact pair gives one slave node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactNode {
+    /// The node.
+    pub node: NodeId,
+    /// Its area (L²).
+    pub area: f64,
+    /// The averaged unit normal of the slave there; `None` where there is none.
+    pub normal: Option<Vector>,
+    /// What is across; `None` where the master has no face. Thickness of sheets is taken off the clearance (not off the distance).
+    pub across: Option<Projection>,
+}
+
+/// The geometry of a pair, in the order of the slave's [`Surface::nodes`](crate::Surface::nodes).
+///
+/// ```
+/// use inpact_geometry::{DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, NodeId, PairOptions, Placed, Shares, Surface, contact_nodes};
+/// // A line above a line twice as long, in a plate 0.5 thick.
+/// let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.5, 0.25, 0.0], [1.5, 0.25, 0.0]];
+/// let line = |from: u32, to: u32| Surface::new([Face { shape: FaceShape::Segment2, nodes: &[NodeId(from), NodeId(to)] }]);
+/// let (slave, master) = (line(2, 3)?, line(1, 0)?);
+/// let options = PairOptions {
+///     shares: Shares::Equal,
+///     extent: Extent::Plane(&[0.5]),
+///     slave_shifts: &[],
+///     master_shifts: &[],
+///     extension: DEFAULT_EXTENSION,
+/// };
+/// let found = contact_nodes(&Placed::new(&slave, &points)?, &Master::new(Placed::new(&master, &points)?), &options)?;
+/// assert_eq!((found[0].area, found[0].normal), (0.25, Some([0.0, -1.0, 0.0])));
+/// assert_eq!(found[0].across.as_ref().map(|across| across.clearance), Some(0.25));
+/// # Ok::<(), inpact_geometry::GeometryError>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`node_areas`]; and where there is not one shift a face.
+pub fn contact_nodes(
+    slave: &Placed<'_>,
+    master: &Master<'_>,
+    options: &PairOptions<'_>,
+) -> Result<Vec<ContactNode>, GeometryError> {
+    let nodes = slave.surface().nodes();
+    let areas = node_areas(slave, options.shares, options.extent)?;
+    let points: Vec<Point> = nodes.iter().map(|node| slave.points()[node.index()]).collect();
+    let shifts = if options.slave_shifts.is_empty() {
+        vec![0.0; nodes.len()]
+    } else {
+        node_shifts(slave.surface(), options.slave_shifts)?
+    };
+    let faces = master.placed().surface().len();
+    if !options.master_shifts.is_empty() && options.master_shifts.len() != faces {
+        return Err(GeometryError::Values { what: "shift", expected: faces, found: options.master_shifts.len() });
+    }
+    let found = nodes
+        .iter()
+        .zip(areas)
+        .zip(node_normals(slave))
+        .zip(master.project_all(&points, options.extension))
+        .zip(shifts);
+    let node =
+        |((((node, area), normal), across), shift): ((((&NodeId, f64), Option<Vector>), Option<Projection>), f64)| {
+            let across = across.map(|across| {
+                let of_master = options.master_shifts.get(across.face.index()).copied().unwrap_or(0.0);
+                Projection { clearance: across.clearance - (shift + of_master), ..across }
+            });
+            ContactNode { node: *node, area, normal, across }
+        };
+    Ok(found.map(node).collect())
+}

@@ -1,0 +1,226 @@
+//! Elements: from the rows of *ELEMENT to the faces that surfaces pick.
+
+use super::layout::Entry;
+use super::reader::{Context, Reader};
+use super::rows::data_lines;
+use super::selection::{Selection, unsigned};
+use crate::span::Span;
+use inpact_geometry::{ElementShape, ElementSpace, ElementType, FaceLabel, FaceShape, FreeFaces, MAX_NODES, NodeId};
+use std::io;
+
+/// Which faces a row of *SURFACE picks in one body.
+#[derive(Debug, Clone)]
+pub(super) struct Pick {
+    /// Which surface it belongs to.
+    pub(super) surface: usize,
+    pub(super) body: usize,
+    pub(super) elements: Selection,
+    /// The face; `None` for the free ones.
+    pub(super) face: Option<FaceLabel>,
+    /// The row.
+    pub(super) span: Span,
+}
+
+/// A face that was found, by the numbers of its nodes.
+#[derive(Debug, Clone)]
+pub(super) struct RawFace {
+    pub(super) surface: usize,
+    pub(super) body: usize,
+    pub(super) element: u32,
+    pub(super) label: FaceLabel,
+    pub(super) kind: ElementType,
+    pub(super) shape: FaceShape,
+    pub(super) nodes: [u32; MAX_NODES],
+    /// The *ELEMENT option.
+    pub(super) option: Span,
+}
+
+impl RawFace {
+    pub(super) fn nodes(&self) -> &[u32] {
+        &self.nodes[..self.shape.nodes()]
+    }
+
+    /// Whether its area or its place depends on a section.
+    pub(super) fn needs_section(&self) -> bool {
+        self.kind.shape.is_sheet() || self.kind.space == ElementSpace::Plane
+    }
+}
+
+impl<'deck> Reader<'deck, '_> {
+    /// Finds the faces that are picked; free faces take a second look at the elements that have them.
+    pub(super) fn faces(&mut self, picks: &[Pick]) -> io::Result<Vec<RawFace>> {
+        let (mut faces, free) = self.sweep(picks)?;
+        if !free.is_empty() {
+            faces.extend(self.sweep(&free)?.0);
+        }
+        faces.sort_by_key(|face| (face.surface, face.body, face.element, face.label));
+        faces.dedup_by_key(|face| (face.surface, face.body, face.element, face.label));
+        Ok(faces)
+    }
+
+    /// One look at all elements: the faces picked by name, and picks of the free faces by name.
+    fn sweep(&mut self, picks: &[Pick]) -> io::Result<(Vec<RawFace>, Vec<Pick>)> {
+        let mut faces = Vec::new();
+        let mut named = Vec::new();
+        for body in 0..self.bodies.len() {
+            let here: Vec<&Pick> = picks.iter().filter(|pick| pick.body == body).collect();
+            if here.is_empty() {
+                continue;
+            }
+            let mut free: Vec<(&Pick, FreeFaces)> = Vec::new();
+            free.extend(here.iter().filter(|pick| pick.face.is_none()).map(|pick| (*pick, FreeFaces::new())));
+            let options: Vec<Entry<'_>> =
+                self.chain(Context::Body(body)).flat_map(|definitions| definitions.elements.clone()).collect();
+            for option in options {
+                self.rows_of(option, &here, &mut free, &mut faces)?;
+            }
+            named.extend(free.into_iter().flat_map(|(pick, free)| picks_of(pick, free)));
+        }
+        Ok((faces, named))
+    }
+
+    fn rows_of(
+        &mut self,
+        option: Entry<'_>,
+        picks: &[&Pick],
+        free: &mut [(&Pick, FreeFaces)],
+        faces: &mut Vec<RawFace>,
+    ) -> io::Result<()> {
+        let key = option.keyword.span;
+        let touched = picks.iter().any(|pick| pick.elements.may_touch(key));
+        if !touched && free.is_empty() {
+            return Ok(());
+        }
+        if option.parameter("INPUT").is_some() {
+            self.note(option.span(), "the elements in a file of their own (INPUT) are not read".to_owned());
+        }
+        let name = option.parameter("TYPE").unwrap_or("");
+        let Some(kind) = ElementType::named(name) else {
+            return self.unknown_rows(option, name, picks);
+        };
+        let mut wrong: Option<(Span, String)> = None;
+        let mut without_face: Vec<(Span, String)> = Vec::new();
+        let mut row: Vec<u32> = Vec::with_capacity(1 + kind.shape.nodes());
+        data_lines(&mut *self.rows, option.block, &mut |line, span| {
+            if !integers(line, &mut row) {
+                wrong.get_or_insert_with(|| {
+                    (
+                        span,
+                        format!(
+                            "expected numbers of an element and its nodes, found `{}`",
+                            String::from_utf8_lossy(line).trim()
+                        ),
+                    )
+                });
+                return row.clear();
+            }
+            if row.len() <= kind.shape.nodes() {
+                return;
+            }
+            let (element, nodes) = (row[0], &row[1..=kind.shape.nodes()]);
+            for pick in picks.iter().filter(|pick| pick.elements.contains(element, key)) {
+                let Some(label) = pick.face else { continue };
+                match kind.shape.face(label) {
+                    None => {
+                        without_face.push((pick.span, format!("element {element} of type {name} has no face {label}")))
+                    }
+                    Some(face) => {
+                        let mut of_face = [0; MAX_NODES];
+                        for (node, local) in of_face.iter_mut().zip(face.nodes) {
+                            *node = nodes[usize::from(*local)];
+                        }
+                        let (surface, body) = (pick.surface, pick.body);
+                        faces.push(RawFace {
+                            surface,
+                            body,
+                            element,
+                            label,
+                            kind,
+                            shape: face.shape,
+                            nodes: of_face,
+                            option: key,
+                        });
+                    }
+                }
+            }
+            if !free.is_empty() {
+                let nodes: Vec<NodeId> = nodes.iter().copied().map(NodeId).collect();
+                add_to_free(free, element, key, kind.shape, &nodes);
+            }
+            row.clear();
+        })?;
+        if let Some((span, message)) = wrong {
+            self.note(span, format!("{message}; the row was not read"));
+        }
+        self.note_first(without_face, "and was left out");
+        if kind.shape.is_sheet() && free.iter().any(|(pick, _)| pick.elements.may_touch(key)) {
+            self.note(
+                option.span(),
+                format!(
+                    "elements of type {name} are in a surface without SPOS or SNEG; both sides at once are not read"
+                ),
+            );
+        }
+        Ok(())
+    }
+
+    /// Says so where a surface picks elements of a type whose faces are not known.
+    fn unknown_rows(&mut self, option: Entry<'_>, name: &str, picks: &[&Pick]) -> io::Result<()> {
+        let key = option.keyword.span;
+        let mut found = 0_u64;
+        data_lines(&mut *self.rows, option.block, &mut |line, _| {
+            let mut row = Vec::new();
+            integers(line, &mut row);
+            let picked =
+                row.first().is_some_and(|element| picks.iter().any(|pick| pick.elements.contains(*element, key)));
+            found += u64::from(picked);
+        })?;
+        if 0 < found {
+            self.note(
+                option.span(),
+                format!(
+                    "the faces of elements of type `{name}` are not known here; {found} rows of them were left out"
+                ),
+            );
+        }
+        Ok(())
+    }
+}
+
+fn add_to_free(free: &mut [(&Pick, FreeFaces)], element: u32, option: Span, shape: ElementShape, nodes: &[NodeId]) {
+    for (pick, free) in free {
+        if pick.elements.contains(element, option) {
+            free.add(element, shape, nodes);
+        } else {
+            free.cover(shape, nodes);
+        }
+    }
+}
+
+/// The free faces of a pick, as picks by name.
+fn picks_of(pick: &Pick, free: FreeFaces) -> Vec<Pick> {
+    let mut by_face: Vec<Pick> = Vec::new();
+    for (element, label) in free.finish() {
+        let known = by_face.iter().position(|other| other.face == Some(label));
+        let at = known.unwrap_or_else(|| {
+            by_face.push(Pick { elements: Selection::default(), face: Some(label), ..pick.clone() });
+            by_face.len() - 1
+        });
+        by_face[at].elements.labels.add(element);
+    }
+    by_face.iter_mut().for_each(|pick| pick.elements.labels.sort());
+    by_face
+}
+
+/// Adds the numbers of a line to a row; false where something is no number.
+fn integers(line: &[u8], row: &mut Vec<u32>) -> bool {
+    for item in line.split(|byte| *byte == b',') {
+        let item = item.trim_ascii();
+        match unsigned(item) {
+            Some(number) => row.push(number),
+            None if item.is_empty() => {}
+            None => return false,
+        }
+    }
+    true
+}

@@ -1,0 +1,85 @@
+//! Sets of numbers of nodes or elements, as ranges: a set of a million neighbours is one range.
+
+/// Numbers, added in any order, asked for once all are there.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct Labels {
+    /// First and last of each range; ascending and apart once sorted.
+    ranges: Vec<(u32, u32)>,
+    sorted: bool,
+}
+
+impl Labels {
+    pub(super) fn add(&mut self, label: u32) {
+        self.sorted = false;
+        if let Some((_, last)) = self.ranges.last_mut()
+            && last.checked_add(1) == Some(label)
+        {
+            *last = label;
+            return;
+        }
+        self.ranges.push((label, label));
+    }
+
+    /// first, first + step, … up to last.
+    pub(super) fn add_steps(&mut self, first: u32, last: u32, step: u32) {
+        if step <= 1 {
+            self.sorted = false;
+            return self.ranges.push((first, last));
+        }
+        let step = usize::try_from(step).unwrap_or(usize::MAX);
+        (first..=last).step_by(step).for_each(|label| self.add(label));
+    }
+
+    pub(super) fn add_all(&mut self, other: &Self) {
+        self.sorted = false;
+        self.ranges.extend_from_slice(&other.ranges);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.ranges.is_empty()
+    }
+
+    pub(super) fn sort(&mut self) {
+        if self.sorted {
+            return;
+        }
+        self.ranges.sort_unstable();
+        let mut merged: Vec<(u32, u32)> = Vec::new();
+        for (first, last) in self.ranges.drain(..) {
+            match merged.last_mut() {
+                Some((_, end)) if first <= end.saturating_add(1) => *end = last.max(*end),
+                _ => merged.push((first, last)),
+            }
+        }
+        merged.shrink_to_fit();
+        self.ranges = merged;
+        self.sorted = true;
+    }
+
+    /// Whether it has the number; sorted before.
+    pub(super) fn contains(&self, label: u32) -> bool {
+        debug_assert!(self.sorted || self.ranges.is_empty());
+        let after = self.ranges.partition_point(|(first, _)| *first <= label);
+        0 < after && label <= self.ranges[after - 1].1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Labels;
+
+    #[test]
+    fn numbers_in_any_order_are_ranges_in_order() {
+        let mut labels = Labels::default();
+        [7, 8, 9, 3, 20].into_iter().for_each(|label| labels.add(label));
+        labels.add_steps(1, 2, 1);
+        labels.add_steps(12, 20, 4);
+        labels.add(u32::MAX);
+        labels.sort();
+        assert_eq!(labels.ranges, [(1, 3), (7, 9), (12, 12), (16, 16), (20, 20), (u32::MAX, u32::MAX)]);
+        let inside: Vec<u32> = (0..30).filter(|label| labels.contains(*label)).collect();
+        assert_eq!(inside, [1, 2, 3, 7, 8, 9, 12, 16, 20]);
+        assert!(labels.contains(u32::MAX));
+        assert!(!Labels::default().contains(0));
+    }
+}

@@ -1,0 +1,142 @@
+//! What stands where in a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
+
+use crate::deck::{Block, Deck, KeywordLine};
+use crate::grammar::Grammar;
+use crate::model::Name;
+use crate::span::Span;
+
+/// An option of the deck with its rows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry<'deck> {
+    pub(super) deck: &'deck Deck,
+    pub(super) keyword: &'deck KeywordLine,
+    pub(super) block: &'deck Block,
+}
+
+impl<'deck> Entry<'deck> {
+    /// The value of a parameter; a parameter without a value has an empty one. Names may be shortened to three letters.
+    pub(super) fn parameter(&self, name: &str) -> Option<&'deck str> {
+        self.keyword.parameters.iter().find_map(|parameter| {
+            let written = canonical(self.deck.text(parameter.name));
+            let matches = written == name || (3 <= written.len() && name.starts_with(&written));
+            let text = || parameter.value.map_or(&b""[..], |value| self.deck.text(value));
+            matches.then(|| std::str::from_utf8(text()).unwrap_or(""))
+        })
+    }
+
+    /// The value of a parameter as a name.
+    pub(super) fn named(&self, parameter: &str) -> Option<Name> {
+        self.parameter(parameter).map(Name::new)
+    }
+
+    /// The keyword line.
+    pub(super) fn span(&self) -> Span {
+        self.keyword.visible_span(self.deck)
+    }
+}
+
+/// The options of one model, part, instance or assembly.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Definitions<'deck> {
+    pub(super) nodes: Vec<Entry<'deck>>,
+    pub(super) elements: Vec<Entry<'deck>>,
+    pub(super) nsets: Vec<Entry<'deck>>,
+    pub(super) elsets: Vec<Entry<'deck>>,
+    pub(super) surfaces: Vec<Entry<'deck>>,
+    pub(super) sections: Vec<Entry<'deck>>,
+    /// Options that make nodes or elements, or move them, and are not read.
+    pub(super) makers: Vec<(String, Span)>,
+}
+
+/// A part that was placed.
+#[derive(Debug, Clone)]
+pub(super) struct Instance<'deck> {
+    pub(super) name: Name,
+    pub(super) entry: Entry<'deck>,
+    pub(super) part: Option<usize>,
+    pub(super) own: Definitions<'deck>,
+}
+
+/// The deck by levels.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Layout<'deck> {
+    pub(super) model: Definitions<'deck>,
+    pub(super) assembly: Definitions<'deck>,
+    pub(super) parts: Vec<(Name, Definitions<'deck>)>,
+    pub(super) instances: Vec<Instance<'deck>>,
+    pub(super) clearances: Vec<Entry<'deck>>,
+    pub(super) assembly_name: Option<Name>,
+}
+
+enum Level {
+    Model,
+    Part,
+    Assembly,
+    Instance,
+}
+
+impl<'deck> Layout<'deck> {
+    pub(super) fn of(deck: &'deck Deck, grammar: &Grammar) -> Self {
+        let mut layout = Self::default();
+        let mut level = Level::Model;
+        for block in deck.blocks() {
+            let Some(keyword) = &block.keyword else { continue };
+            let Some(id) = keyword.id() else { continue };
+            let entry = Entry { deck, keyword, block };
+            let name = canonical(grammar.keyword(id).name.as_bytes());
+            match name.as_str() {
+                "PART" => {
+                    layout.parts.push((entry.named("NAME").unwrap_or_else(|| Name::new("")), Definitions::default()));
+                    level = Level::Part;
+                }
+                "INSTANCE" => {
+                    let part = entry.named("PART");
+                    let part = part.and_then(|part| layout.parts.iter().position(|(name, _)| *name == part));
+                    let name = entry.named("NAME").unwrap_or_else(|| Name::new(""));
+                    layout.instances.push(Instance { name, entry, part, own: Definitions::default() });
+                    level = Level::Instance;
+                }
+                "ASSEMBLY" => {
+                    layout.assembly_name = entry.named("NAME");
+                    level = Level::Assembly;
+                }
+                "ENDINSTANCE" => level = Level::Assembly,
+                "ENDPART" | "ENDASSEMBLY" => level = Level::Model,
+                "CLEARANCE" => layout.clearances.push(entry),
+                _ => layout.at(&level).add(&name, entry),
+            }
+        }
+        layout
+    }
+
+    fn at(&mut self, level: &Level) -> &mut Definitions<'deck> {
+        match level {
+            Level::Part => self.parts.last_mut().map_or(&mut self.model, |(_, definitions)| definitions),
+            Level::Instance => self.instances.last_mut().map_or(&mut self.model, |instance| &mut instance.own),
+            Level::Assembly => &mut self.assembly,
+            Level::Model => &mut self.model,
+        }
+    }
+}
+
+impl<'deck> Definitions<'deck> {
+    fn add(&mut self, name: &str, entry: Entry<'deck>) {
+        match name {
+            "NODE" => self.nodes.push(entry),
+            "ELEMENT" => self.elements.push(entry),
+            "NSET" => self.nsets.push(entry),
+            "ELSET" => self.elsets.push(entry),
+            "SURFACE" => self.surfaces.push(entry),
+            "SOLIDSECTION" | "SHELLSECTION" | "SHELLGENERALSECTION" | "MEMBRANESECTION" => self.sections.push(entry),
+            "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "SYSTEM" => {
+                self.makers.push((name.to_owned(), entry.span()))
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Upper case, without blanks.
+pub(super) fn canonical(text: &[u8]) -> String {
+    text.iter().filter(|byte| !byte.is_ascii_whitespace()).map(|byte| char::from(byte.to_ascii_uppercase())).collect()
+}

@@ -1,0 +1,199 @@
+//! Nodes: from the rows of *NODE to points of the assembly (SYSTEM, translation and rotation of instances).
+
+use super::layout::Entry;
+use super::reader::{Context, Reader};
+use super::rows::data_lines;
+use super::selection::{Selection, unsigned};
+use crate::deck::items;
+use crate::number::read_float;
+use crate::span::Span;
+use inpact_geometry::Point;
+use std::io;
+
+/// The nodes that are wanted of one body, and what was found.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Wanted {
+    /// Ascending, each once.
+    pub(super) labels: Vec<u32>,
+    /// In the same order; `None` where no *NODE has the number.
+    pub(super) points: Vec<Option<Point>>,
+}
+
+impl Wanted {
+    pub(super) fn new(mut labels: Vec<u32>) -> Self {
+        labels.sort_unstable();
+        labels.dedup();
+        Self { points: vec![None; labels.len()], labels }
+    }
+}
+
+/// How the three numbers of a node are meant.
+#[derive(Debug, Clone, Copy)]
+enum System {
+    Rectangular,
+    Cylindrical,
+    Spherical,
+}
+
+impl System {
+    fn point(self, [a, b, c]: Point) -> Point {
+        match self {
+            Self::Rectangular => [a, b, c],
+            Self::Cylindrical => {
+                let (sin, cos) = b.to_radians().sin_cos();
+                [a * cos, a * sin, c]
+            }
+            Self::Spherical => {
+                let ((sin, cos), (rise, flat)) = (b.to_radians().sin_cos(), c.to_radians().sin_cos());
+                [a * flat * cos, a * flat * sin, a * rise]
+            }
+        }
+    }
+}
+
+/// Where an instance is put.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placement {
+    translation: Point,
+    /// Two points of the axis, and the angle in degrees.
+    rotation: Option<(Point, Point, f64)>,
+}
+
+impl Placement {
+    pub(super) const NONE: Self = Self { translation: [0.0; 3], rotation: None };
+
+    /// Translated, then rotated about the axis from a to b (Rodrigues), right-handed.
+    fn put(&self, point: Point) -> Point {
+        let p = [0, 1, 2].map(|k| point[k] + self.translation[k]);
+        let Some((a, b, angle)) = self.rotation else { return p };
+        let axis = [0, 1, 2].map(|k| b[k] - a[k]);
+        let length = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
+        let [x, y, z] = axis.map(|component| component / length);
+        let r = [0, 1, 2].map(|k| p[k] - a[k]);
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let cross = [y * r[2] - z * r[1], z * r[0] - x * r[2], x * r[1] - y * r[0]];
+        let along = (x * r[0] + y * r[1] + z * r[2]) * (1.0 - cos);
+        let axis = [x, y, z];
+        [0, 1, 2].map(|k| a[k] + r[k] * cos + cross[k] * sin + axis[k] * along)
+    }
+}
+
+impl<'deck> Reader<'deck, '_> {
+    /// Reads the rows of *INSTANCE: a translation, then an axis and an angle.
+    pub(super) fn placement(&mut self, instance: Entry<'_>) -> io::Result<Placement> {
+        let mut rows: Vec<(Vec<Option<f64>>, Span)> = Vec::new();
+        data_lines(&mut *self.rows, instance.block, &mut |line, span| {
+            let value =
+                |item: std::ops::Range<usize>| if item.is_empty() { Some(0.0) } else { read_float(&line[item]).ok() };
+            rows.push((items(line).map(value).collect(), span));
+        })?;
+        let mut placement = Placement::NONE;
+        for (number, (row, span)) in rows.into_iter().enumerate() {
+            let numbers: Option<Vec<f64>> = row.into_iter().collect();
+            match (number, numbers.as_deref()) {
+                (0, Some(row)) if row.len() <= 4 => placement.translation = [0, 1, 2].map(|k| row.get(k).copied().unwrap_or(0.0)),
+                (1, Some(&[ax, ay, az, bx, by, bz, angle])) if [ax, ay, az] != [bx, by, bz] => {
+                    placement.rotation = Some(([ax, ay, az], [bx, by, bz], angle));
+                }
+                _ => self.note(span, "expected a translation (3 numbers), then two points of an axis and an angle (7 numbers); the row was not read".to_owned()),
+            }
+        }
+        Ok(placement)
+    }
+
+    /// Finds the wanted nodes of a body. Gives, for each selection, the numbers of the nodes that are in it.
+    pub(super) fn read_nodes(
+        &mut self,
+        body: usize,
+        wanted: &mut Wanted,
+        selections: &[&Selection],
+    ) -> io::Result<Vec<Vec<u32>>> {
+        let mut selected: Vec<Vec<u32>> = vec![Vec::new(); selections.len()];
+        let mut extra: Vec<(u32, Point)> = Vec::new();
+        if wanted.labels.is_empty() && selections.is_empty() {
+            return Ok(selected);
+        }
+        let options: Vec<Entry<'_>> =
+            self.chain(Context::Body(body)).flat_map(|definitions| definitions.nodes.clone()).collect();
+        let placement = self.bodies[body].placement;
+        for option in options {
+            let key = option.keyword.span;
+            if option.parameter("INPUT").is_some() {
+                self.note(option.span(), "the nodes in a file of their own (INPUT) are not read".to_owned());
+            }
+            let system = match option.parameter("SYSTEM").map(str::to_ascii_uppercase).as_deref() {
+                Some("C") => System::Cylindrical,
+                Some("S") => System::Spherical,
+                _ => System::Rectangular,
+            };
+            let mut wrong: Option<(Span, String)> = None;
+            // Rows mostly ascend: the next one wanted is mostly the next one found.
+            let mut next = 0;
+            data_lines(&mut *self.rows, option.block, &mut |line, span| {
+                let end = memchr::memchr(b',', line).unwrap_or(line.len());
+                let label = unsigned(line[..end].trim_ascii());
+                let at = label.and_then(|label| place_of(&wanted.labels, label, next));
+                let in_selection = |selection: &&Selection| label.is_some_and(|label| selection.contains(label, key));
+                if label.is_some() && at.is_none() && !selections.iter().any(in_selection) {
+                    return;
+                }
+                let (Some(label), Some(point)) = (label, coordinates(line, end)) else {
+                    wrong.get_or_insert_with(|| (span, String::from_utf8_lossy(line).trim().to_owned()));
+                    return;
+                };
+                let point = placement.put(system.point(point));
+                match at {
+                    Some(at) => {
+                        wanted.points[at] = Some(point);
+                        next = at + 1;
+                    }
+                    None => extra.push((label, point)),
+                }
+                for (selection, selected) in selections.iter().zip(&mut selected) {
+                    if selection.contains(label, key) {
+                        selected.push(label);
+                    }
+                }
+            })?;
+            if let Some((span, row)) = wrong {
+                self.note(
+                    span,
+                    format!("expected the number of a node and its coordinates, found `{row}`; the node was not read"),
+                );
+            }
+        }
+        // Nodes of node sets were not known before.
+        let known = std::mem::take(wanted);
+        let mut all: Vec<(u32, Option<Point>)> = known.labels.into_iter().zip(known.points).collect();
+        all.extend(extra.into_iter().map(|(label, point)| (label, Some(point))));
+        // Of a number defined twice, the later definition counts; the sort keeps their order.
+        all.sort_by_key(|(label, _)| *label);
+        for (label, point) in all {
+            if wanted.labels.last() == Some(&label) {
+                wanted.points.pop();
+                wanted.labels.pop();
+            }
+            wanted.labels.push(label);
+            wanted.points.push(point);
+        }
+        Ok(selected)
+    }
+}
+
+/// Where a number stands among the wanted ones.
+fn place_of(wanted: &[u32], label: u32, next: usize) -> Option<usize> {
+    if wanted.get(next) == Some(&label) { Some(next) } else { wanted.binary_search(&label).ok() }
+}
+
+/// The coordinates behind the number; those that are left out are 0.
+fn coordinates(line: &[u8], end: usize) -> Option<Point> {
+    let mut point = [0.0; 3];
+    let rest = line.get(end + 1..).unwrap_or(&[]);
+    for (coordinate, item) in point.iter_mut().zip(rest.split(|byte| *byte == b',')) {
+        let item = item.trim_ascii();
+        if !item.is_empty() {
+            *coordinate = read_float(item).ok()?;
+        }
+    }
+    Some(point)
+}

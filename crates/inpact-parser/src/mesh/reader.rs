@@ -1,0 +1,229 @@
+//! The way from a deck to its mesh: surfaces, sets, elements, nodes, in this order.
+
+use super::elements::RawFace;
+use super::layout::{Definitions, Entry, Layout};
+use super::nodes::{Placement, Wanted};
+use super::pairs::Request;
+use super::rows::RowBytes;
+use super::selection::{Kind, Selected, Selection};
+use super::surfaces::{NodePick, Picks};
+use super::{Mesh, MeshNode, MeshNote};
+use crate::deck::Deck;
+use crate::grammar::Grammar;
+use crate::model::{Model, Name};
+use crate::span::Span;
+use inpact_geometry::NodeId;
+use std::collections::HashMap;
+use std::io;
+
+/// Where names are looked up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Context {
+    /// In the model and the assembly.
+    Top,
+    /// In an instance and its part, or in a model without instances.
+    Body(usize),
+}
+
+impl Context {
+    /// The body that a number without an instance belongs to.
+    pub(super) fn body(self) -> usize {
+        match self {
+            Self::Top => 0,
+            Self::Body(body) => body,
+        }
+    }
+}
+
+/// What has nodes and elements of its own: the model (always the first), or an instance.
+pub(super) struct Body<'deck> {
+    pub(super) name: Option<Name>,
+    /// The instance's own options, then those of its part.
+    chain: Vec<Definitions<'deck>>,
+    pub(super) placement: Placement,
+    entry: Option<Entry<'deck>>,
+}
+
+/// Reads a mesh.
+pub(super) struct Reader<'deck, 'rows> {
+    pub(super) rows: &'rows mut dyn RowBytes,
+    pub(super) bodies: Vec<Body<'deck>>,
+    pub(super) sets: HashMap<(Kind, Context, String), Selected>,
+    pub(super) clearances: Vec<Entry<'deck>>,
+    assembly: Definitions<'deck>,
+    assembly_name: Option<Name>,
+    notes: Vec<MeshNote>,
+}
+
+impl<'deck, 'rows> Reader<'deck, 'rows> {
+    pub(super) fn new(deck: &'deck Deck, grammar: &Grammar, rows: &'rows mut dyn RowBytes) -> Self {
+        let layout = Layout::of(deck, grammar);
+        let mut bodies = vec![Body { name: None, chain: vec![layout.model], placement: Placement::NONE, entry: None }];
+        for instance in layout.instances {
+            let part = instance.part.map(|part| layout.parts[part].1.clone());
+            let chain = std::iter::once(instance.own).chain(part).collect();
+            bodies.push(Body {
+                name: Some(instance.name),
+                chain,
+                placement: Placement::NONE,
+                entry: Some(instance.entry),
+            });
+        }
+        Self {
+            rows,
+            bodies,
+            sets: HashMap::new(),
+            clearances: layout.clearances,
+            assembly: layout.assembly,
+            assembly_name: layout.assembly_name,
+            notes: Vec::new(),
+        }
+    }
+
+    pub(super) fn read(mut self, model: &Model) -> io::Result<Mesh> {
+        let Request { names, pairs } = self.request(model)?;
+        let mut picks = Picks::default();
+        let mut found = Vec::new();
+        for (surface, name) in names.iter().enumerate() {
+            found.push(self.pick_surface(surface, name, &mut picks)?);
+        }
+        let faces = self.faces(&picks.faces)?;
+        for body in 1..self.bodies.len() {
+            if let Some(entry) = self.bodies[body].entry {
+                self.bodies[body].placement = self.placement(entry)?;
+            }
+        }
+        let located = self.locate(&faces, &picks.nodes)?;
+        let mut surfaces = Vec::new();
+        for (surface, (name, found)) in names.into_iter().zip(found).enumerate() {
+            let of_surface = |face: &&RawFace| face.surface == surface;
+            let faces: Vec<&RawFace> = faces.iter().filter(of_surface).collect();
+            surfaces.push(self.surface(surface, name, found, &faces, &picks.nodes, &located)?);
+        }
+        // Pairs whose surfaces were not found stay out; a note says so.
+        let positions: Vec<Option<usize>> = surfaces
+            .iter()
+            .scan(0, |next, surface| {
+                let at = surface.is_some().then_some(*next);
+                *next += usize::from(surface.is_some());
+                Some(at)
+            })
+            .collect();
+        let pairs = pairs.into_iter().filter_map(|pair| pair.with_surfaces(&positions)).collect();
+        let Located { points, nodes, .. } = located;
+        Ok(Mesh { points, nodes, surfaces: surfaces.into_iter().flatten().collect(), pairs, notes: self.notes })
+    }
+
+    pub(super) fn note(&mut self, span: Span, message: String) {
+        let note = MeshNote { span, message };
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// One note for many of a kind: the first of them, and how many there are.
+    pub(super) fn note_first(&mut self, mut found: Vec<(Span, String)>, ending: &str) {
+        if found.is_empty() {
+            return;
+        }
+        let count = found.len();
+        let (span, first) = found.swap_remove(0);
+        let more = if 1 < count { format!(", and so were {} more", count - 1) } else { String::new() };
+        self.note(span, format!("{first} {ending}{more}"));
+    }
+
+    /// The options that names are looked up in.
+    pub(super) fn chain(&self, context: Context) -> impl Iterator<Item = &Definitions<'deck>> {
+        let assembly = matches!(context, Context::Top).then_some(&self.assembly);
+        self.bodies[context.body()].chain.iter().chain(assembly)
+    }
+
+    pub(super) fn body_named(&self, name: &Name) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name.as_ref() == Some(name))
+    }
+
+    /// Takes the name of an instance or of the assembly from the front of a dotted name (S-44).
+    pub(super) fn without_prefix(&self, context: Context, name: Name) -> (Context, Name) {
+        let written = name.canonical();
+        let rest = |prefix: &Name| {
+            let rest = written.strip_prefix(prefix.canonical())?.strip_prefix('.')?;
+            // In quotes it stays as it is.
+            (!rest.is_empty()).then(|| Name::new(&format!("\"{rest}\"")))
+        };
+        if let Some(name) = self.assembly_name.as_ref().and_then(rest) {
+            return self.without_prefix(Context::Top, name);
+        }
+        let body = self.bodies.iter().enumerate().find_map(|(i, body)| Some((i, rest(body.name.as_ref()?)?)));
+        match body {
+            Some((body, name)) => (Context::Body(body), name),
+            None => (context, name),
+        }
+    }
+
+    /// Finds the nodes of all faces and node surfaces.
+    fn locate(&mut self, faces: &[RawFace], node_picks: &[NodePick]) -> io::Result<Located> {
+        let mut located = Located { of_picks: vec![Vec::new(); node_picks.len()], ..Located::default() };
+        for body in 0..self.bodies.len() {
+            let of_faces = faces.iter().filter(|face| face.body == body);
+            let mut wanted = Wanted::new(of_faces.flat_map(|face| face.nodes().iter().copied()).collect());
+            let here: Vec<usize> = (0..node_picks.len()).filter(|i| node_picks[*i].body == body).collect();
+            let selections: Vec<&Selection> = here.iter().map(|i| &node_picks[*i].nodes).collect();
+            let selected =
+                if let Some(maker) = self.mover(body).filter(|_| !wanted.labels.is_empty() || !selections.is_empty()) {
+                    self.note(maker, "nodes of which some stand behind *SYSTEM are not read".to_owned());
+                    vec![Vec::new(); selections.len()]
+                } else {
+                    self.read_nodes(body, &mut wanted, &selections)?
+                };
+            for (i, labels) in here.into_iter().zip(selected) {
+                located.of_picks[i] = labels;
+            }
+            located.add(body, self.bodies[body].name.as_ref(), wanted);
+        }
+        Ok(located)
+    }
+
+    /// An option that moves nodes in a way that is not read.
+    fn mover(&self, body: usize) -> Option<Span> {
+        let mut makers = self.chain(Context::Body(body)).flat_map(|definitions| &definitions.makers);
+        makers.find(|(name, _)| name == "SYSTEM").map(|(_, span)| *span)
+    }
+
+    /// The options of a body that make nodes or elements and are not read, as text.
+    pub(super) fn makers(&self, body: usize) -> String {
+        let mut names: Vec<&str> = self
+            .chain(Context::Body(body))
+            .flat_map(|definitions| &definitions.makers)
+            .map(|(name, _)| name.as_str())
+            .collect();
+        names.sort_unstable();
+        names.dedup();
+        names.iter().map(|name| format!(" (*{name} is not read)")).collect()
+    }
+}
+
+/// The nodes that were found, numbered.
+#[derive(Debug, Default)]
+pub(super) struct Located {
+    points: Vec<[f64; 3]>,
+    nodes: Vec<MeshNode>,
+    ids: HashMap<(usize, u32), NodeId>,
+    /// The numbers of the nodes of each pick.
+    pub(super) of_picks: Vec<Vec<u32>>,
+}
+
+impl Located {
+    fn add(&mut self, body: usize, instance: Option<&Name>, wanted: Wanted) {
+        for (label, point) in wanted.labels.into_iter().zip(wanted.points) {
+            let Some(point) = point else { continue };
+            let Ok(id) = u32::try_from(self.points.len()) else { continue };
+            self.ids.insert((body, label), NodeId(id));
+            self.points.push(point);
+            self.nodes.push(MeshNode { instance: instance.cloned(), label });
+        }
+    }
+
+    pub(super) fn id(&self, body: usize, label: u32) -> Option<NodeId> {
+        self.ids.get(&(body, label)).copied()
+    }
+}

@@ -1,0 +1,167 @@
+//! Which nodes or elements a set names (*NSET, *ELSET with GENERATE and INSTANCE, NSET on *NODE, ELSET on *ELEMENT), in each body.
+
+use super::labels::Labels;
+use super::layout::{Entry, canonical};
+use super::reader::{Context, Reader};
+use super::rows::data_lines;
+use crate::deck::items;
+use crate::model::Name;
+use crate::span::Span;
+use std::collections::BTreeMap;
+use std::io;
+
+/// What is selected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
+    Elements,
+    Nodes,
+}
+
+/// Numbers, and whole options whose rows are all selected.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct Selection {
+    pub(super) labels: Labels,
+    /// The keyword lines of *NODE or *ELEMENT options.
+    pub(super) options: Vec<Span>,
+}
+
+impl Selection {
+    fn add_all(&mut self, other: &Self) {
+        self.labels.add_all(&other.labels);
+        self.options.extend_from_slice(&other.options);
+    }
+
+    /// Whether it has the number in the rows of this option.
+    pub(super) fn contains(&self, label: u32, option: Span) -> bool {
+        self.options.contains(&option) || self.labels.contains(label)
+    }
+
+    /// Whether it can have something in this option.
+    pub(super) fn may_touch(&self, option: Span) -> bool {
+        !self.labels.is_empty() || self.options.contains(&option)
+    }
+}
+
+/// What a set selects in each body.
+pub(super) type Selected = BTreeMap<usize, Selection>;
+
+impl<'deck> Reader<'deck, '_> {
+    /// What an item of a row selects: a number, the name of a set, or either behind the name of an instance and a dot.
+    pub(super) fn select(&mut self, kind: Kind, context: Context, item: &str, span: Span) -> io::Result<Selected> {
+        let name = Name::new(item);
+        let (context, name) = self.without_prefix(context, name);
+        if let Ok(label) = name.canonical().parse() {
+            let mut selection = Selection::default();
+            selection.labels.add(label);
+            selection.labels.sort();
+            return Ok(BTreeMap::from([(context.body(), selection)]));
+        }
+        let key = (kind, context, name.canonical().to_owned());
+        if let Some(known) = self.sets.get(&key) {
+            return Ok(known.clone());
+        }
+        // A set that names itself adds nothing to itself.
+        self.sets.insert(key.clone(), Selected::new());
+        let (sets, options) = self.definitions_of(kind, context, &name);
+        if sets.is_empty() && options.is_empty() {
+            let what = if kind == Kind::Elements { "element" } else { "node" };
+            self.note(span, format!("the {what} set `{name}` is not defined here, so that nothing of it was read"));
+        }
+        let mut selected = Selected::new();
+        for option in options {
+            selected.entry(context.body()).or_default().options.push(option);
+        }
+        for set in sets {
+            self.read_set(kind, context, set, &mut selected)?;
+        }
+        selected.values_mut().for_each(|selection| selection.labels.sort());
+        self.sets.insert(key, selected.clone());
+        Ok(selected)
+    }
+
+    /// The sets of this name, and the *NODE or *ELEMENT options that put their rows into it.
+    fn definitions_of(&self, kind: Kind, context: Context, name: &Name) -> (Vec<Entry<'deck>>, Vec<Span>) {
+        let parameter = if kind == Kind::Elements { "ELSET" } else { "NSET" };
+        let mut sets = Vec::new();
+        let mut options = Vec::new();
+        for definitions in self.chain(context) {
+            let (of_sets, of_rows) = if kind == Kind::Elements {
+                (&definitions.elsets, &definitions.elements)
+            } else {
+                (&definitions.nsets, &definitions.nodes)
+            };
+            let named = |entry: &&Entry<'_>| entry.named(parameter).as_ref() == Some(name);
+            sets.extend(of_sets.iter().filter(named).copied());
+            options.extend(of_rows.iter().filter(named).map(|entry| entry.keyword.span));
+        }
+        (sets, options)
+    }
+
+    fn read_set(&mut self, kind: Kind, context: Context, set: Entry<'_>, selected: &mut Selected) -> io::Result<()> {
+        let context = match set.named("INSTANCE") {
+            None => context,
+            Some(instance) => match self.body_named(&instance) {
+                Some(body) => Context::Body(body),
+                None => {
+                    self.note(
+                        set.span(),
+                        format!("the instance `{instance}` is not defined, so that its part of the set was not read"),
+                    );
+                    return Ok(());
+                }
+            },
+        };
+        let is_of_elements =
+            canonical(set.deck.text(set.keyword.name)).starts_with("NSET") && set.parameter("ELSET").is_some();
+        if is_of_elements {
+            self.note(set.span(), "a node set made of an element set (ELSET) is not read".to_owned());
+            return Ok(());
+        }
+        let generated = set.parameter("GENERATE").is_some();
+        let own = selected.entry(context.body()).or_default();
+        let mut others: Vec<(String, Span)> = Vec::new();
+        data_lines(&mut *self.rows, set.block, &mut |line, span| {
+            if generated {
+                let numbers: Vec<Option<u32>> = items(line).map(|item| unsigned(&line[item])).collect();
+                match numbers[..] {
+                    [Some(first), Some(last)] | [Some(first), Some(last), None] => own.labels.add_steps(first, last, 1),
+                    [Some(first), Some(last), Some(step), ..] => own.labels.add_steps(first, last, step),
+                    _ => others.push((String::from_utf8_lossy(line).into_owned(), span)),
+                }
+                return;
+            }
+            for item in items(line).map(|item| &line[item]).filter(|item| !item.is_empty()) {
+                match unsigned(item) {
+                    Some(label) => own.labels.add(label),
+                    None => others.push((String::from_utf8_lossy(item).into_owned(), span)),
+                }
+            }
+        })?;
+        for (item, span) in others {
+            if generated {
+                self.note(
+                    span,
+                    format!("expected first, last and step of a set, found `{}`, which was not read", item.trim()),
+                );
+                continue;
+            }
+            for (body, selection) in self.select(kind, context, &item, span)? {
+                selected.entry(body).or_default().add_all(&selection);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An unsigned number of nothing but digits.
+pub(super) fn unsigned(text: &[u8]) -> Option<u32> {
+    let mut value: u32 = 0;
+    for byte in text {
+        let digit = byte.wrapping_sub(b'0');
+        if 9 < digit {
+            return None;
+        }
+        value = value.checked_mul(10)?.checked_add(u32::from(digit))?;
+    }
+    (!text.is_empty()).then_some(value)
+}
