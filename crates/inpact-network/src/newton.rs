@@ -21,7 +21,7 @@ use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sourc
 use crate::knowledge::Knowledge;
 use crate::linear::{LinearSolution, Method, NONE, each_part, index, largest_or_nan};
 use crate::scene::Field;
-use faer::Col;
+use faer::MatMut;
 use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
@@ -291,9 +291,33 @@ impl<'a> Newton<'a> {
         slopes: Slopes,
         taken_up: f64,
     ) -> Option<Vec<f64>> {
+        let equations = self.equations(knowledge, states, slopes, taken_up);
+        let scale = equations.scale;
+        let mut direction = if LARGE <= equations.right.len() {
+            // The entries are let go as soon as the matrix stands; where that comes to nothing they are put together anew.
+            let found = self.without_factor(equations);
+            found.or_else(|| self.by_factor(self.equations(knowledge, states, slopes, taken_up)))?
+        } else {
+            self.by_factor(equations)?
+        };
+        for system in &self.fields {
+            let range = system.start as usize..system.start as usize + system.edges.form.count();
+            direction[range].iter_mut().for_each(|change| *change *= scale[system.field.index()]);
+        }
+        direction.iter().all(|change| change.is_finite()).then_some(direction)
+    }
+
+    /// The equations of a step.
+    fn equations(
+        &self,
+        knowledge: &Knowledge<'a>,
+        states: &[Evaluated],
+        slopes: Slopes,
+        taken_up: f64,
+    ) -> StepEquations {
         let count = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
         let mut entries: Vec<Triplet<u32, u32, f64>> = Vec::new();
-        let mut right = Col::<f64>::zeros(count);
+        let mut right = vec![0.0; count];
         for (system, state) in self.fields.iter().zip(states) {
             let start = system.start;
             each_part(&system.core, &system.edges, |row, column, part| {
@@ -313,28 +337,14 @@ impl<'a> Newton<'a> {
         }
         let taken_up = if taken_up > 0.0 { self.take_up(taken_up, &mut entries) } else { Vec::new() };
         let scale = balance_fields(&self.fields, &mut entries, &mut right);
-        let mut direction = if LARGE <= count { self.without_factor(count, &entries, &right, &taken_up) } else { None };
-        if direction.is_none() {
-            direction = self.by_factor(count, &entries, right);
-        }
-        let mut direction = direction?;
-        for system in &self.fields {
-            let range = system.start as usize..system.start as usize + system.edges.form.count();
-            direction[range].iter_mut().for_each(|change| *change *= scale[system.field.index()]);
-        }
-        direction.iter().all(|change| change.is_finite()).then_some(direction)
+        StepEquations { entries, right, taken_up, scale }
     }
 
     /// The step by blocks of single fields.
-    fn without_factor(
-        &mut self,
-        count: usize,
-        entries: &[Triplet<u32, u32, f64>],
-        right: &Col<f64>,
-        taken_up: &[f64],
-    ) -> Option<Vec<f64>> {
-        let right: Vec<f64> = right.iter().copied().collect();
-        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, entries).ok()?;
+    fn without_factor(&mut self, equations: StepEquations) -> Option<Vec<f64>> {
+        let StepEquations { entries, right, taken_up, .. } = equations;
+        let matrix = krylov::Columns::of(right.len(), &entries);
+        drop(entries);
         let blocks = self.fields.iter().zip(&mut self.orders).map(|(system, order)| {
             let range = system.start as usize..system.start as usize + system.edges.form.count();
             krylov::Block::of(system, taken_up.get(range).unwrap_or_default(), self.method, order)
@@ -344,17 +354,19 @@ impl<'a> Newton<'a> {
     }
 
     /// The step by a factor of the whole matrix.
-    fn by_factor(&mut self, count: usize, entries: &[Triplet<u32, u32, f64>], mut right: Col<f64>) -> Option<Vec<f64>> {
+    fn by_factor(&mut self, equations: StepEquations) -> Option<Vec<f64>> {
+        let StepEquations { entries, mut right, .. } = equations;
+        let count = right.len();
         let places: Vec<(u32, u32)> = entries.iter().map(|entry| (entry.row, entry.col)).collect();
-        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, entries).ok()?;
+        let matrix = SparseColMat::<u32, f64>::try_new_from_triplets(count, count, &entries).ok()?;
         let symbolic = match &self.kept {
             Some(kept) if kept.places == places => kept.symbolic.clone(),
             _ => SymbolicLu::try_new(matrix.symbolic()).ok()?,
         };
         let factor = Lu::try_new_with_symbolic(symbolic.clone(), matrix.as_ref()).ok()?;
         self.kept = Some(Structure { places, symbolic });
-        factor.solve_in_place(right.as_mat_mut());
-        Some(right.iter().copied().collect())
+        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut right, count, 1));
+        Some(right)
     }
 
     /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes; gives how much each does.
@@ -458,6 +470,16 @@ impl<'a> Newton<'a> {
     }
 }
 
+/// The equations of a step of all fields.
+struct StepEquations {
+    entries: Vec<Triplet<u32, u32, f64>>,
+    right: Vec<f64>,
+    /// What each equation takes up besides; empty where none does.
+    taken_up: Vec<f64>,
+    /// The factor of each field's unknowns.
+    scale: [f64; 3],
+}
+
 /// Which slopes a step takes into account.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Slopes {
@@ -467,7 +489,7 @@ enum Slopes {
 }
 
 /// Chooses the unit of each field so that what couples two fields has one size in both directions; gives the factors.
-fn balance_fields(fields: &[System<'_>], entries: &mut [Triplet<u32, u32, f64>], right: &mut Col<f64>) -> [f64; 3] {
+fn balance_fields(fields: &[System<'_>], entries: &mut [Triplet<u32, u32, f64>], right: &mut [f64]) -> [f64; 3] {
     let mut scale = [1.0; 3];
     let [first, second] = fields else { return scale };
     let is_first = |unknown: u32| unknown < second.start;

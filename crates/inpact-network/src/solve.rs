@@ -31,6 +31,9 @@ const LONGEST_RUN: u32 = 40;
 const MOST_PASSES: usize = 10_000;
 const MOST_RELAXED_NODES: usize = 1_000_000;
 
+/// From so many nodes on factors are not kept for what may come.
+const LARGE: usize = 10_000;
+
 /// How often a nonlinear stage is solved with the conductances of its own solution before Newton's iteration.
 const FIRST_PASSES: usize = 2;
 
@@ -405,7 +408,7 @@ impl<'a> Equations<'a> {
     }
 
     fn iterate(
-        &self,
+        &mut self,
         stage: &Stage,
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
@@ -415,6 +418,10 @@ impl<'a> Equations<'a> {
             let state = state.field(field)?;
             Some((field, state.solution.clone(), state.rows.clone()))
         });
+        // The conductances change, and with them the factors: in a large scene they only take room.
+        if LARGE <= self.problem.scene.nodes.len() {
+            self.solvers.iter_mut().for_each(Solver::release_factor);
+        }
         let mut newton = Newton::new(knowledge, first.collect(), capacities, self.solvers[0].method());
         newton.iterate(knowledge).map_err(SolveFailure::Row)
     }

@@ -187,6 +187,13 @@ impl Solver {
         std::mem::replace(&mut self.tolerance, tolerance)
     }
 
+    /// Lets the factor of the last network go, and keeps its order.
+    pub(crate) fn release_factor(&mut self) {
+        if let Some(kept) = &mut self.kept {
+            kept.factor = KeptFactor::default();
+        }
+    }
+
     /// The method that was asked for.
     pub(crate) fn method(&self) -> Method {
         self.method

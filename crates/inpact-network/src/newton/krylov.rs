@@ -9,8 +9,8 @@
 //! Source: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., sections 6.5 and 9.3.
 
 use super::system::System;
-use crate::linear::{Analysis, Factor, Incomplete, Method, NoSolution, Pattern, Solves};
-use faer::sparse::SparseColMat;
+use crate::linear::{Analysis, Factor, Incomplete, Method, NoSolution, Pattern, Solves, largest_or_nan};
+use faer::sparse::Triplet;
 use std::sync::Arc;
 
 /// How many vectors GMRES keeps before it begins anew.
@@ -30,6 +30,39 @@ const WORTH_TRYING: f64 = 1e-2;
 pub(super) struct Order {
     pattern: Pattern,
     analysis: Option<Arc<Analysis>>,
+}
+
+/// A matrix by its columns, whose entries may be in parts: it is only multiplied by.
+pub(super) struct Columns {
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Columns {
+    /// The square matrix of these parts.
+    pub(super) fn of(count: usize, entries: &[Triplet<u32, u32, f64>]) -> Self {
+        let mut starts = vec![0_u32; count + 1];
+        for entry in entries {
+            starts[entry.col as usize + 1] += 1;
+        }
+        for column in 0..count {
+            starts[column + 1] += starts[column];
+        }
+        let (mut rows, mut values, mut next) = (vec![0; entries.len()], vec![0.0; entries.len()], starts.clone());
+        for entry in entries {
+            let place = &mut next[entry.col as usize];
+            rows[*place as usize] = entry.row;
+            values[*place as usize] = entry.val;
+            *place += 1;
+        }
+        Self { starts, rows, values }
+    }
+
+    fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
+        let range = self.starts[column] as usize..self.starts[column + 1] as usize;
+        self.rows[range.clone()].iter().map(|&row| row as usize).zip(self.values[range].iter().copied())
+    }
 }
 
 /// The block of one field, and what solves with it roughly.
@@ -95,12 +128,15 @@ impl Inverse {
 }
 
 /// Solves for a step; `None` where it comes to nothing.
-pub(super) fn solve(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], right: &[f64]) -> Option<Vec<f64>> {
+pub(super) fn solve(matrix: &Columns, blocks: &mut [Block], right: &[f64]) -> Option<Vec<f64>> {
     let mut solution = vec![0.0; right.len()];
     let mut residual = right.to_vec();
     let size = norm(right);
     if size == 0.0 {
         return Some(solution);
+    }
+    if !size.is_finite() {
+        return None;
     }
     let mut before = size;
     for _ in 0..MOST_RESTARTS {
@@ -117,13 +153,7 @@ pub(super) fn solve(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], right
 }
 
 /// Adds to a solution the best of a few directions.
-fn extend(
-    matrix: &SparseColMat<u32, f64>,
-    blocks: &mut [Block],
-    solution: &mut [f64],
-    residual: &[f64],
-    enough: f64,
-) -> Option<()> {
+fn extend(matrix: &Columns, blocks: &mut [Block], solution: &mut [f64], residual: &[f64], enough: f64) -> Option<()> {
     let size = norm(residual);
     let mut basis = vec![residual.iter().map(|entry| entry / size).collect::<Vec<f64>>()];
     // The columns of the triangle, the rotations that made it, and the right-hand side.
@@ -179,7 +209,7 @@ fn extend(
 }
 
 /// Solves with the blocks, each with what the ones before have left of its part.
-fn preconditioned(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], vector: &[f64]) -> Option<Vec<f64>> {
+fn preconditioned(matrix: &Columns, blocks: &mut [Block], vector: &[f64]) -> Option<Vec<f64>> {
     let mut rest = vector.to_vec();
     let last = blocks.len();
     for (place, block) in blocks.iter_mut().enumerate() {
@@ -189,9 +219,8 @@ fn preconditioned(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], vector:
             let (solved, later) = rest.split_at_mut(range.end);
             for column in range.clone() {
                 let value = solved[column];
-                let entries = matrix.row_idx_of_col_raw(column).iter().zip(matrix.val_of_col(column));
-                for (&row, entry) in entries {
-                    if let Some(place) = (row as usize).checked_sub(range.end) {
+                for (row, entry) in matrix.column(column) {
+                    if let Some(place) = row.checked_sub(range.end) {
                         later[place] -= entry * value;
                     }
                 }
@@ -201,11 +230,11 @@ fn preconditioned(matrix: &SparseColMat<u32, f64>, blocks: &mut [Block], vector:
     Some(rest)
 }
 
-fn product(matrix: &SparseColMat<u32, f64>, vector: &[f64]) -> Vec<f64> {
+fn product(matrix: &Columns, vector: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; vector.len()];
     for (column, value) in vector.iter().enumerate() {
-        for (&row, entry) in matrix.row_idx_of_col_raw(column).iter().zip(matrix.val_of_col(column)) {
-            product[row as usize] += entry * value;
+        for (row, entry) in matrix.column(column) {
+            product[row] += entry * value;
         }
     }
     product
@@ -216,7 +245,7 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 }
 
 fn norm(vector: &[f64]) -> f64 {
-    let largest = vector.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    let largest = largest_or_nan(vector.iter().map(|entry| entry.abs()));
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
@@ -225,12 +254,12 @@ fn norm(vector: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Block, Inverse, norm, product, solve};
+    use super::{Block, Columns, Inverse, norm, product, solve};
     use crate::linear::{Incomplete, Matrix};
     use faer::sparse::{SparseColMat, Triplet};
 
     /// Two fields of `count` unknowns each: chains that are coupled in both directions, so that the whole is not symmetric.
-    fn coupled(count: u32) -> (SparseColMat<u32, f64>, Vec<Block>) {
+    fn coupled(count: u32) -> (Columns, Vec<Block>) {
         let chain = |start: u32, lower_only: bool| {
             (0..count).flat_map(move |unknown| {
                 let at = start + unknown;
@@ -250,7 +279,7 @@ mod tests {
             entries.push(Triplet::new(count + unknown, unknown, -1.25));
         }
         let size = 2 * count as usize;
-        let whole = SparseColMat::try_new_from_triplets(size, size, &entries).expect("entries within the matrix");
+        let whole = Columns::of(size, &entries);
         let lower: Vec<_> = chain(0, true).collect();
         let lower = SparseColMat::<u32, f64>::try_new_from_triplets(count as usize, count as usize, &lower)
             .expect("entries within the block");
