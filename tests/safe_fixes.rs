@@ -2,7 +2,8 @@
 //!
 //! A safe fix leaves what a deck says, by the reader of the project and by a second one that knows only the semantics
 //! (`safe_fixes/oracle.rs`); `fmt` and `check --fix` come to an end after one run; every view of JSON gives the deck back.
-//! Chance begins at the same number in every run. `INPACT_RUNS=50000` asks for that many decks instead of a few hundred.
+//! Chance begins at the same number in every run. `INPACT_RUNS=50000` asks for that many decks instead of a few hundred, and with `INPACT_UPDATE=1` what they gave is
+//! written into `docs/reliability.md`.
 //!
 //! The decks are those of the project and, where it is at hand, a folder of public ones (`INPACT_CORPUS`, or
 //! `../shared/corpus` beside the repository).
@@ -24,6 +25,7 @@ use oracle::{Language, read as read_by_semantics};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The rounds in which safe fixes must have mended what they can.
 const MOST_ROUNDS: usize = 10;
@@ -33,6 +35,9 @@ const MOST_BYTES: usize = 4000;
 
 static DIALECTS: LazyLock<[Grammar; 2]> =
     LazyLock::new(|| [Dialect::Abaqus, Dialect::Calculix].map(|dialect| Grammar::new(dialect, Release::NEWEST)));
+
+/// How many safe fixes were applied by themselves so far.
+static SINGLE_FIXES: AtomicUsize = AtomicUsize::new(0);
 
 static LANGUAGE: LazyLock<Language> = LazyLock::new(Language::read);
 
@@ -224,6 +229,7 @@ fn safe_fixes_change_nothing(bytes: &[u8], grammar: &Grammar) {
     let found = findings(&scan("deck", bytes, grammar), grammar);
     let fixes = safe_edits(&found);
     for fix in fixes.iter().take(30) {
+        SINGLE_FIXES.fetch_add(1, Ordering::Relaxed);
         compare(&diagnostic::apply(bytes, fix), "a safe fix");
     }
     let mut text = bytes.to_vec();
@@ -310,13 +316,40 @@ fn our_own_decks() {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "the figures of a long run are for the page on reliability")]
 fn decks_changed_by_chance() {
-    let number = std::env::var("INPACT_RUNS").ok().and_then(|number| number.parse().ok()).unwrap_or(400);
+    let number = std::env::var("INPACT_RUNS").ok().and_then(|number| number.parse().ok());
     let seeds = decks();
     let mut chance = Chance(11);
-    let run = run(std::iter::repeat_with(|| changed(&seeds, &mut chance)).take(number));
-    eprintln!("{run} decks in two dialects: every safe fix, fmt, both views of JSON and back, check");
+    let run = run(std::iter::repeat_with(|| changed(&seeds, &mut chance)).take(number.unwrap_or(400)));
+    if number.is_some() && std::env::var_os("INPACT_UPDATE").is_some() {
+        write_section(run);
+    }
+}
+
+/// What a long run found, on the page where the figures of such runs stand.
+fn write_section(decks: usize) {
+    const MARK: &str = "<!-- section: decks -->";
+    let path = project().join("docs/reliability.md");
+    let page = std::fs::read_to_string(&path).unwrap_or_else(|_| "# Reliability\n".to_owned());
+    let (before, behind) = page.split_once(MARK).unwrap_or((&page, ""));
+    let others = behind.find("<!-- section:").map_or("", |at| &behind[at..]);
+    let executions = decks * DIALECTS.len();
+    let single = SINGLE_FIXES.load(Ordering::Relaxed);
+    let section = format!(
+        "{MARK}\n\n## Decks changed by chance\n\n\
+         `INPACT_RUNS={decks} INPACT_UPDATE=1 cargo test -p inpact-tests --test safe_fixes decks_changed_by_chance`\n\n\
+         {decks} decks made of the sample decks and of lines that bring up the rules with safe fixes, each in two dialects.\n\
+         The model is compared before and after, and in Abaqus' dialect a second reading, which knows the semantics and not the parser.\n\n\
+         | what is done | executions | what must hold | faults |\n|---|---|---|---|\n\
+         | `check` | {executions} | every finding lies in the deck | 0 |\n\
+         | `check --fix` until nothing is left | {executions} | the deck says the same, and it comes to an end | 0 |\n\
+         | one safe fix by itself | {single} | the deck says the same | 0 |\n\
+         | `fmt` | {executions} | the deck says the same, and formatting it again changes nothing | 0 |\n\
+         | `json`, then `inp` | {executions} | the deck says the same | 0 |\n\
+         | `json --view syntax`, then `inp` | {executions} | the deck comes back byte for byte | 0 |\n"
+    );
+    let gap = if others.is_empty() { "" } else { "\n" };
+    std::fs::write(&path, format!("{}\n\n{section}{gap}{others}", before.trim_end())).expect("writable");
 }
 
 /// What fixes once made of legal decks: the second reading sees each of them.

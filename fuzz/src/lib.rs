@@ -70,6 +70,7 @@ pub fn check(bytes: &[u8]) {
         }
         // Fixes of included files are the same fixes, so one file is enough.
         let mut text = bytes.to_vec();
+        let before = said(&model::read(&scan("deck", &text, grammar), grammar).0);
         let mut fixed_all = false;
         for _ in 0..MOST_ROUNDS {
             let deck = scan("deck", &text, grammar);
@@ -81,6 +82,8 @@ pub fn check(bytes: &[u8]) {
             let after = diagnostic::apply(&text, &edits);
             assert!(after != text, "a fix changes nothing");
             text = after;
+            let said = said(&model::read(&scan("deck", &text, grammar), grammar).0);
+            assert!(said == before, "safe fixes change the model");
         }
         assert!(fixed_all, "safe fixes go on after {MOST_ROUNDS} rounds");
     }

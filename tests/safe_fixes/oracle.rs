@@ -67,9 +67,9 @@ impl Language {
     fn behind_comma(&self, keyword: &str, line: &str) -> Behind {
         let known = self.flags.get(keyword);
         let is_complete = known.is_some_and(|known| known.is_complete);
-        let items: Vec<&str> = split(line).into_iter().map(str::trim).filter(|item| !item.is_empty()).collect();
+        let items: Vec<&str> = split(line).into_iter().map(trimmed).filter(|item| !item.is_empty()).collect();
         if items.is_empty() {
-            let is_blank = line.trim().is_empty();
+            let is_blank = trimmed(line).is_empty();
             return if is_blank && !is_complete { Behind::Perhaps } else { Behind::Rows };
         }
         let begins = |item: &str| {
