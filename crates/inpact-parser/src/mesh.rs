@@ -110,7 +110,7 @@ pub struct NodeSurface {
 }
 
 /// Something of the deck that was not read, or was read with something assumed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct MeshNote {
     /// Where it stands.
     pub span: Span,

@@ -98,6 +98,10 @@ impl<'deck> Reader<'deck, '_> {
         let Some(kind) = ElementType::named(name) else {
             return self.unknown_rows(option, name, picks);
         };
+        // Most rows are in no pick: one question is asked for all.
+        let mut any = Selection::default();
+        picks.iter().filter(|pick| pick.elements.may_touch(key)).for_each(|pick| any.add_all(&pick.elements));
+        any.labels.sort();
         let mut wrong: Option<(Span, String)> = None;
         let mut without_face: Vec<(Span, String)> = Vec::new();
         let mut row: Vec<u32> = Vec::with_capacity(1 + kind.shape.nodes());
@@ -118,7 +122,8 @@ impl<'deck> Reader<'deck, '_> {
                 return;
             }
             let (element, nodes) = (row[0], &row[1..=kind.shape.nodes()]);
-            for pick in picks.iter().filter(|pick| pick.elements.contains(element, key)) {
+            let picked = any.contains(element, key);
+            for pick in picks.iter().filter(|pick| picked && pick.elements.contains(element, key)) {
                 let Some(label) = pick.face else { continue };
                 match kind.shape.face(label) {
                     None => {

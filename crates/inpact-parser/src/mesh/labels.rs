@@ -5,6 +5,8 @@
 pub(super) struct Labels {
     /// First and last of each range; ascending and apart once sorted.
     ranges: Vec<(u32, u32)>,
+    /// First, last and step of those that are apart: a row of GENERATE can mean billions.
+    stepped: Vec<(u32, u32, u32)>,
     sorted: bool,
 }
 
@@ -22,21 +24,25 @@ impl Labels {
 
     /// first, first + step, … up to last.
     pub(super) fn add_steps(&mut self, first: u32, last: u32, step: u32) {
+        if last < first {
+            return;
+        }
         if step <= 1 {
             self.sorted = false;
-            return self.ranges.push((first, last));
+            self.ranges.push((first, last));
+        } else {
+            self.stepped.push((first, last, step));
         }
-        let step = usize::try_from(step).unwrap_or(usize::MAX);
-        (first..=last).step_by(step).for_each(|label| self.add(label));
     }
 
     pub(super) fn add_all(&mut self, other: &Self) {
         self.sorted = false;
         self.ranges.extend_from_slice(&other.ranges);
+        self.stepped.extend_from_slice(&other.stepped);
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.ranges.is_empty()
+        self.ranges.is_empty() && self.stepped.is_empty()
     }
 
     pub(super) fn sort(&mut self) {
@@ -53,6 +59,8 @@ impl Labels {
         }
         merged.shrink_to_fit();
         self.ranges = merged;
+        self.stepped.sort_unstable();
+        self.stepped.dedup();
         self.sorted = true;
     }
 
@@ -60,7 +68,10 @@ impl Labels {
     pub(super) fn contains(&self, label: u32) -> bool {
         debug_assert!(self.sorted || self.ranges.is_empty());
         let after = self.ranges.partition_point(|(first, _)| *first <= label);
-        0 < after && label <= self.ranges[after - 1].1
+        let stepped = |(first, last, step): &(u32, u32, u32)| {
+            (*first..=*last).contains(&label) && (label - first).is_multiple_of(*step)
+        };
+        (0 < after && label <= self.ranges[after - 1].1) || self.stepped.iter().any(stepped)
     }
 }
 
@@ -76,10 +87,19 @@ mod tests {
         labels.add_steps(12, 20, 4);
         labels.add(u32::MAX);
         labels.sort();
-        assert_eq!(labels.ranges, [(1, 3), (7, 9), (12, 12), (16, 16), (20, 20), (u32::MAX, u32::MAX)]);
+        assert_eq!(labels.ranges, [(1, 3), (7, 9), (20, 20), (u32::MAX, u32::MAX)]);
         let inside: Vec<u32> = (0..30).filter(|label| labels.contains(*label)).collect();
         assert_eq!(inside, [1, 2, 3, 7, 8, 9, 12, 16, 20]);
         assert!(labels.contains(u32::MAX));
         assert!(!Labels::default().contains(0));
+        // Two billion numbers are one entry; backwards there are none.
+        let mut odd = Labels::default();
+        odd.add_steps(1, u32::MAX, 2);
+        odd.add_steps(9, 3, 1);
+        odd.sort();
+        assert_eq!(
+            [0, 1, 2, 4_000_000_001, u32::MAX].map(|label| odd.contains(label)),
+            [false, true, false, true, true]
+        );
     }
 }

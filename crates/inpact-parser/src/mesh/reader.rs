@@ -13,7 +13,7 @@ use crate::grammar::Grammar;
 use crate::model::{Model, Name};
 use crate::span::Span;
 use inpact_geometry::NodeId;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io;
 
 /// Where names are looked up.
@@ -53,6 +53,8 @@ pub(super) struct Reader<'deck, 'rows> {
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
     notes: Vec<MeshNote>,
+    /// The same, so that each is said once.
+    noted: HashSet<MeshNote>,
 }
 
 impl<'deck, 'rows> Reader<'deck, 'rows> {
@@ -77,6 +79,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             assembly: layout.assembly,
             assembly_name: layout.assembly_name,
             notes: Vec::new(),
+            noted: HashSet::new(),
         }
     }
 
@@ -96,9 +99,9 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         let located = self.locate(&faces, &picks.nodes)?;
         let mut surfaces = Vec::new();
         for (surface, (name, found)) in names.into_iter().zip(found).enumerate() {
-            let of_surface = |face: &&RawFace| face.surface == surface;
-            let faces: Vec<&RawFace> = faces.iter().filter(of_surface).collect();
-            surfaces.push(self.surface(surface, name, found, &faces, &picks.nodes, &located)?);
+            let from = faces.partition_point(|face| face.surface < surface);
+            let to = faces.partition_point(|face| face.surface <= surface);
+            surfaces.push(self.surface(surface, name, found, &faces[from..to], &picks.nodes, &located)?);
         }
         // Pairs whose surfaces were not found stay out; a note says so.
         let positions: Vec<Option<usize>> = surfaces
@@ -116,7 +119,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
 
     pub(super) fn note(&mut self, span: Span, message: String) {
         let note = MeshNote { span, message };
-        if !self.notes.contains(&note) {
+        if self.noted.insert(note.clone()) {
             self.notes.push(note);
         }
     }

@@ -26,7 +26,7 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    fn add_all(&mut self, other: &Self) {
+    pub(super) fn add_all(&mut self, other: &Self) {
         self.labels.add_all(&other.labels);
         self.options.extend_from_slice(&other.options);
     }

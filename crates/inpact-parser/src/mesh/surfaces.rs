@@ -149,7 +149,7 @@ impl<'deck> Reader<'deck, '_> {
         surface: usize,
         reference: Reference,
         found: Option<Found>,
-        faces: &[&RawFace],
+        faces: &[RawFace],
         node_picks: &[NodePick],
         located: &Located,
     ) -> io::Result<Option<MeshSurface>> {
@@ -175,7 +175,7 @@ impl<'deck> Reader<'deck, '_> {
         NodeSurface { nodes, areas }
     }
 
-    fn face_surface(&mut self, span: Span, faces: &[&RawFace], located: &Located) -> io::Result<Option<FaceSurface>> {
+    fn face_surface(&mut self, span: Span, faces: &[RawFace], located: &Located) -> io::Result<Option<FaceSurface>> {
         let Some(first) = faces.first() else {
             self.note(span, "no face of this surface was found, so that its pairs were not read".to_owned());
             return Ok(None);
