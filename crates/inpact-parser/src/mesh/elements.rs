@@ -103,6 +103,7 @@ impl<'deck> Reader<'deck, '_> {
         picks.iter().filter(|pick| pick.elements.may_touch(key)).for_each(|pick| any.add_all(&pick.elements));
         any.labels.sort();
         let mut wrong: Option<(Span, String)> = None;
+        let mut both_sides = false;
         let mut without_face: Vec<(Span, String)> = Vec::new();
         let mut row: Vec<u32> = Vec::with_capacity(1 + kind.shape.nodes());
         data_lines(&mut *self.rows, option.block, &mut |line, span| {
@@ -124,7 +125,10 @@ impl<'deck> Reader<'deck, '_> {
             let (element, nodes) = (row[0], &row[1..=kind.shape.nodes()]);
             let picked = any.contains(element, key);
             for pick in picks.iter().filter(|pick| picked && pick.elements.contains(element, key)) {
-                let Some(label) = pick.face else { continue };
+                let Some(label) = pick.face else {
+                    both_sides |= kind.shape.is_sheet();
+                    continue;
+                };
                 match kind.shape.face(label) {
                     None => {
                         without_face.push((pick.span, format!("element {element} of type {name} has no face {label}")))
@@ -158,7 +162,7 @@ impl<'deck> Reader<'deck, '_> {
             self.note(span, format!("{message}; the row was not read"));
         }
         self.note_first(without_face, "and was left out");
-        if kind.shape.is_sheet() && free.iter().any(|(pick, _)| pick.elements.may_touch(key)) {
+        if both_sides {
             self.note(
                 option.span(),
                 format!(

@@ -45,6 +45,14 @@ impl Labels {
         self.ranges.is_empty() && self.stepped.is_empty()
     }
 
+    /// The number, where it is but one.
+    pub(super) fn single(&self) -> Option<u32> {
+        match self.ranges[..] {
+            [(first, last)] if first == last && self.stepped.is_empty() => Some(first),
+            _ => None,
+        }
+    }
+
     pub(super) fn sort(&mut self) {
         if self.sorted {
             return;

@@ -90,6 +90,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         for (surface, name) in names.iter().enumerate() {
             found.push(self.pick_surface(surface, name, &mut picks)?);
         }
+        picks.faces.iter_mut().for_each(|pick| pick.elements.labels.sort());
         let faces = self.faces(&picks.faces)?;
         for body in 1..self.bodies.len() {
             if let Some(entry) = self.bodies[body].entry {
@@ -168,8 +169,18 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         let mut located = Located { of_picks: vec![Vec::new(); node_picks.len()], ..Located::default() };
         for body in 0..self.bodies.len() {
             let of_faces = faces.iter().filter(|face| face.body == body);
-            let mut wanted = Wanted::new(of_faces.flat_map(|face| face.nodes().iter().copied()).collect());
-            let here: Vec<usize> = (0..node_picks.len()).filter(|i| node_picks[*i].body == body).collect();
+            let mut wanted: Vec<u32> = of_faces.flat_map(|face| face.nodes().iter().copied()).collect();
+            let mut here = Vec::new();
+            for (i, pick) in node_picks.iter().enumerate().filter(|(_, pick)| pick.body == body) {
+                match pick.number {
+                    Some(number) => {
+                        wanted.push(number);
+                        located.of_picks[i] = vec![number];
+                    }
+                    None => here.push(i),
+                }
+            }
+            let mut wanted = Wanted::new(wanted);
             let selections: Vec<&Selection> = here.iter().map(|i| &node_picks[*i].nodes).collect();
             let selected =
                 if let Some(maker) = self.mover(body).filter(|_| !wanted.labels.is_empty() || !selections.is_empty()) {

@@ -31,6 +31,11 @@ impl Selection {
         self.options.extend_from_slice(&other.options);
     }
 
+    /// The number, where it is but one.
+    pub(super) fn single(&self) -> Option<u32> {
+        self.labels.single().filter(|_| self.options.is_empty())
+    }
+
     /// Whether it has the number in the rows of this option.
     pub(super) fn contains(&self, label: u32, option: Span) -> bool {
         self.options.contains(&option) || self.labels.contains(label)

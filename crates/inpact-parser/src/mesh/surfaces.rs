@@ -28,6 +28,8 @@ pub(super) struct NodePick {
     surface: usize,
     pub(super) body: usize,
     pub(super) nodes: Selection,
+    /// The number, where it is but one.
+    pub(super) number: Option<u32>,
     area: Option<f64>,
     span: Span,
 }
@@ -119,7 +121,12 @@ impl<'deck> Reader<'deck, '_> {
             }
         };
         for (body, elements) in self.select(Kind::Elements, context, first, span)? {
-            picks.faces.push(Pick { surface, body, elements, face, span });
+            // Rows of one surface that pick the same face are one pick, of however many elements.
+            let of_surface = picks.faces.iter_mut().rev().take_while(|pick| pick.surface == surface);
+            match of_surface.into_iter().find(|pick| pick.body == body && pick.face == face) {
+                Some(pick) => pick.elements.add_all(&elements),
+                None => picks.faces.push(Pick { surface, body, elements, face, span }),
+            }
         }
         Ok(())
     }
@@ -138,7 +145,7 @@ impl<'deck> Reader<'deck, '_> {
         }
         let area = area.and_then(Result::ok);
         for (body, nodes) in self.select(Kind::Nodes, context, first, span)? {
-            picks.nodes.push(NodePick { surface, body, nodes, area, span });
+            picks.nodes.push(NodePick { surface, body, number: nodes.single(), nodes, area, span });
         }
         Ok(())
     }
