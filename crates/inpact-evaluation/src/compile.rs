@@ -17,7 +17,7 @@ use crate::law::pore::{Permeability, PoreLaw};
 use crate::nodes::{Column, Part};
 use crate::plan::{
     Bulk, CharacteristicLength, Choices, ContactPlaces, ElectricalPlan, History, InteractionPlan, InteractionTables,
-    Plan, PorePlan, Rate, Source, TablePlan, ThermalTables,
+    Plan, PorePlan, Rate, Source, TablePlan,
 };
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
@@ -175,19 +175,16 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
     let mut interactions: Vec<Option<InteractionLaws>> = Vec::new();
     interactions.resize_with(model.interactions.len(), || None);
     for planned in &plan.interactions {
-        let Some(interaction) = model.interactions.get_index(planned.index).map(|(_, interaction)| interaction) else {
-            continue;
-        };
-        let tables = InteractionTables::of(interaction, choices.clearance_tail);
+        let tables = &planned.tables.flow;
         let compiler = Compiler { plan, of: planned };
         interactions[planned.index] = Some(InteractionLaws {
             contact: compiler.contact(),
-            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, &tables, choices)),
-            thermal: planned.thermal.as_ref().map(|law| {
-                let tables = ThermalTables::of(model, interaction, choices.dialect);
-                compiler.thermal(law, &tables, choices.accuracy)
-            }),
-            pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, &tables, choices)),
+            electrical: planned.electrical.as_ref().and_then(|law| compiler.electrical(law, tables, choices)),
+            thermal: planned
+                .thermal
+                .as_ref()
+                .map(|law| compiler.thermal(law, &planned.tables.thermal, choices.accuracy)),
+            pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, tables, choices)),
         });
     }
     Laws {

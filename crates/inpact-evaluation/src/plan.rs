@@ -48,7 +48,7 @@ pub use user::UserPlan;
 
 pub(crate) use make::generation_of;
 pub(crate) use survey::ContactPlaces;
-pub(crate) use tables::InteractionTables;
+pub(crate) use tables::{BuiltTables, InteractionTables};
 pub(crate) use thermal::tells_of_friction;
 pub(crate) use thermal_tables::{ConductanceRows, RadiationFault, ThermalTables};
 pub(crate) use user::user_names;
@@ -62,6 +62,7 @@ use crate::nodes::{Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Select
 use crate::results::{Along, Output};
 use crate::table::{FoldRefusal, Tail};
 use inpact_parser::model::Name;
+use std::sync::Arc;
 
 /// What an evaluation does.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,6 +108,8 @@ pub struct InteractionPlan {
     pub thermal: Option<ThermalPlan>,
     /// The pore fluid law.
     pub pore: Option<PorePlan>,
+    /// The tables of the deck that its laws are made of.
+    pub(crate) tables: Arc<BuiltTables>,
     /// What comes out, in the order of the result's columns.
     pub outputs: Vec<Output>,
     /// What does not, and why.

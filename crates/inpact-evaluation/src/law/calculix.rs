@@ -30,7 +30,7 @@ use std::fmt;
 use std::ops::Range;
 
 /// The conductance of an interaction in the dialect of CalculiX.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CalculixConductance {
     /// The temperature of each curve, ascending.
     temperatures: Vec<f64>,

@@ -25,7 +25,7 @@ use crate::numbers::{Scaled, is_zero_or_ordinary, product};
 use crate::table::{PiecewiseTable, Sides};
 
 /// The radiation law of one surface interaction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RadiationLaw {
     /// C, the heat radiated per fourth power of temperature between surfaces that see all of each other.
     pub coefficient: RadiationCoefficient,

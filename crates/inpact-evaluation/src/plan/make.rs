@@ -9,7 +9,7 @@ use super::pore::plan_pore;
 use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
-use super::tables::InteractionTables;
+use super::tables::{BuiltTables, InteractionTables};
 use super::thermal::plan_thermal;
 use super::thermal_tables::ThermalTables;
 use super::{ContactColumns, InteractionPlan, Plan};
@@ -18,6 +18,7 @@ use crate::nodes::{Column, Selection};
 use crate::results::{Along, Output};
 use inpact_parser::model::{Interaction, Model};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Decides what an evaluation does.
 pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
@@ -80,15 +81,18 @@ impl LeftOuts {
 
 impl Planner<'_> {
     fn plan(self) -> InteractionPlan {
-        let tables = InteractionTables::of(self.interaction, self.choices.clearance_tail);
+        let built = BuiltTables {
+            flow: InteractionTables::of(self.interaction, self.choices.clearance_tail),
+            thermal: ThermalTables::of(self.model, self.interaction, self.choices.dialect),
+        };
+        let tables = &built.flow;
         let mut left_out = LeftOuts::default();
         let mut notes = Vec::new();
         let mut outputs = BTreeSet::new();
         let mut dropped = Vec::new();
-        let electrical = plan_electrical(self, &tables, &mut outputs, &mut left_out, &mut notes, &mut dropped);
-        let thermal_tables = ThermalTables::of(self.model, self.interaction, self.choices.dialect);
-        let thermal = plan_thermal(self, &thermal_tables, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
-        let pore = plan_pore(self, &tables, &mut outputs, &mut left_out, &mut notes);
+        let electrical = plan_electrical(self, tables, &mut outputs, &mut left_out, &mut notes, &mut dropped);
+        let thermal = plan_thermal(self, &built.thermal, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
+        let pore = plan_pore(self, tables, &mut outputs, &mut left_out, &mut notes);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
         }
@@ -118,6 +122,7 @@ impl Planner<'_> {
             electrical,
             thermal,
             pore,
+            tables: Arc::new(built),
             outputs: outputs.into_iter().collect(),
             left_out: left_out.0,
             dropped,

@@ -1,11 +1,12 @@
 //! The tables of an interaction, compiled so that it is known which variables their values depend on.
 
+use super::thermal_tables::ThermalTables;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, TableError, Tail};
 use inpact_parser::model::{Interaction, Table};
 
 /// The tables of one interaction; an error where the rows form none.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 pub(crate) struct InteractionTables {
     /// Electrical conductance against clearance.
     pub(crate) clearance: Option<Result<PiecewiseTable, TableError>>,
@@ -13,6 +14,15 @@ pub(crate) struct InteractionTables {
     pub(crate) pressure: Option<Result<PiecewiseTable, TableError>>,
     /// Permeability.
     pub(crate) permeability: Option<Result<PiecewiseTable, TableError>>,
+}
+
+/// All tables of an interaction, built once for its plan and its laws.
+#[derive(Debug, PartialEq)]
+pub(crate) struct BuiltTables {
+    /// Of electrical conductance and permeability.
+    pub(crate) flow: InteractionTables,
+    /// Of heat.
+    pub(crate) thermal: ThermalTables,
 }
 
 impl InteractionTables {

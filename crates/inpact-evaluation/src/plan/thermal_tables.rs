@@ -15,7 +15,7 @@ const CONDUCTANCE: &str = "GAP CONDUCTANCE";
 const RADIATION: &str = "GAP RADIATION";
 
 /// What the rows of an interaction say of heat; an error where they form no table.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 pub(crate) struct ThermalTables {
     /// *GAP CONDUCTANCE; `None` where the interaction has none.
     pub(crate) conductance: Option<ConductanceRows>,
@@ -24,7 +24,7 @@ pub(crate) struct ThermalTables {
 }
 
 /// What *GAP CONDUCTANCE gives.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) enum ConductanceRows {
     /// The conductance is that of a user subroutine.
     User,
