@@ -111,6 +111,9 @@ fn o_5_a_given_rate_of_the_clearance() {
         assert_eq!(column(&rows, "s", "PFL"), [-0.01; 3]);
         assert_eq!(column(&rows, "s", "PTL"), [0.0, -0.005, -0.01]);
         assert_eq!(run.errors.matches("warning[D021]").count(), 1, "{}", run.errors);
+        // Without the table of the interfaces as well: the states follow the rate.
+        let alone = folder.inpact(&["solve", "scene.toml"]);
+        assert_eq!(alone.errors.matches("warning[D021]").count(), 1, "{}", alone.errors);
     }
     let (run, _) = solved(deck, &scene("[[0.0, 0.1], [1.0, 0.08]]"));
     assert!(!run.errors.contains("D021"), "{}", run.errors);

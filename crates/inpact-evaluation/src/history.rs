@@ -157,6 +157,11 @@ pub struct PoreHistory {
 /// A given rate that differs by more than that part from the change of the clearance contradicts it (D021).
 const CONTRADICTION: f64 = 0.01;
 
+/// Whether a given rate of the clearance contradicts that at which it changes.
+pub fn contradicts(given: f64, rate: f64) -> bool {
+    CONTRADICTION * rate.abs().max(given.abs()) < (rate - given).abs()
+}
+
 /// What an increment of the pore law needs from the row before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoreIncrement {
@@ -186,8 +191,7 @@ impl PoreHistory {
         let duration = time - start;
         let contradicted = given_rate.filter(|_| is_measured).and_then(|given| {
             let rate = (clearance.0 - before.0) / duration;
-            let is_off = CONTRADICTION * rate.abs().max(given.0.abs()) < (rate - given.0).abs();
-            is_off.then_some(ClearanceRate(rate))
+            contradicts(given.0, rate).then_some(ClearanceRate(rate))
         });
         let gap = given_rate.map_or(Gap::Since { clearance: before, duration }, Gap::Changing);
         PoreIncrement { duration: Some(duration), gap, contradicted }

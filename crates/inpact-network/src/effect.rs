@@ -3,9 +3,10 @@
 use crate::interface::Contact;
 use crate::linear::NONE;
 use crate::problem::Problem;
-use crate::scene::{Course, Field, SceneInterface, UNUSABLE_NUMBER};
+use crate::scene::{Course, Field, Procedure, SceneInterface, UNUSABLE_NUMBER};
+use inpact_evaluation::history::contradicts;
 use inpact_evaluation::law::contact::ContactState;
-use inpact_evaluation::nodes::{Findings, Place};
+use inpact_evaluation::nodes::{CONTRADICTORY_RATE, Findings, Place};
 
 impl Problem<'_> {
     /// Reports temperatures that are given below absolute zero.
@@ -42,6 +43,29 @@ impl Problem<'_> {
                 let (place, message) = row.located(message);
                 findings.report(&UNUSABLE_NUMBER, place, message, "give both along one direction, or their magnitudes");
             }
+        }
+    }
+
+    /// Reports given rates of a clearance that its course contradicts by more than 1 % (O-5, D021): where the gap fills, the rate has the say.
+    pub(crate) fn check_rates(&self, findings: &mut Findings) {
+        let Procedure::Transient(span) = self.scene.procedure else { return };
+        for (_, row, _) in self.rows_of(Field::PorePressure) {
+            let Some((course, given)) = row.clearance.as_ref().zip(row.clearance_rate) else { continue };
+            let inside = course.corners().filter(|time| span.start < *time && *time < span.end);
+            let times: Vec<f64> = [span.start].into_iter().chain(inside).chain([span.end]).collect();
+            let rates = times
+                .windows(2)
+                .map(|ends| ([ends[0], ends[1]], (course.at(ends[1]) - course.at(ends[0])) / (ends[1] - ends[0])));
+            let Some(([from, to], rate)) = rates.into_iter().find(|(_, rate)| contradicts(given, *rate)) else {
+                continue;
+            };
+            let message = format!(
+                "`clearance_rate` of {} is {given:?}, and its clearance changes at {rate:?} from time {from:?} to {to:?}",
+                self.label(row)
+            );
+            let (place, message) = row.located(message);
+            let help = "the gap fills at the rate that is given: mend it, or leave it out so that it follows from the clearance";
+            findings.report(&CONTRADICTORY_RATE, place, message, help);
         }
     }
 

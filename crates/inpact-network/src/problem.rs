@@ -109,6 +109,7 @@ impl<'a> Problem<'a> {
         problem.check_initial(findings);
         problem.check_temperatures(findings);
         problem.check_friction(findings);
+        problem.check_rates(findings);
         problem.note_friction();
         problem.note_without_effect();
         problem.note_one_sided();

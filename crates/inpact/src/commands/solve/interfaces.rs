@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::Evaluation;
-use inpact_evaluation::nodes::{Batch, DataDiagnostic, Findings, NodeReader, Place};
+use inpact_evaluation::nodes::{Batch, CONTRADICTORY_RATE, DataDiagnostic, Findings, NodeReader, Place};
 use inpact_evaluation::plan::{make, survey};
 use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
 use inpact_network::scene::Scene;
@@ -64,7 +64,9 @@ fn of_scene(findings: Findings, scene: &Scene) -> Vec<DataDiagnostic> {
         };
         DataDiagnostic { place: Place { column: found.place.column, ..at }, message, ..found }
     };
-    findings.into_list().into_iter().map(told).collect()
+    // What contradicts a given rate was said of the scene itself, before it was solved.
+    let list = findings.into_list().into_iter().filter(|found| found.code != CONTRADICTORY_RATE.code);
+    list.map(told).collect()
 }
 
 #[cfg(test)]
