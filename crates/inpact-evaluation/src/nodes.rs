@@ -19,6 +19,8 @@ mod lines;
 mod node_index;
 mod number;
 mod reader;
+#[cfg(feature = "columnar")]
+mod soundness;
 mod wait;
 
 pub use batch::{Batch, LabelColumn, NumberColumn};

@@ -7,6 +7,7 @@ use super::batch::{Batch, LabelColumn};
 use super::diagnostic::{Findings, MALFORMED_CELL, Place};
 use super::header::Header;
 use super::reader::{ColumnStatistics, ReadSeek};
+use super::soundness::{self, caught, unsound};
 use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Float64Type, SchemaRef};
@@ -28,6 +29,16 @@ pub(super) enum Storage {
     Parquet,
     ArrowFile,
     ArrowStream,
+}
+
+impl Storage {
+    /// What such a table is called.
+    fn kind(self) -> &'static str {
+        match self {
+            Self::Parquet => "Parquet",
+            Self::ArrowFile | Self::ArrowStream => "Arrow",
+        }
+    }
 }
 
 /// Reads a node table of columns.
@@ -56,12 +67,13 @@ enum Rows {
 }
 
 /// What one step of reading gave: rows, the end, or an error.
-type Read1 = Result<Option<Columns>, ArrowError>;
+type Read1 = io::Result<Option<Columns>>;
 
 type RecordBatches = Box<dyn Iterator<Item = Result<RecordBatch, ArrowError>> + Send>;
 
 /// Rows of the columns that were asked for.
 struct Source {
+    kind: &'static str,
     batches: RecordBatches,
     /// What is left of the batch read last.
     rest: Option<RecordBatch>,
@@ -80,22 +92,25 @@ struct Columns {
 
 impl ColumnarReader {
     pub(super) fn open(mut input: Box<dyn ReadSeek>, storage: Storage, findings: &mut Findings) -> io::Result<Self> {
-        let (schema, rows) = match storage {
+        let (schema, rows) = caught(storage.kind(), || match storage {
             Storage::Parquet => {
                 let shared = Shared::new(input)?;
+                soundness::parquet::check_footer(&shared)?;
                 let options = ArrowReaderOptions::new();
                 let metadata = ArrowReaderMetadata::load(&shared, options).map_err(|error| invalid_parquet(&error))?;
-                (Arc::clone(metadata.schema()), Rows::Parquet(shared, metadata))
+                Ok((Arc::clone(metadata.schema()), Rows::Parquet(shared, metadata)))
             }
             Storage::ArrowFile => {
+                soundness::arrow::check_file(&mut *input)?;
                 let schema = FileReader::try_new(BufReader::new(&mut input), None).map_err(invalid)?.schema();
-                (schema, Rows::Arrow(storage, input))
+                Ok((schema, Rows::Arrow(storage, input)))
             }
             Storage::ArrowStream => {
+                soundness::arrow::check_stream(&mut *input)?;
                 let schema = StreamReader::try_new(BufReader::new(&mut input), None).map_err(invalid)?.schema();
-                (schema, Rows::Arrow(storage, input))
+                Ok((schema, Rows::Arrow(storage, input)))
             }
-        };
+        })?;
         let header = Header::new(schema.fields().iter().map(|field| field.name().as_str()));
         header.report_duplicates(None, findings);
         Ok(Self {
@@ -129,24 +144,7 @@ impl ColumnarReader {
     /// What a Parquet file itself says of column number `index`, if it says it of all rows.
     pub(super) fn statistics(&self, index: usize) -> Option<ColumnStatistics> {
         let Rows::Parquet(_, metadata) = &self.rows else { return None };
-        let parquet = metadata.metadata();
-        let descriptor = parquet.file_metadata().schema_descr();
-        let leaf = (0..descriptor.num_columns()).find(|leaf| descriptor.get_column_root_idx(*leaf) == index)?;
-        let mut whole = ColumnStatistics { least: f64::INFINITY, greatest: f64::NEG_INFINITY, nulls: 0, rows: 0 };
-        for group in parquet.row_groups() {
-            let of = group.column(leaf).statistics()?;
-            let rows = u64::try_from(group.num_rows()).ok()?;
-            let nulls = of.null_count_opt()?;
-            whole.nulls += nulls;
-            whole.rows += rows;
-            if nulls == rows {
-                continue;
-            }
-            let (least, greatest) = bounds(of)?;
-            whole.least = whole.least.min(least);
-            whole.greatest = whole.greatest.max(greatest);
-        }
-        Some(whole)
+        caught(Storage::Parquet.kind(), || Ok(statistics(metadata, index))).ok()?
     }
 
     /// Gives the next rows; false when there are no more.
@@ -160,10 +158,10 @@ impl ColumnarReader {
             begin => {
                 self.rows = begin;
                 self.report_types(findings);
-                self.begin()?.step()
+                caught("Parquet or Arrow", || self.begin())?.step()
             }
         };
-        let Some(columns) = read.map_err(invalid)? else { return Ok(false) };
+        let Some(columns) = read? else { return Ok(false) };
         self.rows = if self.reads_ahead {
             let (sender, receiver) = channel();
             rayon::spawn_fifo(move || {
@@ -209,8 +207,13 @@ impl ColumnarReader {
         let mut read: Vec<usize> = labels.iter().chain(&numbers).flatten().copied().collect();
         read.sort_unstable();
         read.dedup();
+        let kind = match &self.rows {
+            Rows::Parquet(..) => Storage::Parquet.kind(),
+            _ => Storage::ArrowFile.kind(),
+        };
         let batches: RecordBatches = match std::mem::replace(&mut self.rows, Rows::Ended) {
             Rows::Parquet(shared, metadata) => {
+                soundness::parquet::check_pages(&shared, metadata.metadata(), |root| read.contains(&root))?;
                 let mask = ProjectionMask::roots(metadata.parquet_schema(), read.iter().copied());
                 let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(shared, metadata);
                 let rows = self.rows_of_a_batch.min(MOST_ROWS_AT_ONCE);
@@ -234,6 +237,7 @@ impl ColumnarReader {
         };
         let place = |index: Option<usize>| read.iter().position(|read| Some(*read) == index);
         Ok(Source {
+            kind,
             batches,
             rest: None,
             rows_of_a_batch: self.rows_of_a_batch,
@@ -249,11 +253,12 @@ const MOST_ROWS_AT_ONCE: usize = 8192;
 impl Source {
     /// Reads the next rows.
     fn step(mut self) -> (Self, Read1) {
-        let read = self.next_columns();
+        let kind = self.kind;
+        let read = caught(kind, || self.next_columns().map_err(|error| invalid_as(kind, error)));
         (self, read)
     }
 
-    fn next_columns(&mut self) -> Read1 {
+    fn next_columns(&mut self) -> Result<Option<Columns>, ArrowError> {
         loop {
             let whole = match self.rest.take() {
                 Some(rest) => rest,
@@ -327,6 +332,28 @@ fn is_key(kind: &DataType) -> bool {
     }
 }
 
+/// What a Parquet file itself says of column number `index`, if it says it of all rows.
+fn statistics(metadata: &ArrowReaderMetadata, index: usize) -> Option<ColumnStatistics> {
+    let parquet = metadata.metadata();
+    let descriptor = parquet.file_metadata().schema_descr();
+    let leaf = (0..descriptor.num_columns()).find(|leaf| descriptor.get_column_root_idx(*leaf) == index)?;
+    let mut whole = ColumnStatistics { least: f64::INFINITY, greatest: f64::NEG_INFINITY, nulls: 0, rows: 0 };
+    for group in parquet.row_groups() {
+        let of = group.column(leaf).statistics()?;
+        let rows = u64::try_from(group.num_rows()).ok()?;
+        let nulls = of.null_count_opt()?;
+        whole.nulls += nulls;
+        whole.rows += rows;
+        if nulls == rows {
+            continue;
+        }
+        let (least, greatest) = bounds(of)?;
+        whole.least = whole.least.min(least);
+        whole.greatest = whole.greatest.max(greatest);
+    }
+    Some(whole)
+}
+
 /// The smallest and the largest number of some rows, if they are known exactly.
 fn bounds(of: &Statistics) -> Option<(f64, f64)> {
     let exact = of.min_is_exact() && of.max_is_exact();
@@ -341,8 +368,12 @@ fn bounds(of: &Statistics) -> Option<(f64, f64)> {
     (exact && least <= greatest).then_some((least, greatest))
 }
 
-/// A file that is wrong inside.
+/// An Arrow file that is wrong inside.
 fn invalid(error: ArrowError) -> io::Error {
+    invalid_as(Storage::ArrowFile.kind(), error)
+}
+
+fn invalid_as(kind: &str, error: ArrowError) -> io::Error {
     match error {
         // A place before its beginning, or beyond its end, is one that a sound file does not point to.
         ArrowError::IoError(_, error)
@@ -350,12 +381,12 @@ fn invalid(error: ArrowError) -> io::Error {
         {
             error
         }
-        error => io::Error::new(io::ErrorKind::InvalidData, format!("it is no sound Arrow table ({error})")),
+        error => unsound(kind, error),
     }
 }
 
 fn invalid_parquet(error: &ParquetError) -> io::Error {
-    io::Error::new(io::ErrorKind::InvalidData, format!("it is no sound Parquet table ({error})"))
+    unsound(Storage::Parquet.kind(), error)
 }
 
 /// A file that several readers read in turn.

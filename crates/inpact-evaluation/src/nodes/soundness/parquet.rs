@@ -1,0 +1,269 @@
+//! What a Parquet file says of its parts, held against what it holds.
+
+use super::thrift::{Visitor, walk};
+use super::{most_unpacked, unsound};
+use parquet::basic::{Compression, Encoding};
+use parquet::column::page::{Page, PageReader};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
+use parquet::file::reader::ChunkReader;
+use parquet::file::serialized_reader::SerializedPageReader;
+use std::io;
+use std::sync::Arc;
+
+const KIND: &str = "Parquet";
+
+/// The length of the footer and the mark behind it.
+const TAIL: u64 = 8;
+
+/// How deep groups of columns may lie in one another.
+const DEEPEST_GROUP: usize = 64;
+
+/// The longest header of a page; statistics of long texts are in it.
+const LONGEST_HEADER: u64 = 1 << 20;
+
+/// How many times their size bytes packed by Snappy may come to: a copy of 64 bytes takes three.
+const SNAPPY_TIMES: u64 = 32;
+
+/// Checks the footer, before anybody makes room for the lists in it.
+///
+/// # Errors
+/// Those of reading, and of kind [`io::ErrorKind::InvalidData`] for a footer that is not sound.
+pub(in crate::nodes) fn check_footer<R: ChunkReader>(file: &R) -> io::Result<()> {
+    let length = file.len();
+    let Some(before_tail) = length.checked_sub(TAIL) else {
+        return Err(unsound(KIND, "it is shorter than an empty one"));
+    };
+    let tail = file.get_bytes(before_tail, 8).map_err(invalid)?;
+    let footer = u64::from(tail.first_chunk().copied().map_or(0, u32::from_le_bytes));
+    let Some(at) = before_tail.checked_sub(footer) else {
+        return Err(unsound(KIND, format!("its footer would have {footer} bytes")));
+    };
+    let bytes = file.get_bytes(at, usize::try_from(footer).unwrap_or(usize::MAX)).map_err(invalid)?;
+    let mut depths = Depths::default();
+    if walk(&bytes, &mut depths).is_none() {
+        return Err(unsound(KIND, "its footer has a list or a text longer than itself"));
+    }
+    if depths.finish() > DEEPEST_GROUP {
+        return Err(unsound(KIND, format!("its columns lie in more than {DEEPEST_GROUP} groups")));
+    }
+    Ok(())
+}
+
+/// How deep the groups of a schema lie, from the number of children of each of its elements in their order.
+#[derive(Default)]
+struct Depths {
+    /// How many elements are still to come in each open group.
+    open: Vec<i64>,
+    deepest: usize,
+    children: i64,
+}
+
+impl Depths {
+    fn close(&mut self) {
+        let children = std::mem::take(&mut self.children);
+        if let Some(left) = self.open.last_mut() {
+            *left -= 1;
+        }
+        if children > 0 {
+            self.open.push(children);
+            self.deepest = self.deepest.max(self.open.len());
+        }
+        while self.open.last().is_some_and(|left| *left <= 0) {
+            self.open.pop();
+        }
+    }
+
+    fn finish(mut self) -> usize {
+        self.close();
+        self.deepest
+    }
+}
+
+impl Visitor for Depths {
+    fn integer(&mut self, path: &[i16], value: i64) {
+        // FileMetaData.schema, SchemaElement.num_children.
+        if path == [2, 5] {
+            self.children = value;
+        }
+    }
+
+    fn structure(&mut self, path: &[i16]) {
+        if path == [2] {
+            self.close();
+        }
+    }
+}
+
+/// Checks the pages of some columns, given by their places in the schema.
+///
+/// # Errors
+/// Those of reading, and of kind [`io::ErrorKind::InvalidData`] for a file that is not sound.
+pub(in crate::nodes) fn check_pages<R: ChunkReader + Clone + 'static>(
+    file: &R,
+    metadata: &ParquetMetaData,
+    is_read: impl Fn(usize) -> bool,
+) -> io::Result<()> {
+    let schema = metadata.file_metadata().schema_descr();
+    let mut total = 0_u64;
+    for group in metadata.row_groups() {
+        let rows = group.num_rows();
+        if rows < 0 {
+            return Err(unsound(KIND, "a group has fewer rows than none"));
+        }
+        for leaf in (0..group.num_columns()).filter(|leaf| is_read(schema.get_column_root_idx(*leaf))) {
+            let chunk = group.column(leaf);
+            // A column that is no list has a value, if only none, in every row.
+            if chunk.column_descr().max_rep_level() == 0 && chunk.num_values() != rows {
+                let name = chunk.column_descr().name();
+                let values = chunk.num_values();
+                return Err(unsound(KIND, format!("column `{name}` has {values} values in a group of {rows} rows")));
+            }
+            total = total.saturating_add(check_chunk(file, chunk)?);
+            if total > file.len() {
+                return Err(unsound(KIND, "its columns are longer than the file"));
+            }
+            if chunk.encodings().any(is_of_lengths) {
+                check_lengths(file, chunk, rows)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Checks the pages of a column in a group of rows; gives the length of all.
+fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Result<u64> {
+    let begin = chunk.dictionary_page_offset().unwrap_or_else(|| chunk.data_page_offset());
+    let sizes = (u64::try_from(begin), u64::try_from(chunk.compressed_size()));
+    let (Ok(begin), Ok(length)) = sizes else { return Err(unsound(KIND, "a column has a place below zero")) };
+    let end = begin.saturating_add(length);
+    if end > file.len() {
+        return Err(unsound(KIND, "a column goes on beyond the end of the file"));
+    }
+    let mut at = begin;
+    let mut values = 0_i64;
+    while at < end && values < chunk.num_values() {
+        let head = usize::try_from((end - at).min(LONGEST_HEADER)).unwrap_or(usize::MAX);
+        let mut page = PageSizes::default();
+        // Most headers are short, and a page is long.
+        let short = file.get_bytes(at, head.min(256)).map_err(invalid)?;
+        let walked = match walk(&short, &mut page) {
+            Some(walked) => Some(walked),
+            None if head > 256 => {
+                page = PageSizes::default();
+                walk(&file.get_bytes(at, head).map_err(invalid)?, &mut page)
+            }
+            None => None,
+        };
+        let Some(walked) = walked else { return Err(unsound(KIND, "the header of a page is no header")) };
+        at += walked as u64;
+        let sizes = (u64::try_from(page.packed), u64::try_from(page.unpacked), u64::try_from(page.values));
+        let (Ok(packed), Ok(unpacked), Ok(_)) = sizes else {
+            return Err(unsound(KIND, "a page has a length below zero"));
+        };
+        if packed > end - at {
+            return Err(unsound(KIND, format!("a page would have {packed} bytes, and {} are left", end - at)));
+        }
+        let most = match chunk.compression() {
+            Compression::UNCOMPRESSED => packed,
+            Compression::SNAPPY => 4096 + packed.saturating_mul(SNAPPY_TIMES),
+            _ => most_unpacked(packed),
+        };
+        if unpacked > most {
+            let message = format!(
+                "{packed} bytes of it would come to {unpacked} when they are unpacked, and no more than {most} are read at once"
+            );
+            return Err(unsound(KIND, message));
+        }
+        // The values of a dictionary are written out, in a bit at least.
+        if page.is_dictionary && page.values.unsigned_abs() > unpacked.saturating_mul(8) {
+            return Err(unsound(KIND, format!("a dictionary of {unpacked} bytes would have {} values", page.values)));
+        }
+        if !page.is_dictionary {
+            values = values.saturating_add(page.values);
+        }
+        at += packed;
+    }
+    Ok(length)
+}
+
+/// What the header of a page says of it.
+#[derive(Default)]
+struct PageSizes {
+    packed: i64,
+    unpacked: i64,
+    values: i64,
+    is_dictionary: bool,
+}
+
+impl Visitor for PageSizes {
+    fn integer(&mut self, path: &[i16], value: i64) {
+        match path {
+            [1] => self.is_dictionary = value == 2,
+            [2] => self.unpacked = value,
+            [3] => self.packed = value,
+            // The numbers of values in the headers of a data page, a dictionary, and a data page of the second version.
+            [5 | 7 | 8, 1] => self.values = value,
+            _ => {}
+        }
+    }
+}
+
+/// Whether an encoding begins with how many lengths of texts there are.
+fn is_of_lengths(encoding: Encoding) -> bool {
+    matches!(encoding, Encoding::DELTA_LENGTH_BYTE_ARRAY | Encoding::DELTA_BYTE_ARRAY)
+}
+
+/// Checks that pages of texts say no more lengths than they have values: room is made for as many.
+fn check_lengths<R: ChunkReader + Clone + 'static>(file: &R, chunk: &ColumnChunkMetaData, rows: i64) -> io::Result<()> {
+    let rows = usize::try_from(rows).unwrap_or(usize::MAX);
+    let mut pages = SerializedPageReader::new(Arc::new(file.clone()), chunk, rows, None).map_err(invalid)?;
+    while let Some(page) = pages.get_next_page().map_err(invalid)? {
+        if !is_of_lengths(page.encoding()) {
+            continue;
+        }
+        let values = match &page {
+            Page::DataPage { buf, .. } => {
+                let has_levels = chunk.column_descr().max_def_level() > 0;
+                let levels = buf.first_chunk().copied().map_or(0, u32::from_le_bytes) as usize;
+                if has_levels { buf.get(levels.saturating_add(4)..) } else { Some(&buf[..]) }
+            }
+            Page::DataPageV2 { buf, def_levels_byte_len, rep_levels_byte_len, .. } => {
+                buf.get((*def_levels_byte_len as usize).saturating_add(*rep_levels_byte_len as usize)..)
+            }
+            Page::DictionaryPage { .. } => continue,
+        };
+        // The size of a block, how many parts it has, and how many numbers there are.
+        let mut numbers = Numbers(values.unwrap_or(&[]));
+        let stated = (numbers.next(), numbers.next(), numbers.next());
+        let most = u64::from(page.num_values());
+        if !matches!(stated, (Some(_), Some(_), Some(count)) if count <= most) {
+            return Err(unsound(KIND, format!("a page of {most} texts has another number of lengths")));
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of seven bits a byte.
+struct Numbers<'a>(&'a [u8]);
+
+impl Iterator for Numbers<'_> {
+    type Item = u64;
+
+    fn next(&mut self) -> Option<u64> {
+        let mut value = 0_u64;
+        for shift in (0..64).step_by(7) {
+            let (byte, rest) = self.0.split_first()?;
+            self.0 = rest;
+            value |= u64::from(byte & 0x7F) << shift;
+            if byte & 0x80 == 0 {
+                return Some(value);
+            }
+        }
+        None
+    }
+}
+
+fn invalid(error: ParquetError) -> io::Error {
+    unsound(KIND, error)
+}
