@@ -2,12 +2,15 @@
 
 use super::column::Column;
 use super::diagnostic::{DUPLICATE_COLUMN, Findings, Place};
+use std::collections::HashMap;
 
 /// The header line of a node table.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Header {
     /// Its cells in the order of the file.
     pub cells: Vec<HeaderCell>,
+    /// The first cell that means each column.
+    places: HashMap<Column, usize>,
 }
 
 /// A cell of the header.
@@ -24,7 +27,14 @@ impl Header {
     pub fn new<'a>(cells: impl IntoIterator<Item = &'a str>) -> Self {
         let cells =
             cells.into_iter().map(|text| HeaderCell { text: text.trim().to_owned(), column: Column::named(text) });
-        Self { cells: cells.collect() }
+        let cells: Vec<HeaderCell> = cells.collect();
+        let mut places = HashMap::new();
+        for (index, cell) in cells.iter().enumerate() {
+            if let Some(column) = cell.column {
+                places.entry(column).or_insert(index);
+            }
+        }
+        Self { cells, places }
     }
 
     /// Whether a cell of the header means that column.
@@ -34,7 +44,7 @@ impl Header {
 
     /// The place of the first cell that means that column, counted from 0.
     pub fn position(&self, column: Column) -> Option<usize> {
-        self.cells.iter().position(|cell| cell.column == Some(column))
+        self.places.get(&column).copied()
     }
 
     /// What the header calls the column: an alias where that is what stands there, otherwise the canonical name.
@@ -46,7 +56,8 @@ impl Header {
     pub(super) fn report_duplicates(&self, line: Option<u64>, findings: &mut Findings) {
         for (index, cell) in self.cells.iter().enumerate() {
             let Some(column) = cell.column else { continue };
-            let Some(first) = self.cells[..index].iter().find(|before| before.column == cell.column) else { continue };
+            let Some(first) = self.position(column).filter(|first| *first < index) else { continue };
+            let first = &self.cells[first];
             let message = if first.text.eq_ignore_ascii_case(&cell.text) {
                 format!("column `{column}` stands twice in the header")
             } else {

@@ -10,6 +10,7 @@ use super::{
 use crate::nodes::{Column, Part, Selection};
 use crate::results::Along;
 use inpact_parser::model::Regime;
+use std::collections::{HashMap, HashSet};
 
 impl InteractionPlan {
     /// The tables in use, each with the name of its values.
@@ -86,90 +87,119 @@ pub(super) fn column_plans(
     selection: &Selection,
     interactions: &[InteractionPlan],
 ) -> Vec<ColumnPlan> {
+    let uses = Uses::of(survey, choices, selection, interactions);
     let plans = survey.header.cells.iter().map(|cell| ColumnPlan {
         header: cell.text.clone(),
         column: cell.column,
-        role: cell.column.map_or(ColumnRole::NotRead(Reason::UnknownColumn), |column| {
-            role(column, survey, choices, selection, interactions)
-        }),
-        range: cell.column.and_then(|column| survey.range(column)),
+        role: cell.column.map_or(ColumnRole::NotRead(Reason::UnknownColumn), |column| uses.role(column)),
+        range: cell.column.and_then(|column| uses.range(column)),
     });
     plans.collect()
 }
 
-fn role(
-    column: Column,
-    survey: &Survey,
-    choices: &Choices,
-    selection: &Selection,
-    interactions: &[InteractionPlan],
-) -> ColumnRole {
-    let has_history = interactions.iter().any(|plan| plan.histories.is_some());
-    let is_read = match column {
-        Column::Interaction => survey.governed_by == GovernedBy::Column,
-        Column::Node => has_history || interactions.iter().any(InteractionPlan::has_user),
-        _ => selection.number(column).is_some(),
-    };
-    match (column.is_key(), is_read) {
-        (true, true) => ColumnRole::KeyAndRead,
-        (true, false) => ColumnRole::Key,
-        (false, true) => ColumnRole::Read,
-        (false, false) => ColumnRole::NotRead(why_not_read(column, survey, choices, interactions)),
+/// What all interactions together do with columns, gathered once: a table may have as many columns as a deck has interactions.
+struct Uses<'a> {
+    survey: &'a Survey,
+    choices: &'a Choices,
+    /// The smallest and the largest finite number of each column that was surveyed.
+    ranges: HashMap<Column, Option<(f64, f64)>>,
+    selected: HashSet<Column>,
+    /// The columns that some law reads.
+    read: HashSet<Column>,
+    /// The value at which tables are folded along a variable: that of the first table which is.
+    folds: Vec<(Along, f64)>,
+    has_history: bool,
+    has_user: bool,
+    has_tables: bool,
+    has_pore: bool,
+    is_pore_steady: bool,
+}
+
+impl<'a> Uses<'a> {
+    fn of(survey: &'a Survey, choices: &'a Choices, selection: &Selection, interactions: &[InteractionPlan]) -> Self {
+        let mut folds: Vec<(Along, f64)> = Vec::new();
+        for axis in interactions.iter().flat_map(InteractionPlan::tables).flat_map(|(_, table)| &table.axes) {
+            let Some(at) = axis.fold else { continue };
+            // There are as many variables as a deck has field variables, a thousand at most.
+            if !folds.iter().any(|(along, _)| *along == axis.along) {
+                folds.push((axis.along, at));
+            }
+        }
+        let mut pore = interactions.iter().filter_map(|plan| plan.pore.as_ref()).peekable();
+        Self {
+            survey,
+            choices,
+            ranges: survey.columns.iter().map(|column| (*column, survey.range(*column))).collect(),
+            selected: selection.numbers.iter().copied().collect(),
+            read: interactions.iter().flat_map(InteractionPlan::columns_read).collect(),
+            folds,
+            has_history: interactions.iter().any(|plan| plan.histories.is_some()),
+            has_user: interactions.iter().any(InteractionPlan::has_user),
+            has_tables: interactions.iter().any(|plan| plan.electrical.is_some() || plan.thermal.is_some()),
+            has_pore: pore.peek().is_some(),
+            is_pore_steady: pore.all(|law| law.regime.regime == Regime::SteadyState),
+        }
     }
-}
 
-fn why_not_read(column: Column, survey: &Survey, choices: &Choices, interactions: &[InteractionPlan]) -> Reason {
-    let is_empty = survey.columns.contains(&column) && survey.range(column).is_none();
-    let has_tables = interactions.iter().any(|plan| plan.electrical.is_some() || plan.thermal.is_some());
-    let pore = || interactions.iter().filter_map(|plan| plan.pore.as_ref());
-    match column {
-        Column::CharacteristicLength if choices.characteristic_length.is_some() => Reason::Option("--char-length"),
-        _ if is_empty && survey.rows > 0 => Reason::Empty,
-        Column::Temperature(Part::Slave | Part::Master)
-            if is_read_whole(Column::Temperature(Part::Both), interactions) =>
-        {
-            Reason::GivenBy(Column::Temperature(Part::Both))
-        }
-        Column::FieldVariable(number, Part::Slave | Part::Master)
-            if is_read_whole(Column::FieldVariable(number, Part::Both), interactions) =>
-        {
-            Reason::GivenBy(Column::FieldVariable(number, Part::Both))
-        }
-        Column::Potential(Part::Slave | Part::Master) if is_read_whole(Column::Potential(Part::Both), interactions) => {
-            Reason::GivenBy(Column::Potential(Part::Both))
-        }
-        _ if let Some(value) = folded_value(column, interactions) => Reason::Folded(value),
-        Column::Temperature(_) | Column::FieldVariable(..) | Column::MassFlow(_)
-            if has_tables || pore().next().is_some() =>
-        {
-            Reason::NoTableDepends
-        }
-        Column::ClearanceRate | Column::BulkPermeability(_)
-            if pore().next().is_some() && pore().all(|law| law.regime.regime == Regime::SteadyState) =>
-        {
-            Reason::SteadyState
-        }
-        Column::Potential(_) | Column::Area if choices.outputs.is_some() => Reason::NotAsked,
-        _ => Reason::NotNeeded,
+    fn range(&self, column: Column) -> Option<(f64, f64)> {
+        self.ranges.get(&column).copied().flatten()
     }
-}
 
-/// The value for which the tables are folded along the variable of a column.
-fn folded_value(column: Column, interactions: &[InteractionPlan]) -> Option<f64> {
-    let along = match column {
-        Column::Clearance => Along::Clearance,
-        Column::Pressure => Along::Pressure,
-        Column::Temperature(_) => Along::Temperature,
-        Column::FieldVariable(number, _) => Along::FieldVariable(number),
-        Column::PorePressure(_) => Along::PorePressure,
-        Column::MassFlow(_) => Along::MassFlow,
-        _ => return None,
-    };
-    let tables = interactions.iter().flat_map(InteractionPlan::tables);
-    tables.flat_map(|(_, table)| &table.axes).filter(|axis| axis.along == along).find_map(|axis| axis.fold)
-}
+    fn role(&self, column: Column) -> ColumnRole {
+        let is_read = match column {
+            Column::Interaction => self.survey.governed_by == GovernedBy::Column,
+            Column::Node => self.has_history || self.has_user,
+            _ => self.selected.contains(&column),
+        };
+        match (column.is_key(), is_read) {
+            (true, true) => ColumnRole::KeyAndRead,
+            (true, false) => ColumnRole::Key,
+            (false, true) => ColumnRole::Read,
+            (false, false) => ColumnRole::NotRead(self.why_not_read(column)),
+        }
+    }
 
-/// Whether the column that stands for both sides is read.
-fn is_read_whole(column: Column, interactions: &[InteractionPlan]) -> bool {
-    interactions.iter().any(|plan| plan.columns_read().contains(&column))
+    fn why_not_read(&self, column: Column) -> Reason {
+        let is_empty = self.ranges.get(&column).is_some_and(Option::is_none);
+        let is_one_side = |part| matches!(part, Part::Slave | Part::Master);
+        // The column that stands for both sides, where one side is not read.
+        let both = match column {
+            Column::Temperature(part) if is_one_side(part) => Some(Column::Temperature(Part::Both)),
+            Column::FieldVariable(number, part) if is_one_side(part) => Some(Column::FieldVariable(number, Part::Both)),
+            Column::Potential(part) if is_one_side(part) => Some(Column::Potential(Part::Both)),
+            _ => None,
+        };
+        match column {
+            Column::CharacteristicLength if self.choices.characteristic_length.is_some() => {
+                Reason::Option("--char-length")
+            }
+            _ if is_empty && self.survey.rows > 0 => Reason::Empty,
+            _ if let Some(both) = both.filter(|both| self.read.contains(both)) => Reason::GivenBy(both),
+            _ if let Some(value) = self.folded_value(column) => Reason::Folded(value),
+            Column::Temperature(_) | Column::FieldVariable(..) | Column::MassFlow(_)
+                if self.has_tables || self.has_pore =>
+            {
+                Reason::NoTableDepends
+            }
+            Column::ClearanceRate | Column::BulkPermeability(_) if self.has_pore && self.is_pore_steady => {
+                Reason::SteadyState
+            }
+            Column::Potential(_) | Column::Area if self.choices.outputs.is_some() => Reason::NotAsked,
+            _ => Reason::NotNeeded,
+        }
+    }
+
+    /// The value for which the tables are folded along the variable of a column.
+    fn folded_value(&self, column: Column) -> Option<f64> {
+        let along = match column {
+            Column::Clearance => Along::Clearance,
+            Column::Pressure => Along::Pressure,
+            Column::Temperature(_) => Along::Temperature,
+            Column::FieldVariable(number, _) => Along::FieldVariable(number),
+            Column::PorePressure(_) => Along::PorePressure,
+            Column::MassFlow(_) => Along::MassFlow,
+            _ => return None,
+        };
+        self.folds.iter().find(|(folded, _)| *folded == along).map(|(_, value)| *value)
+    }
 }

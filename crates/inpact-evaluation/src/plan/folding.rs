@@ -85,7 +85,7 @@ impl Planner<'_> {
     /// The number that a column has in every row of the interaction.
     fn constant(self, column: Column) -> Option<f64> {
         let place = self.survey.columns.iter().position(|read| *read == column)?;
-        let of = self.of.columns[place];
+        let of = self.of.column(place);
         let is_whole = self.of.rows > 0 && of.present == self.of.rows && of.non_finite == 0;
         (is_whole && of.least == of.greatest).then_some(of.least)
     }

@@ -56,8 +56,15 @@ pub struct InteractionSurvey {
     pub above_zero: u64,
     /// How many nodes it has, where `node` and `time` are there.
     pub histories: Option<u64>,
-    /// What each of [`Survey::columns`] holds.
+    /// What each of [`Survey::columns`] holds; empty where no row was met, so that interactions without rows cost nothing.
     pub columns: Vec<ColumnSurvey>,
+}
+
+impl InteractionSurvey {
+    /// What column number `place` of [`Survey::columns`] holds.
+    pub fn column(&self, place: usize) -> ColumnSurvey {
+        self.columns.get(place).copied().unwrap_or_default()
+    }
 }
 
 /// What a column of numbers holds.
@@ -99,7 +106,7 @@ impl Survey {
     pub fn presence(&self, interaction: usize, column: Column) -> Presence {
         let Some(place) = self.columns.iter().position(|read| *read == column) else { return Presence::Absent };
         let of = &self.interactions[interaction];
-        match of.columns[place].present {
+        match of.column(place).present {
             _ if self.rows == 0 => Presence::Full,
             0 => Presence::Empty,
             present if present == of.rows => Presence::Full,
@@ -110,7 +117,7 @@ impl Survey {
     /// The smallest and the largest finite number of a column over all rows.
     pub fn range(&self, column: Column) -> Option<(f64, f64)> {
         let place = self.columns.iter().position(|read| *read == column)?;
-        let columns = self.interactions.iter().map(|of| of.columns[place]);
+        let columns = self.interactions.iter().map(|of| of.column(place));
         let whole = columns.fold(ColumnSurvey::default(), |whole, of| ColumnSurvey {
             least: whole.least.min(of.least),
             greatest: whole.greatest.max(of.greatest),
@@ -167,8 +174,7 @@ fn survey_in_order(
     let order = if histories { order } else { HistoryOrder::Interleaved };
     let selection = Selection { labels: label_columns(governed_by, histories), numbers: columns.clone() };
     reader.select(&selection);
-    let empty = InteractionSurvey { columns: vec![ColumnSurvey::default(); columns.len()], ..Default::default() };
-    let interactions = vec![empty; model.interactions.len()];
+    let interactions = vec![InteractionSurvey::default(); model.interactions.len()];
     let survey = Survey { header, rows: 0, governed_by, order, columns, interactions };
     let mut surveyor = Surveyor::new(survey, &selection, model, histories);
     let mut batch = Batch::default();
@@ -320,6 +326,9 @@ impl<'a> Surveyor<'a> {
     #[inline]
     fn take_cells(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
         let columns = &mut self.survey.interactions[interaction].columns;
+        if columns.is_empty() {
+            columns.resize_with(batch.numbers.len(), ColumnSurvey::default);
+        }
         for (place, (column, of)) in batch.numbers.iter().zip(columns).enumerate() {
             let before = of.non_finite;
             let values = &column.values()[rows.clone()];
@@ -425,7 +434,7 @@ impl<'a> Surveyor<'a> {
         }
         for (place, first) in self.first_non_finite.into_iter().enumerate() {
             let Some(first) = first else { continue };
-            let count: u64 = self.survey.interactions.iter().map(|of| of.columns[place].non_finite).sum();
+            let count: u64 = self.survey.interactions.iter().map(|of| of.column(place).non_finite).sum();
             let name = first.column.clone().unwrap_or_default();
             let rows = if count == 1 { "row" } else { "rows" };
             let message = format!("`{name}` is NaN or infinite in {count} {rows}");

@@ -26,24 +26,23 @@ pub(super) fn wanted_columns(
         GovernedBy::Column => 0..model.interactions.len(),
     };
     let mut wanted = BTreeSet::new();
+    let mut has_user = false;
     for interaction in model.interactions.values().skip(candidates.start).take(candidates.len()) {
         let tables = InteractionTables::of(interaction, choices.clearance_tail);
         want_electrical(&tables, choices, &mut wanted);
         want_thermal(interaction, &ThermalTables::of(model, interaction, choices.dialect), choices, &mut wanted);
         let electrical = interaction.gap_electrical_conductance.as_ref();
-        if choices.user_conductance.is_some() && electrical.is_some_and(|option| option.user.is_some()) {
-            want_of_electrical_law(choices, &mut wanted);
-            want_user(header, &mut wanted);
-        }
+        has_user |= choices.user_conductance.is_some() && electrical.is_some_and(|option| option.user.is_some());
         want_pore(model, interaction, &tables, choices, &mut wanted);
     }
-    let mut columns: Vec<Column> = Vec::new();
-    for column in header.cells.iter().filter_map(|cell| cell.column) {
-        if wanted.contains(&column) && !columns.contains(&column) {
-            columns.push(column);
-        }
+    if has_user {
+        want_of_electrical_law(choices, &mut wanted);
+        want_user(header, &mut wanted);
     }
-    columns
+    // Of two cells that mean the same the first counts.
+    let is_first = |(index, column): &(usize, Column)| header.position(*column) == Some(*index);
+    let columns = header.cells.iter().enumerate().filter_map(|(index, cell)| Some((index, cell.column?)));
+    columns.filter(is_first).map(|(_, column)| column).filter(|column| wanted.contains(column)).collect()
 }
 
 /// What tells contact, area and time, as far as the outputs asked for need them.
