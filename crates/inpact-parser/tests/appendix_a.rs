@@ -19,10 +19,10 @@ fn a_07_one_text_means_two_things_under_two_keywords() {
     let interaction = &model.interactions[0];
     let electrical = interaction.gap_electrical_conductance.as_ref().and_then(|law| law.clearance.as_ref());
     let electrical = electrical.expect("a table");
-    assert_eq!(electrical.columns, ["conductance", "clearance", "temp", "fv1"]);
+    assert_eq!(*electrical.columns, ["conductance", "clearance", "temp", "fv1"]);
     assert_eq!(electrical.row(0), [10., 0., 0., 1.]);
     let thermal = interaction.other[0].table.as_ref().expect("a table");
-    assert_eq!(thermal.columns, ["conductance", "clearance", "temp", "mass_flow", "fv1"]);
+    assert_eq!(*thermal.columns, ["conductance", "clearance", "temp", "mass_flow", "fv1"]);
     assert_eq!(thermal.row(0), [10., 0., 0., 1., 0.]);
 }
 

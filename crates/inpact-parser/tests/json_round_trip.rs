@@ -173,7 +173,7 @@ fn table(lead: &[&str]) -> impl Strategy<Value = Table> + use<> {
         let columns: Vec<String> = lead.iter().cloned().chain((1..=fields).map(|field| format!("fv{field}"))).collect();
         let cells = prop::collection::vec(cell(), columns.len() * rows);
         cells.prop_map(move |cells| {
-            let mut table = Table { columns: columns.clone(), ..Table::default() };
+            let mut table = Table { columns: columns.clone().into(), ..Table::default() };
             for (cell, (value, text)) in cells.into_iter().enumerate() {
                 table.values.push(value);
                 table.texts.extend(text.map(|text| CellText { cell, text }));

@@ -161,7 +161,7 @@ mod tests {
 
     fn table(rows: &[[f64; 3]]) -> Table {
         let columns = ["conductance", "clearance", "temp"].map(str::to_owned).to_vec();
-        Table { columns, values: rows.concat(), ..Table::default() }
+        Table { columns: columns.into(), values: rows.concat(), ..Table::default() }
     }
 
     /// The groups as `first..end`, with `~` behind those that are no curve and `?` before those with an unknown start.

@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn groups_are_named_by_what_is_not_zero() {
         let columns = ["conductance", "clearance", "temp", "fv1", "fv2"].map(str::to_owned).to_vec();
-        let table = Table { columns, ..Table::default() };
+        let table = Table { columns: columns.into(), ..Table::default() };
         assert_eq!(group_words(&table, &[1.0, 0.0, 300.0, 0.0, 2.0]), " at temperature 300, field variable 2 = 2");
         assert_eq!(group_words(&table, &[1.0, 0.5, 0.0, 0.0, 0.0]), "");
     }

@@ -100,7 +100,7 @@ pub(crate) fn radiation_tables(deck: &Deck, grammar: &Grammar, model: &Model) ->
                 columns.iter().map(|_| items.next().map_or(0.0, |item| number_in(deck, &model.parameters, item))),
             );
         }
-        table.columns = columns;
+        table.columns = columns.into();
         table
     });
     tables.filter(|table| table.row_count() > 0).collect()

@@ -117,6 +117,8 @@ pub struct Layout {
     pub first_line: usize,
     /// The most items on every further line.
     pub following: usize,
+    /// How many counted columns come behind `columns`, which no row of the block goes on to.
+    pub unwritten: usize,
 }
 
 impl RowShape {
@@ -138,12 +140,17 @@ impl Data {
     ///
     /// `count` is the value of the parameter that counts columns, 0 where it is not given.
     pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
+        self.layout_of(given, count, count)
+    }
+
+    /// The same, with no more than the first `written` of the counted columns.
+    pub fn layout_of(&self, given: impl Fn(&str) -> bool, count: usize, written: usize) -> Option<Layout> {
         if !self.shape.is_numbers() || self.ignored_with.iter().any(|parameter| given(parameter)) {
             return None;
         }
         let lead: Vec<&Column> = self.columns_for(given).collect();
         let counted = self.counted.as_ref().map(|counted| (counted, count));
-        let numbers = counted.map_or(0..0, |(_, count)| 0..count);
+        let numbers = counted.map_or(0..0, |(_, count)| 0..count.min(written));
         let names = numbers.clone().filter_map(|number| {
             let (counted, _) = counted?;
             Some(format!("{}{}", counted.prefix, number + 1))
@@ -153,6 +160,7 @@ impl Data {
             defaults: lead.iter().map(|column| column.default.unwrap_or(0.0)).chain(numbers.map(|_| 0.0)).collect(),
             first_line: lead.len() + self.counted.as_ref().map_or(0, |counted| counted.first_line),
             following: self.counted.as_ref().map_or(ITEMS_ON_A_LINE, |counted| counted.following),
+            unwritten: counted.map_or(0, |(_, count)| count.saturating_sub(written)),
         })
     }
 
@@ -197,9 +205,14 @@ impl Data {
 }
 
 impl Layout {
+    /// How many items a whole row has.
+    pub fn width(&self) -> usize {
+        self.columns.len() + self.unwritten
+    }
+
     /// How many lines a row goes over (K-52).
     pub fn lines_per_row(&self) -> usize {
-        1 + self.columns.len().saturating_sub(self.first_line).div_ceil(self.following)
+        1 + self.width().saturating_sub(self.first_line).div_ceil(self.following)
     }
 }
 

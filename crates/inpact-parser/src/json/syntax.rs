@@ -9,7 +9,6 @@ use super::{JsonError, layout, parse, required};
 use crate::deck::lines::{lines, without_line_end};
 use crate::deck::{Block, Deck, scan};
 use crate::grammar::Grammar;
-use crate::span::SourceId;
 use serde::{Deserialize, Serialize};
 
 /// The value of the `schema` field.
@@ -102,9 +101,11 @@ struct ByteLine {
 
 /// The lossless view of a deck that was scanned with everything kept, as pretty-printed JSON.
 pub fn write(deck: &Deck, grammar: &Grammar) -> String {
-    let files = deck.sources().iter().enumerate().map(|(index, source)| {
-        let id = SourceId(u32::try_from(index).unwrap_or(u32::MAX));
-        let blocks: Vec<&Block> = deck.blocks().iter().filter(|block| block.rows.source == id).collect();
+    let mut blocks_of: Vec<Vec<&Block>> = vec![Vec::new(); deck.sources().len()];
+    for block in deck.blocks() {
+        blocks_of[block.rows.source.0 as usize].push(block);
+    }
+    let files = deck.sources().iter().zip(blocks_of).map(|(source, blocks)| {
         let line_end = usual_line_end(deck, &blocks);
         let mut documents: Vec<BlockDocument> = Vec::new();
         for block in blocks {

@@ -189,7 +189,7 @@ fn print_table_option(
     table: &Table,
     grammar: &Grammar,
 ) {
-    let dependencies = table.dependencies();
+    let dependencies = table.declared_dependencies();
     if dependencies > 0 && !parameters.iter().any(|parameter| parameter.name == "DEPENDENCIES") {
         parameters.push(parameter("DEPENDENCIES", Some(dependencies.to_string())));
     }

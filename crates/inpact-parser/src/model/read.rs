@@ -15,6 +15,7 @@ use crate::grammar::{Grammar, KeywordId, Level};
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
 use entry::Entry;
+use std::sync::Arc;
 
 /// The most field variables a table may depend on here; a larger DEPENDENCIES is read as this.
 ///
@@ -29,6 +30,7 @@ pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
         model: Model::default(),
         problems: Vec::new(),
         interaction: None,
+        columns: Vec::new(),
         parent: None,
         closed_by: None,
         levels: Vec::new(),
@@ -55,6 +57,8 @@ struct Reader<'a> {
     problems: Vec<Problem>,
     /// The *SURFACE INTERACTION whose block is open.
     interaction: Option<Interaction>,
+    /// The names of the columns of tables so far, each list once.
+    columns: Vec<Arc<[String]>>,
     /// The last keyword that is no sub-option of an interaction.
     parent: Option<KeywordId>,
     /// The keyword line that closed the last interaction.

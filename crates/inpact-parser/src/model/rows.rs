@@ -12,6 +12,25 @@ use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
 use std::ops::Range;
 
+/// Up to so many counted columns a table has them all, written or not.
+const ALWAYS_THERE: usize = 32;
+
+/// How many of `count` columns behind the first `lead` the rows of a block can go on to: more are no use.
+pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: usize) -> usize {
+    if count <= ALWAYS_THERE {
+        return count;
+    }
+    let texts = std::iter::once(&block.rows).chain(&block.continued_in).map(|rows| deck.text(*rows));
+    let (mut lines, mut commas) = (0, 0);
+    for text in texts {
+        lines += memchr::memchr2_iter(b'\n', b'\r', text.trim_ascii_end()).count() + 1;
+        commas += memchr::memchr_iter(b',', text).count();
+    }
+    let on_lines = layout.first_line + lines.saturating_sub(1).saturating_mul(layout.following);
+    let lead = layout.columns.len();
+    count.min(on_lines.max(commas + 1).saturating_sub(lead))
+}
+
 /// Reads the rows of a block.
 pub(super) fn read_table(
     deck: &Deck,
@@ -42,7 +61,8 @@ pub(super) fn read_table(
     }
     reader.finish(line_of_row);
     let mut table = reader.table;
-    table.columns = layout.columns;
+    table.columns = layout.columns.into();
+    table.unwritten = layout.unwritten;
     table
 }
 
@@ -75,7 +95,7 @@ impl RowReader<'_> {
     fn take_line(&mut self, line: &DataLine<'_>, line_of_row: usize) -> usize {
         let width = self.layout.columns.len();
         // K-53: too much for a first line, but exactly a whole row.
-        let whole_row = self.lines > 1 && line_of_row == 0 && count_items(line) == width;
+        let whole_row = self.lines > 1 && line_of_row == 0 && count_items(line) == self.layout.width();
         let room = if whole_row { width } else { items_on(self.layout, line_of_row) };
         let first_column = self.table.values.len() % width.max(1);
         let mut items = items(line.text);

@@ -1,6 +1,7 @@
 //! A table of a sub-option: rows of numbers with the places they were read from (section 4 of the semantics).
 
 use crate::span::Span;
+use std::sync::Arc;
 
 /// Rows of numbers in the order of the deck.
 ///
@@ -9,7 +10,9 @@ use crate::span::Span;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// The names of the columns: `conductance`, `clearance`, `temp`, `fv1`, ….
-    pub columns: Vec<String>,
+    ///
+    /// Tables of one kind share them: a deck may have more tables than numbers.
+    pub columns: Arc<[String]>,
     /// The cells, row behind row; `columns.len()` a row. Units are those of the columns (see the grammar).
     ///
     /// A cell that is no number, or a parameter without a value, is NaN; see [`Table::texts`].
@@ -21,6 +24,10 @@ pub struct Table {
     pub texts: Vec<CellText>,
     /// The keyword line the table belongs to.
     pub keyword: Span,
+    /// How many field variables DEPENDENCIES counts behind `columns`: no row goes on to them, so that they are zero throughout (S-32).
+    ///
+    /// Rows are not filled up with what nobody wrote: a deck of a few bytes may count a thousand.
+    pub unwritten: usize,
 }
 
 /// The text of a cell that is not written as a number.
@@ -63,9 +70,14 @@ impl Table {
         self.columns.iter().position(|column| column == name)
     }
 
-    /// The number of field variables, columns `fv1` and on.
+    /// The number of field variables in the columns, `fv1` and on.
     pub fn dependencies(&self) -> usize {
         self.columns.iter().filter(|column| is_field(column)).count()
+    }
+
+    /// DEPENDENCIES: the field variables in the columns, and those that no row goes on to.
+    pub fn declared_dependencies(&self) -> usize {
+        self.dependencies() + self.unwritten
     }
 
     pub(super) fn forget_places(&mut self) {

@@ -186,6 +186,9 @@ pub(super) struct TableDocument {
     /// The names of the columns, such as `conductance`, `clearance`, `temp`, then `fv1`, `fv2`, … for field variables.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub(super) columns: Vec<String>,
+    /// DEPENDENCIES, only where it counts more field variables than there are columns: no row goes on to the others, and they are zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) dependencies: Option<usize>,
     /// The rows in the order of the deck, each with an item for every column.
     pub(super) rows: Vec<Vec<Cell>>,
 }

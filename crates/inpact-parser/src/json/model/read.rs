@@ -11,7 +11,8 @@ use crate::grammar::Release;
 use crate::json::{JsonError, parse};
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
-    HeatGeneration, Interaction, Model, Name, Procedure, PropertyAssignment, Reference, SubOption, SurfacePair, Table,
+    HeatGeneration, Interaction, MOST_FIELD_VARIABLES, Model, Name, Procedure, PropertyAssignment, Reference,
+    SubOption, SurfacePair, Table,
 };
 use crate::span::{SourceId, Span};
 
@@ -174,7 +175,17 @@ impl TableDocument {
     /// The table; its first columns must be `expected`, and field variables may follow.
     fn into_model(self, path: &str, expected: &[&str]) -> Result<Table, JsonError> {
         self.check_columns(path, expected)?;
-        let mut table = Table { columns: self.columns, ..Table::default() };
+        let mut table = Table { columns: self.columns.into(), ..Table::default() };
+        if let Some(dependencies) = self.dependencies {
+            let listed = table.dependencies();
+            if dependencies < listed || MOST_FIELD_VARIABLES < dependencies {
+                let message = format!(
+                    "expected a number from {listed}, which are listed, to {MOST_FIELD_VARIABLES}, found {dependencies}"
+                );
+                return Err(JsonError::new(format!("{path}.dependencies"), message));
+            }
+            table.unwritten = dependencies - listed;
+        }
         for (index, row) in self.rows.into_iter().enumerate() {
             if row.len() != table.width() {
                 let message = format!("{} items in a table of {} columns", row.len(), table.width());

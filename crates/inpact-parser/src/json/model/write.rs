@@ -110,7 +110,8 @@ impl From<&Table> for TableDocument {
             cell(*value, text)
         });
         let rows = (0..table.row_count()).map(|_| cells.by_ref().take(table.width()).collect());
-        Self { columns: table.columns.clone(), rows: rows.collect() }
+        let dependencies = (table.unwritten > 0).then(|| table.declared_dependencies());
+        Self { columns: table.columns.to_vec(), dependencies, rows: rows.collect() }
     }
 }
 

@@ -4,10 +4,14 @@ use super::Reader;
 use crate::deck::lines::lines;
 use crate::deck::{Block, KeywordLine, Parameter};
 use crate::grammar::{Definition, KeywordId, RowShape};
-use crate::model::rows::read_table;
+use crate::model::rows::{most_written, read_table};
 use crate::model::{GivenParameter, MOST_FIELD_VARIABLES, Name, Reference, SubOption, Table};
 use crate::number::{read_float, read_integer};
 use crate::span::Span;
+use std::sync::Arc;
+
+/// Of so many kinds of tables the names of the columns are shared.
+const MOST_KINDS: usize = 64;
 
 /// A block whose keyword the grammar defines.
 #[derive(Clone, Copy)]
@@ -37,9 +41,21 @@ impl Reader<'_> {
     /// The rows as a table; `None` when there are none, or USER makes them void.
     pub(super) fn table(&mut self, option: Entry<'_>) -> Option<Table> {
         let dependencies = self.dependencies(option);
-        let layout = option.definition.layout(|name| option.is_given(name), dependencies)?;
-        let table = read_table(self.deck, option.block, layout, &self.model.parameters, &mut self.problems);
-        (table.row_count() > 0).then_some(table)
+        let data = &option.definition.data;
+        let without = data.layout(|name| option.is_given(name), 0)?;
+        let written = most_written(self.deck, option.block, &without, dependencies);
+        let layout = data.layout_of(|name| option.is_given(name), dependencies, written)?;
+        let mut table = read_table(self.deck, option.block, layout, &self.model.parameters, &mut self.problems);
+        if table.row_count() == 0 {
+            return None;
+        }
+        match self.columns.iter().find(|columns| **columns == table.columns) {
+            Some(columns) => table.columns = Arc::clone(columns),
+            // There are few kinds of tables, but for those that somebody makes up.
+            None if self.columns.len() < MOST_KINDS => self.columns.push(Arc::clone(&table.columns)),
+            None => {}
+        }
+        Some(table)
     }
 
     pub(super) fn dependencies(&self, option: Entry<'_>) -> usize {
