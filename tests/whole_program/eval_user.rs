@@ -187,3 +187,74 @@ fn a_library_that_no_interaction_needs_is_not_loaded() {
     let told = "warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `none.so` is not loaded\n";
     assert!(run.errors.starts_with(told), "{}", run.errors);
 }
+
+/// A routine of its own: the lines between the declarations and END, compiled with these options; `None` without a compiler.
+fn routine(lines: &str, options: &[&str]) -> Option<Folder> {
+    let fortran = format!(
+        "      SUBROUTINE GAPELECTR(SIGMA,D,TEMP,PREDEF,TIME,CINAME,SLNAME,
+     1   MSNAME,COORDS,NODE,NPRED,KSTEP,KINC)
+      IMPLICIT REAL*8 (A-H,O-Z)
+      CHARACTER*80 CINAME,SLNAME,MSNAME
+      DIMENSION SIGMA(3),TEMP(2),PREDEF(2,*),TIME(2),COORDS(2,3)
+{lines}      END
+"
+    );
+    let deck = "*SURFACE INTERACTION, NAME=U\n 1.,\n*GAP ELECTRICAL CONDUCTANCE, USER\n";
+    let nodes = "node,clearance,temp_s,temp_m,epot_s,epot_m\n1,0.,20.,30.,1,0\n2,0.,20.,30.,1,0\n";
+    let folder = Folder::with(&[("gapelectr.f", &fortran), ("a.inp", deck), ("a.csv", nodes)]);
+    let mut compiler = Command::new("gfortran");
+    compiler.args(options).args(["-shared", "-fPIC", "-o", "gapelectr.so", "gapelectr.f"]).current_dir(folder.path());
+    match compiler.output() {
+        Ok(output) if output.status.success() => Some(folder),
+        Ok(output) => panic!("{}", String::from_utf8_lossy(&output.stderr)),
+        Err(error) => {
+            assert!(std::env::var_os("INPACT_REQUIRE_GFORTRAN").is_none(), "gfortran: {error}");
+            None
+        }
+    }
+}
+
+#[test]
+fn a_routine_has_a_stack_of_more_than_eight_mebibytes() {
+    // 12 MB of local numbers, all of which are written.
+    let lines = "      DIMENSION W(1500000)
+      DO I=1,1500000
+        W(I)=NODE
+      END DO
+      SIGMA(1)=W(1)+W(750000)+W(1500000)
+";
+    let Some(folder) = routine(lines, &["-O0", "-frecursive"]) else { return };
+    for threads in ["1", "2"] {
+        let run = folder.inpact(&[
+            "eval",
+            "a.inp",
+            "--nodes",
+            "a.csv",
+            "--user-library",
+            "gapelectr.so",
+            "--threads",
+            threads,
+        ]);
+        assert_eq!(run.code, 0, "{}", run.shown());
+        assert_eq!(columns(&run.output, &["conductance"])[1], [6.0], "{}", run.output);
+    }
+}
+
+#[test]
+fn a_routine_with_threads_of_its_own_does_not_end_the_program() {
+    let lines = "      S=0.0D0
+C$OMP PARALLEL DO REDUCTION(+:S)
+      DO I=1,100
+        S=S+1.0D4
+      END DO
+C$OMP END PARALLEL DO
+      SIGMA(1)=S
+";
+    let Some(folder) = routine(lines, &["-fopenmp"]) else { return };
+    // A library that was unloaded under its threads ended one run in three.
+    for _ in 0..30 {
+        let run = folder.inpact(&["eval", "a.inp", "--nodes", "a.csv", "--user-library", "gapelectr.so"]);
+        assert_eq!(run.code, 0, "{}", run.shown());
+        assert_eq!(columns(&run.output, &["conductance"])[0], [1.0e6], "{}", run.output);
+    }
+}

@@ -74,6 +74,7 @@ list_rules! {
     s017_parameters_from_table,
     s018_ignore_without_effect,
     s019_integer_division,
+    s020_include_outside,
     s021_lost_asterisk,
     t001_not_ascending,
     t002_duplicate_abscissa,

@@ -66,6 +66,10 @@ impl IncludedFiles for Files {
         None
     }
 
+    fn outside(&mut self, name: &str, _from: &str) -> Option<String> {
+        name.ends_with("outside.inp").then(|| "decks".to_owned())
+    }
+
     fn find(&mut self, name: &str, _from: &str) -> Result<FoundFile, String> {
         let is_there = matches!(name, "present.inp" | "itself.inp");
         let file = FoundFile { name: name.to_owned(), path: PathBuf::from(name) };

@@ -1,5 +1,7 @@
 //! How a command ends: the exit codes, and what is said when it cannot go on.
 
+use crate::visible::{visible, visible_json};
+use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -64,13 +66,27 @@ pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
 
 /// Prints what clap has to say: help and version to standard output, a usage error to standard error.
 pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
-    // Nobody is left to be told when this fails.
-    let _ = error.print();
+    let plain = error.render().to_string();
+    match visible(&plain) {
+        // Nobody is left to be told when this fails.
+        Cow::Borrowed(_) => drop(error.print()),
+        // What was typed, or the name of a file, has characters that must not reach a terminal.
+        Cow::Owned(shown) => say(shown.trim_end()),
+    }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
-/// Writes a line to standard error; a standard error that is closed is no reason to stop.
-pub(crate) fn say(line: &str) {
+/// Writes a message to standard error, hidden characters written out; a standard error that is closed is no reason to stop.
+pub(crate) fn say(message: &str) {
+    write_line(&visible(message));
+}
+
+/// Writes a line of JSON to standard error.
+pub(crate) fn say_json(json: &str) {
+    write_line(&visible_json(json));
+}
+
+fn write_line(line: &str) {
     use std::io::Write;
     let _ = writeln!(io::stderr().lock(), "{line}");
 }

@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 /// How much of a deck is read at a time: small enough to stay in cache.
 const PIECE: usize = 64 * 1024;
 
+/// The longest line of a deck; Abaqus reads 256 characters.
+const LONGEST_LINE: usize = 16 << 20;
+
 /// The name that stands for standard input and standard output.
 pub(crate) const STANDARD_STREAM: &str = "-";
 
@@ -19,11 +22,25 @@ pub(crate) fn push_all(path: &Path, scanner: &mut Scanner<'_>) -> Result<(), Fai
     loop {
         match input.read(&mut piece) {
             Ok(0) => return Ok(()),
-            Ok(count) => scanner.push(&piece[..count]),
+            Ok(count) => {
+                scanner.push(&piece[..count]);
+                refuse_endless_line(path, scanner)?;
+            }
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(Failure::read(path, error)),
         }
     }
+}
+
+/// A line that goes on for longer than any program could mean is kept whole until it ends: without a limit it takes all memory.
+fn refuse_endless_line(path: &Path, scanner: &Scanner<'_>) -> Result<(), Failure> {
+    if scanner.unfinished() <= LONGEST_LINE {
+        return Ok(());
+    }
+    let line = scanner.line();
+    let message =
+        format!("line {line} is longer than {LONGEST_LINE} bytes, the most that a line may have: it is no deck");
+    Err(Failure::read(path, io::Error::new(io::ErrorKind::InvalidData, message)))
 }
 
 /// Opens a file for reading, or standard input for `-`.

@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
-use crate::settings::{RelativeTo, Settings};
-use inpact_parser::deck::{Deck, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner};
+use crate::reach;
+use crate::settings::{RelativeTo, Settings, folder_of_deck};
+use inpact_parser::deck::{Deck, Excerpts, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -17,11 +18,15 @@ pub(crate) fn read_deck(path: &Path, keep: Keep, settings: &Settings) -> Result<
 
 /// Reads the deck at `path` and what it includes, with other bytes in the place of some files.
 pub(crate) fn read_deck_over(path: &Path, keep: Keep, settings: &Settings, overlay: &Overlay) -> Result<Deck, Failure> {
+    if let Some(reason) = reach::leads_astray(path, &settings.include_roots) {
+        return Err(Failure::Usage(format!("`{}` is not read: {reason}", path.display())));
+    }
     let options = ScanOptions { grammar: settings.grammar, keep };
     let mut scanner = Scanner::new(&path.display().to_string(), options);
     push(path, overlay, &mut scanner)?;
     let is_file = path.as_os_str() != STANDARD_STREAM;
-    let mut included = FilesOnDisk { deck: is_file.then_some(path), settings, overlay };
+    let own_folder = folder_of_deck(if is_file { path } else { Path::new("") });
+    let mut included = FilesOnDisk { deck: is_file.then_some(path), own_folder, settings, overlay };
     Ok(scanner.finish().with_includes(options, &mut included))
 }
 
@@ -37,6 +42,8 @@ fn push(path: &Path, overlay: &Overlay, scanner: &mut Scanner<'_>) -> Result<(),
 struct FilesOnDisk<'a> {
     /// `None` for standard input.
     deck: Option<&'a Path>,
+    /// The whole path of the deck's folder.
+    own_folder: PathBuf,
     settings: &'a Settings,
     overlay: &'a Overlay,
 }
@@ -46,19 +53,40 @@ impl IncludedFiles for FilesOnDisk<'_> {
         self.deck?.canonicalize().ok()
     }
 
+    fn outside(&mut self, name: &str, from: &str) -> Option<String> {
+        let root = self.settings.include_roots.first()?;
+        let name = expand(name, |variable| std::env::var(variable).ok()).ok()?;
+        let is_inside = |path: &PathBuf| reach::lies_in_all(path, &self.settings.include_roots);
+        let mut candidates: Vec<PathBuf> = self.folders(from).map(|folder| folder.join(&name)).collect();
+        let first = candidates.first().cloned();
+        candidates.retain(|path| path.exists());
+        let may_be_found =
+            if candidates.is_empty() { first.iter().any(is_inside) } else { candidates.iter().any(is_inside) };
+        (!may_be_found).then(|| root.display().to_string())
+    }
+
+    fn excerpts(&self, file: &FoundFile) -> Excerpts {
+        let is_below = |folder: &PathBuf| file.path.starts_with(folder);
+        // Whoever names a root, or a folder for included files, means what lies there.
+        let is_meant = !self.settings.include_roots.is_empty()
+            || is_below(&self.own_folder)
+            || self.settings.named_include_dirs.iter().any(is_below);
+        if is_meant { Excerpts::Shown } else { Excerpts::Withheld }
+    }
+
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String> {
         let name = &expand(name, |variable| std::env::var(variable).ok())?;
         let beside_includer = folder_of(Path::new(from));
-        let first = match self.settings.relative_to {
-            RelativeTo::Deck => self.deck.map_or(Path::new(""), folder_of),
-            RelativeTo::IncludingFile => beside_includer,
-        };
-        let folders = std::iter::once(first).chain(self.settings.include_dirs.iter().map(PathBuf::as_path));
+        let folders = self.folders(from);
         for folder in folders.clone() {
             let path = folder.join(name);
-            if path.is_file() {
-                return identify(&path);
+            if !path.exists() || !reach::lies_in_all(&path, &self.settings.include_roots) {
+                continue;
             }
+            return match reach::irregular(&path) {
+                None => identify(&path),
+                Some(reason) => Err(reason.to_owned()),
+            };
         }
         let searched: Vec<String> = folders.map(|folder| format!("`{}`", shown_folder(folder))).collect();
         let mut reason = format!("there is no such file in {}", searched.join(", "));
@@ -70,6 +98,20 @@ impl IncludedFiles for FilesOnDisk<'_> {
 
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String> {
         push(Path::new(&file.name), self.overlay, scanner).map_err(|failure| failure.to_string())
+    }
+}
+
+impl<'a> FilesOnDisk<'a> {
+    /// The folders that a name may be relative to, in the order in which they are searched.
+    fn folders<'b>(&self, from: &'b str) -> impl Iterator<Item = &'b Path> + Clone + use<'a, 'b>
+    where
+        'a: 'b,
+    {
+        let first = match self.settings.relative_to {
+            RelativeTo::Deck => self.deck.map_or(Path::new(""), folder_of),
+            RelativeTo::IncludingFile => folder_of(Path::new(from)),
+        };
+        std::iter::once(first).chain(self.settings.include_dirs.iter().map(PathBuf::as_path))
     }
 }
 

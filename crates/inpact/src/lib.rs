@@ -13,9 +13,12 @@ mod fixing;
 mod input;
 mod page;
 mod progress;
+mod reach;
 mod render;
 mod settings;
+mod threads;
 mod user_library;
+mod visible;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;

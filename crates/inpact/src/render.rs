@@ -7,6 +7,7 @@ mod github;
 mod json;
 mod sarif;
 
+use crate::visible::visible_json;
 use anstream::ColorChoice;
 use clap::ValueEnum;
 use inpact_parser::deck::Deck;
@@ -48,14 +49,17 @@ impl Style {
 
 /// The findings of one deck as text; [`document`] makes a whole of the texts of several.
 pub(crate) fn diagnostics(diagnostics: &[Diagnostic], deck: &Deck, format: Format, style: Style) -> String {
-    let write = match format {
-        Format::Full => return diagnostics.iter().map(|found| full::write(found, deck, style)).collect(),
-        Format::Sarif => return sarif::results(diagnostics, deck),
-        Format::Concise => concise::write,
-        Format::Json => json::write,
-        Format::Github => github::write,
+    let lines = |write: fn(&Diagnostic, &Deck) -> String| -> String {
+        diagnostics.iter().map(|found| write(found, deck)).collect()
     };
-    diagnostics.iter().map(|found| write(found, deck)).collect()
+    match format {
+        // It escapes what it is given: its colours are escape sequences too.
+        Format::Full => diagnostics.iter().map(|found| full::write(found, deck, style)).collect(),
+        Format::Sarif => visible_json(&sarif::results(diagnostics, deck)).into_owned(),
+        Format::Json => visible_json(&lines(json::write)).into_owned(),
+        Format::Concise => lines(concise::write),
+        Format::Github => lines(github::write),
+    }
 }
 
 /// What stands before, between and behind the texts of the decks.

@@ -1,6 +1,7 @@
 //! How a deck is read and judged: `inpact.toml`, found upward from the deck, and the arguments that override it.
 
 use crate::failure::Failure;
+use crate::reach::irregular;
 use clap::{Args, ValueEnum};
 use globset::{Glob, GlobMatcher};
 use inpact_parser::deck::Deck;
@@ -28,6 +29,9 @@ pub(crate) struct DeckArguments {
     /// Look for included files here as well; may be given several times.
     #[arg(long, value_name = "FOLDER")]
     include_dir: Vec<PathBuf>,
+    /// Read no included file outside of this folder [default: the repository, for `--format github` and `--format sarif`].
+    #[arg(long, value_name = "FOLDER")]
+    include_root: Option<PathBuf>,
     /// What the names of included files are relative to [default: deck].
     #[arg(long, value_enum)]
     relative_to: Option<RelativeTo>,
@@ -67,12 +71,21 @@ struct File {
     release: Option<String>,
     #[serde(default)]
     include_dirs: Vec<PathBuf>,
+    include_root: Option<RootEntry>,
     relative_to: Option<RelativeTo>,
     /// The severity of a rule by its code; `off` silences it.
     #[serde(default)]
     rules: BTreeMap<String, Level>,
     #[serde(default)]
     ignore: Vec<IgnoreEntry>,
+}
+
+/// `include-root`: a folder, relative to the configuration file, or `true` for the repository.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged, expecting = "expected a folder, or `true` for the repository")]
+enum RootEntry {
+    Repository(bool),
+    Folder(PathBuf),
 }
 
 /// Rules that do not count for some files.
@@ -99,7 +112,13 @@ enum Level {
 pub(crate) struct Settings {
     pub(crate) grammar: &'static Grammar,
     pub(crate) include_dirs: Vec<PathBuf>,
+    /// The include folders that arguments name: whoever runs the program knows them.
+    pub(crate) named_include_dirs: Vec<PathBuf>,
     pub(crate) relative_to: RelativeTo,
+    /// Whole paths of the folders outside of which nothing is read; a file must lie in all of them.
+    pub(crate) include_roots: Vec<PathBuf>,
+    /// Whether an argument says what the only root is.
+    has_named_root: bool,
     levels: BTreeMap<String, Level>,
     ignores: Vec<(Vec<GlobMatcher>, Vec<String>)>,
     /// The folder of the configuration file, which the paths in `ignores` are relative to.
@@ -129,9 +148,18 @@ impl DeckArguments {
             Some(DialectName::Abaqus) | None => Dialect::Abaqus,
         };
         let from_file = file.include_dirs.iter().map(|folder| root.join(folder));
+        let include_root = match (&self.include_root, &file.include_root) {
+            (Some(folder), _) => Some(whole_folder(folder, "--include-root")?),
+            (None, Some(RootEntry::Folder(folder))) => Some(whole_folder(&root.join(folder), "include-root")?),
+            (None, Some(RootEntry::Repository(true))) => Some(repository_of(path)),
+            (None, Some(RootEntry::Repository(false)) | None) => None,
+        };
         Ok(Settings {
             grammar: grammar_of(dialect, release),
             include_dirs: self.include_dir.iter().cloned().chain(from_file).collect(),
+            named_include_dirs: self.include_dir.iter().filter_map(|folder| folder.canonicalize().ok()).collect(),
+            include_roots: include_root.into_iter().collect(),
+            has_named_root: self.include_root.is_some(),
             relative_to: self.relative_to.or(file.relative_to).unwrap_or(RelativeTo::Deck),
             levels: file.rules,
             ignores: file.ignore.iter().map(|entry| matchers(entry, &found)).collect::<Result<_, _>>()?,
@@ -149,14 +177,39 @@ impl DeckArguments {
         }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().ok()?;
-        folder.ancestors().map(|folder| folder.join(FILE_NAME)).find(|candidate| candidate.is_file())
+        folder.ancestors().map(|folder| folder.join(FILE_NAME)).find(|file| file.is_file() && irregular(file).is_none())
     }
+}
+
+/// The whole path of a folder that is named as a root.
+fn whole_folder(folder: &Path, named_by: &str) -> Result<PathBuf, Failure> {
+    let whole = folder.canonicalize().map_err(|error| Failure::read(folder, error))?;
+    if whole.is_dir() {
+        return Ok(whole);
+    }
+    Err(Failure::Usage(format!("`{named_by}`: `{}` is no folder", folder.display())))
+}
+
+/// The nearest folder above a deck that has `.git`; the deck's folder where there is none.
+fn repository_of(deck: &Path) -> PathBuf {
+    let folder = folder_of_deck(deck);
+    let repository = folder.ancestors().find(|folder| folder.join(".git").exists());
+    repository.map_or_else(|| folder.clone(), Path::to_owned)
+}
+
+/// The whole path of the folder that a deck is named in; the working folder for standard input.
+pub(crate) fn folder_of_deck(deck: &Path) -> PathBuf {
+    let folder = deck.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
 fn read(path: &Path) -> Result<File, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| Failure::read(path, error))?;
     let wrong = |message: &str| Failure::Usage(format!("`{}`: {message}", path.display()));
-    let file: File = toml::from_str(&text).map_err(|error| wrong(error.to_string().trim_end()))?;
+    // A configuration comes with the deck: where it is a link, the lines of what it leads to are nobody's business.
+    let is_link = path.is_symlink();
+    let shown = |error: &toml::de::Error| if is_link { error.message().to_owned() } else { error.to_string() };
+    let file: File = toml::from_str(&text).map_err(|error| wrong(shown(&error).trim_end()))?;
     let codes = file.rules.keys().chain(file.ignore.iter().flat_map(|entry| &entry.rules));
     for code in codes {
         if !RULES.iter().any(|rule| rule.code == code) {
@@ -195,6 +248,15 @@ fn grammar_of(dialect: Dialect, release: Release) -> &'static Grammar {
 }
 
 impl Settings {
+    /// Reads nothing outside of the repository of a deck, unless an argument names another root.
+    ///
+    /// What `inpact.toml` says can only take away from that: it comes with the deck.
+    pub(crate) fn confine_to_repository(&mut self, deck: &Path) {
+        if !self.has_named_root {
+            self.include_roots.push(repository_of(deck));
+        }
+    }
+
     /// Changes severities as configured, and leaves out what is switched off or ignored for this file.
     pub(crate) fn apply(&self, diagnostics: Vec<Diagnostic>, deck: &Deck) -> Vec<Diagnostic> {
         if self.levels.is_empty() && self.ignores.is_empty() {

@@ -25,7 +25,7 @@
 //!   SIGMA has room for eight numbers: a routine that writes more than three of them is found out, not obeyed.
 //! - Integers lie in eight bytes with the value in the first four (and, little-endian, in all eight), so that a routine compiled with `-fdefault-integer-8` reads them as well.
 //! - One call at a time in the whole process: COMMON and SAVE have no protection of their own.
-//! - The address of the routine is used only while the library is loaded: both live in [`FortranRoutine`].
+//! - The library is never unloaded, so the address of the routine stays good, and so does the code that threads of the library's own (OpenMP) run when the work is done.
 //! - The library is loaded by a thread of its own: one that was linked with `-ffast-math` switches subnormal numbers off in the thread that loads it.
 //!
 //! What the routine does beyond that (a wild address, another list of arguments) nobody can check: it is run because the user names the file, and a crash in it ends the program.
@@ -79,11 +79,9 @@ type GapElectr = unsafe extern "C" fn(
 /// Admits one call at a time, and has room for the copy of PREDEF.
 static ONE_CALL: Mutex<Vec<[f64; 2]>> = Mutex::new(Vec::new());
 
-/// GAPELECTR in a library that stays loaded.
+/// GAPELECTR in a library that stays loaded for as long as the program runs.
 struct FortranRoutine {
     routine: GapElectr,
-    // Behind what points into it, so that it is dropped last.
-    _library: Library,
 }
 
 /// Loads a shared library and finds GAPELECTR in it.
@@ -91,16 +89,16 @@ pub(crate) fn load(path: &Path) -> Result<UserLaw, Failure> {
     image::check(path)?;
     // A bare name would be looked for in the folders of the system.
     let whole = std::path::absolute(path).map_err(|error| Failure::read(path, error))?;
-    let library = open_in_a_thread(whole).map_err(|error| cannot_load(path, &error))?;
+    let library = open_in_a_thread(path, whole)?;
     // SAFETY: the symbol is taken for what the calling convention says; whether it is, the user answers for who names the file.
     let routine = unsafe { library.get::<GapElectr>(SYMBOL) }.map(|symbol| *symbol);
-    let routine = routine.map_err(|_| without_symbol(path, &library))?;
+    let routine = routine.map_err(|_| without_symbol(path, library))?;
     stopping::watch();
-    Ok(UserLaw::new(FortranRoutine { routine, _library: library }))
+    Ok(UserLaw::new(FortranRoutine { routine }))
 }
 
-/// Opens the library with all its symbols resolved, so that one that is missing is told now and not in the middle of a run.
-fn open_in_a_thread(whole: PathBuf) -> Result<Library, libloading::Error> {
+/// Opens the library with all its symbols resolved, so that one that is missing is told now and not in the middle of a run; it stays loaded.
+fn open_in_a_thread(path: &Path, whole: PathBuf) -> Result<&'static Library, Failure> {
     let open = move || {
         // SAFETY: initialisers of the library run here; the user names the file for that.
         #[cfg(unix)]
@@ -111,9 +109,15 @@ fn open_in_a_thread(whole: PathBuf) -> Result<Library, libloading::Error> {
         // SAFETY: as above.
         #[cfg(not(unix))]
         let opened = unsafe { Library::new(whole) };
-        opened
+        // Threads that the library started may run its code until the program ends.
+        opened.map(|library| &*Box::leak(Box::new(library)))
     };
-    std::thread::spawn(open).join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    let thread = std::thread::Builder::new().spawn(open);
+    let thread = thread.map_err(|error| {
+        Failure::Usage(format!("cannot load `{}`: no thread can be started to load it in ({error})", path.display()))
+    })?;
+    let opened = thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    opened.map_err(|error| cannot_load(path, &error))
 }
 
 /// What the loader of the system says, and what to do.
@@ -167,7 +171,7 @@ impl UserConductance for FortranRoutine {
             [i64::from(point.node), field_variables, i64::from(point.step), i64::from(point.increment)].map(integer);
         let [node, npred, kstep, kinc] = &mut integers;
         stopping::during(point, || {
-            // SAFETY: every address is that of a value of ours with the size the calling convention gives it, which nothing else uses during the call; the library is loaded for as long as `self` lives; `predef` is locked, so no other call is under way.
+            // SAFETY: every address is that of a value of ours with the size the calling convention gives it, which nothing else uses during the call; the library is never unloaded; `predef` is locked, so no other call is under way.
             unsafe {
                 (self.routine)(
                     sigma.as_mut_ptr(),

@@ -40,8 +40,12 @@ pub enum IncludeOutcome {
     Read(SourceId),
     /// It was not found or could not be read, for this reason.
     Unreadable(String),
-    /// It lies over five levels deep (S-52), or there are more files than anybody could mean.
+    /// It lies outside of this folder, beyond which nothing may be read.
+    Outside(String),
+    /// It lies over five levels deep (S-52).
     TooDeep,
+    /// So many files are included already ([`MOST_FILES`]) that nobody can mean them all.
+    TooMany,
     /// It is being read already: the files include one another.
     Cycle,
     /// PASSWORD is given: the file is encrypted (S-53).
@@ -55,6 +59,16 @@ pub trait IncludedFiles {
     /// What tells the deck itself from every other file; `None` when it is no file.
     fn deck(&self) -> Option<PathBuf>;
 
+    /// The folder that a file lies outside of although nothing beyond it may be read; asked before the file is looked for.
+    fn outside(&mut self, _name: &str, _from: &str) -> Option<String> {
+        None
+    }
+
+    /// Whether the lines of a file that was found may be quoted around findings.
+    fn excerpts(&self, _file: &FoundFile) -> Excerpts {
+        Excerpts::Shown
+    }
+
     /// Finds the file that is written as `name` in the source called `from`.
     ///
     /// # Errors
@@ -66,6 +80,16 @@ pub trait IncludedFiles {
     /// # Errors
     /// Says in words why they cannot be read.
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String>;
+}
+
+/// Whether the lines of a source file may be quoted around findings in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Excerpts {
+    /// They may.
+    #[default]
+    Shown,
+    /// They may not: the deck names a file that is none of its own, and its lines are nobody's business.
+    Withheld,
 }
 
 /// A file that an *INCLUDE names.
@@ -171,8 +195,11 @@ impl Assembly<'_> {
     }
 
     fn read_file(&mut self, name: Span, keyword: Span) -> IncludeOutcome {
-        if self.level >= MOST_LEVELS || self.deck.sources.len() > MOST_FILES {
+        if self.level >= MOST_LEVELS {
             return IncludeOutcome::TooDeep;
+        }
+        if self.deck.sources.len() > MOST_FILES {
+            return IncludeOutcome::TooMany;
         }
         let written = self.deck.shown(name);
         // Blanks carry no meaning outside quotes (S-22).
@@ -180,7 +207,11 @@ impl Assembly<'_> {
             Some(quoted) => quoted.to_owned(),
             None => written.split_ascii_whitespace().collect(),
         };
-        let found = match self.files.find(&written, self.deck.source(name.source).name()) {
+        let from = self.deck.source(name.source).name();
+        if let Some(folder) = self.files.outside(&written, from) {
+            return IncludeOutcome::Outside(folder);
+        }
+        let found = match self.files.find(&written, from) {
             Ok(found) => found,
             Err(reason) => return IncludeOutcome::Unreadable(reason),
         };
@@ -212,7 +243,8 @@ impl Assembly<'_> {
             None => self.first_bytes += length,
         }
         self.lengths.insert(found.path.clone(), length);
-        included.sources.iter_mut().for_each(|source| source.set_included_by(keyword));
+        let excerpts = self.files.excerpts(&found);
+        included.sources.iter_mut().for_each(|source| source.set_included_by(keyword, excerpts));
         self.deck.sources.append(&mut included.sources);
         self.deck.notes.append(&mut included.notes);
         self.deck.directives.append(&mut included.directives);
@@ -242,7 +274,8 @@ impl Assembly<'_> {
 }
 
 impl Source {
-    pub(super) fn set_included_by(&mut self, keyword: Span) {
+    pub(super) fn set_included_by(&mut self, keyword: Span, excerpts: Excerpts) {
         self.included_by = Some(keyword);
+        self.excerpts = excerpts;
     }
 }

@@ -168,6 +168,16 @@ impl<'grammar> Scanner<'grammar> {
         self.pending.extend_from_slice(&bytes[complete..]);
     }
 
+    /// How many bytes have been taken of a line that has not ended yet: they are kept until it does.
+    pub fn unfinished(&self) -> usize {
+        self.pending.len()
+    }
+
+    /// The number of the line that comes next or has not ended yet, from 1.
+    pub fn line(&self) -> u64 {
+        self.line
+    }
+
     /// The end of the file: gives the deck.
     pub fn finish(mut self) -> Deck {
         let last_line = std::mem::take(&mut self.pending);

@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use super::include::Excerpts;
 use super::lines::count_line_ends;
 use crate::span::{Position, Span};
 
@@ -14,6 +15,7 @@ pub struct Source {
     length: u64,
     /// The *INCLUDE that named it.
     pub(super) included_by: Option<Span>,
+    pub(super) excerpts: Excerpts,
     stretches: Vec<Stretch>,
     /// The kept bytes, stretch behind stretch.
     bytes: Vec<u8>,
@@ -49,6 +51,11 @@ impl Source {
     /// The keyword line of the *INCLUDE that named it; `None` for the deck itself.
     pub fn included_by(&self) -> Option<Span> {
         self.included_by
+    }
+
+    /// Whether its lines may be quoted around findings.
+    pub fn excerpts(&self) -> Excerpts {
+        self.excerpts
     }
 
     /// Whether every byte of the file was kept.

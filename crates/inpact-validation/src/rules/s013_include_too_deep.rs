@@ -1,13 +1,14 @@
 //! S013: files that include one another, or lie too deep.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::deck::{IncludeOutcome, MOST_LEVELS};
+use inpact_parser::deck::{IncludeOutcome, MOST_FILES, MOST_LEVELS};
 
 declare_rule! {
-    /// Files include one another without end, or lie more than five levels below the deck.
+    /// Files include one another without end, lie more than five levels below the deck, or are more than 200,000.
     ///
     /// ## Why
     /// Abaqus reads five levels of files below one another and no more.
+    /// A deck of more files than that is taken for one whose files include one another over and over.
     ///
     /// ## What to do
     /// Let a file be included by the deck rather than by another included file.
@@ -35,6 +36,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .at(span, format!("`{shown}` lies more than {MOST_LEVELS} levels below the deck"))
                 .label("not read")
                 .help("include it from the deck itself"),
+            IncludeOutcome::TooMany => report
+                .at(span, format!("`{shown}` is not read: {MOST_FILES} files are included before it, as many as are allowed"))
+                .label("not read")
+                .help("put small files together"),
             _ => continue,
         };
     }

@@ -8,6 +8,7 @@ use crate::input;
 use crate::progress::Progress;
 use crate::render::{self, Format, Style};
 use crate::settings::DeckArguments;
+use crate::threads::with_threads;
 use clap::Args;
 use inpact_parser::deck::Keep;
 use inpact_parser::model;
@@ -82,8 +83,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     }
     let style = if arguments.output.is_some() { Style::Plain } else { Style::of_standard_output() };
     let progress = Progress::over(&arguments.decks, arguments.quiet);
-    let checked: Vec<Result<Checked, Failure>> =
-        arguments.decks.par_iter().map(|path| check_deck(path, arguments, style, &progress)).collect();
+    let checked: Vec<Result<Checked, Failure>> = with_threads(0, || {
+        arguments.decks.par_iter().map(|path| check_deck(path, arguments, style, &progress)).collect()
+    });
     progress.finish();
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
     let mut total = Tally::default();
@@ -141,7 +143,11 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
 }
 
 fn check_deck(path: &Path, arguments: &CheckArguments, style: Style, progress: &Progress) -> Result<Checked, Failure> {
-    let settings = arguments.reading.settings(path)?;
+    let mut settings = arguments.reading.settings(path)?;
+    if matches!(arguments.format, Format::Github | Format::Sarif) {
+        // Decks of strangers are checked for these.
+        settings.confine_to_repository(path);
+    }
     let fixed = if arguments.fix || arguments.diff || !arguments.fix_also.is_empty() {
         if path.as_os_str() == files::STANDARD_STREAM {
             return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));

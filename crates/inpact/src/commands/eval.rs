@@ -6,7 +6,7 @@ use self::summary::Summary;
 use super::evaluable::{Evaluable, EvaluableArguments, READ_AHEAD};
 use super::findings::{FindingFormat, say_data_findings};
 use super::laws::LawArguments;
-use crate::failure::{Failure, Outcome, say};
+use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
@@ -61,7 +61,7 @@ impl EvalArguments {
 }
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
-    arguments.evaluable.threads()?.install(|| run_on_threads(arguments))
+    arguments.evaluable.with_threads(|| run_on_threads(arguments))
 }
 
 fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
@@ -83,7 +83,7 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let summary = Summary { tally: &tally, plan: &evaluable.plan, rows_out, time: start.elapsed() };
     match format {
         FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
-        FindingFormat::Json => say(&summary.json()),
+        FindingFormat::Json => say_json(&summary.json()),
     }
     Ok(Outcome::Clean)
 }

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::settings::DeckArguments;
+use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
@@ -16,7 +17,6 @@ use inpact_parser::deck::Keep;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::check;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -220,12 +220,9 @@ impl EvaluableArguments {
         if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
 
-    /// The threads that share the work.
-    pub(crate) fn threads(&self) -> Result<ThreadPool, Failure> {
-        // 0 is as many as there are cores.
-        let threads = self.threads.map_or(0, usize::from);
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.map_err(|error| Failure::Usage(format!("cannot start {threads} threads: {error}")))
+    /// Does some work with as many threads as are wanted.
+    pub(crate) fn with_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        with_threads(self.threads.map_or(0, usize::from), work)
     }
 
     /// Where the node table is, for a failure to read it.

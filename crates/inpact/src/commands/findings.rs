@@ -1,7 +1,8 @@
 //! What was found in decks and in data, on standard error.
 
-use crate::failure::say;
+use crate::failure::{say, say_json};
 use crate::render::{self, Format, Style};
+use crate::visible::visible_line;
 use clap::ValueEnum;
 use inpact_evaluation::nodes::DataDiagnostic;
 use inpact_evaluation::plan::concerning;
@@ -35,7 +36,10 @@ pub(crate) fn say_deck_findings(
         FindingFormat::Json => Format::Json,
     };
     let text = render::diagnostics(&shown, deck, format, Style::Plain);
-    text.lines().for_each(say);
+    match format {
+        Format::Json => text.lines().for_each(say_json),
+        _ => text.lines().for_each(say),
+    }
     let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
     let elsewhere = errors(found) - errors(&shown);
     if elsewhere > 0 && format == Format::Concise {
@@ -48,10 +52,10 @@ pub(crate) fn say_deck_findings(
 /// Says what is wrong with a node table.
 pub(crate) fn say_data_findings(found: Vec<DataDiagnostic>, format: FindingFormat) {
     for found in found {
-        say(&match format {
-            FindingFormat::Concise => concise(&found),
-            FindingFormat::Json => json(&found),
-        });
+        match format {
+            FindingFormat::Concise => say(&visible_line(&concise(&found))),
+            FindingFormat::Json => say_json(&json(&found)),
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::laws::LawArguments;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::settings::DeckArguments;
+use crate::visible::{visible, visible_json};
 use clap::{Args, ValueEnum};
 use inpact_evaluation::plan::{
     CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, FormPlan, GovernedBy, InteractionPlan, Node,
@@ -46,11 +47,14 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Json => FindingFormat::Json,
     };
     let PlanArguments { evaluable, laws, reading, .. } = arguments;
-    let prepared = evaluable.threads()?.install(|| evaluable.prepare(laws, reading, findings))?;
+    let prepared = evaluable.with_threads(|| evaluable.prepare(laws, reading, findings))?;
     let Some(evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     let text = match arguments.format {
-        PlanFormat::Text => format!("plan for {} on {}: {}", evaluable.deck_name, evaluable.nodes_name, evaluable.plan),
-        PlanFormat::Json => as_json(&evaluable),
+        PlanFormat::Text => {
+            let text = format!("plan for {} on {}: {}", evaluable.deck_name, evaluable.nodes_name, evaluable.plan);
+            visible(&text).into_owned()
+        }
+        PlanFormat::Json => visible_json(&as_json(&evaluable)).into_owned(),
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
     Ok(if evaluable.deck_has_errors { Outcome::HasErrors } else { Outcome::Clean })

@@ -7,6 +7,7 @@ use super::laws::LawArguments;
 use crate::failure::{Failure, say};
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
+use crate::reach;
 use crate::settings::DeckArguments;
 use inpact_evaluation::nodes::{DataDiagnostic, Findings};
 use inpact_evaluation::plan::Choices;
@@ -15,6 +16,7 @@ use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::{Severity, check};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// A scene with the model of its deck.
@@ -43,19 +45,22 @@ impl SolvableScene {
         let Ok(text) = String::from_utf8(text) else {
             return Err(Failure::Data(format!("`{name}` is no scene: it is not UTF-8")));
         };
-        let mut files = FilesBeside { folder, read: vec![path.to_owned()], failures: Vec::new() };
+        let settings = reading.settings(path)?;
+        let roots = settings.include_roots.as_slice();
+        let mut files = FilesBeside { folder, roots, read: vec![path.to_owned()], failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
         let has_errors = found.iter().any(|found| found.severity == Severity::Error);
         say_data_findings(found, format);
         let deck_path = scene.as_ref().map(|scene| folder.join(&scene.deck));
         if let (Some(deck), false) = (&deck_path, files.failures.is_empty()) {
-            files.failures.extend(files::read_bytes(deck).err());
+            files.failures.extend(refuse_outside(deck, roots).and_then(|()| files::read_bytes(deck)).err());
         }
         if !files.failures.is_empty() {
             files.failures.iter().for_each(|failure| say(&format!("error: {failure}")));
             return Err(Failure::AlreadySaid);
         }
         let Some((scene, deck_path)) = scene.zip(deck_path) else { return Ok(None) };
+        refuse_outside(&deck_path, roots)?;
         if has_errors {
             // What the deck has to say of the interfaces is said in the same run, where there is a deck.
             let read = reading.settings(&deck_path).and_then(|settings| {
@@ -80,15 +85,9 @@ impl SolvableScene {
             ..laws.choices(&model, grammar.dialect(), Some(regime))?
         };
         let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
-        let mut names: Vec<&Name> = Vec::new();
-        for interface in &scene.interfaces {
-            let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
-            if let Some(name) = interface.interaction.as_ref().or(only)
-                && !names.contains(&name)
-            {
-                names.push(name);
-            }
-        }
+        let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
+        let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
+        let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();
         if say_deck_findings(&found, (&deck, grammar, &model), &names, format) {
             return Ok(None);
         }
@@ -118,9 +117,23 @@ impl SolvableScene {
     }
 }
 
+/// Refuses a file that a scene names and that is no regular one, or lies outside of what may be read.
+fn refuse_outside(path: &Path, roots: &[PathBuf]) -> Result<(), Failure> {
+    let reason = match roots.iter().find(|root| !reach::lies_in_all(path, std::slice::from_ref(*root))) {
+        Some(root) => format!("it lies outside of `{}`, outside of which nothing is read", root.display()),
+        None => match reach::irregular(path) {
+            Some(reason) => reason.to_owned(),
+            None => return Ok(()),
+        },
+    };
+    Err(Failure::Usage(format!("`{}` is not read: {reason}", path.display())))
+}
+
 /// The files beside a scene.
 struct FilesBeside<'a> {
     folder: &'a Path,
+    /// Outside of which nothing is read.
+    roots: &'a [PathBuf],
     /// Those that were read, and the scene.
     read: Vec<PathBuf>,
     /// Why some could not be read.
@@ -130,7 +143,7 @@ struct FilesBeside<'a> {
 impl SceneFiles for FilesBeside<'_> {
     fn read(&mut self, name: &str) -> Option<Vec<u8>> {
         let path = self.folder.join(name);
-        match files::read_bytes(&path) {
+        match refuse_outside(&path, self.roots).and_then(|()| files::read_bytes(&path)) {
             Ok(bytes) => {
                 self.read.push(path);
                 Some(bytes)

@@ -9,9 +9,10 @@ use super::evaluable::tolerance;
 use super::findings::{FindingFormat, say_data_findings};
 use super::laws::LawArguments;
 use super::solvable::SolvableScene;
-use crate::failure::{Failure, Outcome, say};
+use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, STANDARD_STREAM};
 use crate::settings::DeckArguments;
+use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::transient;
@@ -88,6 +89,10 @@ impl SolverArguments {
 }
 
 pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
+    with_threads(0, || run_on_threads(arguments))
+}
+
+fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let format = arguments.format.of_findings();
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
@@ -128,7 +133,7 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     };
     match format {
         FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
-        FindingFormat::Json => say(&summary.json().to_string()),
+        FindingFormat::Json => say_json(&summary.json().to_string()),
     }
     Ok(Outcome::Clean)
 }

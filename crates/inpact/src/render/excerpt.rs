@@ -3,6 +3,7 @@
 //! A deck may hold any bytes and lines of any length: what is no UTF-8 is shown as `?`, byte for byte, so that offsets
 //! stay what they are, and of an endless line only the surroundings of the label are shown.
 
+use crate::visible::{is_hidden, visible_line};
 use inpact_parser::deck::Deck;
 use inpact_validation::Label;
 use memchr::{memchr, memrchr};
@@ -36,7 +37,7 @@ impl Excerpt {
         let mut name = String::new();
         let mut pieces = Vec::new();
         for label in labels {
-            deck.source(label.span.source).name().clone_into(&mut name);
+            name = visible_line(deck.source(label.span.source).name()).into_owned();
             pieces.push(Piece::around(deck, label, context));
         }
         Self { name, pieces }
@@ -83,12 +84,12 @@ fn end_of_line(bytes: &[u8], at: usize) -> usize {
     memchr(b'\n', &bytes[at..]).map_or(bytes.len(), |found| at + found)
 }
 
-/// The bytes as text of the same length: what is no UTF-8 becomes `?`, and so do control characters but tabs and line ends.
+/// The bytes as text of the same length: what is no UTF-8 becomes `?`, and so do hidden characters but tabs and line ends.
 fn printable(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {
         for character in chunk.valid().chars() {
-            let is_shown = !character.is_control() || matches!(character, '\t' | '\n');
+            let is_shown = !is_hidden(character) || matches!(character, '\t' | '\n');
             if is_shown {
                 text.push(character);
             } else {

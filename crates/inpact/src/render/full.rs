@@ -2,7 +2,8 @@
 
 use super::excerpt::Excerpt;
 use super::{Style, include_chain};
-use inpact_parser::deck::Deck;
+use crate::visible::visible;
+use inpact_parser::deck::{Deck, Excerpts};
 use inpact_validation::{Diagnostic, Label, Severity};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::fmt;
@@ -39,9 +40,28 @@ struct Rendered<'a> {
     deck: &'a Deck,
 }
 
+impl Rendered<'_> {
+    fn excerpts(&self) -> Excerpts {
+        self.deck.source(self.found.primary.span.source).excerpts()
+    }
+
+    /// Where the finding is, if the lines there are not shown.
+    fn withheld_place(&self) -> Option<String> {
+        let Label { span, position, text, .. } = &self.found.primary;
+        let label = if text.is_empty() { String::new() } else { format!("{text} ") };
+        let file = self.deck.source(span.source).name();
+        (self.excerpts() == Excerpts::Withheld).then(|| {
+            let place = format!("{file}:{}:{}", position.line, position.column);
+            format!(
+                "{label}at {place} (lines of files outside of the deck's folder are not shown: see `--include-root`)"
+            )
+        })
+    }
+}
+
 impl fmt::Display for Rendered<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.found.message)
+        formatter.write_str(&visible(&self.found.message))
     }
 }
 
@@ -70,17 +90,18 @@ impl miette::Diagnostic for Rendered<'_> {
         let note = self.found.note.iter().map(|note| format!("note: {note}"));
         let included = include_chain(self.found, self.deck).into_iter().map(|place| format!("included at {place}"));
         let help = self.found.help.iter().cloned();
-        let parts: Vec<String> = help.chain(note).chain(elsewhere).chain(included).collect();
-        if parts.is_empty() { None } else { Some(Box::new(parts.join("\n"))) }
+        let withheld = self.withheld_place().into_iter();
+        let parts: Vec<String> = withheld.chain(help).chain(note).chain(elsewhere).chain(included).collect();
+        if parts.is_empty() { None } else { Some(Box::new(visible(&parts.join("\n")).into_owned())) }
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&self.excerpt)
+        (self.excerpts() == Excerpts::Shown).then_some(&self.excerpt)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let labels = labels(self.found).enumerate().map(|(index, label)| {
-            let text = (!label.text.is_empty()).then(|| label.text.clone());
+            let text = (!label.text.is_empty()).then(|| visible(&label.text).into_owned());
             let offset = usize::try_from(label.span.start).unwrap_or(usize::MAX);
             let length = usize::try_from(label.span.len()).unwrap_or(0);
             if index == 0 {

@@ -1,5 +1,6 @@
 //! Workflow commands of GitHub Actions: findings that show up beside the lines of a pull request.
 
+use crate::visible::visible;
 use inpact_parser::deck::Deck;
 use inpact_validation::{Diagnostic, Severity};
 
@@ -19,7 +20,7 @@ pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
 
 /// The escapes of a message.
 fn data(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    visible(text).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
 /// The escapes of a property, in which colons and commas mean something.

@@ -13,10 +13,16 @@ use super::{Shown, TradeoffArguments, TradeoffFormat};
 use crate::commands::findings::say_data_findings;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
+use crate::threads::with_threads;
+use crate::visible::visible;
 use std::path::Path;
 
 /// Measures on a scene; `None` after saying what is wrong with it, as `solve` says it.
 pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
+    with_threads(0, || measured_on_threads(path, arguments))
+}
+
+fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     let format = arguments.format.of_findings();
     let prepared = SolvableScene::read(path, &arguments.laws, &arguments.reading, format)?;
     let Some(prepared) = prepared else { return Ok(None) };
@@ -34,7 +40,7 @@ pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
         }
     };
     let text = match arguments.format {
-        TradeoffFormat::Text => report::text(&measured, &prepared),
+        TradeoffFormat::Text => visible(&report::text(&measured, &prepared)).into_owned(),
         TradeoffFormat::Csv => report::csv(&measured),
         TradeoffFormat::Json => report::json(&measured, &prepared),
     };

@@ -13,17 +13,21 @@ use super::{Shown, TradeoffArguments, TradeoffFormat};
 use crate::commands::evaluable::EvaluableArguments;
 use crate::commands::findings::say_data_findings;
 use crate::failure::Failure;
+use crate::visible::visible;
 use inpact_evaluation::nodes::Findings;
 
 /// Measures on a deck and its node table; `None` after saying what is wrong with them.
 pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
+    table.with_threads(|| measured_on_threads(table, arguments))
+}
+
+fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     let format = arguments.format.of_findings();
-    let threads = table.threads()?;
-    let prepared = threads.install(|| table.prepare(&arguments.laws, &arguments.reading, format))?;
+    let prepared = table.prepare(&arguments.laws, &arguments.reading, format)?;
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
     let mut findings = Findings::new(&scene.nodes_name);
     let nodes_path = table.nodes_path();
-    let sample = threads.install(|| subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings))?;
+    let sample = subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings)?;
     let has_errors = findings.has_errors();
     say_data_findings(findings.into_list(), format);
     if has_errors {
@@ -36,7 +40,7 @@ pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments
     let measured = measure::measure(&sample, arguments.rounds);
     let names = report::Names { deck: &scene.deck_name, nodes: &scene.nodes_name };
     let text = match arguments.format {
-        TradeoffFormat::Text => report::text(&measured, names),
+        TradeoffFormat::Text => visible(&report::text(&measured, names)).into_owned(),
         TradeoffFormat::Csv => report::csv(&measured),
         TradeoffFormat::Json => report::json(&measured, names),
     };

@@ -1,0 +1,24 @@
+//! The threads that share the work.
+//!
+//! Where the system gives no more threads (a container's limit of processes), the work is done on the one that is there:
+//! results do not depend on how many there are.
+
+use rayon::ThreadPoolBuilder;
+
+/// The stack of a thread in bytes.
+///
+/// The local arrays of a user's GAPELECTR lie there, and Abaqus runs it in 8 MiB. Only what is used takes memory.
+const STACK: usize = 16 << 20;
+
+/// Does some work with so many threads, 0 for one a core; on the calling thread alone where no other can be started.
+///
+/// Everything that may use rayon or call a user's routine runs within this: rayon's own pool ends the program where it cannot be made, and has small stacks.
+pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    let builder = || ThreadPoolBuilder::new().stack_size(STACK);
+    let alone = |_| builder().num_threads(1).use_current_thread().build();
+    match builder().num_threads(threads).build().or_else(alone) {
+        Ok(pool) => pool.install(work),
+        // The calling thread has a pool already.
+        Err(_) => work(),
+    }
+}

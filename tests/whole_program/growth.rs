@@ -1,0 +1,102 @@
+//! More time or memory than a deck earns: what grows with the square of a deck, or with a number in it.
+//!
+//! Nothing is held against a clock. Each input is so large that what grew with its square would take hours, and what grew with a
+//! number in it more memory than the limit that is set; a run that ends at all has not done that.
+
+use crate::program::{Folder, Run, command, run};
+
+/// Runs with a limit of memory in bytes, where there is one to set.
+fn within(folder: &Folder, memory: u64, arguments: &[&str]) -> Run {
+    let plain = command(folder.path(), arguments);
+    if !cfg!(target_os = "linux") {
+        return run(plain, b"");
+    }
+    let mut limited = std::process::Command::new("prlimit");
+    limited.arg(format!("--as={memory}")).arg(plain.get_program()).args(arguments);
+    limited.current_dir(folder.path()).env("NO_COLOR", "1").env("RAYON_NUM_THREADS", "1");
+    run(limited, b"")
+}
+
+#[test]
+fn memory_follows_what_is_written_and_not_dependencies() {
+    // Filled up to a thousand field variables, a row has 8 kB and the names of its columns 24: 3 GB for all.
+    let block = |number| {
+        format!(
+            "*SURFACE INTERACTION, NAME=A{number}\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE, DEPENDENCIES=1000\n 1., 0.\n 2., 1.\n"
+        )
+    };
+    let folder = Folder::with(&[("a.inp", &(0..100_000).map(block).collect::<String>())]);
+    for arguments in [&["check", "-q", "--statistics", "a.inp"][..], &["json", "a.inp", "-o", "a.json"]] {
+        let run = within(&folder, 1 << 30, arguments);
+        assert_eq!(run.code, 1, "{arguments:?}: {}", run.errors.chars().take(500).collect::<String>());
+    }
+    let deck = folder.path().join("a.inp").metadata().expect("there").len();
+    let json = folder.path().join("a.json").metadata().expect("there").len();
+    assert!(json < 12 * deck, "{json} bytes of JSON for {deck} bytes of deck");
+}
+
+#[test]
+fn rows_that_are_short_of_a_thousand_dependencies_survive_json() {
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE, DEPENDENCIES=1000\n1., 0., 20., 5.\n2., 1.\n";
+    let folder = Folder::with(&[("a.inp", deck)]);
+    let json = folder.inpact(&["json", "a.inp"]);
+    assert!(json.output.contains("\"dependencies\": 1000"), "{}", json.output);
+    folder.write("a.json", &json.output);
+    let back = folder.inpact(&["inp", "a.json"]);
+    assert_eq!(back.code, 0, "{}", back.shown());
+    assert!(back.output.contains("DEPENDENCIES=1000"), "{}", back.output);
+    folder.write("b.inp", &back.output);
+    let tables = |json: &str| {
+        let document: serde_json::Value = serde_json::from_str(json).expect("JSON");
+        document["interactions"]["A"]["gap_electrical_conductance"].clone()
+    };
+    assert_eq!(tables(&folder.inpact(&["json", "b.inp"]).output), tables(&json.output));
+    for wrong in ["3", "1001"] {
+        folder.write("a.json", &json.output.replace("\"dependencies\": 1000", &format!("\"dependencies\": {wrong}")));
+        let run = folder.inpact(&["inp", "a.json"]);
+        assert!(run.code == 2 || run.code == 1, "{}", run.shown());
+        assert!(run.errors.contains("dependencies") && run.errors.contains(wrong), "{}", run.shown());
+    }
+}
+
+#[test]
+fn interactions_that_are_used_cost_no_square() {
+    let count = 60_000;
+    let block = |number| {
+        format!("*SURFACE INTERACTION, NAME=N{number}\n 1.,\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n 1., 0.\n 2., 1.\n")
+    };
+    let row = |number| format!("{number},N{number},0,1,1,0\n");
+    let folder = Folder::with(&[
+        ("a.inp", &(0..count).map(block).collect::<String>()),
+        (
+            "a.csv",
+            &format!("node,interaction,clearance,pressure,epot_s,epot_m\n{}", (0..count).map(row).collect::<String>()),
+        ),
+    ]);
+    for arguments in
+        [&["eval", "a.inp", "--nodes", "a.csv"][..], &["plan", "a.inp", "--nodes", "a.csv", "--format", "json"]]
+    {
+        let run = within(&folder, 2 << 30, arguments);
+        assert_eq!(run.code, 0, "{}", run.errors.chars().take(500).collect::<String>());
+    }
+}
+
+#[test]
+fn included_files_cost_the_syntax_view_no_square() {
+    let count = 150_000;
+    let folder = Folder::with(&[("b.inp", "*NODE\n"), ("a.inp", &"*INCLUDE, INPUT=b.inp\n".repeat(count))]);
+    let run = folder.inpact(&["json", "--view", "syntax", "a.inp"]);
+    assert_eq!((run.code, run.output.matches("\"source\"").count()), (0, count + 1), "{}", run.errors);
+}
+
+#[test]
+fn columns_of_a_node_table_cost_no_square() {
+    let count = 150_000;
+    let deck = "*SURFACE INTERACTION, NAME=A\n 1.,\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n 1., 0.\n 2., 1.\n";
+    let header: String = (1..=count).map(|number| format!(",fv{number}")).collect();
+    let folder = Folder::with(&[("a.inp", deck), ("a.csv", &format!("pressure{header}\n1{}\n", ",1".repeat(count)))]);
+    for command in ["plan", "eval"] {
+        let run = within(&folder, 2 << 30, &[command, "a.inp", "--nodes", "a.csv"]);
+        assert_eq!(run.code, 0, "{command}: {}", run.errors.chars().take(500).collect::<String>());
+    }
+}
