@@ -339,7 +339,9 @@ fn write_section(decks: usize) {
         "{MARK}\n\n## Decks changed by chance\n\n\
          `INPACT_RUNS={decks} INPACT_UPDATE=1 cargo test -p inpact-tests --test safe_fixes decks_changed_by_chance`\n\n\
          {decks} decks made of the sample decks and of lines that bring up the rules with safe fixes, each in two dialects.\n\
-         The model is compared before and after, and in Abaqus' dialect a second reading, which knows the semantics and not the parser.\n\n\
+         The commands are run as the functions they consist of, without their files.\n\
+         The model is compared before and after, and in Abaqus' dialect a second reading, which knows the semantics and not the parser.\n\
+         A run with a fault stops at it, and writes nothing here.\n\n\
          | what is done | executions | what must hold | faults |\n|---|---|---|---|\n\
          | `check` | {executions} | every finding lies in the deck | 0 |\n\
          | `check --fix` until nothing is left | {executions} | the deck says the same, and it comes to an end | 0 |\n\
