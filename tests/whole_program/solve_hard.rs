@@ -331,3 +331,27 @@ fn scene_tables_with_other_separators() {
     let run = folder.inpact(&["solve", "scene.toml"]);
     assert!(run.code == 1 && run.errors.contains("error[D002]") && run.errors.contains("`1,5`"), "{}", run.errors);
 }
+
+/// A ring of contacts whose tables rise and fall by decades: substitution finds what Newton's iteration does not. The temperatures were found by another program,
+/// with substitution that goes a hundredth of the way.
+#[test]
+fn a_ring_of_steep_contacts() {
+    let folder =
+        Folder::with(&[("ring.inp", include_str!("scenes/ring.inp")), ("ring.toml", include_str!("scenes/ring.toml"))]);
+    let run = folder.inpact(&["solve", "ring.toml"]);
+    let found = [
+        ("n0", 1.71911085356),
+        ("n1", 1.71896770319),
+        ("n2", 0.00031899517013),
+        ("n3", 0.000318987991073),
+        ("n4", 4.35001729604e-05),
+        ("n6", 13.2018790581),
+        ("n7", 13.2379220034),
+        ("n8", 13.1717439605),
+        ("n9", 1.71911087535),
+    ];
+    for (node, temperature) in found {
+        let solved = value(&run, node, TEMPERATURE);
+        assert!((solved / temperature - 1.0).abs() < 1e-10, "{node}: {solved} {temperature}");
+    }
+}

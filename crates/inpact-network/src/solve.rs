@@ -28,7 +28,7 @@ const FIRST_PART: f64 = 0.5;
 const LONGEST_RUN: u32 = 40;
 
 /// The most passes of substitution, and the most nodes of all of them together.
-const MOST_PASSES: usize = 10_000;
+const MOST_PASSES: usize = 2_000;
 const MOST_RELAXED_NODES: usize = 1_000_000;
 
 /// From so many nodes on factors are not kept for what may come.
@@ -314,11 +314,12 @@ impl<'a> Equations<'a> {
                 && let Some(way) = ways.next()
             {
                 let (mut relaxed, mut of_relaxed) = (begin.clone(), state.clone());
-                if self.relax(way, stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)? {
-                    let again = self.converge(stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)?;
-                    if !again.is_short() {
-                        (*knowledge, *state, attempt) = (relaxed, of_relaxed, again);
-                    }
+                // What fails on the way of a last resort is no failure of the scene: that Newton's iteration ended short is.
+                if let Ok(true) = self.relax(way, stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)
+                    && let Ok(again) = self.converge(stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)
+                    && !again.is_short()
+                {
+                    (*knowledge, *state, attempt) = (relaxed, of_relaxed, again);
                 }
             }
         }
