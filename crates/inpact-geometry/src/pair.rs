@@ -77,19 +77,14 @@ pub fn contact_nodes(
     if !options.master_shifts.is_empty() && options.master_shifts.len() != faces {
         return Err(GeometryError::Values { what: "shift", expected: faces, found: options.master_shifts.len() });
     }
-    let found = nodes
-        .iter()
-        .zip(areas)
-        .zip(node_normals(slave))
-        .zip(master.project_all(&points, options.extension))
-        .zip(shifts);
-    let node =
-        |((((node, area), normal), across), shift): ((((&NodeId, f64), Option<Vector>), Option<Projection>), f64)| {
-            let across = across.map(|across| {
-                let of_master = options.master_shifts.get(across.face.index()).copied().unwrap_or(0.0);
-                Projection { clearance: across.clearance - (shift + of_master), ..across }
-            });
-            ContactNode { node: *node, area, normal, across }
-        };
-    Ok(found.map(node).collect())
+    let normals = node_normals(slave);
+    let across = master.project_all(&points, options.extension);
+    let node = |(i, across): (usize, Option<Projection>)| {
+        let across = across.map(|across| {
+            let of_master = options.master_shifts.get(across.face.index()).copied().unwrap_or(0.0);
+            Projection { clearance: across.clearance - (shifts[i] + of_master), ..across }
+        });
+        ContactNode { node: nodes[i], area: areas[i], normal: normals[i], across }
+    };
+    Ok(across.into_iter().enumerate().map(node).collect())
 }

@@ -99,7 +99,7 @@ fn faces_by_set_and_by_element() {
     let by_number = clean(&cubes("*SURFACE, NAME=SLAVE\n2, S1\n*SURFACE, NAME=MASTER, TYPE=ELEMENT\n1, s2\n"));
     assert_eq!((by_number.points, by_number.nodes), (mesh.points, mesh.nodes));
     assert_eq!((mesh.pairs[0].shares, mesh.pairs[0].sliding), (Shares::ShapeFunctions, Sliding::Finite));
-    assert_eq!(mesh.pairs[0].interaction.as_ref().map(|name| name.written()), Some("GAP"));
+    assert_eq!(mesh.pairs[0].interaction.as_ref().map(model::Name::written), Some("GAP"));
 }
 
 #[test]
@@ -202,12 +202,18 @@ fn instances_are_put_in_their_places_and_shells_have_thickness() {
         [(", NO THICKNESS", 0.5), (", ADJUST=0.4", 0.0), (", ADJUST=0.2", 0.3), (", EXTENSION ZONE=0.2", 0.3)]
     {
         let mesh = clean(&ASSEMBLY.replace(", SMALL SLIDING", &format!(", SMALL SLIDING{option}")));
-        rows(&mesh, 1.0).iter().for_each(|(_, _, found)| close(*found, clearance));
+        for (_, _, found) in rows(&mesh, 1.0) {
+            close(found, clearance);
+        }
     }
     // Finite sliding, node to surface, does not count it.
-    rows(&clean(&ASSEMBLY.replace(", SMALL SLIDING", "")), 1.0).iter().for_each(|(_, _, found)| close(*found, 0.5));
+    for (_, _, found) in rows(&clean(&ASSEMBLY.replace(", SMALL SLIDING", "")), 1.0) {
+        close(found, 0.5);
+    }
     let given = format!("{ASSEMBLY}*CLEARANCE, SLAVE=ABOVE, MASTER=PLATE-1.SIDE, VALUE=0.125\n");
-    rows(&clean(&given), 1.0).iter().for_each(|(_, _, found)| close(*found, 0.125));
+    for (_, _, found) in rows(&clean(&given), 1.0) {
+        close(found, 0.125);
+    }
 }
 
 #[test]
@@ -232,7 +238,9 @@ fn plane_and_axisymmetric_elements() {
     let without = mesh(&deck("CPS4", ""));
     assert_eq!(without.notes.len(), 2);
     assert_eq!(without.notes[0].message, "no section gives a thickness to 1 faces of this surface");
-    rows(&without, 3.0).iter().for_each(|(_, area, _)| close(*area, 3.0));
+    for (_, area, _) in rows(&without, 3.0) {
+        close(area, 3.0);
+    }
     let round = clean(&deck("CAX4", ""));
     let areas: f64 = rows(&round, 1.0).iter().map(|(_, area, _)| area).sum();
     assert!((areas - std::f64::consts::PI * 8.0).abs() <= 1e-13, "{areas}");

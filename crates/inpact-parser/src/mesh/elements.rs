@@ -46,7 +46,7 @@ impl RawFace {
     }
 }
 
-impl<'deck> Reader<'deck, '_> {
+impl Reader<'_, '_> {
     /// Finds the faces that are picked; free faces take a second look at the elements that have them.
     pub(super) fn faces(&mut self, picks: &[Pick]) -> io::Result<Vec<RawFace>> {
         let (mut faces, free) = self.sweep(picks)?;
@@ -131,7 +131,7 @@ impl<'deck> Reader<'deck, '_> {
                 };
                 match kind.shape.face(label) {
                     None => {
-                        without_face.push((pick.span, format!("element {element} of type {name} has no face {label}")))
+                        without_face.push((pick.span, format!("element {element} of type {name} has no face {label}")));
                     }
                     Some(face) => {
                         let mut of_face = [0; MAX_NODES];
@@ -217,7 +217,9 @@ fn picks_of(pick: &Pick, free: FreeFaces) -> Vec<Pick> {
         });
         by_face[at].elements.labels.add(element);
     }
-    by_face.iter_mut().for_each(|pick| pick.elements.labels.sort());
+    for pick in &mut by_face {
+        pick.elements.labels.sort();
+    }
     by_face
 }
 

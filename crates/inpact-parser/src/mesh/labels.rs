@@ -90,7 +90,9 @@ mod tests {
     #[test]
     fn numbers_in_any_order_are_ranges_in_order() {
         let mut labels = Labels::default();
-        [7, 8, 9, 3, 20].into_iter().for_each(|label| labels.add(label));
+        for label in [7, 8, 9, 3, 20] {
+            labels.add(label);
+        }
         labels.add_steps(1, 2, 1);
         labels.add_steps(12, 20, 4);
         labels.add(u32::MAX);

@@ -129,7 +129,7 @@ impl<'deck> Definitions<'deck> {
             "SURFACE" => self.surfaces.push(entry),
             "SOLIDSECTION" | "SHELLSECTION" | "SHELLGENERALSECTION" | "MEMBRANESECTION" => self.sections.push(entry),
             "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "SYSTEM" => {
-                self.makers.push((name.to_owned(), entry.span()))
+                self.makers.push((name.to_owned(), entry.span()));
             }
             _ => {}
         }

@@ -78,7 +78,7 @@ impl Placement {
     }
 }
 
-impl<'deck> Reader<'deck, '_> {
+impl Reader<'_, '_> {
     /// Reads the rows of *INSTANCE: a translation, then an axis and an angle.
     pub(super) fn placement(&mut self, instance: Entry<'_>) -> io::Result<Placement> {
         let mut rows: Vec<(Vec<Option<f64>>, Span)> = Vec::new();

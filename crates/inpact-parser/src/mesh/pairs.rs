@@ -10,7 +10,6 @@ use inpact_geometry::{
     ContactNode, DEFAULT_EXTENSION, ElementSpace, Extent, GeometryError, Master, PairOptions, Placed, Shares,
     contact_nodes,
 };
-use std::io;
 
 /// How far surfaces may slide on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +120,7 @@ impl MeshPair {
 
 impl Reader<'_, '_> {
     /// What is asked for by *CONTACT PAIR, and by *CONTACT PROPERTY ASSIGNMENT with two names.
-    pub(super) fn request(&mut self, model: &Model) -> io::Result<Request> {
+    pub(super) fn request(&mut self, model: &Model) -> Request {
         let mut request = Request { names: Vec::new(), pairs: Vec::new() };
         for option in &model.contact_pairs {
             for surfaces in &option.pairs {
@@ -158,7 +157,7 @@ impl Reader<'_, '_> {
         for clearance in std::mem::take(&mut self.clearances) {
             self.clearance(clearance, &mut request);
         }
-        Ok(request)
+        request
     }
 
     fn pair(&mut self, option: &ContactPair, pair: MeshPair) -> MeshPair {

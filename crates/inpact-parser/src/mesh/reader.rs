@@ -84,13 +84,15 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
     }
 
     pub(super) fn read(mut self, model: &Model) -> io::Result<Mesh> {
-        let Request { names, pairs } = self.request(model)?;
+        let Request { names, pairs } = self.request(model);
         let mut picks = Picks::default();
         let mut found = Vec::new();
         for (surface, name) in names.iter().enumerate() {
             found.push(self.pick_surface(surface, name, &mut picks)?);
         }
-        picks.faces.iter_mut().for_each(|pick| pick.elements.labels.sort());
+        for pick in &mut picks.faces {
+            pick.elements.labels.sort();
+        }
         let faces = self.faces(&picks.faces)?;
         for body in 1..self.bodies.len() {
             if let Some(entry) = self.bodies[body].entry {

@@ -24,7 +24,7 @@ impl Section {
     }
 }
 
-impl<'deck> Reader<'deck, '_> {
+impl Reader<'_, '_> {
     /// The sections of a body.
     pub(super) fn sections(&mut self, body: usize) -> io::Result<Vec<Section>> {
         let entries: Vec<Entry<'_>> =

@@ -79,7 +79,9 @@ impl<'deck> Reader<'deck, '_> {
         for set in sets {
             self.read_set(kind, context, set, &mut selected)?;
         }
-        selected.values_mut().for_each(|selection| selection.labels.sort());
+        for selection in selected.values_mut() {
+            selection.labels.sort();
+        }
         self.sets.insert(key, selected.clone());
         Ok(selected)
     }
