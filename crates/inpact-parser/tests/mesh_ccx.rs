@@ -190,7 +190,9 @@ fn ours(deck: &str) -> Ours {
     for face in slave.surface.faces() {
         let nodes = slave.surface.face(face).nodes;
         let area = area_by_two_points([0, 1, 2, 3].map(|i| mesh.points[nodes[i].index()]));
-        nodes.iter().for_each(|node| *by_two_points.entry(label(*node)).or_default() += 0.25 * area);
+        for node in nodes {
+            *by_two_points.entry(label(*node)).or_default() += 0.25 * area;
+        }
     }
     let found = mesh.contact(&mesh.pairs[0], 1.0).expect("a geometry");
     Ours { nodes: found.into_iter().map(|node| (label(node.node), node)).collect(), by_two_points }
