@@ -299,6 +299,12 @@ fn what_is_not_read_is_named() {
         said(&format!("*SYSTEM\n1., 0., 0.\n{}", cubes(FACES)))[0],
         "nodes of which some stand behind *SYSTEM are not read"
     );
+    let short =
+        CUBES.replace("2, 11, 12, 13, 14, 15, 16, 17, 18", "7, 11, 12\n2, 11, 12, 13, 14, 15, 16, 17, 18\n8, 11,");
+    assert_eq!(
+        said(&format!("{short}{FACES}{PAIR}")),
+        ["element 7 of type C3D8R has 2 nodes where 8 are due and was not read, and so were 1 more"]
+    );
     let self_contact = cubes(FACES).replace("SLAVE, MASTER", "SLAVE");
     one(&self_contact, "contact of `SLAVE` with itself is not read");
     let broken = cubes(FACES).replace("11, 0., 0., 1.25", "11, 0., zero, 1.25");

@@ -104,6 +104,7 @@ impl Reader<'_, '_> {
         any.labels.sort();
         let mut wrong: Option<(Span, String)> = None;
         let mut both_sides = false;
+        let mut incomplete: Vec<(Span, String)> = Vec::new();
         let mut without_face: Vec<(Span, String)> = Vec::new();
         let mut row: Vec<u32> = Vec::with_capacity(1 + kind.shape.nodes());
         data_lines(&mut *self.rows, option.block, &mut |line, span| {
@@ -120,6 +121,10 @@ impl Reader<'_, '_> {
                 return row.clear();
             }
             if row.len() <= kind.shape.nodes() {
+                if !goes_on(line) {
+                    incomplete.push((span, too_few(&row, name, kind.shape)));
+                    row.clear();
+                }
                 return;
             }
             let (element, nodes) = (row[0], &row[1..=kind.shape.nodes()]);
@@ -161,6 +166,10 @@ impl Reader<'_, '_> {
         if let Some((span, message)) = wrong {
             self.note(span, format!("{message}; the row was not read"));
         }
+        if !row.is_empty() {
+            incomplete.push((option.span(), too_few(&row, name, kind.shape)));
+        }
+        self.note_first(incomplete, "and was not read");
         self.note_first(without_face, "and was left out");
         if both_sides {
             self.note(
@@ -221,6 +230,16 @@ fn picks_of(pick: &Pick, free: FreeFaces) -> Vec<Pick> {
         pick.elements.labels.sort();
     }
     by_face
+}
+
+/// Whether the row of an element goes on behind this line: it ends in a comma, or has the 16 items that a line may have.
+fn goes_on(line: &[u8]) -> bool {
+    line.trim_ascii_end().ends_with(b",") || 15 <= memchr::memchr_iter(b',', line).count()
+}
+
+fn too_few(row: &[u32], name: &str, shape: ElementShape) -> String {
+    let found = row.len().saturating_sub(1);
+    format!("element {} of type {name} has {found} nodes where {} are due", row.first().unwrap_or(&0), shape.nodes())
 }
 
 /// Adds the numbers of a line to a row; false where something is no number.
