@@ -1,5 +1,7 @@
 //! The columns of a node table and the names they go by.
 
+use super::contract::plain_columns;
+use inpact_parser::grammar::nearest_names;
 use std::fmt;
 
 /// What a column of a node table holds.
@@ -77,46 +79,6 @@ pub enum Part {
     Both,
 }
 
-/// The columns without a number, each by its canonical name first.
-const NAMES: &[(Column, &[&str])] = &[
-    (Column::Node, &["node"]),
-    (Column::Interaction, &["interaction"]),
-    (Column::Time, &["time"]),
-    (Column::Clearance, &["clearance", "copen"]),
-    (Column::Pressure, &["pressure", "cpress"]),
-    (Column::Closed, &["closed", "cstatus"]),
-    (Column::Temperature(Part::Slave), &["temp_s", "nt11_s"]),
-    (Column::Temperature(Part::Master), &["temp_m", "nt11_m"]),
-    (Column::Temperature(Part::Both), &["temp"]),
-    (Column::Potential(Part::Slave), &["epot_s"]),
-    (Column::Potential(Part::Master), &["epot_m"]),
-    (Column::Potential(Part::Both), &["epot_jump"]),
-    (Column::PorePressure(Part::Slave), &["por_s"]),
-    (Column::PorePressure(Part::Master), &["por_m"]),
-    (Column::PorePressure(Part::Both), &["por_jump"]),
-    (Column::TemperatureJump, &["temp_jump"]),
-    (Column::FlowAcross, &["q_across"]),
-    (Column::Area, &["area", "cnarea"]),
-    (Column::ClearanceRate, &["clearance_rate"]),
-    (Column::CharacteristicLength, &["char_length"]),
-    (Column::BulkPermeability(Part::Slave), &["perm_s"]),
-    (Column::BulkPermeability(Part::Master), &["perm_m"]),
-    (Column::MassFlow(Part::Slave), &["mass_flow_s"]),
-    (Column::MassFlow(Part::Master), &["mass_flow_m"]),
-    (Column::MassFlow(Part::Both), &["mass_flow"]),
-    (Column::Shear, &["shear"]),
-    (Column::SlipRate, &["slip_rate"]),
-    (Column::Coordinate(Direction::X, Part::Slave), &["x_s", "coor1_s"]),
-    (Column::Coordinate(Direction::Y, Part::Slave), &["y_s", "coor2_s"]),
-    (Column::Coordinate(Direction::Z, Part::Slave), &["z_s", "coor3_s"]),
-    (Column::Coordinate(Direction::X, Part::Master), &["x_m", "coor1_m"]),
-    (Column::Coordinate(Direction::Y, Part::Master), &["y_m", "coor2_m"]),
-    (Column::Coordinate(Direction::Z, Part::Master), &["z_m", "coor3_m"]),
-    (Column::Step, &["step", "kstep"]),
-    (Column::Increment, &["increment", "kinc"]),
-    (Column::StepTime, &["step_time"]),
-];
-
 /// The three coordinates of a side that has them.
 pub(crate) fn coordinates(part: Part) -> [Column; 3] {
     [Direction::X, Direction::Y, Direction::Z].map(|direction| Column::Coordinate(direction, part))
@@ -126,8 +88,27 @@ impl Column {
     /// The column that a header names, blanks around it and case aside; `None` for a name the contract does not have.
     pub fn named(header: &str) -> Option<Self> {
         let name = header.trim().to_ascii_lowercase();
-        let listed = NAMES.iter().find(|(_, names)| names.contains(&name.as_str()));
-        listed.map(|(column, _)| *column).or_else(|| field_variable(&name))
+        let listed = plain_columns().find(|page| page.names.contains(&name.as_str()));
+        listed.map(|page| page.column).or_else(|| field_variable(&name))
+    }
+
+    /// The column whose name is so near to a header's that it may be meant; `None` for a header that names one, and where none is near.
+    pub fn near(header: &str) -> Option<Self> {
+        if Self::named(header).is_some() {
+            return None;
+        }
+        let name = header.trim().to_ascii_lowercase();
+        // A field variable has the number that the header has.
+        let digits: String = name.chars().filter(char::is_ascii_digit).collect();
+        let number = digits.parse().ok().filter(|_| name.starts_with("fv") && !digits.starts_with('0'));
+        let parts = [Part::Both, Part::Slave, Part::Master];
+        let fields = number.map(|number| parts.map(|part| Self::FieldVariable(number, part).to_string()));
+        let names = plain_columns().flat_map(|page| page.names).copied();
+        let names: Vec<&str> = names.chain(fields.iter().flatten().map(String::as_str)).collect();
+        // What differs by underscores and blanks only is nearest of all.
+        let plain = |name: &str| name.chars().filter(|character| character.is_alphanumeric()).collect::<String>();
+        let alike = names.iter().copied().find(|known| plain(known) == plain(&name));
+        Self::named(alike.or_else(|| nearest_names(name.as_bytes(), names, 1).first().copied())?)
     }
 
     /// Whether its cells are texts that are passed through as they stand.
@@ -158,13 +139,14 @@ impl fmt::Display for Column {
             };
             return write!(formatter, "fv{number}{suffix}");
         }
-        let listed = NAMES.iter().find(|(column, _)| column == self);
-        formatter.write_str(listed.map_or("", |(_, names)| names[0]))
+        let listed = plain_columns().find(|page| page.column == *self);
+        formatter.write_str(listed.map_or("", |page| page.names[0]))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::contract::COLUMN_PAGES;
     use super::*;
 
     #[test]
@@ -182,9 +164,30 @@ mod tests {
 
     #[test]
     fn every_column_is_found_by_each_of_its_names() {
-        for (column, names) in NAMES {
-            assert_eq!(column.to_string(), names[0]);
-            assert!(names.iter().all(|name| Column::named(name) == Some(*column)));
+        for page in COLUMN_PAGES {
+            assert_eq!(page.column.to_string(), page.names[0]);
+            assert!(page.names.iter().all(|name| Column::named(name) == Some(page.column)));
+            assert_eq!(page.column.page(), Some(page));
+        }
+    }
+
+    #[test]
+    fn a_misspelt_name_is_near_to_what_is_meant() {
+        let near = |header| Column::near(header).map(|column| column.to_string());
+        for (header, meant) in [
+            ("clearence_rate", "clearance_rate"),
+            ("perm_slave", "perm_s"),
+            ("perm_master", "perm_m"),
+            ("presure", "pressure"),
+            ("tmep_s", "temp_s"),
+            ("fv3s", "fv3_s"),
+            ("FV_12", "fv12"),
+            ("epotjump", "epot_jump"),
+        ] {
+            assert_eq!(near(header).as_deref(), Some(meant), "{header}");
+        }
+        for header in ["clearance", "fv2_m", "", "stress_xx", "u1", "displacement"] {
+            assert_eq!(near(header), None, "{header}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What is wrong with a node table: rules D001 to D010, D021 and D022, and their findings.
+//! What is wrong with a node table: rules D001 to D010 and D020 to D022, and their findings.
 //!
 //! A finding has a row and a column where a finding of the deck has a span. Knows no colours and no terminals; the command line renders it.
 //! Findings of other data that belongs to a deck are of this kind as well; their rules stand where that data is read.
@@ -62,6 +62,8 @@ data_rules! {
         "A characteristic element length and a bulk permeability are zero or more. Mend the sign.";
     USER_FAULT = "D010" "user-subroutine-fault" Error "a user subroutine gives what is no conductance"
         "Its conductance and the derivatives must be numbers, and the conductance not below zero. The finding says in which row it was what; mend the routine.";
+    UNKNOWN_COLUMN = "D020" "unknown-column" Warning "nothing reads a column whose name is near to one that a node table may have"
+        "Column names are compared without regard to case and to blanks around them, and a name that means nothing is passed over. Where the near name is meant, write it so; `inpact explain columns` lists all of them.";
     CONTRADICTORY_RATE = "D021" "contradictory-rate" Warning "a given clearance rate and the change of the clearance disagree"
         "Where `clearance_rate` is given, the gap fills at that rate: PFL is its flow and PTL that flow times the length of the increment. From row to row the clearance changes at another rate, by more than 1 %. The finding has the first such row with both rates. Mend the one that is wrong, or leave `clearance_rate` out, so that the rate follows from the clearance.";
     HEAT_OF_CLOSING = "D022" "heat-of-closing" Warning "rows whose heat takes the jump of the open circuit at their start"

@@ -1,7 +1,7 @@
 //! The header of a node table: which of its columns mean what.
 
 use super::column::Column;
-use super::diagnostic::{DUPLICATE_COLUMN, Findings, Place};
+use super::diagnostic::{DUPLICATE_COLUMN, Findings, Place, UNKNOWN_COLUMN};
 use std::collections::HashMap;
 
 /// The header line of a node table.
@@ -50,6 +50,16 @@ impl Header {
     /// What the header calls the column: an alias where that is what stands there, otherwise the canonical name.
     pub fn name_of(&self, column: Column) -> String {
         self.position(column).map_or_else(|| column.to_string(), |index| self.cells[index].text.clone())
+    }
+
+    /// Reports names that mean nothing and are near to a column that the header does not have (D020).
+    pub(crate) fn report_unknown(&self, findings: &mut Findings) {
+        for cell in self.cells.iter().filter(|cell| cell.column.is_none()) {
+            let Some(near) = Column::near(&cell.text).filter(|near| !self.has(*near)) else { continue };
+            let message = format!("a node table has no column `{}`, and nothing reads it", cell.text);
+            let place = Place { column: Some(cell.text.clone()), ..Place::default() };
+            findings.report(&UNKNOWN_COLUMN, place, message, format!("did you mean `{near}`?"));
+        }
     }
 
     /// Reports cells that mean the same column (D005).

@@ -1,10 +1,11 @@
 //! The text of a node table cut into pieces of whole rows, and rows into cells (RFC 4180).
 //!
+//! Lines end with LF, CRLF or a lone CR; a lone CR outside of quotes becomes LF as it is read, so that all else knows one line end (S-02).
 //! Cells stand between commas, or between semicolons or tabs where the header does.
 //! A quote that begins a cell opens a quoted one, in which separators and line ends are text and two quotes are one; any other quote is a character.
 
 use super::column::Column;
-use memchr::{memchr, memchr2, memrchr};
+use memchr::{memchr, memchr2, memchr3, memrchr};
 use std::io::{self, Read};
 
 /// About how much text a piece has.
@@ -61,7 +62,7 @@ impl<'a> Pieces<'a> {
         if start.starts_with(BYTE_ORDER_MARK) {
             start.drain(..BYTE_ORDER_MARK.len());
         }
-        let first = start.split(|byte| *byte == b'\n').find(|line| !line.trim_ascii().is_empty());
+        let first = start.split(|byte| matches!(byte, b'\n' | b'\r')).find(|line| !line.trim_ascii().is_empty());
         pieces.separator = first.map_or(SEPARATORS[0], separator_of);
         pieces.rest = start;
         Ok(pieces)
@@ -85,6 +86,7 @@ impl<'a> Pieces<'a> {
         loop {
             self.fill(&mut piece.text, wanted)?;
             piece.has_quotes = memchr(b'"', &piece.text).is_some();
+            self.mend_line_ends(piece);
             let end = match self.state {
                 State::Reading => end_of_rows(piece, self.separator),
                 State::Ended | State::GaveUp => piece.text.len(),
@@ -100,6 +102,23 @@ impl<'a> Pieces<'a> {
                 return Ok(false);
             }
             wanted = 2 * piece.text.len();
+        }
+    }
+
+    /// Makes every lone CR a LF where it ends a row.
+    fn mend_line_ends(&self, piece: &mut Piece) {
+        let mut at = 0;
+        while let Some(found) = memchr(b'\r', &piece.text[at..]) {
+            at += found + 1;
+            let is_lone = match piece.text.get(at) {
+                Some(next) => *next != b'\n',
+                // What follows may be a LF that was not read yet; the piece does not end here.
+                None => self.state != State::Reading,
+            };
+            if is_lone {
+                mend_lone(&mut piece.text, self.separator, piece.has_quotes);
+                return;
+            }
         }
     }
 
@@ -192,6 +211,31 @@ pub(super) fn end_of_row(text: &[u8], separator: u8) -> Option<usize> {
     }
 }
 
+/// Makes lone CRs of a text that begins with a row LFs, those in quotes left as they are; the last byte is left too, if it is one.
+#[cold]
+fn mend_lone(text: &mut [u8], separator: u8, has_quotes: bool) {
+    let mut is_quoted = false;
+    let mut at = 0;
+    while let Some(found) = memchr3(b'\r', b'\n', b'"', &text[at..]) {
+        let here = at + found;
+        at = here + 1;
+        match text[here] {
+            b'"' if !has_quotes => {}
+            b'"' if is_quoted => {
+                // Two quotes are one.
+                if text.get(at) == Some(&b'"') {
+                    at += 1;
+                } else {
+                    is_quoted = false;
+                }
+            }
+            b'"' => is_quoted = here == 0 || text[here - 1] == separator || text[here - 1] == b'\n',
+            b'\r' if !is_quoted && text.get(at).is_some_and(|next| *next != b'\n') => text[here] = b'\n',
+            _ => {}
+        }
+    }
+}
+
 /// Where the last whole row of a piece ends.
 fn end_of_rows(piece: &Piece, separator: u8) -> usize {
     if !piece.has_quotes {
@@ -257,6 +301,35 @@ mod tests {
         assert_eq!(end_of_row(b"\"a\n", b','), None);
         assert_eq!(end_of_row(b"\"a\"", b','), None);
         assert_eq!(end_of_row(b"a,b", b','), None);
+    }
+
+    #[test]
+    fn lone_carriage_returns_end_rows_outside_of_quotes() {
+        let read = |text: &str, wanted: &[&str]| {
+            let mut pieces = Pieces::open(Box::new(text.as_bytes())).expect("a slice can be read");
+            let (mut piece, mut all) = (Piece::default(), String::new());
+            while pieces.next(&mut piece).expect("a slice can be read") {
+                all += &String::from_utf8_lossy(&piece.text);
+            }
+            assert_eq!(all.split('\n').collect::<Vec<_>>(), wanted, "{text:?}");
+        };
+        read("a,b\r1,2\r3,4", &["a,b", "1,2", "3,4"]);
+        read("a,b\r1,2\r3,4\r", &["a,b", "1,2", "3,4\r"]);
+        read("a,b\r\n1,2\r\n", &["a,b\r", "1,2\r", ""]);
+        read("a,b\r\n1,2\r3,4\n", &["a,b\r", "1,2", "3,4", ""]);
+        read("a,b\r\"x\ry\",\"\"\"\r\"\r3,4\r", &["a,b", "\"x\ry\",\"\"\"\r\"", "3,4\r"]);
+    }
+
+    #[test]
+    fn a_long_table_of_lone_carriage_returns_is_cut_into_pieces() {
+        let rows = PIECE / 4;
+        let text = format!("node,clearance\r{}", "1,2\r".repeat(rows));
+        let mut pieces = Pieces::open(Box::new(text.as_bytes())).expect("a slice can be read");
+        let (mut piece, mut found) = (Piece::default(), 0);
+        while pieces.next(&mut piece).expect("a slice can be read") {
+            found += piece.text.split(|byte| matches!(byte, b'\n' | b'\r')).filter(|line| !line.is_empty()).count();
+        }
+        assert_eq!(found, rows + 1);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::column::Column;
 use super::columnar::{ColumnarReader, Storage};
 use super::csv::CsvReader;
 use super::diagnostic::Findings;
+use super::foreign;
 use super::header::Header;
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -87,17 +88,17 @@ impl<'a> NodeReader<'a> {
     /// Opens a node table that tells by its first bytes how it is stored: Parquet, an Arrow file or stream, otherwise comma-separated values.
     ///
     /// # Errors
-    /// Those of reading the input; of kind [`io::ErrorKind::InvalidData`] where it is not what its first bytes say,
+    /// Those of reading the input; of kind [`io::ErrorKind::InvalidData`] where it is not what its first bytes say, or these say that it is no table,
     /// [`io::ErrorKind::Unsupported`] for Parquet and Arrow where feature `columnar` is off.
     pub fn open_any(mut input: Box<dyn ReadSeek>, findings: &mut Findings) -> io::Result<NodeReader<'static>> {
         let mut magic = Vec::new();
-        input.by_ref().take(6).read_to_end(&mut magic)?;
+        input.by_ref().take(foreign::LOOKED_AT as u64).read_to_end(&mut magic)?;
         input.seek(SeekFrom::Start(0))?;
         #[cfg(feature = "columnar")]
         {
             let storage = match magic.as_slice() {
                 [b'P', b'A', b'R', b'1', ..] => Some(Storage::Parquet),
-                b"ARROW1" => Some(Storage::ArrowFile),
+                [b'A', b'R', b'R', b'O', b'W', b'1', ..] => Some(Storage::ArrowFile),
                 [0xFF, 0xFF, 0xFF, 0xFF, ..] => Some(Storage::ArrowStream),
                 _ => None,
             };
@@ -107,10 +108,14 @@ impl<'a> NodeReader<'a> {
             }
         }
         #[cfg(not(feature = "columnar"))]
-        if matches!(magic.as_slice(), [b'P', b'A', b'R', b'1', ..] | b"ARROW1" | [0xFF, 0xFF, 0xFF, 0xFF, ..]) {
+        if matches!(
+            magic.as_slice(),
+            [b'P', b'A', b'R', b'1', ..] | [b'A', b'R', b'R', b'O', b'W', b'1', ..] | [0xFF, 0xFF, 0xFF, 0xFF, ..]
+        ) {
             let message = "it is a Parquet or Arrow table, which this program was built without (feature `columnar`)";
             return Err(io::Error::new(io::ErrorKind::Unsupported, message));
         }
+        foreign::refuse(&magic)?;
         NodeReader::open(Box::new(input), findings)
     }
 
