@@ -102,8 +102,8 @@ pub(crate) struct CompiledPore {
     pub(crate) needs: Needs,
     /// The mean temperature, then the field variables.
     pub(crate) variables: Vec<Option<Source<usize>>>,
-    pub(crate) slave: usize,
-    pub(crate) master: usize,
+    /// The pore pressures of slave and master.
+    pub(crate) pressures: Option<(usize, usize)>,
     pub(crate) jump: Option<usize>,
     /// The flow across where the permeability is infinite.
     pub(crate) across: Option<usize>,
@@ -207,7 +207,7 @@ fn has_known_times(plan: &Plan) -> bool {
 
 /// The outputs that are numbers.
 fn numbers(plan: &Plan) -> impl Iterator<Item = Output> {
-    plan.outputs.iter().copied().filter(|output| *output != Output::Status)
+    plan.outputs.iter().copied().filter(|output| output.is_number())
 }
 
 /// Compiles the laws of one interaction.
@@ -317,7 +317,6 @@ impl Compiler<'_> {
             _ => None,
         });
         let sides = |of: fn(Part) -> Column| Some((self.place(of(Part::Slave))?, self.place(of(Part::Master))?));
-        let (slave, master) = sides(Column::PorePressure)?;
         let length = self.place(Column::CharacteristicLength);
         Some(CompiledPore {
             form,
@@ -325,8 +324,7 @@ impl Compiler<'_> {
             regime: plan.regime.regime,
             needs,
             variables: self.sources(&plan.variables),
-            slave,
-            master,
+            pressures: sides(Column::PorePressure).filter(|_| plan.pressures.is_some()),
             jump: self.place(Column::PorePressure(Part::Both)),
             across: self.place(Column::FlowAcross),
             bulk: sides(Column::BulkPermeability).filter(|_| plan.bulk == Bulk::Columns),

@@ -209,9 +209,12 @@ impl<'a> Evaluation<'a> {
         if let Some(Outcome::Faulty(Some(told))) = &outcomes[0] {
             self.tally.user_faults.push(told.clone());
         }
-        let status = outcomes.into_iter().flatten().filter_map(Outcome::status).max();
-        tally.count_status(status);
-        results.status[index] = status;
+        let [electrical, pore, thermal] = outcomes.map(|outcome| outcome.and_then(Outcome::status));
+        tally.count_statuses([electrical, pore, thermal]);
+        results.status[index] = electrical.max(pore).max(thermal);
+        results.status_by_law.electrical[index] = electrical;
+        results.status_by_law.thermal[index] = thermal;
+        results.status_by_law.pore[index] = pore;
     }
 }
 

@@ -36,7 +36,7 @@ mod wanted;
 
 pub use choices::{Choices, Derivatives};
 pub use concern::concerning;
-pub use governing::{GovernedBy, RowInteractions};
+pub use governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
 pub use make::make;
 pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};
@@ -53,12 +53,12 @@ pub(crate) use thermal::tells_of_friction;
 pub(crate) use thermal_tables::{ConductanceRows, RadiationFault, ThermalTables};
 pub(crate) use user::user_names;
 
-use crate::accuracy::{ErrorBound, Method, Shape};
+use crate::accuracy::{ErrorBound, Method, Shape, Wanted};
 use crate::evaluator::Evaluator;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::Cutoffs;
-use crate::nodes::{Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Selection};
+use crate::nodes::{Batch, Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Selection};
 use crate::results::{Along, Output};
 use crate::table::{FoldRefusal, Tail};
 use inpact_parser::model::Name;
@@ -163,6 +163,8 @@ pub struct PorePlan {
     pub table: Option<TablePlan>,
     /// The cutoffs of the deck.
     pub cutoffs: Cutoffs,
+    /// Pore pressures of slave and master, where they have numbers.
+    pub pressures: Option<[Column; 2]>,
     /// Where average temperature and field variables come from, in the order of the table's columns; `None` where it does not depend on one.
     pub variables: Vec<Option<Source<Column>>>,
     /// `por_jump`, where it has numbers: it is taken instead of the difference of the pore pressures.
@@ -253,6 +255,8 @@ pub struct TablePlan {
 pub struct FormPlan {
     /// How its values are found.
     pub method: Method,
+    /// How exactly they were to be found.
+    pub wanted: Wanted,
     /// The bound of their error, where there is one.
     pub bound: Option<ErrorBound>,
     /// A tolerance that the bound is above, as no form keeps it.
@@ -316,6 +320,16 @@ impl Plan {
     /// The key columns of the result: those the node table has, in the order of the contract.
     pub fn keys(&self) -> &[Column] {
         &self.selection.labels
+    }
+
+    /// Gives the rows of a batch the name of the interaction that was chosen for all of them, whatever the node table calls theirs.
+    pub fn name_rows(&self, batch: &mut Batch) {
+        let GovernedBy::Chosen(chosen) = self.governed_by else { return };
+        let name =
+            self.interactions.iter().find(|interaction| interaction.index == chosen).map(|plan| plan.name.written());
+        if let (Some(place), Some(name)) = (self.selection.label(Column::Interaction), name) {
+            batch.labels[place].fill(name.as_bytes(), batch.rows);
+        }
     }
 
     /// Reports each column that something is left out for (D001): for a plan that leaves nothing to evaluate.

@@ -6,11 +6,13 @@
 mod batch;
 #[cfg(feature = "columnar")]
 mod columnar;
+mod contract;
 mod format;
 mod output;
 mod writer;
 
-pub use batch::{ResultBatch, Status};
+pub use batch::{ResultBatch, Status, StatusByLaw};
+pub use contract::{OUTPUT_PAGES, OutputPage};
 pub use format::TableFormat;
 pub use output::{Along, Output};
 pub(crate) use writer::number_text;

@@ -126,7 +126,12 @@ fn an_undetermined_state_or_input_gives_nan() {
     }
     assert!(conductance(&both(Tail::Zero), f64::NAN, 0.0, OPEN).is_nan());
     let clearance = ConductanceTables::Clearance(clearance_table(Tail::Constant));
-    assert!(conductance(&clearance, f64::NAN, 3.0, CLOSED).is_nan());
+    assert!(conductance(&clearance, f64::NAN, 3.0, OPEN).is_nan());
+    assert!(conductance(&clearance, 0.5, f64::NAN, ContactState::Undetermined).is_nan());
+    // Closed, it is the value at zero clearance, whatever the clearance.
+    for clearance_of_closed in [f64::NAN, -1.0, 0.0, 0.05, 7.0] {
+        assert_eq!(conductance(&clearance, clearance_of_closed, 3.0, CLOSED), conductance(&clearance, 0.0, 0.0, OPEN));
+    }
 }
 
 #[test]

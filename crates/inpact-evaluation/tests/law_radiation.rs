@@ -66,7 +66,7 @@ fn t_27_view_factor() {
     assert_eq!(factor(-0.5, CLOSED), 1.0);
     assert_eq!(factor(f64::NAN, CLOSED), 1.0);
     assert_eq!(factor(0.05, OPEN), 0.75);
-    assert_eq!(factor(0.05, CLOSED), 0.75, "closed by a flag or a pressure at a clearance");
+    assert_eq!(factor(0.05, CLOSED), 1.0, "closed by a flag or a pressure at a clearance (Q-36)");
     assert_eq!(factor(0.1, OPEN), 0.5);
     assert_eq!(factor(0.1f64.next_up(), OPEN), 0.0);
     assert!(law().view_factor(Clearance(0.2), OPEN).1.is_above(0));

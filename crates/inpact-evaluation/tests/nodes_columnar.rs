@@ -140,7 +140,7 @@ fn results(batches: &[Batch], format: TableFormat) -> Vec<u8> {
     for batch in batches {
         let numbers = vec![batch.numbers[0].clone(), batch.numbers[2].clone()];
         let status = (0..batch.rows).map(|row| [None, Some(Status::Open), Some(Status::Closed)][row % 3]).collect();
-        writer.write(batch, &ResultBatch { numbers, status }).expect("a vector takes all");
+        writer.write(batch, &ResultBatch { numbers, status, ..ResultBatch::default() }).expect("a vector takes all");
     }
     writer.finish().expect("a vector takes all");
     bytes

@@ -143,7 +143,7 @@ fn something_must_say_which_interaction_governs_d001() {
     assert_eq!(evaluate_with(TWO, "clearance\n0\n", &chosen, 1).column("conductance"), ["2"]);
     // The choice holds for every row, whatever the column says.
     let run = evaluate_with(TWO, "interaction,clearance\nSteel Gap,0\n", &chosen, 1);
-    assert_eq!(run.csv, "interaction,WEIGHT,conductance,status\nSteel Gap,0.5,2,closed\n");
+    assert_eq!(run.csv, "interaction,WEIGHT,conductance,status\nOTHER,0.5,2,closed\n");
 }
 
 #[test]

@@ -57,8 +57,7 @@ impl Conductances {
         };
         let abscissa = match against {
             Along::Pressure => row.pressure,
-            // Overclosure counts as no clearance (J-5).
-            _ => row.clearance.map(|clearance| if clearance < 0.0 { 0.0 } else { clearance }),
+            _ => row.state.table_clearance(row.clearance),
         };
         if needs.abscissa && abscissa.is_none() {
             return;

@@ -127,18 +127,18 @@ impl<'a> Coordinates<'a> {
     }
 }
 
-/// Clearance or contact pressure of a row; overclosure counts as no clearance (J-5).
+/// The first coordinate of a conductance table.
 fn of_contact(row: Row<'_>, against: Along) -> Option<f64> {
     match against {
         Along::Pressure => row.pressure,
-        _ => row.clearance.map(|clearance| clearance.max(0.0)),
+        _ => row.state.table_clearance(row.clearance),
     }
 }
 
 /// Of a permeability, variable 0 is the mean pore pressure.
 fn pore_variable(law: &CompiledPore, row: Row<'_>, index: usize) -> Option<f64> {
     match index.checked_sub(1) {
-        None => Some(mean(row.number(law.slave)?, row.number(law.master)?)),
+        None => law.pressures.and_then(|(slave, master)| Some(mean(row.number(slave)?, row.number(master)?))),
         Some(index) => row.fetch(law.variables.get(index)?.as_ref()?, mean),
     }
 }

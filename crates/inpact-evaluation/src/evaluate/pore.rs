@@ -20,10 +20,16 @@ pub(super) fn evaluate(
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
 ) -> Outcome {
-    let sides = row.number(law.slave).zip(row.number(law.master));
-    let (Some((slave, master)), Some(clearance)) = (sides, row.clearance.map(Clearance)) else {
-        return Outcome::Incomplete;
+    let jump = law.jump.and_then(|place| row.number(place));
+    let sides = law.pressures.and_then(|(slave, master)| Some((row.number(slave)?, row.number(master)?)));
+    let is_mean_needed = law.needs.variables.contains(&0);
+    let (slave, master) = match (sides, jump) {
+        (Some(sides), _) => sides,
+        // The difference is enough for a flow that does not depend on the mean.
+        (None, Some(_)) if !is_mean_needed => (f64::NAN, f64::NAN),
+        _ => return Outcome::Incomplete,
     };
+    let Some(clearance) = row.clearance.map(Clearance) else { return Outcome::Incomplete };
     variables.clear();
     variables.push(mean(slave, master));
     for (index, source) in law.variables.iter().enumerate() {
@@ -62,7 +68,7 @@ pub(super) fn evaluate(
         state: row.state,
         slave: PorePressure(slave),
         master: PorePressure(master),
-        jump: law.jump.and_then(|place| row.number(place)),
+        jump,
         variables,
         characteristic_length: match law.characteristic_length {
             Length::Place(place) => row.number(place),

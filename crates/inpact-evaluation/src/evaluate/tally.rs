@@ -46,15 +46,15 @@ pub struct UserFaultInRow {
 pub struct InteractionTally {
     /// How many rows it governs.
     pub rows: u64,
-    /// How many are closed.
+    /// How many are closed, as far as the columns tell that its laws read; the plan counts with all there are.
     pub closed: u64,
     /// How many are open.
     pub open: u64,
-    /// How many have status `beyond_table`.
+    /// How many have status `beyond_table` by one of their laws.
     pub beyond_table: u64,
-    /// How many have status `cutoff`.
+    /// How many have status `cutoff` by one of their laws.
     pub cutoff: u64,
-    /// How many have status `constrained`.
+    /// How many have status `constrained` by one of their laws.
     pub constrained: u64,
     /// How many lack a number that a law needs.
     pub incomplete: u64,
@@ -290,13 +290,15 @@ fn tables(interaction: &InteractionPlan) -> impl Iterator<Item = (usize, &TableP
 
 impl InteractionTally {
     #[inline]
-    pub(super) fn count_status(&mut self, status: Option<Status>) {
-        match status {
-            Some(Status::BeyondTable) => self.beyond_table += 1,
-            Some(Status::Cutoff) => self.cutoff += 1,
-            Some(Status::Constrained) => self.constrained += 1,
-            Some(Status::Open | Status::Closed) | None => {}
+    pub(super) fn count_statuses(&mut self, statuses: [Option<Status>; 3]) {
+        // Most rows are within all tables.
+        if statuses.iter().flatten().all(|status| *status <= Status::Closed) {
+            return;
         }
+        let count = |status| u64::from(statuses.contains(&Some(status)));
+        self.beyond_table += count(Status::BeyondTable);
+        self.cutoff += count(Status::Cutoff);
+        self.constrained += count(Status::Constrained);
     }
 
     #[cold]

@@ -31,10 +31,11 @@ pub(super) fn evaluate(
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
 ) -> Outcome {
+    let jump = law.jump.and_then(|place| row.number(place));
     let temperatures = law.temperatures.and_then(|(slave, master)| {
-        let jump = law.jump.and_then(|place| row.number(place));
         Some(Temperatures { slave: row.number(slave)?, master: row.number(master)?, jump })
     });
+    let across = temperatures.or_else(|| jump.map(Temperatures::of_jump));
     let (mut is_beyond, mut gives_something) = (false, false);
     // A part that the plan does not have is known to be nothing.
     let conduction = match &law.conduction {
@@ -43,7 +44,7 @@ pub(super) fn evaluate(
             let conductance = evaluate_conductance(law, part, row, scratch, results, tally);
             is_beyond |= conductance.is_some_and(|(.., sides)| !sides.is_within());
             gives_something |= conductance.is_some();
-            let heat = conductance.zip(temperatures).map(|((value, rest, _), sides)| match rest {
+            let heat = conductance.zip(across).map(|((value, rest, _), sides)| match rest {
                 Some(rest) => reference_conducted_heat(value, rest, sides),
                 None => conducted_heat(value, sides),
             });
@@ -89,7 +90,8 @@ fn evaluate_conductance(
 ) -> Option<(f64, Option<f64>, Sides)> {
     let needs = part.needs(row.state);
     if let Some((against, needs)) = needs {
-        let abscissa = if against == Along::Clearance { row.clearance } else { row.pressure };
+        let abscissa =
+            if against == Along::Clearance { row.state.table_clearance(row.clearance) } else { row.pressure };
         if needs.abscissa && abscissa.is_none() {
             return None;
         }
@@ -158,10 +160,8 @@ fn radiate(
     temperatures: Temperatures,
     tally: &mut InteractionTally,
 ) -> Option<(f64, Sides)> {
-    if row.clearance.is_none() && row.state == ContactState::Open {
-        return None;
-    }
-    let (view_factor, sides) = part.law.view_factor(Clearance(row.clearance.unwrap_or(f64::NAN)), row.state);
+    let clearance = row.state.table_clearance(row.clearance)?;
+    let (view_factor, sides) = part.law.view_factor(Clearance(clearance), row.state);
     if !sides.is_within() {
         tally.count_sides(VIEW_FACTOR, sides);
     }

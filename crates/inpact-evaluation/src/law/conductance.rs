@@ -1,10 +1,10 @@
 //! Contact conductance by its two branches, against clearance and against contact pressure.
 //!
-//! Semantics T-20 to T-25, J-5, Q-1, Q-12; Analysis User's Guide 37.3.1 (electrical) and 37.2.1 (thermal), 6.14.
+//! Semantics T-20 to T-25, J-5, Q-1, Q-12, Q-36; Analysis User's Guide 37.3.1 (electrical) and 37.2.1 (thermal), 6.14.
 //!
 //! | tables given | closed | open |
 //! |---|---|---|
-//! | clearance only | clearance table, overclosure taken as d = 0 | clearance table |
+//! | clearance only | clearance table at d = 0, whatever the clearance (Q-36) | clearance table, d < 0 taken as d = 0 |
 //! | pressure only | pressure table | 0 |
 //! | both | pressure table | clearance table, d < 0 taken as d = 0 |
 //!
@@ -130,7 +130,7 @@ impl ConductanceTables {
     /// The slope of the conductance along axis 0 of the branch in force, and along temperature and field variables in `variables`.
     ///
     /// Slope of the containing segment, right-hand at an abscissa, zero outside the table (semantics 4.4).
-    /// So it is zero in overclosure, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it ([`Self::jumps_at`]).
+    /// So it is zero in overclosure and where a closed point has a clearance, which does not count, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it ([`Self::jumps_at`]).
     pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
         let (branch, table) = self.branch(point.state);
         let Some(table) = table else {
@@ -143,7 +143,12 @@ impl ConductanceTables {
             *slope = table.slope_at(variable + 1, first, point.variables);
         }
         let along = |branch_of_slope| {
-            if branch_of_slope != branch || (branch == Branch::Clearance && point.clearance.0 < 0.0) {
+            let is_moot = match point.state {
+                // Of a closed point the clearance counts at d = 0 alone, where it opens.
+                ContactState::Closed => point.clearance.0 != 0.0,
+                _ => point.clearance.0 < 0.0,
+            };
+            if branch_of_slope != branch || (branch == Branch::Clearance && is_moot) {
                 0.0
             } else {
                 table.slope_at(0, first, point.variables)
@@ -204,13 +209,11 @@ pub struct ConductanceSlopes {
     pub pressure: f64,
 }
 
-/// The coordinate of axis 0 of a branch's table; overclosure counts as zero clearance (J-5).
+/// The coordinate of axis 0 of a branch's table ([`ContactState::table_clearance`]).
 fn abscissa(branch: Branch, point: &ContactPoint<'_>) -> f64 {
     match branch {
         Branch::Pressure => point.pressure.0,
-        // NaN stays NaN: f64::max would drop it.
-        _ if point.clearance.0 < 0.0 => 0.0,
-        _ => point.clearance.0,
+        _ => point.state.table_clearance(Some(point.clearance.0)).unwrap_or(f64::NAN),
     }
 }
 

@@ -52,4 +52,36 @@ impl ContactState {
             Self::Open
         }
     }
+
+    /// The state of a point of which not everything is known: as `closed` says (0 is open), otherwise by clearance and pressure (T-22); a missing pressure counts as none.
+    ///
+    /// `None` where there is not enough to tell: without a clearance only a pressure does.
+    #[inline]
+    pub fn of(closed: Option<f64>, clearance: Option<f64>, pressure: Option<f64>) -> Option<Self> {
+        match (closed, clearance, pressure) {
+            (Some(closed), ..) if closed.is_nan() => Some(Self::Undetermined),
+            (Some(closed), ..) => Some(if closed == 0.0 { Self::Open } else { Self::Closed }),
+            (None, Some(clearance), pressure) => {
+                let pressure = ContactPressure(pressure.unwrap_or(0.0));
+                Some(Self::from_clearance_and_pressure(Clearance(clearance), pressure))
+            }
+            (None, None, Some(pressure)) if pressure.is_nan() => Some(Self::Undetermined),
+            (None, None, Some(pressure)) if pressure != 0.0 => Some(Self::Closed),
+            (None, None, _) => None,
+        }
+    }
+
+    /// The clearance at which every table against clearance is read, of conductance and of view factors alike; `None` where it is not known and would decide.
+    ///
+    /// A closed point reads its tables at d = 0 whatever its clearance, which counts while it is open only; overclosure is no clearance (J-5).
+    /// NaN stays NaN, and where contact cannot be told the clearance is NaN, as closed and open points read different values.
+    #[inline]
+    pub fn table_clearance(self, clearance: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Closed => Some(0.0),
+            Self::Undetermined => Some(f64::NAN),
+            // f64::max would make NaN a clearance of zero.
+            Self::Open => clearance.map(|clearance| if clearance < 0.0 { 0.0 } else { clearance }),
+        }
+    }
 }

@@ -10,7 +10,7 @@
 //! | θ | temperature of one side, on the scale of the deck | θ |
 //! | q_r | heat flux | J T⁻¹ L⁻² |
 //!
-//! In contact the surfaces radiate on, beside what they conduct (K-41); overclosure counts as d = 0.
+//! In contact the surfaces radiate on, beside what they conduct (K-41), with the view factor at d = 0; overclosure counts as d = 0.
 //!
 //! The difference of fourth powers is computed as (θ_s − θ_m) (θ_s' + θ_m') (θ_s'² + θ_m'²), θ' from absolute zero: no digits are lost between temperatures that are nearly equal.
 //! Domain: any finite numbers; q_r is right wherever it is finite itself.
@@ -76,17 +76,14 @@ impl RadiationCoefficient {
 impl RadiationLaw {
     /// The view factor, and whether the clearance lies beyond its table.
     ///
-    /// In contact a clearance that is not known counts as zero. NaN where the state cannot be told, or the clearance of an open point is NaN.
+    /// In contact it is that of d = 0, whatever the clearance. NaN where the state cannot be told, or the clearance of an open point is NaN.
     #[inline]
     pub fn view_factor(&self, clearance: Clearance, state: ContactState) -> (f64, Sides) {
-        let clearance = match state {
-            ContactState::Undetermined => return (f64::NAN, Sides::default()),
-            ContactState::Closed if clearance.0.is_nan() => 0.0,
-            // NaN stays NaN: f64::max would drop it.
-            _ if clearance.0 < 0.0 => 0.0,
-            _ => clearance.0,
-        };
-        self.view_factor.value_and_sides_at(clearance, &[])
+        match state.table_clearance(Some(clearance.0)) {
+            Some(clearance) if !clearance.is_nan() => self.view_factor.value_and_sides_at(clearance, &[]),
+            // A table of one value does not depend on the clearance, but on whether it can be told.
+            _ => (f64::NAN, Sides::default()),
+        }
     }
 
     /// The heat q_r that is radiated out of the slave surface, for a view factor found with [`Self::view_factor`].

@@ -72,6 +72,11 @@ impl Temperatures {
         Self { slave, master, jump: None }
     }
 
+    /// Those of two surfaces of which only θ_slave − θ_master is known: enough for what they conduct, and for nothing that depends on the temperatures themselves.
+    pub fn of_jump(jump: f64) -> Self {
+        Self { slave: jump, master: 0.0, jump: Some(jump) }
+    }
+
     /// The exact difference θ_slave − θ_master of finite temperatures.
     pub(crate) fn difference(self) -> Scaled {
         self.jump.map_or_else(|| Scaled::difference(self.slave, self.master), Scaled::new)

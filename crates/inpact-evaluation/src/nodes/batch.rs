@@ -59,6 +59,12 @@ impl LabelColumn {
         self.texts.push(text);
     }
 
+    /// Makes it a column of so many rows of one text.
+    pub(crate) fn fill(&mut self, text: &[u8], rows: usize) {
+        self.clear();
+        (0..rows).for_each(|_| self.texts.push(text));
+    }
+
     pub(super) fn clear(&mut self) {
         self.texts.bytes.clear();
         self.texts.ends.clear();

@@ -68,11 +68,13 @@ const OF_FRICTION: [Output; 5] = [Output::Sfdr, Output::Sfdra, Output::Sfdrt, Ou
 /// Whether an output comes from the pore fluid law.
 fn is_of_pore(output: &Output) -> bool {
     use Output::{
-        Permeability, PermeabilitySlope, Pfl, Pfla, Ptl, Ptla, QAcross, QGapMaster, QGapSlave, QMaster, QSlave,
+        Permeability, PermeabilitySlope, Pfl, Pfla, PoreStatus, Ptl, Ptla, QAcross, QGapMaster, QGapSlave, QMaster,
+        QSlave,
     };
     matches!(
         output,
         Permeability
+            | PoreStatus
             | PermeabilitySlope(_)
             | Pfl
             | Pfla
@@ -89,15 +91,18 @@ fn is_of_pore(output: &Output) -> bool {
 /// Whether an output may depend on the rows of a node before: integrals, the heat of an increment, and the rate of a gap.
 pub(super) fn is_of_history(output: &Output) -> bool {
     let is_of_heat = ELECTRICAL_HEAT.contains(output) || SUMS_OF_HEAT.contains(output);
-    let is_of_gap = is_of_pore(output) && !matches!(output, Output::PermeabilitySlope(_));
+    let is_of_gap = is_of_pore(output) && !matches!(output, Output::PermeabilitySlope(_) | Output::PoreStatus);
     OF_TIME.contains(output) || is_of_heat || is_of_gap
 }
 
 /// Whether an output comes from the thermal law alone; WEIGHT is one of the electrical law too.
 fn is_of_thermal(output: &Output) -> bool {
-    use Output::{HeatConduction, HeatRadiation, ThermalConductance, ThermalConductanceSlope, Weight};
+    use Output::{HeatConduction, HeatRadiation, ThermalConductance, ThermalConductanceSlope, ThermalStatus, Weight};
     let is_listed = SUMS_OF_HEAT.contains(output) || OF_FRICTION.contains(output);
-    let is_part = matches!(output, ThermalConductance | ThermalConductanceSlope(_) | HeatConduction | HeatRadiation);
+    let is_part = matches!(
+        output,
+        ThermalConductance | ThermalConductanceSlope(_) | HeatConduction | HeatRadiation | ThermalStatus
+    );
     (is_listed && *output != Weight) || is_part
 }
 
@@ -205,7 +210,7 @@ fn drop_from_thermal(law: &mut ThermalPlan, outputs: &[Output]) {
         law.current = CurrentHeat::None;
     }
     // The status of a row says where it lies outside any table.
-    if has(&[Output::Status]) {
+    if has(&[Output::Status, Output::ThermalStatus]) {
         return;
     }
     if !has_sum && !has(&[Output::ThermalConductance, Output::HeatConduction]) && !has_slope {
@@ -213,6 +218,7 @@ fn drop_from_thermal(law: &mut ThermalPlan, outputs: &[Output]) {
     }
     if !has_sum && !has(&[Output::HeatConduction, Output::HeatRadiation]) {
         law.temperatures = None;
+        law.jump = None;
     }
     if !has_sum && !has(&[Output::HeatRadiation]) {
         law.radiation = None;
@@ -241,9 +247,7 @@ impl Dropped {
 
 /// Contact that is the same in every row needs no column; then only the tables need clearance or pressure.
 fn drop_contact_columns(plan: &mut InteractionPlan) {
-    // Radiation sees the clearance in contact too, where one is given.
-    let radiates = plan.thermal.as_ref().is_some_and(|law| law.radiation.is_some());
-    if plan.rows == 0 || plan.pore.is_some() || radiates || (plan.electrical.is_none() && plan.thermal.is_none()) {
+    if plan.rows == 0 || plan.pore.is_some() || (plan.electrical.is_none() && plan.thermal.is_none()) {
         return;
     }
     let state = if plan.closed == plan.rows {
@@ -254,7 +258,9 @@ fn drop_contact_columns(plan: &mut InteractionPlan) {
         return;
     };
     let conduction = plan.thermal.iter().filter_map(|law| law.conduction.as_ref()).flat_map(|law| &law.tables);
-    let tables = plan.electrical.iter().flat_map(|law| &law.tables).chain(conduction);
+    let radiation = plan.thermal.iter().filter_map(|law| Some(&law.radiation.as_ref()?.table));
+    let radiation = radiation.filter(|_| state == ContactState::Open);
+    let tables = plan.electrical.iter().flat_map(|law| &law.tables).chain(conduction).chain(radiation);
     let needs = |along: Along| tables.clone().any(|table| table.against == along && table.axes[0].is_read());
     plan.contact = ContactColumns {
         clearance: plan.contact.clearance.filter(|_| needs(Along::Clearance)),

@@ -58,7 +58,7 @@ impl InteractionPlan {
         }
         if let Some(law) = &self.pore {
             columns.extend(law.variables.iter().flatten().flat_map(Source::cells));
-            columns.extend([Part::Slave, Part::Master].map(Column::PorePressure));
+            columns.extend(law.pressures.into_iter().flatten());
             columns.extend([law.jump, law.across].into_iter().flatten());
             if law.bulk == Bulk::Columns {
                 columns.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
@@ -151,6 +151,9 @@ impl<'a> Uses<'a> {
             Column::Node => self.has_history || self.has_user,
             _ => self.selected.contains(&column),
         };
+        if let (Column::Interaction, GovernedBy::Chosen(_)) = (column, self.survey.governed_by) {
+            return ColumnRole::NotRead(Reason::Option("--interaction"));
+        }
         match (column.is_key(), is_read) {
             (true, true) => ColumnRole::KeyAndRead,
             (true, false) => ColumnRole::Key,

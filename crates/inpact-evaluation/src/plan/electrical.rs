@@ -5,7 +5,7 @@ use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
 use super::source::{Source, whole_or_sides};
-use super::tables::{InteractionTables, electrical_axis, matters};
+use super::tables::{InteractionTables, added_rows, electrical_axis, matters};
 use super::user::{UserPlan, plan_user};
 use super::wanted::columns_of;
 use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
@@ -19,6 +19,9 @@ use std::collections::BTreeSet;
 
 const KEYWORD: &str = "GAP ELECTRICAL CONDUCTANCE";
 
+/// What the law is called where it is left out.
+pub(super) const LAW: &str = "electrical law";
+
 /// Plans the electrical law; `None` after saying why there is none.
 pub(super) fn plan_electrical(
     planner: Planner<'_>,
@@ -28,7 +31,6 @@ pub(super) fn plan_electrical(
     notes: &mut Vec<String>,
     dropped: &mut Vec<Dropped>,
 ) -> Option<ElectricalPlan> {
-    const LAW: &str = "electrical law";
     let Some(option) = &planner.interaction.gap_electrical_conductance else {
         let potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential);
         if potentials.into_iter().any(|column| planner.may_have(column)) {
@@ -85,7 +87,7 @@ pub(super) fn plan_electrical(
     for ((_, table), plan) in used.iter().zip(&mut tables) {
         fold_and_choose(planner, table, plan, |along| match along {
             _ if !may_fold => None,
-            Along::Clearance => planner.constant_clearance(),
+            Along::Clearance => planner.constant_clearance(all.len()),
             Along::Pressure => planner.constant_pressure(),
             _ => planner.constant_of(variables[variable_index(along)?]?),
         });
@@ -145,10 +147,7 @@ fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Ve
         return Err(super::source::cell(Column::Clearance, presence).expect_err("it has no numbers"));
     }
     for (against, table) in used {
-        let column = if *against == Along::Clearance { Column::Clearance } else { Column::Pressure };
-        if matters(table, 0) {
-            super::source::cell(column, presence)?;
-        }
+        planner.check_abscissa(*against, table)?;
     }
     let count = used.iter().map(|(_, table)| table.axis_count()).max().unwrap_or(1);
     let sources = (1..count).map(|axis| {
@@ -235,22 +234,28 @@ fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: 
 
 /// A table as the plan shows it.
 pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along) -> TablePlan {
-    let axes = table.axes().iter().enumerate().map(|(axis, summary)| AxisPlan {
-        along: along(axis),
-        least: summary.least,
-        greatest: summary.greatest,
-        points: summary.distinct_count,
-        matters: summary.matters(),
-        fold: None,
-        is_idle: false,
+    let added = added_rows(table);
+    let axes = table.axes().iter().enumerate().map(|(axis, summary)| {
+        // What was added to complete a group of one row is no abscissa of the deck.
+        let is_completed = axis == 0 && added > 0;
+        let is_alone = is_completed && summary.greatest == summary.least.next_up();
+        AxisPlan {
+            along: along(axis),
+            least: summary.least,
+            greatest: if is_alone { summary.least } else { summary.greatest },
+            points: summary.distinct_count - usize::from(is_completed),
+            matters: summary.matters(),
+            fold: None,
+            is_idle: false,
+        }
     });
     TablePlan {
         against: along(0),
-        rows: table.row_count(),
+        rows: table.row_count() - added,
         tail: table.tail(),
         ends_in_zero: false,
         axes: axes.collect(),
-        folded_rows: table.row_count(),
+        folded_rows: table.row_count() - added,
         shape: Shape::of(table),
         not_folded: Vec::new(),
         form: None,

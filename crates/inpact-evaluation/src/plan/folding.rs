@@ -2,6 +2,7 @@
 
 use super::make::Planner;
 use super::source::Source;
+use super::tables::added_rows;
 use super::{AxisPlan, FormPlan, TablePlan};
 use crate::accuracy::{Method, Shape, Wanted, choose};
 use crate::evaluator::Evaluator;
@@ -37,6 +38,7 @@ fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
     let chosen = &choice.chosen;
     FormPlan {
         method: chosen.method.clone(),
+        wanted,
         bound: chosen.bound,
         missed: chosen.bound.and_then(|bound| wanted.missed_by(&bound)),
         cost: chosen.cost,
@@ -59,7 +61,7 @@ fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -
             Err(refusal) => plan.not_folded.push((of.along, refusal)),
         }
     }
-    plan.folded_rows = folded.row_count();
+    plan.folded_rows = folded.row_count() - added_rows(&folded);
     // With the others folded away, a variable may no longer make a difference.
     for (summary, of) in folded.axes().iter().zip(&mut plan.axes) {
         of.is_idle = of.matters && of.fold.is_none() && !summary.matters();
@@ -99,9 +101,15 @@ impl Planner<'_> {
         }
     }
 
-    /// The clearance at which a conductance table is read in every row; overclosure counts as zero (J-5).
-    pub(super) fn constant_clearance(self) -> Option<f64> {
-        self.constant(Column::Clearance).map(|clearance| if clearance < 0.0 { 0.0 } else { clearance })
+    /// The clearance at which a conductance table is read in every row that reads it; `of` tables there are, and beside another only open rows read it.
+    pub(super) fn constant_clearance(self, tables: usize) -> Option<f64> {
+        let open = || ContactState::Open.table_clearance(self.constant(Column::Clearance));
+        match self.only_state() {
+            Some(state) => state.table_clearance(self.constant(Column::Clearance)),
+            None if tables > 1 => open(),
+            // Closed rows read it at zero.
+            None => open().filter(|clearance| *clearance == 0.0),
+        }
     }
 
     /// The contact pressure of every row.

@@ -24,12 +24,15 @@ impl GovernedBy {
         findings: &mut Findings,
     ) -> Option<Self> {
         if let Some(name) = chosen {
-            let found = model.interactions.get_index_of(name);
-            if found.is_none() {
-                let message = format!("the deck does not define the chosen interaction `{name}`");
-                findings.report(&UNKNOWN_INTERACTION, Place::default(), message, names_help(model));
+            let found = find_interaction(model, name.written());
+            if let Err(fault) = found {
+                let message = match fault {
+                    NameFault::Unknown => format!("the deck does not define the chosen interaction `{name}`"),
+                    NameFault::Ambiguous => format!("the chosen interaction `{name}` may be one of several"),
+                };
+                findings.report(&UNKNOWN_INTERACTION, Place::default(), message, fault.help(model));
             }
-            return found.map(Self::Chosen);
+            return found.ok().map(Self::Chosen);
         }
         if header.has(Column::Interaction) {
             return Some(Self::Column);
@@ -97,12 +100,53 @@ impl<'a> RowInteractions<'a> {
             // Nothing to choose between.
             return (self.model.interactions.len() == 1).then_some(0);
         }
-        self.model.interactions.get_index_of(&Name::new(std::str::from_utf8(label).ok()?))
+        find_interaction(self.model, std::str::from_utf8(label).ok()?).ok()
+    }
+}
+
+/// Why a text names no interaction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NameFault {
+    /// The deck has none of that name.
+    Unknown,
+    /// Quoted names of the deck differ from it, and from each other, by case and blanks only.
+    Ambiguous,
+}
+
+/// The place in the model of the interaction that a text names.
+///
+/// As a deck would name it (S-40, S-41) above all. The quotes of a cell are those of the table and not of the name, so the text of a quoted name
+/// names it too, and if there is only one, so does what differs from it by case and blanks only.
+///
+/// # Errors
+/// None of that name, or more than one that it may be.
+pub fn find_interaction(model: &Model, text: &str) -> Result<usize, NameFault> {
+    let name = Name::new(text);
+    let exact = || model.interactions.keys().position(|known| known.is_quoted() && known.canonical() == text.trim());
+    if let Some(index) = model.interactions.get_index_of(&name).or_else(exact) {
+        return Ok(index);
+    }
+    let is_near = |known: &Name| !name.is_quoted() && known.differs_by_quotes_only(&name);
+    let mut near = model.interactions.keys().enumerate().filter(|(_, known)| is_near(known));
+    match (near.next(), near.next()) {
+        (Some((index, _)), None) => Ok(index),
+        (None, _) => Err(NameFault::Unknown),
+        (Some(_), Some(_)) => Err(NameFault::Ambiguous),
+    }
+}
+
+impl NameFault {
+    /// What to do about it.
+    pub fn help(self, model: &Model) -> String {
+        match self {
+            Self::Unknown => names_help(model),
+            Self::Ambiguous => format!("write it as the deck does, case and blanks included; {}", names_help(model)),
+        }
     }
 }
 
 /// The names that could be meant.
-pub(super) fn names_help(model: &Model) -> String {
+fn names_help(model: &Model) -> String {
     const MOST: usize = 8;
     let mut names: Vec<String> = model.interactions.keys().take(MOST).map(|name| format!("`{name}`")).collect();
     if model.interactions.len() > MOST {

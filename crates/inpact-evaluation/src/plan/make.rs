@@ -9,13 +9,14 @@ use super::pore::plan_pore;
 use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey};
-use super::tables::{BuiltTables, InteractionTables};
+use super::tables::{BuiltTables, InteractionTables, matters};
 use super::thermal::plan_thermal;
 use super::thermal_tables::ThermalTables;
 use super::{ContactColumns, InteractionPlan, Plan};
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Selection};
 use crate::results::{Along, Output};
+use crate::table::PiecewiseTable;
 use inpact_parser::model::{Interaction, Model};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -32,11 +33,14 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
             GovernedBy::Column => survey.rows == 0,
         };
         if of.rows > 0 || is_candidate {
-            interactions.push(Planner { model, interaction, index, of, survey, choices }.plan());
+            let planner = Planner { model, interaction, index, of, survey, choices };
+            interactions.push(planner.plan());
         } else {
             unused.push(interaction.name.clone());
         }
     }
+    give_status_by_law(&mut interactions, choices);
+    interactions.iter_mut().for_each(|plan| keep_asked(plan, choices));
     let outputs: BTreeSet<Output> = interactions.iter().flat_map(|plan| plan.outputs.iter().copied()).collect();
     let selection = selection(survey, &interactions);
     Plan {
@@ -48,6 +52,25 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
         unused,
         selection,
         outputs: outputs.into_iter().collect(),
+    }
+}
+
+/// Gives the status of each law a column where some interaction has more than one law, or where it is asked for.
+fn give_status_by_law(interactions: &mut [InteractionPlan], choices: &Choices) {
+    let laws = |plan: &InteractionPlan| {
+        let laws = [
+            (plan.electrical.is_some(), Output::ElectricalStatus),
+            (plan.thermal.is_some(), Output::ThermalStatus),
+            (plan.pore.is_some(), Output::PoreStatus),
+        ];
+        laws.into_iter().filter(|(is_there, _)| *is_there).map(|(_, output)| output).collect::<Vec<_>>()
+    };
+    let are_several = interactions.iter().any(|plan| laws(plan).len() > 1);
+    let is_named = |output: &Output| choices.outputs.as_ref().is_some_and(|asked| asked.contains(output));
+    for plan in interactions {
+        let given = laws(plan).into_iter().filter(|output| are_several || is_named(output));
+        let with_status = plan.outputs.iter().copied().chain(given).collect::<BTreeSet<Output>>();
+        plan.outputs = with_status.into_iter().collect();
     }
 }
 
@@ -129,7 +152,6 @@ impl Planner<'_> {
             notes,
         };
         plan.histories = self.of.histories.filter(|_| plan.has_history());
-        keep_asked(&mut plan, self.choices);
         plan
     }
 
@@ -177,6 +199,16 @@ impl Planner<'_> {
             return Err(Missing::absent(columns));
         }
         cell(Column::Time, |column| self.presence(column)).map(drop)
+    }
+
+    /// Refuses a table whose first variable some row needs and none has: a closed row needs no clearance.
+    pub(super) fn check_abscissa(self, against: Along, table: &PiecewiseTable) -> Result<(), Missing> {
+        let is_clearance = against == Along::Clearance;
+        if !matters(table, 0) || (is_clearance && self.never(self.of.open)) {
+            return Ok(());
+        }
+        let column = if is_clearance { Column::Clearance } else { Column::Pressure };
+        cell(column, |column| self.presence(column)).map(drop)
     }
 
     /// Why no row reads the table against clearance or pressure, one of `count` tables of a conductance.

@@ -33,8 +33,13 @@ pub(super) fn plan_pore(
         }
         return None;
     }
+    let jump = cell(Column::PorePressure(Part::Both), |column| planner.presence(column)).ok();
     let lacking: Vec<Column> = sides.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
+    let has_sides = lacking.is_empty();
+    // The table may depend on their mean, the flow across needs no more than their difference.
+    let needs_sides = jump.is_none() || tables.permeability().is_some_and(|table| matters(table, 1));
     match lacking[..] {
+        _ if !needs_sides => {}
         [] => {}
         [missing] => {
             left_out.push(LAW, Reason::OneSided { missing });
@@ -43,6 +48,7 @@ pub(super) fn plan_pore(
         _ => {
             let is_there = lacking.iter().all(|column| planner.survey.header.has(*column));
             let missing = if is_there { Missing::empty(lacking) } else { Missing::absent(lacking) };
+            let missing = if jump.is_none() { missing.or(Column::PorePressure(Part::Both)) } else { missing };
             left_out.push(LAW, Reason::Missing(missing));
             return None;
         }
@@ -88,7 +94,8 @@ pub(super) fn plan_pore(
         table: table_plan,
         cutoffs,
         variables,
-        jump: given(Column::PorePressure(Part::Both)).filter(|_| table.is_some()),
+        pressures: has_sides.then_some(sides),
+        jump: jump.filter(|_| table.is_some() || !has_sides),
         across: given(Column::FlowAcross).filter(|_| table.is_none()),
         characteristic_length: characteristic_length(planner, cutoffs, is_transient),
         rate: if is_transient { rate(planner, has_history) } else { Rate::NotNeeded },
@@ -107,7 +114,8 @@ fn sources(planner: Planner<'_>, table: Option<&PiecewiseTable>) -> Result<Vec<O
     let presence = |column| planner.presence(column);
     cell(Column::Clearance, presence)?;
     let Some(table) = table else { return Ok(Vec::new()) };
-    if matters(table, 0) {
+    // While open the table is read at zero pressure (P-34).
+    if matters(table, 0) && !planner.never(planner.of.closed) {
         cell(Column::Pressure, presence)?;
     }
     let sources = (2..table.axis_count()).map(|axis| {

@@ -4,6 +4,8 @@ use super::{
     AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, FormPlan, GovernedBy,
     InteractionPlan, Plan, PorePlan, Rate, SlipRateSource, TablePlan, ThermalPlan,
 };
+use crate::accuracy::{Tolerance, Wanted};
+use crate::nodes::Column;
 use crate::results::{number_text as number, rounded_up};
 use crate::table::Tail;
 use inpact_parser::grammar::Dialect;
@@ -176,6 +178,7 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
         let range = match (matters, points) {
             (false, 1) => format!("{} in every row: left out", number(least)),
             (false, _) => format!("{} to {}, one value a group: left out", number(least), number(greatest)),
+            (true, 1) => format!("{} alone", number(least)),
             (true, _) => format!("{} to {}, {points} values", number(least), number(greatest)),
         };
         writeln!(formatter, "      {along:<10} {range}{fold}")?;
@@ -190,18 +193,33 @@ fn write_table(what: &str, table: &TablePlan, formatter: &mut Formatter<'_>) -> 
 }
 
 fn write_form(form: &FormPlan, formatter: &mut Formatter<'_>) -> fmt::Result {
-    write!(formatter, "      accuracy: {}", form.method)?;
-    if let Some(bound) = form.bound {
-        write!(formatter, ", error at most {} of the largest value", rounded_up(bound.relative_to_largest))?;
-        if bound.pointwise.is_finite() {
-            write!(formatter, " and {} of the value itself", rounded_up(bound.pointwise))?;
-        }
-    }
-    if let Some(missed) = form.missed {
-        write!(formatter, ": above the tolerance of {missed:e}, which no form keeps")?;
-    }
-    writeln!(formatter)?;
+    writeln!(formatter, "      accuracy: {form}")?;
     form.refused.iter().try_for_each(|(method, why)| writeln!(formatter, "        not {method}: {why}"))
+}
+
+impl fmt::Display for FormPlan {
+    /// The method, the bounds of its error, the measure of the tolerance first, and the tolerance where it is missed.
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        const OF_LARGEST: &str = "of the largest value";
+        const OF_ITSELF: &str = "of the value itself";
+        write!(formatter, "{}", self.method)?;
+        let is_pointwise = matches!(self.wanted, Wanted::Within(Tolerance::Pointwise(_)));
+        if let Some(bound) = self.bound {
+            let mut bounds = [(bound.relative_to_largest, OF_LARGEST), (bound.pointwise, OF_ITSELF)];
+            bounds.rotate_left(usize::from(is_pointwise));
+            let finite = bounds.iter().filter(|(bound, _)| bound.is_finite());
+            let said: Vec<String> =
+                finite.map(|(bound, measure)| format!("{} {measure}", rounded_up(*bound))).collect();
+            if !said.is_empty() {
+                write!(formatter, ", error at most {}", said.join(" and "))?;
+            }
+        }
+        if let Some(missed) = self.missed {
+            let measure = if is_pointwise { OF_ITSELF } else { OF_LARGEST };
+            write!(formatter, ": above the tolerance of {missed:e} {measure}, which no form keeps")?;
+        }
+        Ok(())
+    }
 }
 
 fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>) -> fmt::Result {
@@ -219,7 +237,10 @@ fn write_column(column: &ColumnPlan, width: usize, formatter: &mut Formatter<'_>
         ColumnRole::Key => writeln!(formatter, "  {header:<width$}  passed through{alias}"),
         ColumnRole::KeyAndRead => writeln!(formatter, "  {header:<width$}  passed through and read{alias}{range}"),
         ColumnRole::Read => writeln!(formatter, "  {header:<width$}  read{alias}{range}"),
-        ColumnRole::NotRead(reason) => writeln!(formatter, "  {header:<width$}  left out{alias}: {reason}"),
+        ColumnRole::NotRead(reason) => {
+            let near = Column::near(header).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            writeln!(formatter, "  {header:<width$}  left out{alias}: {reason}{near}")
+        }
     }
 }
 

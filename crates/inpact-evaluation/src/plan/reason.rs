@@ -60,6 +60,8 @@ pub enum Reason {
     InfinitePermeability,
     /// USER of *SURFACE INTERACTION switches heat generation off (K-05).
     HeatSwitchedOff,
+    /// Current generates heat, and nobody knows how much.
+    CurrentUnknown(Box<Reason>),
     /// The program has no such law.
     NotEvaluated,
     /// The contract has no column of that name.
@@ -161,6 +163,9 @@ impl fmt::Display for Reason {
             Self::NoRowOpen => formatter.write_str("no row is open"),
             Self::InfinitePermeability => formatter.write_str("the permeability is infinite, which is no number"),
             Self::HeatSwitchedOff => formatter.write_str("USER of *SURFACE INTERACTION switches heat generation off"),
+            Self::CurrentUnknown(reason) => {
+                write!(formatter, "the heat of the current is part of it and is not known: {reason}")
+            }
             Self::NotEvaluated => formatter.write_str("no law of this program"),
             Self::UnknownColumn => formatter.write_str("a node table has no column of that name"),
             Self::Option(option) => write!(formatter, "`{option}` has the say"),

@@ -30,6 +30,13 @@ pub enum RegimeReason {
     NoProcedure,
 }
 
+impl RegimeInForce {
+    /// Whether procedures of the deck are of both kinds, of which the last decided for all rows.
+    pub fn is_disputed(&self) -> bool {
+        matches!(self.reason, RegimeReason::Procedure { others, .. } if others > 0)
+    }
+}
+
 /// The regime of a law whose field the procedures with `solves` solve.
 pub(super) fn regime(model: &Model, chosen: Option<Regime>, solves: impl Fn(&Procedure) -> bool) -> RegimeInForce {
     if let Some(regime) = chosen {

@@ -5,10 +5,10 @@
 //! of every node only where the rows of the nodes do not stand together.
 
 use super::choices::Choices;
-use super::governing::{GovernedBy, RowInteractions, names_help};
+use super::governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
 use super::source::Presence;
 use super::wanted::wanted_columns;
-use crate::law::contact::{Clearance, ContactPressure, ContactState};
+use crate::law::contact::ContactState;
 use crate::nodes::{
     Batch, Column, Findings, Header, HistoryOrder, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE,
     NodeIndex, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
@@ -167,6 +167,7 @@ fn survey_in_order(
 ) -> io::Result<SurveyByNode> {
     let header = reader.header().clone();
     let governed_by = GovernedBy::decide(model, &header, choices.interaction.as_ref(), findings);
+    header.report_unknown(findings);
     let Some(governed_by) = governed_by else { return Ok(SurveyByNode::Complete(None)) };
     let columns = wanted_columns(model, governed_by, choices, &header);
     let histories = header.has(Column::Node) && columns.contains(&Column::Time);
@@ -230,28 +231,14 @@ pub(crate) struct ContactPlaces {
 }
 
 impl ContactPlaces {
-    /// The state of a row: as `closed` says, otherwise closed when d <= 0 or p ≠ 0 (T-22); a missing pressure counts as none.
-    ///
-    /// `None` where the row has not enough to tell.
+    /// The state of a row ([`ContactState::of`]); `None` where the row has not enough to tell.
     #[inline]
     pub(crate) fn state(&self, batch: &Batch, row: usize) -> Option<ContactState> {
         if self.state.is_some() {
             return self.state;
         }
         let number = |place: Option<usize>| batch.numbers[place?].get(row);
-        if let Some(closed) = number(self.closed) {
-            return Some(if closed == 0.0 { ContactState::Open } else { ContactState::Closed });
-        }
-        let pressure = number(self.pressure);
-        match (number(self.clearance), pressure) {
-            (Some(clearance), _) => {
-                let pressure = ContactPressure(pressure.unwrap_or(0.0));
-                Some(ContactState::from_clearance_and_pressure(Clearance(clearance), pressure))
-            }
-            (None, Some(pressure)) if pressure.is_nan() => Some(ContactState::Undetermined),
-            (None, Some(pressure)) if pressure != 0.0 => Some(ContactState::Closed),
-            (None, _) => None,
-        }
+        ContactState::of(number(self.closed), number(self.clearance), number(self.pressure))
     }
 }
 
@@ -418,12 +405,17 @@ impl<'a> Surveyor<'a> {
         let number = batch.first_row + row as u64 + 1;
         let label = self.survey.header.name_of(Column::Interaction);
         let text = String::from_utf8_lossy(self.rows.label_of(batch, row));
-        let message = if text.trim().is_empty() {
-            format!("`{label}` of row {number} is empty")
-        } else {
-            format!("`{label}` of row {number} is `{}`, which the deck does not define", text.trim())
+        let fault = find_interaction(self.model, &text).err().unwrap_or(NameFault::Unknown);
+        let message = match fault {
+            _ if text.trim().is_empty() => format!("`{label}` of row {number} is empty"),
+            NameFault::Unknown => {
+                format!("`{label}` of row {number} is `{}`, which the deck does not define", text.trim())
+            }
+            NameFault::Ambiguous => {
+                format!("`{label}` of row {number} is `{}`, which may be one of several", text.trim())
+            }
         };
-        findings.report(&UNKNOWN_INTERACTION, batch.place(row, Some(label)), message, names_help(self.model));
+        findings.report(&UNKNOWN_INTERACTION, batch.place(row, Some(label)), message, fault.help(self.model));
     }
 
     fn finish(mut self, findings: &mut Findings) -> Survey {

@@ -1,10 +1,12 @@
 //! The plan of the thermal law of one interaction: conduction, radiation, friction, and their sum with the heat of the current.
 //!
 //! Each part is planned or left out by itself. The sum, HFL, is given where every part that the deck has is known:
-//! a conduction or a radiation that is left out takes HFL with it.
+//! a conduction, a radiation or a heat of the current that is left out takes HFL with it.
+//! A deck with procedures none of which solves for current has no heat of it, whatever its interactions say (section 9.2).
 //! Friction is another matter: most decks have *FRICTION and few node tables tell of slip, so HFL without it is given, and the plan says so.
 
 use super::asked::SUMS_OF_HEAT;
+use super::electrical::LAW as ELECTRICAL_LAW;
 use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::source::{Source, cell};
@@ -15,7 +17,7 @@ use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::Output;
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::Interaction;
+use inpact_parser::model::{Interaction, Procedure};
 use std::collections::BTreeSet;
 
 /// What the thermal law of an interaction works with.
@@ -173,16 +175,23 @@ pub(super) fn plan_thermal(
     let conduction = plan_conduction(planner, tables, left_out).part("heat conduction", left_out, &mut unknown);
     let radiation = plan_radiation(planner, tables).part("heat radiation", left_out, &mut unknown);
     let heat = planner.heat_generation();
-    let friction = plan_friction(planner, heat, left_out).part("heat of friction", left_out, &mut None);
+    let mut without_friction = None;
+    let friction = plan_friction(planner, heat, left_out).part("heat of friction", left_out, &mut without_friction);
     if conduction.is_none() && radiation.is_none() && friction.is_none() {
         return None;
     }
-    let generates = electrical.is_some_and(|law| law.jump.is_some() && law.heat.is_some());
+    let current = match current_heat(planner, electrical, left_out) {
+        Ok(current) => current,
+        Err(reason) => {
+            unknown.get_or_insert(Reason::CurrentUnknown(Box::new(reason)));
+            CurrentHeat::None
+        }
+    };
     let mut plan = ThermalPlan {
         conduction,
         radiation,
         friction,
-        current: if generates { CurrentHeat::Generated } else { CurrentHeat::None },
+        current,
         heat,
         temperatures: None,
         jump: None,
@@ -202,12 +211,38 @@ pub(super) fn plan_thermal(
             "conducted heat and that of the current have the accuracy of the reference; radiation, friction and the sum are rounded as in full accuracy".to_owned(),
         );
     }
-    let has_current = planner.interaction.gap_electrical_conductance.is_some();
-    let is_asked = planner.choices.asks_for(&SUMS_OF_HEAT);
-    if has_current && !generates && heat.is_some() && is_asked && outputs.contains(&Output::Hfl) {
-        notes.push("`HFL` and what follows from it are without the heat of the current, which is left out".to_owned());
+    if planner.choices.asks_for(&SUMS_OF_HEAT) && outputs.contains(&Output::Hfl) {
+        const SUM: &str = "`HFL` and what follows from it are without the heat of";
+        if matches!(without_friction, Some(Reason::Missing(_))) {
+            notes.push(format!("{SUM} friction, which is left out"));
+        }
+        let may_flow = planner.interaction.gap_electrical_conductance.is_some() && heat.is_some();
+        if may_flow && current == CurrentHeat::None {
+            notes.push(format!("{SUM} a current: no procedure of the deck solves for one"));
+        }
     }
     Some(plan)
+}
+
+/// Whether current generates heat; an error where it may and nobody knows how much.
+fn current_heat(
+    planner: Planner<'_>,
+    electrical: Option<&ElectricalPlan>,
+    left_out: &LeftOuts,
+) -> Result<CurrentHeat, Reason> {
+    if planner.interaction.gap_electrical_conductance.is_none() || planner.heat_generation().is_none() {
+        return Ok(CurrentHeat::None);
+    }
+    if electrical.is_some_and(|law| law.jump.is_some() && law.heat.is_some()) {
+        return Ok(CurrentHeat::Generated);
+    }
+    let procedures = &planner.model.procedures;
+    if !procedures.is_empty() && !procedures.iter().any(Procedure::solves_electrical) {
+        return Ok(CurrentHeat::None);
+    }
+    // The law said why there is none of it, or why there is no current.
+    let mut said = left_out.0.iter().filter(|left| left.what == ELECTRICAL_LAW || left.outputs.contains(&Output::Ecd));
+    Err(said.next().map_or(Reason::NotEvaluated, |left| left.reason.clone()))
 }
 
 /// The temperatures of both sides, which every flux across depends on.
@@ -241,7 +276,13 @@ fn plan_flows(
                 outputs.extend(plan.conduction.is_some().then_some(HeatConduction));
                 outputs.extend(plan.radiation.is_some().then_some(HeatRadiation));
             }
+            // Radiation was left out without them; conduction needs no more than their difference.
+            Err(_) if planner.presence(Column::TemperatureJump).has_numbers() => {
+                plan.jump = Some(Column::TemperatureJump);
+                outputs.insert(HeatConduction);
+            }
             Err(missing) => {
+                let missing = missing.or(Column::TemperatureJump);
                 left_out.push_outputs(&[HeatConduction], Reason::Missing(missing.clone()));
                 unknown.get_or_insert(Reason::Missing(missing));
             }

@@ -57,10 +57,7 @@ fn conduction_of_tables(
         }
     }
     for (against, table) in &used {
-        let column = if *against == Along::Clearance { Column::Clearance } else { Column::Pressure };
-        if matters(table, 0) {
-            cell(column, presence)?;
-        }
+        planner.check_abscissa(*against, table)?;
     }
     let count = used.iter().map(|(_, table)| table.axis_count()).max().unwrap_or(1);
     let mut variables = Vec::new();
@@ -83,19 +80,19 @@ fn conduction_of_tables(
     // The curves of CalculiX are no plain table, and are evaluated as they are.
     if plan.dialect == Dialect::Abaqus {
         let tables: Vec<&PiecewiseTable> = used.iter().map(|(_, table)| *table).collect();
-        fold_conduction(planner, &tables, &mut plan);
+        fold_conduction(planner, (&tables, all.len()), &mut plan);
     }
     Ok(plan)
 }
 
-/// Folds the tables along what is the same in every row, and chooses their forms; what no table reads any more is left out.
-fn fold_conduction(planner: Planner<'_>, tables: &[&PiecewiseTable], plan: &mut ConductionPlan) {
+/// Folds the tables in use, of `count` that there are, along what is the same in every row, and chooses their forms; what no table reads any more is left out.
+fn fold_conduction(planner: Planner<'_>, (tables, count): (&[&PiecewiseTable], usize), plan: &mut ConductionPlan) {
     let may_fold = planner.may_fold(|output| matches!(output, Output::ThermalConductanceSlope(_)));
     let variables = &plan.variables;
     for (table, of_table) in tables.iter().zip(&mut plan.tables) {
         fold_and_choose(planner, table, of_table, |along| match along {
             _ if !may_fold => None,
-            Along::Clearance => planner.constant_clearance(),
+            Along::Clearance => planner.constant_clearance(count),
             Along::Pressure => planner.constant_pressure(),
             Along::Temperature => planner.constant_of((*variables.first()?)?),
             Along::FieldVariable(number) => planner.constant_of((*variables.get(number as usize + 1)?)?),
@@ -131,7 +128,7 @@ pub(super) fn plan_radiation(planner: Planner<'_>, tables: &ThermalTables) -> Pl
     };
     let contact = planner.contact();
     let told_otherwise = contact.pressure.is_some() || contact.closed.is_some();
-    // In contact the clearance is zero unless it is given (K-41).
+    // In contact the view factor is that of zero clearance.
     if !(told_otherwise && planner.never(planner.of.open))
         && let Err(missing) = cell(Column::Clearance, |column| planner.presence(column))
     {

@@ -1,11 +1,12 @@
 //! Some rows of a result table as columns.
 
+use super::output::Output;
 use crate::nodes::NumberColumn;
 use std::fmt;
 
 /// What there is to say of a row (column `status`).
 ///
-/// In ascending order: of two laws in one row, the greater status is shown.
+/// In ascending order: of the laws of a row, the gravest status is shown, which is the greatest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Status {
     /// Apart, within the tables.
@@ -25,8 +26,21 @@ pub enum Status {
 pub struct ResultBatch {
     /// The columns of numbers.
     pub numbers: Vec<NumberColumn>,
-    /// The status of each row; `None` where no law was evaluated or contact cannot be told.
+    /// The status of each row, the gravest of those of its laws; `None` where no law was evaluated or contact cannot be told.
     pub status: Vec<Option<Status>>,
+    /// The status of each row by law.
+    pub status_by_law: StatusByLaw,
+}
+
+/// The status of each row by law; `None` where the law was not evaluated or contact cannot be told.
+#[derive(Debug, Clone, Default)]
+pub struct StatusByLaw {
+    /// Of the electrical law.
+    pub electrical: Vec<Option<Status>>,
+    /// Of the thermal law.
+    pub thermal: Vec<Option<Status>>,
+    /// Of the pore fluid law.
+    pub pore: Vec<Option<Status>>,
 }
 
 impl ResultBatch {
@@ -34,8 +48,22 @@ impl ResultBatch {
     pub fn reset(&mut self, rows: usize, columns: usize) {
         self.numbers.resize_with(columns, NumberColumn::default);
         self.numbers.iter_mut().for_each(|column| column.reset(rows));
-        self.status.clear();
-        self.status.resize(rows, None);
+        let StatusByLaw { electrical, thermal, pore } = &mut self.status_by_law;
+        for statuses in [&mut self.status, electrical, thermal, pore] {
+            statuses.clear();
+            statuses.resize(rows, None);
+        }
+    }
+
+    /// The statuses of a column of them; `None` for a column of numbers.
+    pub fn statuses(&self, output: Output) -> Option<&[Option<Status>]> {
+        match output {
+            Output::Status => Some(&self.status),
+            Output::ElectricalStatus => Some(&self.status_by_law.electrical),
+            Output::ThermalStatus => Some(&self.status_by_law.thermal),
+            Output::PoreStatus => Some(&self.status_by_law.pore),
+            _ => None,
+        }
     }
 
     /// Sets a number, where the plan has its column and the number is known.

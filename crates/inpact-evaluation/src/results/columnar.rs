@@ -56,11 +56,11 @@ impl<'a> ColumnarWriter<'a> {
         }
         let mut numbers = results.numbers.iter();
         for output in &self.outputs {
-            arrays.push(match output {
-                Output::Status => Arc::new(
-                    results.status.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>(),
-                ),
-                _ => numbers
+            arrays.push(match results.statuses(*output) {
+                Some(statuses) => {
+                    Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
+                }
+                None => numbers
                     .next()
                     .map_or_else(|| Arc::new(Float64Array::new_null(batch.rows)) as ArrayRef, number_array),
             });
@@ -82,10 +82,8 @@ impl<'a> ColumnarWriter<'a> {
     /// Writes what a file ends with.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         let keys = self.keys.iter().map(|key| if *key == Column::Time { DataType::Float64 } else { DataType::Utf8 });
-        let outputs = self.outputs.iter().map(|output| match output {
-            Output::Status => DataType::Utf8,
-            _ => DataType::Float64,
-        });
+        let outputs =
+            self.outputs.iter().map(|output| if output.is_number() { DataType::Float64 } else { DataType::Utf8 });
         self.begin(keys.chain(outputs).collect())?;
         match std::mem::replace(&mut self.sink, Sink::Finished) {
             Sink::Parquet(_, writer) => writer.close().map(drop).map_err(of_parquet),

@@ -78,8 +78,14 @@ pub enum Output {
     QSlave,
     /// `q_m`: all pore fluid into the master surface.
     QMaster,
-    /// `status`: closed, open, or what else there is to say of the row.
+    /// `status`: closed, open, or what else there is to say of the row: the gravest of what its laws say.
     Status,
+    /// `electrical_status`: what the electrical law says of the row.
+    ElectricalStatus,
+    /// `thermal_status`: what the thermal law says of it.
+    ThermalStatus,
+    /// `pore_status`: what the pore fluid law says of it.
+    PoreStatus,
     /// `dconductance_d…`: slope of σ_g.
     ConductanceSlope(Along),
     /// `dthermal_conductance_d…`: slope of the gap thermal conductance.
@@ -144,7 +150,15 @@ impl Output {
         Self::QSlave,
         Self::QMaster,
         Self::Status,
+        Self::ElectricalStatus,
+        Self::ThermalStatus,
+        Self::PoreStatus,
     ];
+
+    /// Whether its column holds numbers; the others hold a status.
+    pub fn is_number(self) -> bool {
+        !matches!(self, Self::Status | Self::ElectricalStatus | Self::ThermalStatus | Self::PoreStatus)
+    }
 
     /// The output of a name, blanks around it and case aside; `None` where there is none.
     pub fn named(name: &str) -> Option<Self> {
@@ -207,6 +221,9 @@ impl fmt::Display for Output {
             Self::QSlave => "q_s",
             Self::QMaster => "q_m",
             Self::Status => "status",
+            Self::ElectricalStatus => "electrical_status",
+            Self::ThermalStatus => "thermal_status",
+            Self::PoreStatus => "pore_status",
             Self::ConductanceSlope(along) => return write!(formatter, "dconductance_d{along}"),
             Self::ThermalConductanceSlope(along) => return write!(formatter, "dthermal_conductance_d{along}"),
             Self::PermeabilitySlope(along) => return write!(formatter, "dpermeability_d{along}"),

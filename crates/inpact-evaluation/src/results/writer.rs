@@ -41,7 +41,8 @@ enum ResultColumn {
     Label(usize),
     /// A number of the results.
     Number(usize),
-    Status,
+    /// A status, that of this output.
+    Status(Output),
 }
 
 impl std::fmt::Debug for ResultWriter<'_> {
@@ -126,11 +127,11 @@ impl<'a> CsvWriter<'a> {
         let mut columns: Vec<_> = (0..keys.len()).map(ResultColumn::Label).collect();
         let mut number = 0;
         for kind in outputs {
-            if *kind == Output::Status {
-                columns.push(ResultColumn::Status);
-            } else {
+            if kind.is_number() {
                 columns.push(ResultColumn::Number(number));
                 number += 1;
+            } else {
+                columns.push(ResultColumn::Status(*kind));
             }
         }
         Ok(Self { output, columns, blocks: Vec::new() })
@@ -170,9 +171,9 @@ fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, results
                     push_number(text, value);
                 }
             }
-            ResultColumn::Status => {
-                let word = results.status[row].map_or("", super::Status::word);
-                text.extend_from_slice(word.as_bytes());
+            ResultColumn::Status(output) => {
+                let status = results.statuses(*output).and_then(|statuses| statuses[row]);
+                text.extend_from_slice(status.map_or("", super::Status::word).as_bytes());
             }
         }
     }

@@ -66,6 +66,7 @@ pub(crate) fn evaluate_with(deck: &str, nodes: &str, choices: &Choices, rows_of_
     let mut writer = ResultWriter::new(&mut output, plan.keys(), &plan.outputs).expect("a vector takes all");
     let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
     while reader.read_batch(&mut batch, &mut findings).expect("a slice can be read") {
+        plan.name_rows(&mut batch);
         evaluation.evaluate(&batch, &mut results);
         writer.write(&batch, &results).expect("a vector takes all");
     }
