@@ -1,12 +1,14 @@
 //! Runs the program as a user would: exit codes, standard streams, every format, every sample deck.
 
 mod check;
+mod columns;
 mod configuration;
 mod decks;
 mod dialects;
 mod eval;
 mod eval_laws;
 mod eval_modes;
+mod eval_silent;
 mod eval_tables;
 mod eval_user;
 mod eval_wrong;

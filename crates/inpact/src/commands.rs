@@ -11,7 +11,7 @@ pub(crate) mod shell;
 pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
-mod evaluable;
+pub(crate) mod evaluable;
 mod findings;
 mod laws;
 mod solvable;

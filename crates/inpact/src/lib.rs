@@ -43,14 +43,16 @@ enum Command {
     /// Write a deck from JSON, either view.
     Inp(commands::inp::InpArguments),
     /// Evaluate the interface laws of a deck on node data.
+    #[command(after_long_help = commands::evaluable::columns_help())]
     Eval(commands::eval::EvalArguments),
     /// Show what an evaluation would do: which laws, tables, columns and outputs, and what is left out and why.
+    #[command(after_long_help = commands::evaluable::columns_help())]
     Plan(commands::plan::PlanArguments),
     /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
     Solve(commands::solve::SolveArguments),
     /// Measure what accuracy costs: time and error of every mode on a deck and its node data, or of every solver on a scene.
     Tradeoff(commands::tradeoff::TradeoffArguments),
-    /// Explain a rule or a keyword.
+    /// Explain a rule, a keyword, or a column of node tables and results.
     Explain(commands::explain::ExplainArguments),
     /// Print the completions of a shell.
     Completions(commands::shell::CompletionsArguments),

@@ -1,6 +1,7 @@
-//! The pages of rules and keywords as Markdown: what `explain` prints, and what the documentation is made of.
+//! The pages of rules, keywords and columns as Markdown: what `explain` prints, and what the documentation is made of.
 
-use inpact_evaluation::nodes::DataRule;
+use inpact_evaluation::nodes::{COLUMN_PAGES, ColumnPage, DataRule};
+use inpact_evaluation::results::{OUTPUT_PAGES, OutputPage};
 use inpact_parser::grammar::{Column, Data, Definition, Level, ParameterDefinition, ParameterKind, Product, RowShape};
 use inpact_validation::Rule;
 use inpact_validation::rule::FixKind;
@@ -29,6 +30,55 @@ pub(crate) fn of_data_rule(rule: &DataRule, found: &str) -> String {
     format!(
         "# {code} {name}\n\nSeverity: {severity}. Found in {found}.\n\nWhat is wrong: {summary}.\n\n{explanation}\n"
     )
+}
+
+/// The page of a column of node tables.
+pub(crate) fn of_column(column: &ColumnPage) -> String {
+    let (name, others) = (column.names[0], names(&column.names[1..]));
+    let mut page = format!("# {name}\n\nA column of node tables: {}.\n\n", column.meaning);
+    if !others.is_empty() {
+        let _ = writeln!(page, "- Other names: {others}");
+    }
+    let _ = writeln!(page, "- Unit: {}", if column.unit.is_empty() { "a text" } else { column.unit });
+    let _ = writeln!(page, "- Read by: {}", column.read_by);
+    let _ = writeln!(page, "- Source: {}", column.source);
+    page
+}
+
+/// The page of a column of results.
+pub(crate) fn of_output(output: &OutputPage) -> String {
+    let mut page = format!("# {}\n\nA column of results: {}.\n\n", output.output, output.meaning);
+    let _ = writeln!(page, "- Unit: {}", if output.unit.is_empty() { "a text" } else { output.unit });
+    let _ = writeln!(page, "- Needs: {}", output.needs);
+    let _ = writeln!(page, "- Source: {}", output.source);
+    page
+}
+
+/// The columns of node tables and those of results, a table each.
+pub(crate) fn of_columns() -> String {
+    let mut page = "## Columns of node tables\n\n".to_owned();
+    page +=
+        "Names are compared without regard to case; `_s` is the slave (secondary) side, `_m` the master (main) side.\n";
+    page += "Units are by dimension: M mass, L length, T time, θ temperature, φ electric potential, C charge.\n\n";
+    page += "| column | other names | meaning | unit | read by | source |\n|---|---|---|---|---|---|\n";
+    for ColumnPage { names: all, meaning, unit, read_by, source, .. } in COLUMN_PAGES {
+        let others = names(&all[1..]);
+        let _ = writeln!(page, "| `{}` | {others} | {meaning} | {unit} | {read_by} | {source} |", all[0]);
+    }
+    page += "\n## Columns of results\n\n";
+    page += "The key columns of the node table (`node`, `interaction`, `time`) come first, then what the laws give.\n";
+    page +=
+        "An output whose inputs are not all there is left out, and one that `--outputs` names is an error instead.\n\n";
+    page += "| column | meaning | unit | needs | source |\n|---|---|---|---|---|\n";
+    for OutputPage { output, meaning, unit, needs, source } in OUTPUT_PAGES {
+        let _ = writeln!(page, "| `{output}` | {meaning} | {unit} | {needs} | {source} |");
+    }
+    page
+}
+
+/// Names in a row.
+fn names(all: &[&str]) -> String {
+    all.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// The page of a keyword.

@@ -144,6 +144,7 @@ fn write(
     let mut writer = writer.map_err(Stopped::Writing)?;
     let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
     while reader.read_batch(&mut batch, findings).map_err(Stopped::Reading)? {
+        plan.name_rows(&mut batch);
         evaluation.evaluate(&batch, &mut results);
         writer.write(&batch, &results).map_err(Stopped::Writing)?;
     }

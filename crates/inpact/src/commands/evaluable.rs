@@ -10,9 +10,9 @@ use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
-use inpact_evaluation::nodes::{Findings, NodeReader};
+use inpact_evaluation::nodes::{COLUMN_PAGES, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, SurveyByNode, make, survey, survey_by_node};
-use inpact_evaluation::results::Output;
+use inpact_evaluation::results::{OUTPUT_PAGES, Output};
 use inpact_parser::deck::Keep;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{self, Model, Name, Regime};
@@ -255,6 +255,17 @@ impl NodesInput {
             }
         }
     }
+}
+
+/// The columns of node tables and results, for `--help`.
+pub(crate) fn columns_help() -> String {
+    let of_nodes: Vec<&str> = COLUMN_PAGES.iter().map(|page| page.names[0]).collect();
+    let of_results: Vec<String> = OUTPUT_PAGES.iter().map(|page| page.output.to_string()).collect();
+    format!(
+        "Columns of node tables: {}\n\nColumns of results: {}\n\n`inpact explain columns` says what they mean, `inpact explain NAME` what one of them does",
+        of_nodes.join(" "),
+        of_results.join(" ")
+    )
 }
 
 fn output_named(text: &str) -> Result<Output, String> {

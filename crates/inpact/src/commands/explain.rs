@@ -1,10 +1,11 @@
-//! `inpact explain`: the page of a rule or of a keyword.
+//! `inpact explain`: the page of a rule, of a keyword, or of a column of node tables and results.
 
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::page;
 use clap::{Args, ValueEnum};
-use inpact_evaluation::nodes::{DATA_RULES, DataRule};
+use inpact_evaluation::nodes::{COLUMN_PAGES, Column, DATA_RULES, DataRule};
+use inpact_evaluation::results::Output;
 use inpact_network::scene::SCENE_RULES;
 use inpact_parser::grammar::{Grammar, nearest_names};
 use inpact_validation::rules::RULES;
@@ -13,10 +14,10 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArguments {
-    /// The code or name of a rule, or a keyword: T001, not-ascending, "GAP ELECTRICAL CONDUCTANCE".
+    /// The code or name of a rule, a keyword, or a column: T001, not-ascending, "GAP ELECTRICAL CONDUCTANCE", ECD, epot_s; `columns` for all of these.
     #[arg(required_unless_present = "all", num_args = 1.., value_name = "WHAT")]
     what: Vec<String>,
-    /// Every page: all rules, then all keywords.
+    /// Every page: all rules, then all keywords, then the columns.
     #[arg(long, conflicts_with = "what")]
     all: bool,
     /// How to print it.
@@ -59,7 +60,7 @@ fn all_pages() -> String {
     let rules = rules.chain(data_rules().map(|(rule, found)| (rule.code, page::of_data_rule(rule, found))));
     let rules: BTreeMap<&str, String> = rules.collect();
     let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
-    rules.into_values().chain(keywords).collect::<Vec<_>>().join("\n")
+    rules.into_values().chain(keywords).chain([page::of_columns()]).collect::<Vec<_>>().join("\n")
 }
 
 fn page_of(what: &str) -> Result<String, Failure> {
@@ -70,8 +71,18 @@ fn page_of(what: &str) -> Result<String, Failure> {
     if let Some(rule) = data_rules().find(|(rule, _)| is_meant(rule.code, rule.name)) {
         return Ok(page::of_data_rule(rule.0, rule.1));
     }
+    if what.eq_ignore_ascii_case("columns") {
+        return Ok(page::of_columns());
+    }
     let grammar = Grammar::builtin();
     let words = what.trim_start_matches('*');
+    let columns = if words == what { pages_of_columns(what) } else { String::new() };
+    if !columns.is_empty() {
+        // *NODE and *STEP are keywords too; what only abbreviates one means the column.
+        let keyword = grammar.keywords().map(|(_, keyword)| keyword).find(|keyword| is_meant("", &keyword.name));
+        let keyword = keyword.and_then(|keyword| keyword.definition()).map(page::of_keyword);
+        return Ok(keyword.into_iter().chain([columns]).collect::<Vec<_>>().join("\n"));
+    }
     let keyword = grammar.keyword_named(words.as_bytes()).found().map(|id| grammar.keyword(id));
     match keyword.map(|keyword| (keyword, keyword.definition())) {
         Some((_, Some(definition))) => Ok(page::of_keyword(definition)),
@@ -81,8 +92,11 @@ fn page_of(what: &str) -> Result<String, Failure> {
             Err(Failure::Usage(message))
         }
         None => {
+            let outputs: Vec<String> = Output::NAMED.iter().map(ToString::to_string).collect();
             let rules = RULES.iter().flat_map(|rule| [rule.code, rule.name]);
             let rules = rules.chain(data_rules().flat_map(|(rule, _)| [rule.code, rule.name]));
+            let columns = COLUMN_PAGES.iter().flat_map(|page| page.names).copied();
+            let rules = rules.chain(columns).chain(outputs.iter().map(String::as_str));
             let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));
             let keywords = grammar.nearest_keywords(words, 3).into_iter().map(|keyword| format!("*{keyword}"));
             let near: Vec<String> = rules.chain(keywords).collect();
@@ -91,9 +105,16 @@ fn page_of(what: &str) -> Result<String, Failure> {
             } else {
                 format!("; did you mean {}?", near.join(", "))
             };
-            Err(Failure::Usage(format!("there is no rule and no keyword `{what}`{near}")))
+            Err(Failure::Usage(format!("there is no rule, no keyword and no column `{what}`{near}")))
         }
     }
+}
+
+/// The pages of the columns of that name, one of node tables and one of results at most; empty where there is none.
+fn pages_of_columns(name: &str) -> String {
+    let of_nodes = Column::named(name).and_then(Column::page).map(page::of_column);
+    let of_results = Output::named(name).and_then(Output::page).map(page::of_output);
+    of_nodes.into_iter().chain(of_results).collect::<Vec<_>>().join("\n")
 }
 
 /// The page without the marks of Markdown that only a browser needs.

@@ -1,8 +1,8 @@
 //! What an evaluation did, for standard error: as text for a person, as JSON for a program.
 
 use inpact_evaluation::evaluate::{InteractionTally, Tally};
-use inpact_evaluation::plan::{InteractionPlan, Plan, Reason, TablePlan};
-use inpact_evaluation::results::{Output, push_number, rounded_up};
+use inpact_evaluation::plan::{InteractionPlan, LeftOut, Plan, Reason, TablePlan};
+use inpact_evaluation::results::{Output, push_number};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -25,24 +25,21 @@ impl Summary<'_> {
         let mut lines = vec![format!("{} in, {} out, {seconds:.3} s", rows(self.tally.rows), rows(self.rows_out))];
         if self.plan.interactions.len() > MOST_INTERACTIONS {
             let whole = self.tally.whole();
-            lines.push(format!("  {} interactions: {}", self.plan.interactions.len(), counts(&whole)));
+            let sum = |count: fn(&InteractionPlan) -> u64| self.plan.interactions.iter().map(count).sum();
+            let contact = Contact { closed: sum(|plan| plan.closed), open: sum(|plan| plan.open) };
+            lines.push(format!("  {} interactions: {}", self.plan.interactions.len(), counts(&whole, contact)));
             lines.extend(remarks(&whole).into_iter().map(|remark| format!("    {remark}")));
+            lines.extend(said_together(&self.plan.interactions).into_iter().map(|line| format!("    {line}")));
             return lines;
         }
         for interaction in &self.plan.interactions {
             let of = &self.tally.interactions[interaction.index];
-            lines.push(format!("  {}: {}", interaction.name, counts(of)));
-            lines.extend(remarks(of).into_iter().map(|remark| format!("    {remark}")));
-            if interaction.electrical.as_ref().is_some_and(|law| law.user.is_some()) {
-                lines.extend(interaction.notes.iter().map(|note| format!("    note: {note}")));
-            }
+            let contact = Contact { closed: interaction.closed, open: interaction.open };
+            lines.push(format!("  {}: {}", interaction.name, counts(of, contact)));
+            let said = remarks(of).into_iter().chain(said_in_plan(interaction));
+            lines.extend(said.map(|line| format!("    {line}")));
             lines.extend(totals(&self.tally.summed, interaction, of).map(|line| format!("    {line}")));
             lines.extend(accuracy(interaction, of).into_iter().map(|line| format!("    {line}")));
-            let laws_and_outputs =
-                interaction.left_out.iter().filter(|left_out| matches!(left_out.reason, Reason::Missing(_)));
-            for left_out in laws_and_outputs {
-                lines.push(format!("    without {}: {}", left_out.what, left_out.reason));
-            }
         }
         lines
     }
@@ -66,8 +63,8 @@ impl Summary<'_> {
         InteractionRecord {
             name: plan.name.written(),
             rows: of.rows,
-            closed: of.closed,
-            open: of.open,
+            closed: plan.closed,
+            open: plan.open,
             beyond_table: of.beyond_table,
             cutoff: of.cutoff,
             constrained: of.constrained,
@@ -80,6 +77,10 @@ impl Summary<'_> {
             below_absolute_zero: of.below_absolute_zero,
             negative_friction: of.negative_friction,
             unnumbered_nodes: of.unnumbered_nodes,
+            electrical_regime: plan.electrical.as_ref().map(|law| law.regime.to_string()),
+            pore_regime: plan.pore.as_ref().map(|law| law.regime.to_string()),
+            notes: &plan.notes,
+            left_out: plan.left_out.iter().map(LeftOutRecord::new).collect(),
             totals: totals.map(|(output, value)| (output.to_string(), value)).collect(),
             totals_time: of.totals.time,
             tables: plan.tables().filter_map(|(what, table)| TableRecord::new(what, table)).collect(),
@@ -123,10 +124,26 @@ struct InteractionRecord<'a> {
     below_absolute_zero: u64,
     negative_friction: u64,
     unnumbered_nodes: u64,
+    electrical_regime: Option<String>,
+    pore_regime: Option<String>,
+    notes: &'a [String],
+    left_out: Vec<LeftOutRecord<'a>>,
     totals: BTreeMap<String, f64>,
     totals_time: Option<f64>,
     tables: Vec<TableRecord>,
     largest_error_seen: Option<SeenErrorRecord>,
+}
+
+#[derive(Serialize)]
+struct LeftOutRecord<'a> {
+    what: &'a str,
+    reason: String,
+}
+
+impl<'a> LeftOutRecord<'a> {
+    fn new(left_out: &'a LeftOut) -> Self {
+        Self { what: &left_out.what, reason: left_out.reason.to_string() }
+    }
 }
 
 #[derive(Serialize)]
@@ -165,9 +182,47 @@ fn rows(number: u64) -> String {
     format!("{number} row{}", if number == 1 { "" } else { "s" })
 }
 
+/// How many rows are closed and open: as the plan counted them, which has all columns that tell.
+#[derive(Clone, Copy)]
+struct Contact {
+    closed: u64,
+    open: u64,
+}
+
+/// What the plan says of an interaction and a user of the results must know: its notes, its regimes where procedures disagree, what is left out.
+fn said_in_plan(plan: &InteractionPlan) -> Vec<String> {
+    let regimes = [
+        ("electrical law", plan.electrical.as_ref().map(|law| &law.regime)),
+        ("pore fluid law", plan.pore.as_ref().map(|law| &law.regime)),
+    ];
+    let disputed = regimes.into_iter().filter_map(|(law, regime)| {
+        let regime = regime.filter(|regime| regime.is_disputed())?;
+        Some(format!("note: {law}, {regime}"))
+    });
+    let notes = plan.notes.iter().map(|note| format!("note: {note}"));
+    // What was not asked for, and a table that no row reads, is no loss.
+    let is_lost = |reason: &Reason| !matches!(reason, Reason::NotAsked | Reason::NoRowClosed | Reason::NoRowOpen);
+    let left_out = plan.left_out.iter().filter(|left_out| is_lost(&left_out.reason));
+    let left_out = left_out.map(|left_out| format!("without {}: {}", left_out.what, left_out.reason));
+    disputed.chain(notes).chain(left_out).collect()
+}
+
+/// The same of many interactions: each line once, with how many it is of.
+fn said_together(plans: &[InteractionPlan]) -> Vec<String> {
+    let mut said: Vec<(String, usize)> = Vec::new();
+    for line in plans.iter().flat_map(said_in_plan) {
+        match said.iter_mut().find(|(before, _)| *before == line) {
+            Some((_, count)) => *count += 1,
+            None => said.push((line, 1)),
+        }
+    }
+    let of = |count| if count == 1 { "1 interaction".to_owned() } else { format!("{count} interactions") };
+    said.into_iter().map(|(line, count)| format!("{}: {line}", of(count))).collect()
+}
+
 /// `300 rows, 212 closed, 88 open, 12 beyond a table`.
-fn counts(of: &InteractionTally) -> String {
-    let mut counts = vec![rows(of.rows), format!("{} closed", of.closed), format!("{} open", of.open)];
+fn counts(of: &InteractionTally, contact: Contact) -> String {
+    let mut counts = vec![rows(of.rows), format!("{} closed", contact.closed), format!("{} open", contact.open)];
     let others = [
         (of.beyond_table, "beyond a table"),
         (of.cutoff, "beyond the cutoff of flow across"),
@@ -197,17 +252,8 @@ fn totals(summed: &[Output], plan: &InteractionPlan, of: &InteractionTally) -> O
 /// How exactly the tables of an interaction were evaluated: mode, bound, and the largest error seen.
 fn accuracy(plan: &InteractionPlan, of: &InteractionTally) -> Vec<String> {
     let forms = plan.tables().filter_map(|(what, table)| Some((what, table, table.form.as_ref()?)));
-    let mut lines: Vec<String> = forms
-        .map(|(what, table, form)| {
-            let bound = form.bound.map_or_else(String::new, |bound| {
-                format!(", error at most {} of the largest value", rounded_up(bound.relative_to_largest))
-            });
-            let missed = form
-                .missed
-                .map_or_else(String::new, |missed| format!(": above the tolerance of {missed:e}, which no form keeps"));
-            format!("{what} against {}: {}{bound}{missed}", table.against, form.method)
-        })
-        .collect();
+    let mut lines: Vec<String> =
+        forms.map(|(what, table, form)| format!("{what} against {}: {form}", table.against)).collect();
     let seen = of.seen_error;
     if seen.rows > 0 {
         lines.push(format!(
