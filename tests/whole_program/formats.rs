@@ -159,7 +159,7 @@ fn what_cannot_be_explained_ends_with_2_and_a_suggestion() {
         ("not-ascendin", "`not-ascending`"),
         ("T0001", "`T001`"),
         ("zzzzzzzz", "`inpact explain --all`"),
-        ("NODE", "*NODE"),
+        ("*NODE", "*NODE"),
     ];
     for (what, suggestion) in cases {
         let run = inpact(&["explain", what]);

@@ -224,10 +224,13 @@ fn the_table_of_interfaces_is_that_of_eval() {
     assert_eq!(run.code, 0, "{}", run.errors);
     let eval = Table::read(&run.output);
     assert_eq!(eval.header, solved.interfaces.header);
-    for column in &eval.header[2..eval.header.len() - 1] {
-        close(solved.interfaces.number(&["left-face"], column), eval.number(&["left-face"], column));
+    for column in &eval.header[2..] {
+        if column.ends_with("status") {
+            assert_eq!(solved.interfaces.cells(&["left-face"], column), eval.cells(&["left-face"], column));
+        } else {
+            close(solved.interfaces.number(&["left-face"], column), eval.number(&["left-face"], column));
+        }
     }
-    assert_eq!(solved.interfaces.cells(&["left-face"], "status"), eval.cells(&["left-face"], "status"));
 }
 
 #[test]
