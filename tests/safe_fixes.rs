@@ -328,15 +328,11 @@ fn decks_changed_by_chance() {
 
 /// What a long run found, on the page where the figures of such runs stand.
 fn write_section(decks: usize) {
-    const MARK: &str = "<!-- section: decks -->";
     let path = project().join("docs/reliability.md");
-    let page = std::fs::read_to_string(&path).unwrap_or_else(|_| "# Reliability\n".to_owned());
-    let (before, behind) = page.split_once(MARK).unwrap_or((&page, ""));
-    let others = behind.find("<!-- section:").map_or("", |at| &behind[at..]);
     let executions = decks * DIALECTS.len();
     let single = SINGLE_FIXES.load(Ordering::Relaxed);
     let section = format!(
-        "{MARK}\n\n## Decks changed by chance\n\n\
+        "## Decks changed by chance\n\n\
          `INPACT_RUNS={decks} INPACT_UPDATE=1 cargo test -p inpact-tests --test safe_fixes decks_changed_by_chance`\n\n\
          {decks} decks made of the sample decks and of lines that bring up the rules with safe fixes, each in two dialects.\n\
          The commands are run as the functions they consist of, without their files.\n\
@@ -350,8 +346,7 @@ fn write_section(decks: usize) {
          | `json`, then `inp` | {executions} | the deck says the same | 0 |\n\
          | `json --view syntax`, then `inp` | {executions} | the deck comes back byte for byte | 0 |\n"
     );
-    let gap = if others.is_empty() { "" } else { "\n" };
-    std::fs::write(&path, format!("{}\n\n{section}{gap}{others}", before.trim_end())).expect("writable");
+    inpact_attack::page::write_section(&path, "decks", &section).expect("writable");
 }
 
 /// What fixes once made of legal decks: the second reading sees each of them.

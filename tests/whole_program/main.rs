@@ -13,6 +13,7 @@ mod eval_tables;
 mod eval_user;
 mod eval_wrong;
 mod fix;
+mod fix_files;
 mod fmt;
 mod formats;
 mod growth;

@@ -37,6 +37,6 @@ mod words;
 
 mod directives;
 
-pub use checking::{check, time_rules};
+pub use checking::{check, fixable, time_rules};
 pub use diagnostic::{Diagnostic, Edit, Fix, FixSafety, Label, Severity};
 pub use rule::{Context, Report, Rule};

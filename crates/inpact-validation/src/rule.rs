@@ -179,13 +179,19 @@ pub struct Report<'a> {
     rule: &'static Rule,
     diagnostics: &'a mut Vec<Diagnostic>,
     reported: usize,
-    /// Takes what goes beyond [`MOST_OF_ONE_RULE`].
+    most: usize,
+    /// Takes what goes beyond `most`.
     overflow: Option<Box<Diagnostic>>,
 }
 
 impl<'a> Report<'a> {
     pub(crate) fn new(rule: &'static Rule, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
-        Self { rule, diagnostics, reported: 0, overflow: None }
+        Self { rule, diagnostics, reported: 0, most: MOST_OF_ONE_RULE, overflow: None }
+    }
+
+    /// Keeps every finding, for those who mend them instead of showing them.
+    pub(crate) fn without_limit(rule: &'static Rule, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
+        Self { most: usize::MAX, ..Self::new(rule, diagnostics) }
     }
 
     /// Reports a finding at `span`; what comes back takes labels, help and fix.
@@ -202,7 +208,7 @@ impl<'a> Report<'a> {
             fix: None,
         };
         self.reported += 1;
-        if self.reported > MOST_OF_ONE_RULE {
+        if self.reported > self.most {
             return self.overflow.insert(Box::new(diagnostic));
         }
         self.diagnostics.push(diagnostic);
@@ -212,12 +218,12 @@ impl<'a> Report<'a> {
 
     /// Whether further findings are only counted: nobody sees a suggestion that is dear to find.
     pub(crate) fn is_full(&self) -> bool {
-        self.reported >= MOST_OF_ONE_RULE
+        self.reported >= self.most
     }
 
     /// Says on the last finding shown how many were not.
     pub(crate) fn finish(self) {
-        let Some(hidden) = self.reported.checked_sub(MOST_OF_ONE_RULE).filter(|hidden| *hidden > 0) else { return };
+        let Some(hidden) = self.reported.checked_sub(self.most).filter(|hidden| *hidden > 0) else { return };
         if let Some(last) = self.diagnostics.last_mut() {
             last.note(format!("{hidden} more findings of this rule in this deck are not shown"));
         }

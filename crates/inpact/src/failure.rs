@@ -44,6 +44,14 @@ impl Failure {
         Self::Read { path: path.to_owned(), error }
     }
 
+    /// The same of a file that is better known by another name.
+    pub(crate) fn about(self, name: &Path) -> Self {
+        match self {
+            Self::Read { error, .. } => Self::read(name, error),
+            other => other,
+        }
+    }
+
     pub(crate) fn write(path: &Path, error: io::Error) -> Self {
         Self::Write { path: path.to_owned(), error }
     }

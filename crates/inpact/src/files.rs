@@ -1,9 +1,22 @@
 //! Decks in, results out: the only place where files are opened.
+//!
+//! What is read here is taken down, and nothing that was read is written over, but by a [`transaction`] that replaces what it was made from.
+
+mod access;
+mod holders;
+mod inputs;
+mod result;
+mod temporary;
+pub(crate) mod transaction;
+
+pub(crate) use inputs::take_down_path as name_as_input;
+pub(crate) use result::{ResultFile, write_result};
+pub(crate) use temporary::remove_all as remove_temporary_files;
 
 use crate::failure::Failure;
 use inpact_parser::deck::Scanner;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// How much of a deck is read at a time: small enough to stay in cache.
@@ -46,6 +59,7 @@ fn refuse_endless_line(path: &Path, scanner: &Scanner<'_>) -> Result<(), Failure
 /// Opens a file for reading, or standard input for `-`.
 pub(crate) fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
     if path.as_os_str() == STANDARD_STREAM {
+        inputs::take_down_standard_input();
         return Ok(Box::new(io::stdin().lock()));
     }
     Ok(Box::new(open_file(path)?))
@@ -58,6 +72,7 @@ pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     if is_folder {
         return Err(Failure::read(path, io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")));
     }
+    inputs::take_down(&file, path);
     Ok(file)
 }
 
@@ -75,26 +90,16 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Refuses to write a result over a file that it is made from.
-pub(crate) fn refuse_overwriting<P: AsRef<Path>>(target: Option<&Path>, inputs: &[P]) -> Result<(), Failure> {
-    let Some(whole) = target.and_then(|target| target.canonicalize().ok()) else { return Ok(()) };
-    let is_same = |input: &&P| input.as_ref().canonicalize().is_ok_and(|input| input == whole);
-    match inputs.iter().find(is_same) {
-        Some(input) => {
-            let message = format!("the result would replace `{}`, which it is made from", input.as_ref().display());
-            Err(Failure::Usage(message))
-        }
-        None => Ok(()),
-    }
-}
-
-/// Refuses to write two results to one file, where the second would replace the first; what is no file, such as a device, takes both.
-pub(crate) fn refuse_one_target_twice(targets: &[Option<&Path>]) -> Result<(), Failure> {
+/// Refuses results that would be written over a file that this run has read, or over one another; before the work is done, since they are refused again when they are written.
+///
+/// What is no file, such as a device, takes several results.
+pub(crate) fn check_targets(targets: &[Option<&Path>]) -> Result<(), Failure> {
     let mut taken: Vec<PathBuf> = Vec::new();
     let is_file = |target: &&Path| {
         target.as_os_str() != STANDARD_STREAM && std::fs::metadata(target).map_or(true, |present| present.is_file())
     };
     for target in targets.iter().flatten().copied().filter(is_file) {
+        inputs::refuse(target)?;
         let whole = whole_path(target);
         if taken.contains(&whole) {
             return Err(Failure::Usage(format!("two results would go to `{}`: name two files", target.display())));
@@ -104,122 +109,58 @@ pub(crate) fn refuse_one_target_twice(targets: &[Option<&Path>]) -> Result<(), F
     Ok(())
 }
 
-/// A path by which a file is told from others, be it there or not.
-fn whole_path(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let name = path.file_name().unwrap_or_default();
-        folder.canonicalize().map_or_else(|_| path.to_owned(), |folder| folder.join(name))
-    })
+/// Takes down files that are named to be read, so that no result is written over one of them.
+pub(crate) fn name_as_inputs<P: AsRef<Path>>(paths: &[P]) {
+    paths.iter().map(AsRef::as_ref).filter(|path| path.as_os_str() != STANDARD_STREAM).for_each(name_as_input);
 }
 
-/// Writes a result to `target`, or to standard output when there is none or it is `-`.
-pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    let mut output = ResultFile::create(target)?;
-    output.write_all(bytes).map_err(|error| output.failure(error))?;
-    output.finish()
-}
-
-/// Gives a file new content: the file a link leads to stays where it is, and so do its permissions.
-pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let target = path.canonicalize().map_err(|error| Failure::write(path, error))?;
-    let permissions = target.metadata().map_err(|error| Failure::write(path, error))?.permissions();
-    if permissions.readonly() {
-        // Renaming another file to its name would succeed, against the wish of whoever protected it.
-        let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
-        return Err(Failure::write(path, error));
+/// A path by which a file is told from others, be it there or not; links are followed, also those that lead to nothing yet.
+pub(crate) fn whole_path(path: &Path) -> PathBuf {
+    /// More than any system follows.
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        if let Ok(whole) = path.canonicalize() {
+            return whole;
+        }
+        let Ok(link) = path.read_link() else { break };
+        path = folder_of(&path).join(link);
     }
-    write_result(Some(&target), bytes)?;
-    std::fs::set_permissions(&target, permissions).map_err(|error| Failure::write(path, error))
-}
-
-/// Where a result goes: standard output, or a file that gets its name only when it is complete.
-///
-/// The file is written beside its target and renamed, so a stopped run never leaves half a result under the name that was asked for.
-/// A file that is there already keeps its permissions, and a link to it stays a link; a write-protected one is left alone.
-pub(crate) enum ResultFile {
-    Standard(io::BufWriter<io::Stdout>),
-    /// A device or a named pipe, which nothing must be renamed to.
-    Stream {
-        stream: io::BufWriter<File>,
-        target: PathBuf,
-    },
-    File {
-        beside: io::BufWriter<tempfile::NamedTempFile>,
-        target: PathBuf,
-    },
-}
-
-impl ResultFile {
-    pub(crate) fn create(target: Option<&Path>) -> Result<Self, Failure> {
-        let Some(target) = target.filter(|target| target.as_os_str() != STANDARD_STREAM) else {
-            return Ok(Self::Standard(io::BufWriter::with_capacity(PIECE, io::stdout())));
-        };
-        let present = std::fs::metadata(target).ok();
-        if present.as_ref().is_some_and(|present| !present.is_file() && !present.is_dir()) {
-            let stream = File::options().write(true).open(target).map_err(|error| Failure::write(target, error))?;
-            return Ok(Self::Stream { stream: io::BufWriter::with_capacity(PIECE, stream), target: target.to_owned() });
-        }
-        if present.as_ref().is_some_and(|present| present.is_file() && present.permissions().readonly()) {
-            let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
-            return Err(Failure::write(target, error));
-        }
-        let target = &match present {
-            Some(_) => target.canonicalize().map_err(|error| Failure::write(target, error))?,
-            None => target.to_owned(),
-        };
-        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".inpact-");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // What any other program would give a new file; the umask takes its share.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let beside = builder.tempfile_in(folder).map_err(|error| Failure::write(target, error))?;
-        if let Some(present) = present.filter(std::fs::Metadata::is_file) {
-            beside.as_file().set_permissions(present.permissions()).map_err(|error| Failure::write(target, error))?;
-        }
-        Ok(Self::File { beside: io::BufWriter::with_capacity(PIECE, beside), target: target.to_owned() })
-    }
-
-    /// What failed, for an error of writing.
-    pub(crate) fn failure(&self, error: io::Error) -> Failure {
-        match self {
-            Self::Standard(_) => Failure::Output(error),
-            Self::Stream { target, .. } | Self::File { target, .. } => Failure::write(target, error),
-        }
-    }
-
-    /// Writes out what is left and gives the file its name.
-    pub(crate) fn finish(self) -> Result<(), Failure> {
-        match self {
-            Self::Standard(mut output) => output.flush().map_err(Failure::Output),
-            Self::Stream { mut stream, target } => stream.flush().map_err(|error| Failure::write(&target, error)),
-            Self::File { beside, target } => {
-                let failed = |error| Failure::write(&target, error);
-                let beside = beside.into_inner().map_err(|error| failed(error.into_error()))?;
-                beside.persist(&target).map(drop).map_err(|error| failed(error.error))
-            }
-        }
+    let name = path.file_name().unwrap_or_default();
+    match folder_of(&path).canonicalize() {
+        Ok(folder) => folder.join(name),
+        Err(_) => std::path::absolute(&path).unwrap_or(path),
     }
 }
 
-impl Write for ResultFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Self::Standard(output) => output.write(bytes),
-            Self::Stream { stream, .. } => stream.write(bytes),
-            Self::File { beside, .. } => beside.write(bytes),
-        }
-    }
+/// The folder that a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
 
-    fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::Standard(output) => output.flush(),
-            Self::Stream { stream, .. } => stream.flush(),
-            Self::File { beside, .. } => beside.flush(),
-        }
+/// Waits until what was written to a file is stored.
+fn sync_file(file: &File) -> io::Result<()> {
+    match file.sync_all() {
+        Err(error) if cannot_sync(&error) => Ok(()),
+        done => done,
     }
+}
+
+/// Waits until the names in a folder are stored.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    // A folder that may be written to but not read cannot be asked.
+    File::open(folder).map_or(Ok(()), |folder| sync_file(&folder))
+}
+
+/// Waits until the names in a folder are stored: only Unix has a way to ask for it.
+#[cfg(not(unix))]
+#[allow(clippy::unnecessary_wraps)]
+fn sync_folder(_folder: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+/// Some file systems do not know what it is to be stored.
+fn cannot_sync(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported)
 }

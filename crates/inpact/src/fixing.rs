@@ -1,24 +1,74 @@
-//! `check --fix`: applies the fixes of findings to the files they stand in, until nothing is left to mend.
+//! `check --fix`: applies the fixes of findings to the files that were read, until nothing is left to mend.
+//!
+//! All decks of a run share the files that are held, so that a file is mended once, by whatever names and from however many decks it is reached.
+//! Nothing is written here: what changes is for a transaction to write.
 
+mod edits;
+
+use self::edits::{Chosen, Left, Reason, choose};
 use crate::failure::Failure;
 use crate::files;
-use crate::input::{self, Overlay};
+use crate::input::{self, HeldFiles, LocatedDeck};
 use crate::settings::Settings;
 use inpact_parser::deck::Keep;
 use inpact_parser::model;
-use inpact_parser::span::SourceId;
-use inpact_validation::{Diagnostic, Edit, Fix, FixSafety, check, diagnostic};
-use std::collections::BTreeMap;
+use inpact_validation::{Diagnostic, Fix, FixSafety, diagnostic, fixable};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// How often a deck is read again: a fix may bring another finding to light, but not for ever.
+/// How often the decks are read again: a fix may bring another finding to light, but not for ever.
 const MOST_ROUNDS: usize = 10;
 
-/// Which fixes are applied.
-#[derive(Debug, Clone, Default)]
+/// Which fixes are applied, and to which files.
+#[derive(Debug, Clone)]
 pub(crate) struct FixSelection {
     /// The codes whose fixes are applied although they change the meaning of the deck.
     pub(crate) also: Vec<String>,
+    pub(crate) reach: FixReach,
+    pub(crate) purpose: Purpose,
+}
+
+/// Which of the files that a deck includes are mended with it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FixReach {
+    /// Those below its folder, and those that are named themselves.
+    BelowDeck,
+    /// All of them.
+    EveryIncluded,
+}
+
+/// What becomes of the mended files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    Write,
+    Show,
+}
+
+/// A deck to mend.
+pub(crate) struct Subject<'a> {
+    pub(crate) path: &'a Path,
+    pub(crate) settings: &'a Settings,
+    /// Where its files are.
+    pub(crate) places: Vec<PathBuf>,
+    pub(crate) need: Need,
+}
+
+/// Whether a deck has to be looked at before another one changes its files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Need {
+    Mending,
+    Nothing,
+}
+
+/// What mending came to.
+#[derive(Debug, Default)]
+pub(crate) struct Mended {
+    /// How many findings were mended.
+    pub(crate) findings: usize,
+    /// What was left although it has a fix, and why.
+    pub(crate) left: Vec<String>,
+    /// Decks that could not be read any more, and what cannot be written back.
+    pub(crate) failures: Vec<Failure>,
 }
 
 impl FixSelection {
@@ -29,47 +79,94 @@ impl FixSelection {
     }
 }
 
-/// What fixing a deck and what it includes came to.
-#[derive(Debug, Default)]
-pub(crate) struct Fixed {
-    /// The files that change: before and after.
-    pub(crate) files: BTreeMap<PathBuf, (Vec<u8>, Vec<u8>)>,
-    /// How many findings were mended.
-    pub(crate) findings: usize,
+/// Whether a deck has anything to mend.
+pub(crate) fn need_of(deck: &LocatedDeck, settings: &Settings, selection: &FixSelection) -> Need {
+    let found = findings(deck, settings);
+    if found.iter().any(|found| selection.selects(found).is_some()) { Need::Mending } else { Need::Nothing }
 }
 
-/// Applies the fixes in memory; nothing is written.
-pub(crate) fn fix(path: &Path, settings: &Settings, selection: &FixSelection) -> Result<Fixed, Failure> {
-    let mut fixed = Fixed::default();
-    for _ in 0..MOST_ROUNDS {
-        let overlay: Overlay = fixed.files.iter().map(|(path, (_, after))| (path.clone(), after.clone())).collect();
-        let deck = input::read_deck_over(path, Keep::Interpreted, settings, &overlay)?;
-        let (model, problems) = model::read(&deck, settings.grammar);
-        let found = settings.apply(check(&deck, settings.grammar, &model, &problems), &deck);
-        let mut edits: BTreeMap<SourceId, Vec<Edit>> = BTreeMap::new();
-        let mut count = 0;
-        for fix in found.iter().filter_map(|found| selection.selects(found)) {
-            count += 1;
-            for edit in &fix.edits {
-                edits.entry(edit.span.source).or_default().push(edit.clone());
-            }
-        }
-        if edits.is_empty() {
-            break;
-        }
-        fixed.findings += count;
-        for (source, edits) in edits {
-            let file = PathBuf::from(deck.source(source).name());
-            let (before, after) = match fixed.files.remove(&file) {
-                Some(states) => states,
-                None => {
-                    let bytes = files::read_bytes(&file)?;
-                    (bytes.clone(), bytes)
+/// All findings with a fix, however many there are.
+fn findings(LocatedDeck { deck, .. }: &LocatedDeck, settings: &Settings) -> Vec<Diagnostic> {
+    let (model, problems) = model::read(deck, settings.grammar);
+    settings.apply(fixable(deck, settings.grammar, &model, &problems), deck)
+}
+
+/// Applies the fixes of all decks to the files that are held.
+pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &FixSelection) -> Mended {
+    let named: BTreeSet<PathBuf> = subjects.iter().map(|subject| files::whole_path(subject.path)).collect();
+    let mut mended = Mended::default();
+    let mut left: Vec<BTreeMap<PathBuf, Left>> = subjects.iter().map(|_| BTreeMap::new()).collect();
+    let mut due: Vec<usize> = (0..subjects.len()).filter(|index| subjects[*index].need == Need::Mending).collect();
+    for round in 0..=MOST_ROUNDS {
+        let mut touched: BTreeSet<PathBuf> = BTreeSet::new();
+        for index in due {
+            let subject = &mut subjects[index];
+            let deck = match input::read_located_deck(subject.path, Keep::Interpreted, subject.settings, Some(held)) {
+                Ok(deck) => deck,
+                Err(failure) => {
+                    mended.failures.push(failure);
+                    continue;
                 }
             };
-            let after = diagnostic::apply(&after, &edits);
-            fixed.files.insert(file, (before, after));
+            subject.places = deck.places().to_vec();
+            let chosen = choose(&findings(&deck, subject.settings), &deck, (subject.path, &named), held, selection);
+            let Chosen { edits, findings, left: left_here } = chosen;
+            left[index] = left_here;
+            if round == MOST_ROUNDS {
+                if !edits.is_empty() {
+                    let name = subject.path.display();
+                    mended.left.push(format!(
+                        "mending `{name}` brings up further findings after {MOST_ROUNDS} rounds: run it again"
+                    ));
+                }
+                continue;
+            }
+            mended.findings += findings;
+            for (place, edits) in edits {
+                if let Some(file) = held.get(&place) {
+                    held.set(&place, diagnostic::apply(&file.now, &edits));
+                    touched.insert(place);
+                }
+            }
+        }
+        if touched.is_empty() {
+            break;
+        }
+        let is_touched = |subject: &Subject<'_>| subject.places.iter().any(|place| touched.contains(place));
+        due = (0..subjects.len()).filter(|index| is_touched(&subjects[*index])).collect();
+    }
+    for (reason, text) in explain(subjects, left, held) {
+        match reason {
+            Reason::Outside => mended.left.push(text),
+            Reason::NoFile => mended.failures.push(Failure::Usage(text)),
         }
     }
-    Ok(fixed)
+    mended
+}
+
+/// Says what was left in which file and why; each file once.
+fn explain(subjects: &[Subject<'_>], left: Vec<BTreeMap<PathBuf, Left>>, held: &HeldFiles) -> Vec<(Reason, String)> {
+    let mut by_place: BTreeMap<PathBuf, (Left, &Path)> = BTreeMap::new();
+    for (subject, left) in subjects.iter().zip(left) {
+        for (place, left) in left {
+            let entry = by_place.entry(place).or_insert_with(|| (left.clone(), subject.path));
+            entry.0.fixes.extend(left.fixes);
+        }
+    }
+    let explained = by_place.into_iter().map(|(place, (left, deck))| {
+        let name = held.get(&place).map_or_else(|| place.clone(), |file| file.read.name);
+        let number = left.fixes.len();
+        let (fixes, them) = if number == 1 { ("1 fix is", "it") } else { (&*format!("{number} fixes are"), "them") };
+        let (name, deck) = (name.display(), deck.display());
+        let text = match left.reason {
+            Reason::Outside => format!(
+                "{fixes} not applied to `{name}`, which lies outside of the folder of `{deck}` (`--fix-included` applies {them})"
+            ),
+            Reason::NoFile => {
+                format!("{fixes} not applied to `{name}`, which is no file that can be written back (`--diff` shows {them})")
+            }
+        };
+        (left.reason, text)
+    });
+    explained.collect()
 }

@@ -1,38 +1,66 @@
 //! Reading a deck with everything it includes.
 
+mod held;
+
+pub(crate) use held::{Held, HeldFiles};
+
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::reach;
 use crate::settings::{RelativeTo, Settings, folder_of_deck};
 use inpact_parser::deck::{Deck, Excerpts, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner};
-use std::collections::BTreeMap;
+use inpact_parser::span::SourceId;
 use std::path::{Path, PathBuf};
 
-/// Files whose bytes are taken from memory instead of the disk, by the name they are read under.
-pub(crate) type Overlay = BTreeMap<PathBuf, Vec<u8>>;
+/// A deck with the places of its files, which its own names for them need not tell: they may be no text.
+pub(crate) struct LocatedDeck {
+    pub(crate) deck: Deck,
+    /// By source, links followed.
+    places: Vec<PathBuf>,
+}
+
+impl LocatedDeck {
+    /// Where a source file is.
+    pub(crate) fn place(&self, source: SourceId) -> Option<&Path> {
+        self.places.get(source.0 as usize).map(PathBuf::as_path)
+    }
+
+    /// Where all source files are, the deck itself first.
+    pub(crate) fn places(&self) -> &[PathBuf] {
+        &self.places
+    }
+}
 
 /// Reads the deck at `path`, or standard input for `-`, and what it includes.
 pub(crate) fn read_deck(path: &Path, keep: Keep, settings: &Settings) -> Result<Deck, Failure> {
-    read_deck_over(path, keep, settings, &Overlay::new())
+    Ok(read_located_deck(path, keep, settings, None)?.deck)
 }
 
-/// Reads the deck at `path` and what it includes, with other bytes in the place of some files.
-pub(crate) fn read_deck_over(path: &Path, keep: Keep, settings: &Settings, overlay: &Overlay) -> Result<Deck, Failure> {
+/// Reads the deck at `path` and what it includes; from files that are held, if there are any: one that is not yet is read and held then.
+pub(crate) fn read_located_deck(
+    path: &Path,
+    keep: Keep,
+    settings: &Settings,
+    held: Option<&HeldFiles>,
+) -> Result<LocatedDeck, Failure> {
     if let Some(reason) = reach::leads_astray(path, &settings.include_roots) {
         return Err(Failure::Usage(format!("`{}` is not read: {reason}", path.display())));
     }
     let options = ScanOptions { grammar: settings.grammar, keep };
     let mut scanner = Scanner::new(&path.display().to_string(), options);
-    push(path, overlay, &mut scanner)?;
+    push(path, path, held, &mut scanner)?;
     let is_file = path.as_os_str() != STANDARD_STREAM;
     let own_folder = folder_of_deck(if is_file { path } else { Path::new("") });
-    let mut included = FilesOnDisk { deck: is_file.then_some(path), own_folder, settings, overlay };
-    Ok(scanner.finish().with_includes(options, &mut included))
+    let places = vec![files::whole_path(path)];
+    let mut included = FilesOnDisk { deck: is_file.then_some(path), own_folder, settings, held, places };
+    let deck = scanner.finish().with_includes(options, &mut included);
+    Ok(LocatedDeck { deck, places: included.places })
 }
 
-fn push(path: &Path, overlay: &Overlay, scanner: &mut Scanner<'_>) -> Result<(), Failure> {
-    match overlay.get(path) {
-        Some(bytes) => scanner.push(bytes),
+/// Pushes the file at `path`, which messages call `name`.
+fn push(path: &Path, name: &Path, held: Option<&HeldFiles>, scanner: &mut Scanner<'_>) -> Result<(), Failure> {
+    match held {
+        Some(held) => scanner.push(&held.content(path, name)?),
         None => files::push_all(path, scanner)?,
     }
     Ok(())
@@ -45,7 +73,9 @@ struct FilesOnDisk<'a> {
     /// The whole path of the deck's folder.
     own_folder: PathBuf,
     settings: &'a Settings,
-    overlay: &'a Overlay,
+    held: Option<&'a HeldFiles>,
+    /// Where the files are that were read, the deck first: in the order of their sources.
+    places: Vec<PathBuf>,
 }
 
 impl IncludedFiles for FilesOnDisk<'_> {
@@ -75,6 +105,10 @@ impl IncludedFiles for FilesOnDisk<'_> {
     }
 
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String> {
+        if name.contains(char::REPLACEMENT_CHARACTER) {
+            // It stands for bytes that are no text: a file whose name has the character itself is another one.
+            return Err("its name is not UTF-8: rename the file".to_owned());
+        }
         let name = &expand(name, |variable| std::env::var(variable).ok())?;
         let beside_includer = folder_of(Path::new(from));
         let folders = self.folders(from);
@@ -97,7 +131,11 @@ impl IncludedFiles for FilesOnDisk<'_> {
     }
 
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String> {
-        push(Path::new(&file.name), self.overlay, scanner).map_err(|failure| failure.to_string())
+        // By its place: the name is for people, and need not be the whole truth.
+        let pushed = push(&file.path, Path::new(&file.name), self.held, scanner);
+        pushed.map_err(|failure| failure.about(Path::new(&file.name)).to_string())?;
+        self.places.push(file.path.clone());
+        Ok(())
     }
 }
 

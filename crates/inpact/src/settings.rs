@@ -1,6 +1,7 @@
 //! How a deck is read and judged: `inpact.toml`, found upward from the deck, and the arguments that override it.
 
 use crate::failure::Failure;
+use crate::files;
 use crate::reach::irregular;
 use clap::{Args, ValueEnum};
 use globset::{Glob, GlobMatcher};
@@ -204,7 +205,7 @@ pub(crate) fn folder_of_deck(deck: &Path) -> PathBuf {
 }
 
 fn read(path: &Path) -> Result<File, Failure> {
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::read(path, error))?;
+    let text = files::read_text(path)?;
     let wrong = |message: &str| Failure::Usage(format!("`{}`: {message}", path.display()));
     // A configuration comes with the deck: where it is a link, the lines of what it leads to are nobody's business.
     let is_link = path.is_symlink();

@@ -1,21 +1,24 @@
 //! `inpact check`: decks in, diagnostics out.
 
-use crate::difference;
+mod mending;
+mod tally;
+
+use self::mending::Mending;
+use self::tally::Tally;
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
-use crate::fixing::{self, FixSelection, Fixed};
-use crate::input;
+use crate::fixing::{self, FixReach, FixSelection, Need, Purpose};
+use crate::input::{self, HeldFiles, LocatedDeck};
 use crate::progress::Progress;
 use crate::render::{self, Format, Style};
-use crate::settings::DeckArguments;
+use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::Args;
 use inpact_parser::deck::Keep;
 use inpact_parser::model;
 use inpact_validation::rules::RULES;
-use inpact_validation::{Diagnostic, Severity, check};
+use inpact_validation::{Severity, check};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -30,12 +33,17 @@ pub(crate) struct CheckArguments {
     /// Where to write what was found, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Mend what can be mended without changing what the deck means, and write the files back.
+    /// Mend what can be mended without changing what the deck means, and write the files back: all of them, or none where one cannot be written.
+    ///
+    /// Mended are the decks that are named, and of the files that they include those below the folder of the deck.
     #[arg(long)]
     fix: bool,
     /// Mend the findings of these rules as well, though it changes what the deck means: T001,S006.
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     fix_also: Vec<String>,
+    /// Mend the included files that lie outside of the folder of the deck as well.
+    #[arg(long)]
+    fix_included: bool,
     /// Show what fixing would change, and write nothing.
     #[arg(long)]
     diff: bool,
@@ -56,17 +64,28 @@ pub(crate) struct CheckArguments {
 }
 
 /// What came of one deck.
-struct Checked {
+struct Checked<'a> {
+    path: &'a Path,
+    settings: Settings,
     text: String,
     tally: Tally,
-    fixed: Fixed,
+    /// Where its files are.
+    places: Vec<PathBuf>,
+    need: Need,
+    /// The files of a deck that needs mending.
+    held: Option<HeldFiles>,
 }
 
-/// How many findings there were, by severity and by code.
-#[derive(Debug, Default, Clone)]
-struct Tally {
-    severities: BTreeMap<Severity, usize>,
-    codes: BTreeMap<&'static str, usize>,
+impl CheckArguments {
+    /// Which fixes to apply; `None` where nothing is to be mended.
+    fn selection(&self) -> Option<FixSelection> {
+        let is_wanted = self.fix || self.diff || self.fix_included || !self.fix_also.is_empty();
+        is_wanted.then(|| FixSelection {
+            also: self.fix_also.clone(),
+            reach: if self.fix_included { FixReach::EveryIncluded } else { FixReach::BelowDeck },
+            purpose: if self.diff { Purpose::Show } else { Purpose::Write },
+        })
+    }
 }
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
@@ -77,19 +96,27 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     if standard_input.count() > 1 {
         return Err(Failure::Usage("standard input can be read only once".to_owned()));
     }
-    files::refuse_overwriting(arguments.output.as_deref(), &arguments.decks)?;
+    // Not only what is read: `check nothing.inp -o nothing.inp` is a slip as well.
+    files::name_as_inputs(&arguments.decks);
+    files::check_targets(&[arguments.output.as_deref()])?;
     if arguments.timings {
         return time_rules(arguments);
     }
     let style = if arguments.output.is_some() { Style::Plain } else { Style::of_standard_output() };
     let progress = Progress::over(&arguments.decks, arguments.quiet);
-    let checked: Vec<Result<Checked, Failure>> = with_threads(0, || {
-        arguments.decks.par_iter().map(|path| check_deck(path, arguments, style, &progress)).collect()
+    let selection = arguments.selection();
+    let mut checked: Vec<Result<Checked<'_>, Failure>> = with_threads(0, || {
+        let decks = arguments.decks.par_iter();
+        decks.map(|path| check_deck(path, arguments, selection.as_ref(), style, &progress)).collect()
     });
     progress.finish();
+    let mending = match &selection {
+        Some(selection) => with_threads(0, || mending::mend(&mut checked, arguments, selection, style)),
+        None => Mending::default(),
+    };
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
     let mut total = Tally::default();
-    let (mut unreadable, mut decks, mut fixes, mut fixed_files) = (false, 0, 0, 0);
+    let (mut unreadable, mut decks) = (mending.has_failed, 0);
     let document = render::document(arguments.format);
     let has_frame = !arguments.statistics && !arguments.diff;
     let mut text = if has_frame { document.head } else { String::new() };
@@ -106,11 +133,6 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
                 output.write_all(text.as_bytes()).map_err(|error| output.failure(error))?;
                 text.clear();
                 total.add(&checked.tally);
-                fixes += checked.fixed.findings;
-                fixed_files += checked.fixed.files.len();
-                if !arguments.diff {
-                    write_back(&checked.fixed)?;
-                }
             }
             // The other decks are still checked.
             Err(failure) => {
@@ -124,16 +146,11 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     } else if has_frame {
         text += &document.tail;
     }
+    text += &mending.differences;
     output.write_all(text.as_bytes()).map_err(|error| output.failure(error))?;
     output.finish()?;
-    if !arguments.quiet {
-        if fixes > 0 {
-            let verb = if arguments.diff { "would mend" } else { "mended" };
-            say(&format!("{verb} {} in {}", count(fixes, "finding"), count(fixed_files, "file")));
-        }
-        if decks > 0 {
-            say(&total.summary(decks));
-        }
+    if !arguments.quiet && decks > 0 {
+        say(&total.summary(decks));
     }
     match () {
         () if unreadable => Err(Failure::AlreadySaid),
@@ -142,44 +159,46 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     }
 }
 
-fn check_deck(path: &Path, arguments: &CheckArguments, style: Style, progress: &Progress) -> Result<Checked, Failure> {
+/// Checks a deck as it is; the files of one that needs mending are held.
+fn check_deck<'a>(
+    path: &'a Path,
+    arguments: &CheckArguments,
+    selection: Option<&FixSelection>,
+    style: Style,
+    progress: &Progress,
+) -> Result<Checked<'a>, Failure> {
     let mut settings = arguments.reading.settings(path)?;
     if matches!(arguments.format, Format::Github | Format::Sarif) {
         // Decks of strangers are checked for these.
         settings.confine_to_repository(path);
     }
-    let fixed = if arguments.fix || arguments.diff || !arguments.fix_also.is_empty() {
-        if path.as_os_str() == files::STANDARD_STREAM {
-            return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));
-        }
-        let selection = FixSelection { also: arguments.fix_also.clone() };
-        fixing::fix(path, &settings, &selection)?
-    } else {
-        Fixed::default()
-    };
-    let overlay = fixed.files.iter().map(|(path, (_, after))| (path.clone(), after.clone())).collect();
-    let deck = input::read_deck_over(path, Keep::Interpreted, &settings, &overlay)?;
+    if selection.is_some() && path.as_os_str() == files::STANDARD_STREAM {
+        return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));
+    }
+    let held = selection.map(|_| HeldFiles::default());
+    let deck = input::read_located_deck(path, Keep::Interpreted, &settings, held.as_ref())?;
     progress.advance(path);
-    let (model, problems) = model::read(&deck, settings.grammar);
-    let diagnostics = settings.apply(check(&deck, settings.grammar, &model, &problems), &deck);
-    let text = if arguments.diff {
-        let changes = fixed.files.iter();
-        changes.map(|(path, (before, after))| difference::unified(&path.display().to_string(), before, after)).collect()
-    } else if arguments.statistics {
-        String::new()
-    } else {
-        render::diagnostics(&diagnostics, &deck, arguments.format, style)
-    };
-    Ok(Checked { text, tally: Tally::of_findings(&diagnostics), fixed })
+    let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, selection));
+    let (text, tally) = judge(&deck, &settings, arguments, style);
+    let held = held.filter(|_| need == Need::Mending);
+    Ok(Checked { path, settings, text, tally, places: deck.places().to_vec(), need, held })
 }
 
-fn write_back(fixed: &Fixed) -> Result<(), Failure> {
-    for (path, (before, after)) in &fixed.files {
-        if before != after {
-            files::rewrite(path, after)?;
-        }
-    }
-    Ok(())
+/// What there is to say of a deck.
+fn judge(
+    LocatedDeck { deck, .. }: &LocatedDeck,
+    settings: &Settings,
+    arguments: &CheckArguments,
+    style: Style,
+) -> (String, Tally) {
+    let (model, problems) = model::read(deck, settings.grammar);
+    let diagnostics = settings.apply(check(deck, settings.grammar, &model, &problems), deck);
+    let text = if arguments.diff || arguments.statistics {
+        String::new()
+    } else {
+        render::diagnostics(&diagnostics, deck, arguments.format, style)
+    };
+    (text, Tally::of_findings(&diagnostics))
 }
 
 /// Reads every deck and prints how long each stage and each rule took, in milliseconds.
@@ -203,48 +222,4 @@ fn time_rules(arguments: &CheckArguments) -> Result<Outcome, Failure> {
 
 fn milliseconds(start: std::time::Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
-}
-
-fn count(number: usize, word: &str) -> String {
-    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
-}
-
-impl Tally {
-    fn of_findings(diagnostics: &[Diagnostic]) -> Self {
-        let mut tally = Self::default();
-        for found in diagnostics {
-            *tally.severities.entry(found.severity).or_default() += 1;
-            *tally.codes.entry(found.code).or_default() += 1;
-        }
-        tally
-    }
-
-    fn add(&mut self, other: &Self) {
-        for (severity, number) in &other.severities {
-            *self.severities.entry(*severity).or_default() += number;
-        }
-        for (code, number) in &other.codes {
-            *self.codes.entry(code).or_default() += number;
-        }
-    }
-
-    fn of(&self, severity: Severity) -> usize {
-        self.severities.get(&severity).copied().unwrap_or(0)
-    }
-
-    fn summary(&self, decks: usize) -> String {
-        if self.codes.is_empty() {
-            return format!("{}: nothing to report", count(decks, "deck"));
-        }
-        let of = |severity: Severity| count(self.of(severity), severity.word());
-        format!("{}: {}, {}, {}", count(decks, "deck"), of(Severity::Error), of(Severity::Warning), of(Severity::Note))
-    }
-
-    /// A line a code: how often, code, name.
-    fn statistics(&self) -> String {
-        let mut lines: Vec<_> = self.codes.iter().collect();
-        lines.sort_by_key(|(code, number)| (std::cmp::Reverse(**number), **code));
-        let name = |code: &str| RULES.iter().find(|rule| rule.code == code).map_or("", |rule| rule.name);
-        lines.iter().map(|(code, number)| format!("{number:8}  {code}  {}\n", name(code))).collect()
-    }
 }

@@ -66,10 +66,13 @@ pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
 
 fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    files::refuse_overwriting(arguments.output.as_deref(), &arguments.evaluable.inputs())?;
+    files::name_as_inputs(&arguments.evaluable.inputs());
+    files::check_targets(&[arguments.output.as_deref()])?;
     let format = arguments.format;
     let prepared = arguments.evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
     let Some(mut evaluable) = prepared else { return Ok(Outcome::HasErrors) };
+    // What the deck includes is known now.
+    files::check_targets(&[arguments.output.as_deref()])?;
     if evaluable.deck_has_errors {
         return Ok(Outcome::HasErrors);
     }

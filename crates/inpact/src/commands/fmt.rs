@@ -4,6 +4,7 @@
 
 use crate::difference;
 use crate::failure::{Failure, Outcome, say};
+use crate::files::transaction::{self, Change, Snapshot};
 use crate::files::{self, STANDARD_STREAM};
 use crate::settings::DeckArguments;
 use clap::Args;
@@ -40,36 +41,44 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     let only_shown = arguments.check || arguments.diff;
     let mut output = files::ResultFile::create(None)?;
     let mut tally = Tally::default();
+    // Where nobody reads what is written, files are still formatted.
+    let mut unwritten = None;
     for path in &arguments.decks {
         let done = read(path, arguments).and_then(|(before, after)| {
-            let is_changed = before != after;
+            let is_changed = *before.bytes() != after;
             let to_standard_output = if !only_shown {
-                let is_stream = path.as_os_str() == STANDARD_STREAM;
-                if is_changed && !is_stream {
-                    files::rewrite(path, &after)?;
+                match before {
+                    Before::Standard(_) => after,
+                    Before::File(file) if is_changed => {
+                        write_back(file, after)?;
+                        Vec::new()
+                    }
+                    Before::File(_) => Vec::new(),
                 }
-                if is_stream { after } else { Vec::new() }
             } else if !is_changed {
                 Vec::new()
             } else if arguments.diff {
-                difference::unified(&path.display().to_string(), &before, &after).into_bytes()
+                difference::unified(&path.display().to_string(), before.bytes(), &after).into_bytes()
             } else {
                 format!("{}\n", path.display()).into_bytes()
             };
-            output.write_all(&to_standard_output).map_err(Failure::Output)?;
+            if unwritten.is_none() {
+                unwritten = output.write_all(&to_standard_output).err();
+            }
             Ok(is_changed)
         });
         match done {
             Ok(true) => tally.changed += 1,
             Ok(false) => tally.unchanged += 1,
-            // Nobody reads what is written: nothing is left to do.
-            Err(failure @ Failure::Output(_)) => return Err(failure),
             // The other files are still formatted.
             Err(failure) => {
                 say(&format!("error: {failure}"));
                 tally.failed += 1;
             }
         }
+    }
+    if let Some(error) = unwritten {
+        return Err(Failure::Output(error));
     }
     output.finish()?;
     say(&tally.summary(if only_shown { "would be formatted" } else { "formatted" }));
@@ -80,13 +89,43 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     }
 }
 
-/// The bytes of a file before and after.
-fn read(path: &Path, arguments: &FormatArguments) -> Result<(Vec<u8>, Vec<u8>), Failure> {
+/// What a deck was before.
+enum Before {
+    Standard(Vec<u8>),
+    File(Snapshot),
+}
+
+impl Before {
+    fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Standard(bytes) => bytes,
+            Self::File(file) => &file.bytes,
+        }
+    }
+}
+
+/// A file before, and its bytes after.
+fn read(path: &Path, arguments: &FormatArguments) -> Result<(Before, Vec<u8>), Failure> {
     let settings = arguments.reading.settings(path)?;
-    let before = files::read_bytes(path)?;
-    let deck = scan(&path.display().to_string(), &before, settings.grammar);
+    let before = if path.as_os_str() == STANDARD_STREAM {
+        Before::Standard(files::read_bytes(path)?)
+    } else {
+        Before::File(Snapshot::read(path)?)
+    };
+    let deck = scan(&path.display().to_string(), before.bytes(), settings.grammar);
     let after = format(&deck, SourceId::ROOT, settings.grammar);
     Ok((before, after))
+}
+
+/// Writes a file back, on condition that it still is what was read.
+fn write_back(file: Snapshot, after: Vec<u8>) -> Result<(), Failure> {
+    if !file.is_file() {
+        let error = std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is no file that can be written back");
+        return Err(Failure::write(&file.name, error));
+    }
+    let committed = transaction::commit(&[Change::of_read(file, after.into())]);
+    // One file gives one failure.
+    committed.map_err(|failures| failures.into_iter().next().unwrap_or(Failure::AlreadySaid))
 }
 
 impl Tally {

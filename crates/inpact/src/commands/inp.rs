@@ -1,12 +1,14 @@
 //! `inpact inp`: JSON in, a deck out, and the files it includes where the lossless form has them.
 
+mod into;
+
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use clap::Args;
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::json::{self, View};
 use inpact_parser::model::{self, Model};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct InpArguments {
@@ -22,15 +24,12 @@ pub(crate) struct InpArguments {
 }
 
 pub(crate) fn run(arguments: &InpArguments) -> Result<Outcome, Failure> {
-    files::refuse_overwriting(arguments.output.as_deref(), &[&arguments.json])?;
+    files::name_as_inputs(&[&arguments.json]);
+    files::check_targets(&[arguments.output.as_deref()])?;
     let text = files::read_text(&arguments.json)?;
     let decks = decks(&text).map_err(|message| in_file(&arguments.json, &message))?;
     match (&arguments.into, decks.as_slice()) {
-        (Some(folder), _) => {
-            for (name, bytes) in &decks {
-                write_below(folder, name, bytes)?;
-            }
-        }
+        (Some(folder), _) => into::write(folder, &decks)?,
         (None, [(_, bytes)]) => files::write_result(arguments.output.as_deref(), bytes)?,
         (None, _) => {
             let message = format!("the JSON holds {} files: say where to write them with `--into FOLDER`", decks.len());
@@ -72,21 +71,6 @@ fn print(model: &Model) -> Result<String, String> {
         Some(deck)
     });
     deck.ok_or(newest)
-}
-
-/// Writes a file below a folder; a name that leads out of it is refused.
-fn write_below(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
-    let name = Path::new(name);
-    if !name.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
-        let message =
-            format!("`{}` leads out of `{}`: name the files relative to it", name.display(), folder.display());
-        return Err(Failure::Data(message));
-    }
-    let path = folder.join(name);
-    if let Some(parent) = path.parent() {
-        std::fs::create_dir_all(parent).map_err(|error| Failure::write(parent, error))?;
-    }
-    files::write_result(Some(&path), bytes)
 }
 
 fn in_file(path: &Path, message: &str) -> Failure {

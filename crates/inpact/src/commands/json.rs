@@ -35,7 +35,8 @@ enum View {
 }
 
 pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
-    files::refuse_overwriting(arguments.output.as_deref(), &[&arguments.deck])?;
+    files::name_as_inputs(&[&arguments.deck]);
+    files::check_targets(&[arguments.output.as_deref()])?;
     let settings = arguments.reading.settings(&arguments.deck)?;
     let (text, outcome) = match arguments.view {
         View::Model => model_view(arguments, &settings)?,

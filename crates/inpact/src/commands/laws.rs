@@ -1,6 +1,7 @@
 //! What a user may choose about the laws of a deck, for every command that evaluates them.
 
 use crate::failure::{Failure, say};
+use crate::files;
 use crate::user_library;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::law::pore::CutoffBoundary;
@@ -75,6 +76,7 @@ impl LawArguments {
     /// The routine of `--user-library`, loaded only if an interaction of the deck asks for one.
     fn user_conductance(&self, model: &Model) -> Result<Option<UserLaw>, Failure> {
         let Some(path) = &self.user_library else { return Ok(None) };
+        files::name_as_input(path);
         let electrical = model.interactions.values().filter_map(|of| of.gap_electrical_conductance.as_ref());
         if electrical.filter(|option| option.user.is_some()).count() == 0 {
             let path = path.display();

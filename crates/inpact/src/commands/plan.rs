@@ -47,6 +47,8 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
         PlanFormat::Json => FindingFormat::Json,
     };
     let PlanArguments { evaluable, laws, reading, .. } = arguments;
+    files::name_as_inputs(&evaluable.inputs());
+    files::check_targets(&[arguments.output.as_deref()])?;
     let prepared = evaluable.with_threads(|| evaluable.prepare(laws, reading, findings))?;
     let Some(evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     let text = match arguments.format {

@@ -26,8 +26,6 @@ pub(crate) struct SolvableScene {
     pub(crate) choices: Choices,
     pub(crate) name: String,
     pub(crate) deck_name: String,
-    /// The files it is made from: the scene, those beside it, the deck and what that includes.
-    inputs: Vec<PathBuf>,
 }
 
 impl SolvableScene {
@@ -47,7 +45,7 @@ impl SolvableScene {
         };
         let settings = reading.settings(path)?;
         let roots = settings.include_roots.as_slice();
-        let mut files = FilesBeside { folder, roots, read: vec![path.to_owned()], failures: Vec::new() };
+        let mut files = FilesBeside { folder, roots, failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
         let has_errors = found.iter().any(|found| found.severity == Severity::Error);
         say_data_findings(found, format);
@@ -92,14 +90,7 @@ impl SolvableScene {
             return Ok(None);
         }
         let deck_name = deck_path.display().to_string();
-        let mut inputs = files.read;
-        inputs.extend(deck.sources().iter().map(|source| PathBuf::from(source.name())));
-        Ok(Some(Self { scene, model, choices, name, deck_name, inputs }))
-    }
-
-    /// Refuses to write results over a file that the scene is made from.
-    pub(crate) fn refuse_overwriting(&self, targets: &[Option<&Path>]) -> Result<(), Failure> {
-        targets.iter().try_for_each(|target| files::refuse_overwriting(*target, &self.inputs))
+        Ok(Some(Self { scene, model, choices, name, deck_name }))
     }
 
     /// What is solved; `None` after saying what is missing.
@@ -134,8 +125,6 @@ struct FilesBeside<'a> {
     folder: &'a Path,
     /// Outside of which nothing is read.
     roots: &'a [PathBuf],
-    /// Those that were read, and the scene.
-    read: Vec<PathBuf>,
     /// Why some could not be read.
     failures: Vec<Failure>,
 }
@@ -144,10 +133,7 @@ impl SceneFiles for FilesBeside<'_> {
     fn read(&mut self, name: &str) -> Option<Vec<u8>> {
         let path = self.folder.join(name);
         match refuse_outside(&path, self.roots).and_then(|()| files::read_bytes(&path)) {
-            Ok(bytes) => {
-                self.read.push(path);
-                Some(bytes)
-            }
+            Ok(bytes) => Some(bytes),
             Err(failure) => {
                 self.failures.push(failure);
                 None

@@ -96,10 +96,11 @@ fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let format = arguments.format.of_findings();
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
-    files::refuse_one_target_twice(&targets)?;
+    files::check_targets(&targets)?;
     let prepared = SolvableScene::read(&arguments.scene, &arguments.laws, &arguments.reading, format)?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
-    prepared.refuse_overwriting(&targets)?;
+    // The files that the scene is made from are known now.
+    files::check_targets(&targets)?;
     let Some(problem) = prepared.problem(format) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.method();
     let histories = if arguments.interfaces.is_some() { Histories::Wanted } else { Histories::NotWanted };

@@ -116,11 +116,10 @@ impl TradeoffArguments {
 }
 
 pub(crate) fn run(arguments: &TradeoffArguments) -> Result<Outcome, Failure> {
-    files::refuse_one_target_twice(&arguments.targets())?;
-    // The files that a scene is made from are known when it is read.
     if let Some(table) = &arguments.table {
-        arguments.targets().into_iter().try_for_each(|target| files::refuse_overwriting(target, &table.inputs()))?;
+        files::name_as_inputs(&table.inputs());
     }
+    files::check_targets(&arguments.targets())?;
     let shown = match (&arguments.scene, &arguments.table) {
         (Some(scene), _) => solvers::measured(scene, arguments)?,
         (None, Some(table)) => tables::measured(table, arguments)?,

@@ -1,6 +1,7 @@
 //! A routine that ends the program: Fortran's STOP calls `exit`, and a run that was cut short would end with exit code 0.
 
 use crate::failure::say;
+use crate::files;
 use inpact_evaluation::law::user::UserConductancePoint;
 use std::ffi::c_int;
 use std::sync::Once;
@@ -42,6 +43,8 @@ extern "C" fn tell() {
     say(&format!(
         "error: user subroutine GAPELECTR ended the program (by STOP or an error of the Fortran runtime) when it was called for node {node}; the result is not whole"
     ));
+    // `_exit` runs no destructors.
+    files::remove_temporary_files();
     // SAFETY: it takes a number and does not return.
     unsafe { _exit(2) }
 }

@@ -13,6 +13,7 @@ use super::{Shown, TradeoffArguments, TradeoffFormat};
 use crate::commands::findings::say_data_findings;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
+use crate::files;
 use crate::threads::with_threads;
 use crate::visible::visible;
 use std::path::Path;
@@ -26,7 +27,8 @@ fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
     let format = arguments.format.of_findings();
     let prepared = SolvableScene::read(path, &arguments.laws, &arguments.reading, format)?;
     let Some(prepared) = prepared else { return Ok(None) };
-    prepared.refuse_overwriting(&arguments.targets())?;
+    // The files that the scene is made from are known now.
+    files::check_targets(&arguments.targets())?;
     let Some(problem) = prepared.problem(format) else { return Ok(None) };
     if problem.solved_fields().is_empty() {
         let message = format!("no field of `{}` is solved for: there is nothing to trade", prepared.name);

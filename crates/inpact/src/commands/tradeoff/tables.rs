@@ -13,6 +13,7 @@ use super::{Shown, TradeoffArguments, TradeoffFormat};
 use crate::commands::evaluable::EvaluableArguments;
 use crate::commands::findings::say_data_findings;
 use crate::failure::Failure;
+use crate::files;
 use crate::visible::visible;
 use inpact_evaluation::nodes::Findings;
 
@@ -25,6 +26,8 @@ fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments
     let format = arguments.format.of_findings();
     let prepared = table.prepare(&arguments.laws, &arguments.reading, format)?;
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
+    // What the deck includes is known now.
+    files::check_targets(&arguments.targets())?;
     let mut findings = Findings::new(&scene.nodes_name);
     let nodes_path = table.nodes_path();
     let sample = subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings)?;

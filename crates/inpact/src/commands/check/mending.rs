@@ -1,0 +1,93 @@
+//! What `--fix` and `--diff` do between checking the decks and saying what was found in them.
+
+use super::tally::count;
+use super::{CheckArguments, Checked, judge};
+use crate::difference;
+use crate::failure::{Failure, say};
+use crate::files::transaction;
+use crate::fixing::{self, FixSelection, Mended, Purpose, Subject};
+use crate::input::{self, HeldFiles};
+use crate::render::Style;
+use inpact_parser::deck::Keep;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// What mending came to, as it is shown.
+#[derive(Debug, Default)]
+pub(super) struct Mending {
+    /// What would change, for `--diff`.
+    pub(super) differences: String,
+    /// Whether something could not be written.
+    pub(super) has_failed: bool,
+}
+
+/// Mends the decks, before anything is said of them: whoever reads that may stop reading.
+///
+/// Afterwards they are checked as they are now; or as they were, when nothing could be written.
+pub(super) fn mend(
+    checked: &mut [Result<Checked<'_>, Failure>],
+    arguments: &CheckArguments,
+    selection: &FixSelection,
+    style: Style,
+) -> Mending {
+    let held = HeldFiles::default();
+    checked.iter_mut().flatten().filter_map(|checked| checked.held.take()).for_each(|files| held.take_over(files));
+    let subjects = checked.iter_mut().flatten().map(|checked| Subject {
+        path: checked.path,
+        settings: &checked.settings,
+        places: std::mem::take(&mut checked.places),
+        need: checked.need,
+    });
+    let mut subjects: Vec<Subject<'_>> = subjects.collect();
+    let Mended { findings, left, failures } = fixing::mend(&mut subjects, &held, selection);
+    let places: Vec<Vec<PathBuf>> = subjects.into_iter().map(|subject| subject.places).collect();
+    for (checked, places) in checked.iter_mut().flatten().zip(places) {
+        checked.places = places;
+    }
+    let mut mending = Mending { has_failed: !failures.is_empty(), ..Mending::default() };
+    for failure in &failures {
+        say(&format!("error: {failure}"));
+    }
+    let changed = held.changed();
+    let mended = format!("{} in {}", count(findings, "finding"), count(changed.len(), "file"));
+    let verb = match selection.purpose {
+        Purpose::Show => {
+            let difference = |file: &input::Held| {
+                difference::unified(&file.read.name.display().to_string(), &file.read.bytes, &file.now)
+            };
+            mending.differences = changed.iter().map(difference).collect();
+            "would mend"
+        }
+        Purpose::Write => match transaction::commit(&held.changes()) {
+            Ok(()) => "mended",
+            Err(failures) => {
+                for failure in &failures {
+                    say(&format!("error: {failure}"));
+                }
+                say(&format!("error: nothing is mended, since all files are or none: {mended} could be"));
+                return Mending { has_failed: true, ..mending };
+            }
+        },
+    };
+    if !arguments.quiet {
+        if findings > 0 {
+            say(&format!("{verb} {mended}"));
+        }
+        for left in &left {
+            say(&format!("warning: {left}"));
+        }
+    }
+    let changed: BTreeSet<PathBuf> = changed.into_iter().map(|file| file.read.path).collect();
+    checked.par_iter_mut().for_each(|result| {
+        let Ok(checked) = result else { return };
+        if !checked.places.iter().any(|place| changed.contains(place)) {
+            return;
+        }
+        match input::read_located_deck(checked.path, Keep::Interpreted, &checked.settings, Some(&held)) {
+            Ok(deck) => (checked.text, checked.tally) = judge(&deck, &checked.settings, arguments, style),
+            Err(failure) => *result = Err(failure),
+        }
+    });
+    mending
+}

@@ -1,0 +1,180 @@
+//! Files that have their name only for a while: they lie beside what they will become, and are removed however the run ends.
+//!
+//! A run that is stopped by a signal, or that a routine of the user ends, runs no destructors: the list of what is there is kept here,
+//! and a thread that waits for signals removes it.
+//! What cannot be caught (SIGKILL, a crash of the user's routine) leaves them behind; their names begin with `.inpact-`.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What the names of temporary files begin with.
+const PREFIX: &str = ".inpact-";
+
+/// The temporary files that are there.
+static PRESENT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// As long as it is held no signal ends the program: names change hands whole.
+#[derive(Debug)]
+pub(super) struct Hold(MutexGuard<'static, Vec<PathBuf>>);
+
+/// Waits for a signal that is being handled (for ever, since the program ends then), and keeps others waiting.
+pub(super) fn hold() -> Hold {
+    Hold(PRESENT.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// Who may read a temporary file while it is being written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Access {
+    /// As any new file: everybody, but for the user's umask.
+    OfNewFile,
+    /// The user alone.
+    Private,
+}
+
+/// A file that is removed when it goes out of scope, unless it was renamed.
+#[derive(Debug)]
+pub(crate) struct Temporary {
+    path: PathBuf,
+    is_there: bool,
+}
+
+impl Temporary {
+    /// Makes an empty file in `folder`, open for writing.
+    pub(super) fn create(folder: &Path, access: Access) -> io::Result<(Self, File)> {
+        signals::watch();
+        // A routine of the user may change the working folder.
+        let folder = std::path::absolute(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(PREFIX);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            let mode = match access {
+                Access::OfNewFile => 0o666,
+                Access::Private => 0o600,
+            };
+            builder.permissions(std::fs::Permissions::from_mode(mode));
+        }
+        #[cfg(not(unix))]
+        let _ = access;
+        let mut hold = hold();
+        let (file, path) = builder.tempfile_in(folder)?.keep().map_err(|error| error.error)?;
+        hold.0.push(path.clone());
+        Ok((Self { path, is_there: true }, file))
+    }
+
+    /// Gives the file at `original` a second name that goes as a temporary file does.
+    pub(super) fn link(original: &Path, hold: &mut Hold) -> io::Result<Self> {
+        let folder = original.parent().unwrap_or(Path::new("."));
+        let made =
+            tempfile::Builder::new().prefix(PREFIX).make_in(folder, |path| std::fs::hard_link(original, path))?;
+        let ((), path) = made.keep().map_err(|error| error.error)?;
+        hold.0.push(path.clone());
+        Ok(Self { path, is_there: true })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts the file in the place of whatever is called `target`.
+    pub(super) fn rename(&mut self, target: &Path, hold: &mut Hold) -> io::Result<()> {
+        std::fs::rename(&self.path, target)?;
+        self.forget(hold);
+        Ok(())
+    }
+
+    /// Leaves the file where it is for good.
+    pub(super) fn forget(&mut self, hold: &mut Hold) {
+        self.is_there = false;
+        hold.0.retain(|path| *path != self.path);
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if self.is_there {
+            let mut hold = hold();
+            // Whoever removed it before did what is wanted.
+            let _ = std::fs::remove_file(&self.path);
+            self.forget(&mut hold);
+        }
+    }
+}
+
+/// Removes all temporary files: the program ends in a way that runs no destructors.
+pub(crate) fn remove_all() {
+    remove_those(&mut hold());
+}
+
+fn remove_those(hold: &mut Hold) {
+    for path in hold.0.drain(..) {
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// Signals that end the program.
+#[cfg(unix)]
+mod signals {
+    use super::{hold, remove_those};
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+    };
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
+    use std::ffi::c_int;
+    use std::sync::{Once, mpsc};
+
+    /// What ends a program by default and can be caught; the rest are crashes of it.
+    const ENDING: [c_int; 10] =
+        [SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU];
+
+    /// From now on temporary files are removed when a signal ends the program, which then ends by that signal all the same.
+    ///
+    /// Where no thread can be had, signals do what they do by default.
+    pub(super) fn watch() {
+        static ONCE: Once = Once::new();
+        ONCE.call_once(|| {
+            let (ready, is_ready) = mpsc::channel();
+            let watching = move || {
+                let signals = Signals::new(caught());
+                // Nobody waits for it any more where nothing can be caught.
+                let _ = ready.send(());
+                let Ok(mut signals) = signals else { return };
+                for signal in signals.forever() {
+                    // A file that grows beyond its limit is an error of the writing that made it, which says more than the signal.
+                    if signal != SIGXFSZ {
+                        let mut hold = hold();
+                        remove_those(&mut hold);
+                        let _ = emulate_default_handler(signal);
+                    }
+                }
+            };
+            if std::thread::Builder::new().name("signals".to_owned()).spawn(watching).is_ok() {
+                let _ = is_ready.recv();
+            }
+        });
+    }
+
+    /// The signals to catch: one that is ignored, as by `nohup`, stays ignored.
+    fn caught() -> Vec<c_int> {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        match mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()) {
+            Some(ignored) => {
+                let is_ignored = |signal: c_int| ignored >> (signal - 1) & 1 == 1;
+                ENDING.into_iter().chain([SIGXFSZ]).filter(|signal| !is_ignored(*signal)).collect()
+            }
+            // What is ignored cannot be known: the two that nobody ignores for a whole run.
+            None => vec![SIGINT, SIGTERM, SIGXFSZ],
+        }
+    }
+}
+
+/// Signals that end the program: there are none.
+#[cfg(not(unix))]
+mod signals {
+    pub(super) fn watch() {}
+}

@@ -1,0 +1,74 @@
+//! Files that are read once and held: what is found in them is mended in the very bytes that were read.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::files::transaction::{Change, Snapshot};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Files by where they are, links followed: each is there once, by whatever names it is reached.
+#[derive(Debug, Default)]
+pub(crate) struct HeldFiles(Mutex<BTreeMap<PathBuf, Held>>);
+
+/// A file as it was read and as it is to be.
+#[derive(Debug, Clone)]
+pub(crate) struct Held {
+    pub(crate) read: Snapshot,
+    pub(crate) now: Arc<[u8]>,
+}
+
+impl Held {
+    pub(crate) fn is_changed(&self) -> bool {
+        self.now != self.read.bytes
+    }
+}
+
+impl HeldFiles {
+    fn files(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Held>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What is in a file now; it is read when it is asked for the first time, and messages call it `name`.
+    pub(crate) fn content(&self, path: &Path, name: &Path) -> Result<Arc<[u8]>, Failure> {
+        let place = files::whole_path(path);
+        if let Some(held) = self.files().get(&place) {
+            return Ok(held.now.clone());
+        }
+        // Reading a pipe may take its time, in which others must not wait.
+        let mut read = Snapshot::read(path)?;
+        name.clone_into(&mut read.name);
+        let now = read.bytes.clone();
+        Ok(self.files().entry(place).or_insert(Held { read, now }).now.clone())
+    }
+
+    /// Gives a file that is held new content.
+    pub(crate) fn set(&self, place: &Path, content: Vec<u8>) {
+        if let Some(held) = self.files().get_mut(place) {
+            held.now = content.into();
+        }
+    }
+
+    /// Takes over the files of another, but for those that are here already.
+    pub(crate) fn take_over(&self, others: Self) {
+        let others = others.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut files = self.files();
+        for (place, held) in others {
+            files.entry(place).or_insert(held);
+        }
+    }
+
+    pub(crate) fn get(&self, place: &Path) -> Option<Held> {
+        self.files().get(place).cloned()
+    }
+
+    /// The files whose content changed.
+    pub(crate) fn changed(&self) -> Vec<Held> {
+        self.files().values().filter(|held| held.is_changed()).cloned().collect()
+    }
+
+    /// What has to be written.
+    pub(crate) fn changes(&self) -> Vec<Change> {
+        self.changed().into_iter().map(|held| Change::of_read(held.read, held.now)).collect()
+    }
+}
