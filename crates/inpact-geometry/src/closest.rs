@@ -9,11 +9,18 @@ use crate::patch::Patch;
 use crate::vector::{add, dot, norm, scale, sub};
 use crate::{Point, Vector};
 
-/// How often a face is cut in four at most: where curvature is so large that a 32nd of a face has two minima, the better of those found is taken.
+/// How often a face is cut in four at most. Where a face is so wildly bent, or folded, that a 32nd of it has two minima, the better of those found is taken:
+/// no proof is given then that it is the least.
 const CUTS: u32 = 5;
 
 /// Newton steps at most; it takes four to six where the face is nearly flat.
 const STEPS: u32 = 60;
+
+/// Rounds of trials at most, where derivatives tell nothing.
+const MOST_TRIALS: u32 = 1000;
+
+/// How many places are tried further at most, where derivatives tell nothing.
+const MOST_ROUGH: usize = 32;
 
 /// How near to an edge (in ξ and η, which are of size 1) a place is on it: what clipping a step loses by rounding.
 const ON_EDGE: f64 = 1e-14;
@@ -51,6 +58,7 @@ impl Patch {
         let search = Search::new(self, point);
         let mut best: Option<([f64; 2], f64)> = None;
         let mut parts = vec![(Part::whole(self), 0)];
+        let mut rough: Vec<([f64; 2], f64)> = Vec::new();
         while let Some((part, cuts)) = parts.pop() {
             let centre = search.about(&part);
             let least = best.map_or(limit, |(_, distance)| distance);
@@ -63,8 +71,20 @@ impl Patch {
             if distance < least {
                 best = Some((place, distance));
             }
+            if !centre.one_minimum && cuts == CUTS {
+                rough.push((place, distance));
+            }
             if !centre.one_minimum && cuts < CUTS {
                 parts.extend(part.quarters().into_iter().map(|quarter| (quarter, cuts + 1)));
+            }
+        }
+        // Where derivatives have proved nothing, all that come near to the best are tried further, the nearest first.
+        rough.sort_by(|a, b| a.1.total_cmp(&b.1));
+        for (place, distance) in rough.into_iter().take(MOST_ROUGH) {
+            let Some((_, least)) = best.filter(|(_, least)| distance <= 1.01 * least) else { break };
+            let (place, distance) = search.by_trial(place, distance);
+            if distance < least {
+                best = Some((place, distance));
             }
         }
         best.map(|(place, distance)| Closest { place, point: self.point(place), distance })
@@ -256,6 +276,28 @@ impl<'a> Search<'a> {
         self.patch.shape.clamp(place)
     }
 
+    /// Goes on from a place by trying places around it, nearer and nearer: where a face is folded to a point or a line, derivatives vanish there and tell
+    /// nothing of the way down.
+    fn by_trial(&self, place: [f64; 2], distance: f64) -> ([f64; 2], f64) {
+        const AROUND: [[f64; 2]; 8] =
+            [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let (mut place, mut distance) = (place, distance);
+        let mut step = 4.0 / f64::from(1 << CUTS);
+        let mut trials = 0;
+        while 1e-12 < step && trials < MOST_TRIALS {
+            let tried = AROUND.map(|direction| {
+                let there = self.patch.shape.clamp(moved(place, step, direction));
+                (there, norm(self.to_point(there)))
+            });
+            trials += 1;
+            match tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
+                Some((there, nearer)) if nearer < distance => (place, distance) = (there, nearer),
+                _ => step *= 0.5,
+            }
+        }
+        (place, distance)
+    }
+
     /// Where to go from a place; `None` where it is a minimum.
     fn direction(
         &self,
@@ -288,17 +330,26 @@ impl<'a> Search<'a> {
             let curvature = if 0.0 < curvature { curvature } else { quadratic(flat, tangent) };
             (slope < 0.0 && 0.0 < curvature).then(|| [-slope / curvature * tangent[0], -slope / curvature * tangent[1]])
         };
+        let inside = |tangent: &[f64; 2]| on.iter().all(|other| dot2(other.normal, *tangent) <= ON_EDGE);
         match holding[..] {
             [] => {
                 let newton = solve(full, gradient).or_else(|| solve(damped(flat), gradient))?;
                 if on.iter().all(|side| dot2(side.normal, newton) <= 0.0) {
                     return Some(newton);
                 }
-                // Newton's step leaves over an edge that the gradient does not: the gradient's own best step stays.
+                // Newton's step leaves over an edge that the gradient does not: the minimum of the quadratic model within lies on that edge.
                 let curvature = quadratic(full, gradient);
                 let curvature = if 0.0 < curvature { curvature } else { quadratic(flat, gradient) };
                 let length = dot2(gradient, gradient) / curvature;
-                length.is_finite().then(|| [-length * gradient[0], -length * gradient[1]])
+                let steepest = length.is_finite().then(|| [-length * gradient[0], -length * gradient[1]]);
+                let on_edge = on.iter().filter(|side| 0.0 < dot2(side.normal, newton)).filter_map(|side| {
+                    let tangent = [-side.normal[1], side.normal[0]];
+                    let reversed = [-tangent[0], -tangent[1]];
+                    [tangent, reversed].into_iter().filter(inside).find_map(along)
+                });
+                // Whichever falls more, by that model.
+                let fall = |direction: &[f64; 2]| -dot2(*direction, gradient);
+                on_edge.chain(steepest).max_by(|a, b| fall(a).total_cmp(&fall(b)))
             }
             [side] => {
                 let tangent = [-side.normal[1], side.normal[0]];
@@ -306,11 +357,8 @@ impl<'a> Search<'a> {
             }
             // A corner: along whichever of its edges the distance falls.
             _ => on.iter().find_map(|side| {
-                let inward = |tangent: [f64; 2]| {
-                    on.iter().all(|other| dot2(other.normal, tangent) <= ON_EDGE).then_some(tangent)
-                };
                 let tangent = [-side.normal[1], side.normal[0]];
-                [tangent, [-tangent[0], -tangent[1]]].into_iter().filter_map(inward).find_map(along)
+                [tangent, [-tangent[0], -tangent[1]]].into_iter().filter(inside).find_map(along)
             }),
         }
     }
