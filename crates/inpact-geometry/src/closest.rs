@@ -66,7 +66,7 @@ impl Patch {
             if least < centre.below * (1.0 - 1e-12) {
                 continue;
             }
-            let place = search.minimum_in(&part);
+            let place = search.minimum_in(&part, part.centre());
             let distance = norm(search.to_point(place));
             if distance < least {
                 best = Some((place, distance));
@@ -83,8 +83,11 @@ impl Patch {
         for (place, distance) in rough.into_iter().take(MOST_ROUGH) {
             let Some((_, least)) = best.filter(|(_, least)| distance <= 1.01 * least) else { break };
             let (place, distance) = search.by_trial(place, distance);
-            if distance < least {
-                best = Some((place, distance));
+            // Less than that is rounding, which trials would follow for half the digits of a place.
+            if distance < least * (1.0 - 1e-12) {
+                let sharper = search.minimum_in(&Part::whole(self), place);
+                let sharp = norm(search.to_point(sharper));
+                best = Some(if sharp <= distance { (sharper, sharp) } else { (place, distance) });
             }
         }
         best.map(|(place, distance)| Closest { place, point: self.point(place), distance })
@@ -237,10 +240,10 @@ impl<'a> Search<'a> {
         About { below, one_minimum: curved < metric * metric }
     }
 
-    /// A minimum of the distance in the part, from its centre.
-    fn minimum_in(&self, part: &Part) -> [f64; 2] {
+    /// A minimum of the distance in the part, from a place in it.
+    fn minimum_in(&self, part: &Part, from: [f64; 2]) -> [f64; 2] {
         let sides = part.sides();
-        let mut place = part.centre();
+        let mut place = from;
         for _ in 0..STEPS {
             let away = self.to_point(place);
             let tangents = self.patch.tangents(place);
