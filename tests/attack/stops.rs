@@ -181,7 +181,7 @@ fn stop(
     let is_old = |name: &&str| after[*name] == before[*name];
     let is_new = |name: &&str| after[*name] == whole[*name];
     let torn = job.targets.iter().filter(|name| !is_old(name) && !is_new(name)).count();
-    let is_mixed = !job.targets.iter().all(|name| is_old(name)) && !job.targets.iter().all(|name| is_new(name));
+    let is_mixed = !job.targets.iter().all(is_old) && !job.targets.iter().all(is_new);
     let must_be_together = job.together == Together::All && can_be_caught(signal);
     if torn > 0 || (is_mixed && must_be_together) {
         counts.torn += torn.max(1) as u64;

@@ -184,7 +184,7 @@ pub fn compile(model: &Model, plan: &Plan, choices: &Choices) -> Laws {
                 .thermal
                 .as_ref()
                 .map(|law| compiler.thermal(law, &planned.tables.thermal, choices.accuracy)),
-            pore: planned.pore.as_ref().and_then(|law| compiler.pore(law, tables, choices)),
+            pore: planned.pore.as_ref().map(|law| compiler.pore(law, tables, choices)),
         });
     }
     Laws {
@@ -304,7 +304,7 @@ impl Compiler<'_> {
         })
     }
 
-    fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> Option<CompiledPore> {
+    fn pore(self, plan: &PorePlan, tables: &InteractionTables, choices: &Choices) -> CompiledPore {
         let table = tables.permeability().zip(plan.table.as_ref());
         let form = table.map(|(table, planned)| {
             planned.evaluator().cloned().unwrap_or_else(|| Evaluator::new(table, choices.accuracy))
@@ -318,7 +318,7 @@ impl Compiler<'_> {
         });
         let sides = |of: fn(Part) -> Column| Some((self.place(of(Part::Slave))?, self.place(of(Part::Master))?));
         let length = self.place(Column::CharacteristicLength);
-        Some(CompiledPore {
+        CompiledPore {
             form,
             law: PoreLaw { permeability, cutoffs: plan.cutoffs, boundary: choices.cutoff_boundary },
             regime: plan.regime.regime,
@@ -338,7 +338,7 @@ impl Compiler<'_> {
             history: plan.history,
             slots: PoreSlots::new(|output| self.slot(output)),
             slopes: slopes.collect(),
-        })
+        }
     }
 }
 

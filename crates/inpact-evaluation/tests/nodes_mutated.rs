@@ -49,7 +49,10 @@ fn record() -> RecordBatch {
     let areas = DictionaryArray::<Int16Type>::try_new(keys, Arc::new(areas)).expect("keys of the values");
     let clearance = numbers.clone().map(|row| (row % 7 != 3).then_some(row as f64 * 0.125));
     let columns: [(&str, ArrayRef); 7] = [
-        ("node", Arc::new(numbers.clone().map(|row| Some(row as i64)).collect::<Int64Array>())),
+        (
+            "node",
+            Arc::new(numbers.clone().map(|row| Some(i64::try_from(row).expect("few rows"))).collect::<Int64Array>()),
+        ),
         ("interaction", Arc::new(words)),
         ("comment", Arc::new(StringArray::from_iter_values(numbers.clone().map(|row| format!("row {row}"))))),
         ("copen", Arc::new(clearance.collect::<PrimitiveArray<Float64Type>>())),
@@ -93,11 +96,15 @@ fn arrow(record: &RecordBatch, compression: Option<CompressionType>, is_file: bo
     let halves = [record.slice(0, ROWS / 2), record.slice(ROWS / 2, ROWS / 2)];
     if is_file {
         let mut writer = FileWriter::try_new_with_options(&mut bytes, &record.schema(), options).expect("a vector");
-        halves.iter().for_each(|half| writer.write(half).expect("a vector takes all"));
+        for half in &halves {
+            writer.write(half).expect("a vector takes all");
+        }
         writer.finish().expect("a vector takes all");
     } else {
         let mut writer = StreamWriter::try_new_with_options(&mut bytes, &record.schema(), options).expect("a vector");
-        halves.iter().for_each(|half| writer.write(half).expect("a vector takes all"));
+        for half in &halves {
+            writer.write(half).expect("a vector takes all");
+        }
         writer.finish().expect("a vector takes all");
     }
     bytes

@@ -40,7 +40,9 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
         }
     }
     give_status_by_law(&mut interactions, choices);
-    interactions.iter_mut().for_each(|plan| keep_asked(plan, choices));
+    for plan in &mut interactions {
+        keep_asked(plan, choices);
+    }
     let outputs: BTreeSet<Output> = interactions.iter().flat_map(|plan| plan.outputs.iter().copied()).collect();
     let selection = selection(survey, &interactions);
     Plan {

@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Neg};
 
 /// An exact number, and the sum of the magnitudes it was put together from: what its rounding is measured by.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Number {
+pub(crate) struct Number {
     pub value: BigRational,
     pub scale: BigRational,
 }
@@ -53,7 +53,7 @@ impl Neg for Number {
 }
 
 /// The results of a row: what is not among them has no number.
-pub type Results = BTreeMap<&'static str, Number>;
+pub(crate) type Results = BTreeMap<&'static str, Number>;
 
 /// What follows the last row of a group.
 #[derive(Clone, Copy, PartialEq)]
@@ -160,7 +160,7 @@ impl History {
 }
 
 /// The results of every row of a scene.
-pub fn judge(scene: &Scene) -> Vec<Results> {
+pub(crate) fn judge(scene: &Scene) -> Vec<Results> {
     let mut histories: BTreeMap<(usize, usize), History> = BTreeMap::new();
     let of_row = |row: &Row| {
         let judge = Judge::new(scene, row.interaction);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Columns of numbers a scene may have; `node` and `interaction` are texts.
-pub const COLUMNS: [&str; 19] = [
+pub(crate) const COLUMNS: [&str; 19] = [
     "time",
     "clearance",
     "pressure",
@@ -29,14 +29,14 @@ pub const COLUMNS: [&str; 19] = [
 
 /// Which of two regimes the procedures of a deck ask for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Regime {
+pub(crate) enum Regime {
     Steady,
     Transient,
 }
 
 /// What a deck says of one interaction: tables as rows of value, clearance or pressure, mean temperature (mean pore pressure for fluid).
 #[derive(Clone, Debug, Default)]
-pub struct Interaction {
+pub(crate) struct Interaction {
     pub name: String,
     pub electrical: [Option<Rows>; 2],
     pub thermal: [Option<Rows>; 2],
@@ -50,7 +50,7 @@ pub struct Interaction {
 
 /// *CONTACT PERMEABILITY.
 #[derive(Clone, Debug, Default)]
-pub struct Pore {
+pub(crate) struct Pore {
     pub table: Option<Rows>,
     pub cutoff_across: Option<f64>,
     pub cutoff_fill: Option<f64>,
@@ -58,7 +58,7 @@ pub struct Pore {
 
 /// A row of a node table; a column that is missing or empty is not in the map.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub(crate) struct Row {
     pub node: usize,
     pub interaction: usize,
     pub cells: BTreeMap<&'static str, f64>,
@@ -66,7 +66,7 @@ pub struct Row {
 
 /// A deck and a node table.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub(crate) struct Scene {
     pub interactions: Vec<Interaction>,
     /// The regime of current, where a procedure solves for it, and that of pore fluid.
     pub electrical: Option<Regime>,
@@ -134,7 +134,7 @@ fn interaction(random: &mut Random, name: String) -> Interaction {
 
 impl Scene {
     /// A random scene; `extreme` draws the numbers of its rows from all decades.
-    pub fn random(random: &mut Random, extreme: bool) -> Self {
+    pub(crate) fn random(random: &mut Random, extreme: bool) -> Self {
         let count = 1 + random.below(3);
         let interactions: Vec<_> = (0..count).map(|number| interaction(random, format!("I{number}"))).collect();
         let regime = |random: &mut Random| if random.below(3) == 0 { Regime::Steady } else { Regime::Transient };
@@ -142,7 +142,7 @@ impl Scene {
             COLUMNS.into_iter().filter(|name| random.below(if *name == "clearance" { 12 } else { 4 }) != 0).collect();
         let nodes = 1 + random.below(4);
         let mut times = vec![0.0; nodes * count];
-        let rows = (0..1 + random.below(14)).map(|_| {
+        let rows = (0..=random.below(14)).map(|_| {
             let (node, interaction) = (random.below(nodes), random.below(count));
             let time = &mut times[node * count + interaction];
             *time += random.positive(-3, 3);
@@ -170,7 +170,7 @@ impl Scene {
     }
 
     /// The deck.
-    pub fn deck(&self) -> String {
+    pub(crate) fn deck(&self) -> String {
         let mut deck = format!(
             "*PHYSICAL CONSTANTS, ABSOLUTE ZERO={:?}, STEFAN BOLTZMANN={:e}\n",
             self.absolute_zero, self.stefan_boltzmann
@@ -220,7 +220,7 @@ impl Scene {
     }
 
     /// The node table.
-    pub fn nodes(&self) -> String {
+    pub(crate) fn nodes(&self) -> String {
         let texts = if self.has_nodes { "node,interaction" } else { "interaction" };
         let mut csv = [&[texts], self.columns.as_slice()].concat().join(",");
         for row in &self.rows {
