@@ -1,0 +1,241 @@
+//! Results of CalculiX in ASCII, `.frd` (`*NODE FILE`, `*EL FILE`, `*CONTACT FILE`), in the short and the long format.
+//!
+//! Source: CalculiX GraphiX manual, "Result Format": columns are fixed, and numbers may touch each other.
+//! Times are those from the beginning of the analysis.
+//! `DISP` becomes `U`, `NDTEMP` becomes `NT` and `FORC` becomes `RF`, with Abaqus' names of components; the rest keep their names.
+//! COPEN is negative where surfaces overlap; some releases write contact for all nodes, 0 where a node is none of a slave surface.
+
+use crate::collect::{self, PassedOver, Row};
+use crate::lines::{Line, LineEnd, Lines};
+use crate::number;
+use crate::problem::{Place, Problem, Read, ended, shown};
+use crate::recognise::Format;
+use crate::results::{Field, Frame, Region, Results};
+
+const CUT: &str = "the file is cut short, or the job has not ended yet; what stands before is read";
+const DAMAGED: &str = "the file is damaged here, or is no .frd of CalculiX; what stands before is read";
+const BINARY: &str = "use `*NODE FILE`, `*EL FILE` and `*CONTACT FILE` in place of `*NODE OUTPUT`, `*ELEMENT OUTPUT` and \
+                      `*CONTACT OUTPUT`, which write binary numbers";
+
+/// The characters of a value.
+const VALUE: usize = 12;
+/// The values of a line.
+const VALUES: usize = 6;
+
+/// Reads results of CalculiX in ASCII.
+///
+/// Coordinates of nodes and all blocks of values at nodes are read; elements are passed over.
+///
+/// # Errors
+/// Where a line is none of the format, numbers are binary, or the file ends before its last line, `9999`.
+pub fn read_frd(bytes: &[u8]) -> Read {
+    let mut reader =
+        Reader { results: Results::new(Format::Frd), step: None, frame: None, passed_over: PassedOver::default() };
+    let outcome = reader.blocks(&mut Lines::new(bytes));
+    reader.results.frames.extend(reader.frame.take().map(|(_, frame)| frame));
+    reader.results.not_read = reader.passed_over.list();
+    ended(reader.results, outcome)
+}
+
+/// Increment and step, from the line `1PSTEP`, and the bits of the time.
+type FrameKey = (Option<(i64, i64)>, u64);
+
+struct Reader {
+    results: Results,
+    step: Option<(i64, i64)>,
+    frame: Option<(FrameKey, Frame)>,
+    passed_over: PassedOver,
+}
+
+/// How wide labels are, from the format flag of a block.
+#[derive(Clone, Copy)]
+enum Width {
+    Short,
+    Long,
+}
+
+impl Width {
+    fn label(self) -> usize {
+        match self {
+            Self::Short => 5,
+            Self::Long => 10,
+        }
+    }
+}
+
+impl Reader {
+    fn blocks(&mut self, lines: &mut Lines<'_>) -> Result<(), Problem> {
+        while let Some(line) = lines.next() {
+            let text = line.text.trim_ascii_start();
+            if line.end == LineEnd::File && !text.starts_with(b"9999") {
+                return Err(cut(line.place));
+            }
+            if text.is_empty() || text.starts_with(b"1C") || text.starts_with(b"1U") {
+                continue;
+            }
+            if text.starts_with(b"1PSTEP") {
+                let mut numbers = line.cells().skip(1).filter_map(|(_, cell)| number::integer(cell));
+                self.step = numbers.nth(1).zip(numbers.next());
+            } else if text.starts_with(b"1P") {
+                self.passed_over.count(&shown(&text[..text.iter().position(|b| *b == b' ').unwrap_or(text.len())]));
+            } else if text.starts_with(b"2C") {
+                self.coordinates(lines, &line)?;
+            } else if text.starts_with(b"3C") {
+                self.passed_over.count("elements");
+                while line_of_block(lines)?.is_some() {}
+            } else if text.starts_with(b"100C") {
+                self.values(lines, &line)?;
+            } else if text.starts_with(b"9999") {
+                return Ok(());
+            } else {
+                let message = format!("expected the begin of a block, found `{}`", shown(line.text));
+                return Err(Problem::new(line.place, message, DAMAGED));
+            }
+        }
+        Err(cut(lines.place()))
+    }
+
+    fn coordinates(&mut self, lines: &mut Lines<'_>, head: &Line<'_>) -> Result<(), Problem> {
+        let flag = head.cells().nth(2).map_or(b"1".as_slice(), |(_, cell)| cell);
+        let width = width(head, flag)?;
+        let field = self.results.coordinates.get_or_insert_with(|| {
+            collect::field("COORD", Region::default(), Row::Node(0), ["COOR1", "COOR2", "COOR3"])
+        });
+        rows(lines, width, field)
+    }
+
+    fn values(&mut self, lines: &mut Lines<'_>, head: &Line<'_>) -> Result<(), Problem> {
+        let text = head.text;
+        let time = number::real(columns(text, 12, 24)).ok_or_else(|| {
+            let message = format!("expected the time of a block, found `{}`", shown(columns(text, 12, 24)));
+            Problem::new(head.at(12), message, DAMAGED)
+        })?;
+        let flag = columns(text, 73, 75);
+        let width = width(head, if flag.is_empty() { b"1" } else { flag })?;
+        let key = (self.step, time.to_bits());
+        if self.frame.as_ref().is_none_or(|(of, _)| *of != key) {
+            self.results.frames.extend(self.frame.take().map(|(_, frame)| frame));
+            // An eigenvalue is no time.
+            let total_time = (columns(text, 56, 58) != b"2").then_some(time);
+            let (increment, step) = self.step.unzip();
+            self.frame = Some((key, Frame { step, increment, total_time, ..Frame::default() }));
+        }
+        let mut field = head_of_values(lines)?;
+        let outcome = rows(lines, width, &mut field);
+        if let Some((_, frame)) = &mut self.frame {
+            frame.fields.push(field);
+        }
+        outcome
+    }
+}
+
+/// The lines `-4` and `-5`: the name of a field and those of its components.
+fn head_of_values(lines: &mut Lines<'_>) -> Result<Field, Problem> {
+    let expected = |what: &str, line: &Line<'_>| {
+        let message = format!("expected {what}, found `{}`", shown(line.text));
+        Problem::new(line.place, message, DAMAGED)
+    };
+    let line = whole_line(lines)?;
+    if !line.text.starts_with(b" -4") {
+        return Err(expected("the name of a field, ` -4`", &line));
+    }
+    let name = String::from_utf8_lossy(columns(line.text, 5, 13)).into_owned();
+    let count = number::integer(columns(line.text, 13, 18)).unwrap_or(0);
+    let mut names = Vec::new();
+    for _ in 0..count {
+        let line = whole_line(lines)?;
+        if !line.text.starts_with(b" -5") {
+            return Err(expected("the name of a component, ` -5`", &line));
+        }
+        // What is to be computed, such as the size of a vector, has no values.
+        if columns(line.text, 33, 38) != b"1" {
+            names.push(String::from_utf8_lossy(columns(line.text, 5, 13)).into_owned());
+        }
+    }
+    let (name, names) = as_abaqus(&name, names);
+    Ok(collect::field(name, Region::default(), Row::Node(0), names))
+}
+
+/// The identifiers of Abaqus, where the quantity has one.
+fn as_abaqus(name: &str, columns: Vec<String>) -> (String, Vec<String>) {
+    let numbered =
+        |prefix: &str, first: usize| (0..columns.len()).map(|at| format!("{prefix}{}", first + at)).collect();
+    match name {
+        "DISP" => ("U".to_owned(), numbered("U", 1)),
+        "FORC" => ("RF".to_owned(), numbered("RF", 1)),
+        "NDTEMP" => ("NT".to_owned(), numbered("NT", 11)),
+        _ => (name.to_owned(), columns),
+    }
+}
+
+/// The lines `-1` and `-2` up to `-3`.
+fn rows(lines: &mut Lines<'_>, width: Width, field: &mut Field) -> Result<(), Problem> {
+    let count = field.columns.len();
+    let mut values = vec![0.0; count];
+    while let Some(line) = line_of_block(lines)? {
+        let begin = 3 + width.label();
+        let label = columns(line.text, 3, begin);
+        let node = match number::integer(label) {
+            Some(node) if line.text.starts_with(b" -1") => node,
+            _ => {
+                let message = format!("expected the values of a node, ` -1`, found `{}`", shown(line.text));
+                return Err(Problem::new(line.place, message, DAMAGED));
+            }
+        };
+        let (mut line, mut within) = (line, 0);
+        for (at, value) in values.iter_mut().enumerate() {
+            if within == VALUES {
+                line = line_of_block(lines)?.filter(|line| line.text.starts_with(b" -2")).ok_or_else(|| {
+                    let message = format!("node {node} has {at} values of {count}");
+                    Problem::new(lines.place(), message, DAMAGED)
+                })?;
+                within = 0;
+            }
+            let from = begin + within * VALUE;
+            let text = columns(line.text, from, from + VALUE);
+            *value = number::real(text).ok_or_else(|| {
+                let message = format!("expected value {} of {count} of node {node}, found `{}`", at + 1, shown(text));
+                Problem::new(line.at(from), message, DAMAGED)
+            })?;
+            within += 1;
+        }
+        collect::push(field, Row::Node(node), &values);
+    }
+    Ok(())
+}
+
+/// The next line of a block; none where it ends, with `-3`.
+fn line_of_block<'a>(lines: &mut Lines<'a>) -> Result<Option<Line<'a>>, Problem> {
+    let line = whole_line(lines)?;
+    Ok((!line.text.starts_with(b" -3")).then_some(line))
+}
+
+/// The next line, which has an end: more may have stood on a line that has none.
+fn whole_line<'a>(lines: &mut Lines<'a>) -> Result<Line<'a>, Problem> {
+    match lines.next() {
+        Some(line) if line.end == LineEnd::Line => Ok(line),
+        Some(line) => Err(cut(line.place)),
+        None => Err(cut(lines.place())),
+    }
+}
+
+fn cut(place: Place) -> Problem {
+    Problem::new(place, "the file ends before its last line, `9999`", CUT)
+}
+
+fn width(head: &Line<'_>, flag: &[u8]) -> Result<Width, Problem> {
+    match flag {
+        b"0" => Ok(Width::Short),
+        b"1" => Ok(Width::Long),
+        b"2" | b"3" => Err(Problem::new(head.place, "the numbers of this block are binary", BINARY)),
+        other => {
+            let message = format!("expected the format of a block, 0, 1, 2 or 3, found `{}`", shown(other));
+            Err(Problem::new(head.place, message, DAMAGED))
+        }
+    }
+}
+
+/// What stands in these columns, without blanks.
+fn columns(text: &[u8], from: usize, to: usize) -> &[u8] {
+    text.get(from.min(text.len())..to.min(text.len())).unwrap_or_default().trim_ascii()
+}

@@ -1,0 +1,64 @@
+//! Result files of solvers: bytes to columns, and pictures for ParaView.
+//!
+//! Nothing here knows a deck or a law, and no file is opened: bytes come in, values go out.
+//! Values are in the units of the file, which are those of its deck: lengths (L), times (T), temperatures (θ), potentials (φ).
+//!
+//! | file | of | how it is asked for | read by |
+//! |---|---|---|---|
+//! | `.fil` in ASCII | Abaqus | `*FILE FORMAT, ASCII`, `*CONTACT FILE`, `*NODE FILE` | [`read_fil`] |
+//! | `.rpt` | Abaqus/Viewer | Report, Field Output or XY | [`read_rpt`] |
+//! | `.frd` in ASCII | CalculiX | `*NODE FILE`, `*CONTACT FILE` | [`read_frd`] |
+//! | `.dat` | CalculiX | `*NODE PRINT`, `*CONTACT PRINT` | [`read_dat`] |
+//! | `.vtu` | inpact, ParaView | | [`read_vtu`], [`vtu::read_grid`] |
+//!
+//! [`read`] finds out which of them bytes are.
+//! A file that is cut short or damaged is an [`Incomplete`]: the problem with its place and what to do, and what stands before it.
+//!
+//! ```
+//! let text = "\n relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time 0.5\n\n    \
+//!             65 -1.0E-04  0.0E+00  0.0E+00\n";
+//! let results = inpact_results::read(text.as_bytes())?;
+//! let frame = &results.frames[0];
+//! assert_eq!(frame.total_time, Some(0.5));
+//! let (field, opening) = frame.column("COPEN").expect("there");
+//! assert_eq!(field.rows.nodes(), Some(&[65][..]));
+//! assert_eq!(opening.values, [-1.0e-4]);
+//! # Ok::<(), Box<inpact_results::Incomplete>>(())
+//! ```
+
+mod collect;
+mod lines;
+mod number;
+
+mod problem;
+mod recognise;
+mod results;
+
+mod dat;
+mod fil;
+mod frd;
+mod rpt;
+pub mod vtu;
+
+pub use dat::read_dat;
+pub use fil::read_fil;
+pub use frd::read_frd;
+pub use problem::{Incomplete, Place, Problem, Read};
+pub use recognise::{Format, recognise};
+pub use results::{Column, Field, Frame, Name, NotRead, Region, Results, Rows, Surface, SurfaceFace};
+pub use rpt::read_rpt;
+pub use vtu::read_vtu;
+
+/// Reads a result file of any kind that is known, which is found out by what it holds.
+///
+/// # Errors
+/// Where it is of no kind that is read, binary or in another encoding, or where it could not be read to its end.
+pub fn read(bytes: &[u8]) -> Read {
+    match recognise(bytes).map_err(|problem| Box::new(Incomplete::nothing(problem)))? {
+        Format::Fil => read_fil(bytes),
+        Format::Rpt => read_rpt(bytes),
+        Format::Frd => read_frd(bytes),
+        Format::Dat => read_dat(bytes),
+        Format::Vtu => read_vtu(bytes),
+    }
+}

@@ -1,0 +1,74 @@
+//! What is wrong with a result file, where, and what to do.
+
+use crate::Results;
+use std::fmt;
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// Bytes before it.
+    pub byte: u64,
+    /// Its line, counted from 1.
+    pub line: u64,
+}
+
+/// Why reading ended before the end of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// What is wrong, with the values in it.
+    pub message: String,
+    /// Where.
+    pub place: Place,
+    /// What to do.
+    pub help: String,
+}
+
+impl Problem {
+    pub(crate) fn new(place: Place, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), place, help: help.into() }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {} (byte {}): {}; {}", self.place.line, self.place.byte, self.message, self.help)
+    }
+}
+
+/// A file that could not be read to its end: the problem, and what stands before it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{problem}")]
+pub struct Incomplete {
+    /// Why reading ended.
+    pub problem: Problem,
+    /// What could be read before; nothing where the file is of no kind that is read.
+    pub read: Option<Box<Results>>,
+}
+
+impl Incomplete {
+    pub(crate) fn nothing(problem: Problem) -> Self {
+        Self { problem, read: None }
+    }
+}
+
+/// Results, or what could be read and why it is not all.
+pub type Read = Result<Results, Box<Incomplete>>;
+
+/// Joins what a reader has gathered with how it ended.
+pub(crate) fn ended(results: Results, outcome: Result<(), Problem>) -> Read {
+    match outcome {
+        Ok(()) => Ok(results),
+        Err(problem) => Err(Box::new(Incomplete { problem, read: Some(Box::new(results)) })),
+    }
+}
+
+/// A text of the file for a message: short, and with nothing in it that a terminal would act on.
+pub(crate) fn shown(text: &[u8]) -> String {
+    const MOST: usize = 40;
+    let cut = text.len() > MOST;
+    let mut shown: String = text.iter().take(MOST).flat_map(|byte| byte.escape_ascii()).map(char::from).collect();
+    if cut {
+        shown.push('…');
+    }
+    shown
+}
