@@ -72,12 +72,17 @@ pub fn write_collection(moments: &[Moment], out: &mut impl Write) -> io::Result<
 
 /// A column in its element.
 fn column(out: &mut impl Write, array: &Array) -> io::Result<()> {
-    let (name, components) = (escaped(&array.name), array.components);
+    let name = escaped(&array.name);
+    // Where it says 1, meshio makes a matrix with one column.
+    let components = match array.components {
+        1 => String::new(),
+        several => format!(r#" NumberOfComponents="{several}""#),
+    };
     let of_type = match array.values {
         Values::Reals(_) => "Float64",
         Values::Integers(_) => "Int64",
     };
-    write!(out, r#"<DataArray type="{of_type}" Name="{name}" NumberOfComponents="{components}" format="binary">"#)?;
+    write!(out, r#"<DataArray type="{of_type}" Name="{name}"{components} format="binary">"#)?;
     match &array.values {
         Values::Reals(values) => inline(out, values.iter().flat_map(|value| value.to_le_bytes()))?,
         Values::Integers(values) => inline(out, values.iter().flat_map(|value| value.to_le_bytes()))?,
