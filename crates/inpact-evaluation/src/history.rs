@@ -3,7 +3,7 @@
 //! The manuals do not say how ECDT, SJDT, HTL, SFDRT and PTL are integrated; the decision is backward Euler (semantics O-5, Q-26): flow at the end of an increment times its duration,
 //! with SJDT from the increment's mean heat (H-08). The gap-filling part of PTL is −w Δb of the filled width exactly, or, where a rate is given, that rate times the duration, as PFL.
 //! Where a history starts is a choice ([`HistoryStart`], C-25): at its first row, where the integrals are 0 and the jump at its start is its own, or at rest before it.
-//! Sums are compensated, so that ten million increments cost no digits.
+//! Sums are compensated, so that ten million increments cost no digits, and may leave the range of f64 on their way.
 //!
 //! One row takes two calls: `begin` gives what the law needs from the row before, `finish` adds what the law answered.
 //! The caller refuses times that do not ascend.
@@ -15,7 +15,7 @@ pub use thermal::{FlowHistory, ThermalHistory};
 use crate::law::contact::{Clearance, ClearanceRate, PotentialJump};
 use crate::law::electrical::{ElectricalFlow, ExactFlow};
 use crate::law::pore::{Gap, PoreFlow};
-use crate::numbers::{CompensatedSum, Scaled};
+use crate::numbers::{Amount, Scaled, UnboundedSum, is_moderate};
 
 /// Where the history of a node starts (C-25).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -110,18 +110,18 @@ impl ElectricalHistory {
 
     /// Adds the increment's flow; `area` is the node's area at its end, if known, and `rest` what rounding took away from the current density.
     pub fn finish(&mut self, increment: &ElectricalIncrement, flow: &ElectricalFlow, rest: f64, area: Option<f64>) {
-        self.current.add_increment(flow.current_density, increment.duration, area);
+        self.current.add(Amount::new(flow.current_density), increment.duration, area);
         // Where currents of either sign cancel, the roundings of each would be what is left.
         if rest != 0.0 && rest.is_finite() {
-            self.current.add_increment(rest, increment.duration, area);
+            self.current.add(Amount::new(rest), increment.duration, area);
         }
-        self.heat.add_increment(flow.heat.total, increment.duration, area);
+        self.heat.add(Amount::new(flow.heat.total), increment.duration, area);
     }
 
     /// [`Self::finish`] for a flow that may exceed the range of f64 where its product with time or area does not.
     pub fn finish_exactly(&mut self, increment: &ElectricalIncrement, flow: &ExactFlow, area: Option<f64>) {
-        self.current.add_scaled_increment(flow.current_density, increment.duration, area);
-        self.heat.add_scaled_increment(flow.heat, increment.duration, area);
+        self.current.add(flow.current_density, increment.duration, area);
+        self.heat.add(flow.heat.total, increment.duration, area);
     }
 
     /// The integral of the current density (ECDT).
@@ -202,22 +202,23 @@ impl PoreHistory {
     /// The flow across counts for the whole increment, and so does a given rate; otherwise the gap counts with the change of its filled width.
     pub fn finish(&mut self, increment: &PoreIncrement, gap: Gap, flow: &PoreFlow, area: Option<f64>) {
         let Some(duration) = increment.duration else {
-            self.volume.add_increment(0.0, None, area);
+            self.volume.add(Amount::ZERO, None, area);
             return;
         };
-        let (Some(q_across), Some(q_gap_slave)) = (flow.q_across, flow.q_gap_slave) else {
+        let (Some(crossing), Some([filling, _])) = (flow.crossing, flow.filling) else {
             self.is_unknown = true;
             return;
         };
-        self.volume.add_increment(-q_across, Some(duration), area);
+        self.volume.add(-crossing, Some(duration), area);
         match gap {
             Gap::Steady => {}
-            Gap::Changing(_) => self.volume.add_increment(-q_gap_slave, Some(duration), area),
+            Gap::Changing(_) => self.volume.add(-filling, Some(duration), area),
             Gap::Since { .. } => {
                 let (change, error) = flow.width_change;
-                self.volume.add_increment(flow.slave_share, Some(change), area);
+                let share = Amount::new(flow.slave_share);
+                self.volume.add(share, Some(change), area);
                 if error != 0.0 && error.is_finite() {
-                    self.volume.add_increment(flow.slave_share, Some(error), area);
+                    self.volume.add(share, Some(error), area);
                 }
             }
         }
@@ -237,36 +238,34 @@ impl PoreHistory {
 /// One integral per unit of area, and over the node's whole area for as long as that is known.
 #[derive(Clone, Debug, Default)]
 struct Integral {
-    per_unit: CompensatedSum,
-    whole: CompensatedSum,
+    per_unit: UnboundedSum,
+    whole: UnboundedSum,
     lacks_area: bool,
 }
 
 impl Integral {
     /// Adds `rate` × `duration`; without a duration, in a first row, only the lack of an area counts.
-    fn add_increment(&mut self, rate: f64, duration: Option<f64>, area: Option<f64>) {
-        self.lacks_area |= area.is_none();
-        let Some(duration) = duration else {
-            return;
-        };
-        self.per_unit.add_product(rate, duration);
-        if let Some(area) = area {
-            self.whole.add_product(rate * area, duration);
-        }
-    }
-
-    /// [`Self::add_increment`] with a rate of twice the precision of f64; durations and areas that are not finite count as plain numbers do.
-    fn add_scaled_increment(&mut self, rate: Scaled, duration: Option<f64>, area: Option<f64>) {
-        if ![duration, area].iter().flatten().all(|factor| factor.is_finite()) {
-            self.add_increment(rate.to_f64(), duration, area);
-            return;
-        }
+    ///
+    /// Where rate, duration or area are extreme, the products are made without a limit to their size; those with what is infinite or NaN are plain ones.
+    fn add(&mut self, rate: Amount, duration: Option<f64>, area: Option<f64>) {
         self.lacks_area |= area.is_none();
         let Some(duration) = duration else { return };
-        let step = rate * Scaled::new(duration);
-        self.per_unit.add_scaled(step);
-        if let Some(area) = area {
-            self.whole.add_scaled(step * Scaled::new(area));
+        let factors = [duration, area.unwrap_or(0.0)];
+        let is_plain = rate.is_moderate() && factors.into_iter().all(is_moderate);
+        match rate.exact().filter(|_| !is_plain && factors.into_iter().all(f64::is_finite)) {
+            Some(exact) => {
+                let step = exact * Scaled::new(duration);
+                self.per_unit.add_scaled(step);
+                if let Some(area) = area {
+                    self.whole.add_scaled(step * Scaled::new(area));
+                }
+            }
+            None => {
+                self.per_unit.add_product(rate.value(), duration);
+                if let Some(area) = area {
+                    self.whole.add_product(rate.value() * area, duration);
+                }
+            }
         }
     }
 

@@ -1,14 +1,16 @@
 //! Floating-point building blocks of the laws: interpolation, products, means and sums that keep their accuracy at the extremes.
 //!
 //! Everything here is a function of plain `f64`; tables, laws and files are unknown to it.
-//! Three promises hold for all finite inputs, subnormal numbers and values near the overflow limit included:
+//! Four promises hold for all finite inputs, subnormal numbers and values near the overflow limit included:
 //!
 //! - interpolation between two values of one sign is within 1.5 ulp of the exact value, exact at both ends and never outside them ([`interpolate`], [`between`]);
 //! - a product or a dissipation whose exact value is a finite number is one, whatever its intermediate results would do ([`product`]);
-//! - a sum keeps the digits its terms lose against each other ([`CompensatedSum`]).
+//! - a sum keeps the digits its terms lose against each other ([`CompensatedSum`]), and one over a history or an interface may leave the range on its way ([`UnboundedSum`]);
+//! - what is rounded to be shown goes on unrounded where it could leave the range of f64 ([`Amount`]).
 //!
 //! Ordinary exponents take a short path of plain arithmetic; all others go through [`Scaled`], a number of 106 bits whose exponent cannot overflow.
 
+mod amount;
 mod float;
 mod product;
 mod scaled;
@@ -16,10 +18,11 @@ mod segment;
 mod sum;
 mod wide;
 
+pub use amount::Amount;
 pub use float::{exponent_of, scale_by_power, two_difference, two_product, two_sum, ulp};
 pub(crate) use float::{is_moderate, is_ordinary, is_zero_or_ordinary};
 pub use product::{mean, product, ratio, scaled_difference_product};
 pub use scaled::Scaled;
 pub use segment::{KernelSlope, between, interpolate, slope};
-pub use sum::CompensatedSum;
+pub use sum::{CompensatedSum, UnboundedSum};
 pub use wide::Wide;

@@ -130,3 +130,12 @@ fn random_scenes_give_what_the_semantics_say() {
     report("ordinary scenes", &format!("{count} scenes, {compared} numbers"));
     assert!(20 * count <= compared, "{compared} numbers of {count} scenes are too few to tell anything");
 }
+
+/// Areas, temperatures, potentials, pressures and durations of all decades: a number leaves the range of f64 by itself, and never on the way to it.
+#[test]
+fn extreme_scenes_stay_within_the_range() {
+    let count = cases(300);
+    let compared = compare(7, count, true);
+    report("extreme scenes", &format!("{count} scenes, {compared} numbers"));
+    assert!(20 * count <= compared, "{compared} numbers of {count} scenes are too few to tell anything");
+}

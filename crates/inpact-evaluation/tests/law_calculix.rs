@@ -8,6 +8,7 @@ use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState};
 use inpact_evaluation::law::friction::{ShearStress, SlipRate, frictional_heat};
 use inpact_evaluation::law::heat::HeatGeneration;
 use inpact_evaluation::law::thermal::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat};
+use inpact_evaluation::numbers::Amount;
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 use proptest::prelude::*;
 
@@ -139,7 +140,8 @@ fn heat_generation_and_its_shares() {
         let conductance = law.conductance(&closed(1000.0, &[sides.mean()])).value;
         let conduction = conducted_heat(conductance, sides);
         let nothing = frictional_heat(ShearStress(0.0), SlipRate(0.0), generation);
-        let heat = InterfaceHeat { conduction, radiation: 0.0, current: nothing, friction };
+        let (conduction, radiation) = (Amount::new(conduction), Amount::ZERO);
+        let heat = InterfaceHeat { conduction, radiation, current: nothing.into(), friction: friction.into() };
         (heat.into_slave(), heat.into_master())
     };
     let (mut slave, mut master) = (0.0, 0.0);

@@ -12,6 +12,7 @@ use inpact_evaluation::law::contact::{
 use inpact_evaluation::law::electrical::{Dissipation, ElectricalFlow, ElectricalLaw};
 use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
 use inpact_evaluation::law::pore::{CutoffBoundary, Cutoffs, Gap, Permeability, PoreLaw, PorePoint};
+use inpact_evaluation::numbers::{Amount, Scaled};
 use inpact_evaluation::table::PiecewiseTable;
 use table_judge::{exact, ulps_from};
 
@@ -153,7 +154,7 @@ fn c_25_histories_may_start_at_rest() {
     let third = at_start.begin(1.0, PotentialJump(3.0), 2.0);
     assert_eq!((third.duration, third.jump_at_start), (Some(0.5), PotentialJump(3.0)));
     let mut heat = FlowHistory::new(start);
-    heat.add(0.5, 4.0, Some(2.0));
+    heat.add(0.5, Amount::new(4.0), Some(2.0));
     assert_eq!((heat.per_area(), heat.of_area()), (2.0, Some(4.0)));
     let mut pore = PoreHistory::new(start);
     let first = pore.begin(0.5, Clearance(0.25), None);
@@ -233,9 +234,9 @@ fn an_unknown_flow_has_no_integral() {
 fn o_5_heat() {
     let mut history = ThermalHistory::default();
     for (time, leaving, friction) in [(1.0, 7.0, Some(3.0)), (2.0, 5.0, None), (4.0, -2.0, Some(8.0))] {
-        history.leaving.add(time, leaving, Some(0.5));
+        history.leaving.add(time, Amount::new(leaving), Some(0.5));
         if let Some(friction) = friction {
-            history.friction.add(time, friction, None);
+            history.friction.add(time, Amount::new(friction), None);
         }
     }
     assert_eq!((history.leaving.per_area(), history.leaving.of_area()), (5.0 - 4.0, Some(0.5)));
@@ -250,11 +251,28 @@ fn heat_over_many_increments() {
     let mut history = FlowHistory::default();
     let mut sum = exact(0.0);
     for step in 0..=50_000_u32 {
-        history.add(time(step), flow(step), None);
+        history.add(time(step), Amount::new(flow(step)), None);
         if step > 0 {
             // The duration is rounded once; what it is multiplied by, and the sum, are exact here.
             sum += exact(flow(step)) * exact(time(step) - time(step - 1));
         }
     }
     assert!(ulps_from(history.per_area(), &sum) <= 0.500_001);
+}
+
+/// An integral may lie within the range of f64 where the flow, or its product with area or time, does not.
+#[test]
+fn products_leave_the_range_on_their_way() {
+    let flow = Amount::exactly(Scaled::new(1e200) * Scaled::new(1e150));
+    assert_eq!(flow.value(), f64::INFINITY);
+    let mut history = FlowHistory::default();
+    history.add(0.0, flow, Some(1e-300));
+    history.add(1e-100, flow, Some(1e-300));
+    assert!(ulps_from(history.per_area(), &(exact(1e200) * exact(1e150) * exact(1e-100))) <= 1.0);
+    let whole = exact(1e200) * exact(1e150) * exact(1e-100) * exact(1e-300);
+    assert!(ulps_from(history.of_area().unwrap(), &whole) <= 1.0);
+    let mut history = FlowHistory::default();
+    history.add(0.0, Amount::new(1e200), Some(1e200));
+    history.add(1e-200, Amount::new(1e200), Some(1e200));
+    assert!(ulps_from(history.of_area().unwrap(), &(exact(1e200) * exact(1e200) * exact(1e-200))) <= 1.0);
 }

@@ -4,6 +4,7 @@ use inpact_evaluation::law::contact::{Clearance, ClearanceRate, ContactPressure,
 use inpact_evaluation::law::pore::{
     BulkPermeabilities, CutoffBoundary, Cutoffs, Flow, Gap, Permeability, PoreFlow, PoreLaw, PorePoint, across_slopes,
 };
+use inpact_evaluation::numbers::Amount;
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 
 fn law(permeability: Permeability) -> PoreLaw {
@@ -50,15 +51,15 @@ fn slightly_open(point: PorePoint<'static>) -> PorePoint<'static> {
 }
 
 fn gap(flow: &PoreFlow) -> (Option<f64>, Option<f64>) {
-    (flow.q_gap_slave, flow.q_gap_master)
+    (flow.q_gap_slave(), flow.q_gap_master())
 }
 
 #[test]
 fn a_22_finite_permeability() {
     let flow = law(constant(1e-3)).flow(&changing(0.0, point(10.0, 30.0)));
-    assert_eq!(flow.q_across, Some(0.02));
+    assert_eq!(flow.q_across(), Some(0.02));
     assert_eq!((flow.into_slave(), flow.into_master()), (Some(0.02), Some(-0.02)));
-    assert_eq!(flow.leaving_slave(), Some(-0.02));
+    assert_eq!(flow.leaving_slave().map(Amount::value), Some(-0.02));
     assert_eq!(flow.permeability, Some(1e-3));
     assert!(!flow.is_constrained);
 }
@@ -69,7 +70,7 @@ fn a_23_gap_filling_under_infinite_permeability() {
     let with_multiplier = PorePoint { multiplier: Some(0.0), ..closing };
     let flow = law(Permeability::Infinite).flow(&with_multiplier);
     assert_eq!(gap(&flow), (Some(1e-3), Some(1e-3)));
-    assert_eq!(flow.leaving_slave(), Some(-1e-3));
+    assert_eq!(flow.leaving_slave().map(Amount::value), Some(-1e-3));
     assert!(flow.is_constrained);
     // Steady state: nothing fills.
     let steady = PorePoint { gap: Gap::Steady, ..with_multiplier };
@@ -77,7 +78,10 @@ fn a_23_gap_filling_under_infinite_permeability() {
     // q_across is an unknown of the equations, and so is all that holds it; gap filling is not.
     let flow = law(Permeability::Infinite).flow(&closing);
     assert_eq!(gap(&flow), (Some(1e-3), Some(1e-3)));
-    assert_eq!((flow.q_across, flow.into_slave(), flow.into_master(), flow.leaving_slave()), (None, None, None, None));
+    assert_eq!(
+        (flow.q_across(), flow.into_slave(), flow.into_master(), flow.leaving_slave().map(Amount::value)),
+        (None, None, None, None)
+    );
     assert_eq!(flow.permeability, None);
     // Bulk permeabilities do not change the half and half of infinite permeability (P-40).
     let with_bulk = PorePoint { bulk: Some(BulkPermeabilities { slave: 3.0, master: 1.0 }), ..closing };
@@ -116,16 +120,19 @@ fn a_24_cutoff_of_flow_across() {
         |cutoff| PoreLaw { cutoffs: Cutoffs { flow_across: cutoff, gap_fill: None }, ..law(a_24_table()) };
     let apart = open(0.5, point(10.0, 30.0));
     let beyond = with_cutoff(Some(0.4)).flow(&apart);
-    assert_eq!((beyond.across, beyond.q_across, beyond.permeability), (Flow::CutOff, Some(0.0), Some(0.0)));
+    assert_eq!((beyond.across, beyond.q_across(), beyond.permeability), (Flow::CutOff, Some(0.0), Some(0.0)));
     let at = with_cutoff(Some(0.5)).flow(&apart);
-    assert_eq!((at.across, at.q_across, at.permeability), (Flow::Active, Some(20.0), Some(1.0)));
+    assert_eq!((at.across, at.q_across(), at.permeability), (Flow::Active, Some(20.0), Some(1.0)));
     let unknown = with_cutoff(None).flow(&apart);
-    assert_eq!((unknown.across, unknown.q_across, unknown.permeability), (Flow::NeedsCharacteristicLength, None, None));
-    assert_eq!(unknown.leaving_slave(), None);
+    assert_eq!(
+        (unknown.across, unknown.q_across(), unknown.permeability),
+        (Flow::NeedsCharacteristicLength, None, None)
+    );
+    assert_eq!(unknown.leaving_slave().map(Amount::value), None);
     // With a characteristic length, or closed, nothing is missing.
     let known = PorePoint { characteristic_length: Some(0.5), ..apart };
-    assert_eq!(with_cutoff(None).flow(&known).q_across, Some(20.0));
-    assert_eq!(with_cutoff(None).flow(&point(10.0, 30.0)).q_across, Some(20.0));
+    assert_eq!(with_cutoff(None).flow(&known).q_across(), Some(20.0));
+    assert_eq!(with_cutoff(None).flow(&point(10.0, 30.0)).q_across(), Some(20.0));
     // A cutoff given wins over the characteristic length.
     assert_eq!(with_cutoff(Some(0.4)).flow(&known).across, Flow::CutOff);
 }
@@ -151,8 +158,8 @@ fn q_4_the_boundary_of_a_cutoff() {
 #[test]
 fn p_22_a_cutoff_of_zero() {
     let law = PoreLaw { cutoffs: Cutoffs { flow_across: Some(0.0), gap_fill: Some(0.0) }, ..law(constant(1.0)) };
-    assert_eq!(law.flow(&point(0.0, 1.0)).q_across, Some(1.0));
-    assert_eq!(law.flow(&open(1e-300, point(0.0, 1.0))).q_across, Some(0.0));
+    assert_eq!(law.flow(&point(0.0, 1.0)).q_across(), Some(1.0));
+    assert_eq!(law.flow(&open(1e-300, point(0.0, 1.0))).q_across(), Some(0.0));
 }
 
 /// overclosure presses nothing out, and a given rate at zero clearance counts only where it opens the gap.
@@ -197,7 +204,7 @@ fn a_25_cutoffs_are_independent() {
     let flow = law.flow(&open(0.5, changing(-1.0, point(1.0, 4.0))));
     assert_eq!((flow.across, flow.gap_fill), (Flow::Active, Flow::CutOff));
     assert_eq!(gap(&flow), (Some(0.0), Some(0.0)));
-    assert_eq!(flow.q_across, Some(6.0));
+    assert_eq!(flow.q_across(), Some(6.0));
 }
 
 /// the characteristic length is asked for only where it decides.
@@ -207,7 +214,7 @@ fn q_5_the_characteristic_length_is_needed_where_it_matters() {
     let gap_fill = |point: &PorePoint<'_>| law.flow(point).gap_fill;
     let apart = open(0.5, point(1.0, 4.0));
     assert_eq!(gap_fill(&changing(-1.0, apart)), Flow::NeedsCharacteristicLength);
-    assert_eq!(law.flow(&changing(-1.0, apart)).q_gap_slave, None);
+    assert_eq!(law.flow(&changing(-1.0, apart)).q_gap_slave(), None);
     assert_eq!(gap_fill(&changing(0.0, apart)), Flow::Active);
     assert_eq!(gap_fill(&apart), Flow::Active);
     assert_eq!(gap_fill(&changing(-1.0, point(1.0, 4.0))), Flow::Active);
@@ -231,8 +238,8 @@ fn p_34_open_means_no_contact_pressure() {
 fn an_infinite_permeability_ends_at_its_cutoff() {
     let apart = PorePoint { characteristic_length: Some(0.1), ..open(0.5, point(1.0, 4.0)) };
     let flow = law(Permeability::Infinite).flow(&apart);
-    assert_eq!((flow.across, flow.q_across, flow.is_constrained), (Flow::CutOff, Some(0.0), false));
-    assert_eq!(flow.leaving_slave(), Some(0.0));
+    assert_eq!((flow.across, flow.q_across(), flow.is_constrained), (Flow::CutOff, Some(0.0), false));
+    assert_eq!(flow.leaving_slave().map(Amount::value), Some(0.0));
 }
 
 /// Permeability against contact pressure, mean pore pressure and temperature, in the order of T-03.
@@ -259,10 +266,10 @@ fn p_32_variables_and_slopes() {
 #[test]
 fn nan_stays_nan_and_extremes_stay_finite() {
     let nan_clearance = PorePoint { clearance: Clearance(f64::NAN), ..point(1.0, 2.0) };
-    assert!(law(constant(1.0)).flow(&nan_clearance).q_across.unwrap().is_nan());
-    assert!(law(constant(1.0)).flow(&point(f64::NAN, 2.0)).q_across.unwrap().is_nan());
+    assert!(law(constant(1.0)).flow(&nan_clearance).q_across().unwrap().is_nan());
+    assert!(law(constant(1.0)).flow(&point(f64::NAN, 2.0)).q_across().unwrap().is_nan());
     let undetermined = PorePoint { state: ContactState::Undetermined, ..point(1.0, 2.0) };
-    assert!(law(a_24_table()).flow(&undetermined).q_across.unwrap().is_nan());
+    assert!(law(a_24_table()).flow(&undetermined).q_across().unwrap().is_nan());
     // The pressure difference overflows, the flow does not.
-    assert_eq!(law(constant(0.25)).flow(&point(-1.5e308, 1.5e308)).q_across, Some(7.5e307));
+    assert_eq!(law(constant(0.25)).flow(&point(-1.5e308, 1.5e308)).q_across(), Some(7.5e307));
 }

@@ -10,6 +10,7 @@ use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
 use inpact_evaluation::law::thermal::{
     InterfaceHeat, Temperatures, ThermalConductance, conducted_heat, conducted_heat_slopes, mean_mass_flow,
 };
+use inpact_evaluation::numbers::Amount;
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 use proptest::prelude::*;
 use table_judge::{exact, ulps_from};
@@ -17,6 +18,12 @@ use table_judge::{exact, ulps_from};
 const CLOSED: ContactState = ContactState::Closed;
 const OPEN: ContactState = ContactState::Open;
 const NO_HEAT: GeneratedHeat = GeneratedHeat { total: 0.0, slave: 0.0, master: 0.0 };
+
+/// The heat of an interface whose parts are known as f64.
+fn interface(conduction: f64, radiation: f64, current: GeneratedHeat, friction: GeneratedHeat) -> InterfaceHeat {
+    let [conduction, radiation] = [conduction, radiation].map(Amount::new);
+    InterfaceHeat { conduction, radiation, current: current.into(), friction: friction.into() }
+}
 
 fn table<const WIDTH: usize>(rows: &[[f64; WIDTH]], tail: Tail) -> PiecewiseTable {
     PiecewiseTable::from_rows(rows.as_flattened(), WIDTH, tail).unwrap()
@@ -86,7 +93,7 @@ fn v_1_current_and_face_temperature() {
     assert!((current.slave - 51.652_892_561_983_47).abs() < 1e-12, "{current:?}");
     let leaving = |face| {
         let conduction = conducted_heat(10.0, temperatures(face, 50.0));
-        InterfaceHeat { conduction, radiation: 0.0, current, friction: NO_HEAT }.leaving_slave()
+        interface(conduction, 0.0, current, NO_HEAT).leaving_slave().value()
     };
     let face = root(50.0, 100.0, |face| leaving(face) - (100.0 - face));
     assert!((face - 59.241_172_051_089_41).abs() < 1e-12, "{face}");
@@ -177,24 +184,20 @@ fn h_03_frictional_heat() {
 /// H-05: HFL = q_k + q_r − f q_g.
 #[test]
 fn h_05_signs() {
-    let heat = InterfaceHeat {
-        conduction: 625.0,
-        radiation: 10.0,
-        current: GeneratedHeat { total: 40.0, slave: 10.0, master: 30.0 },
-        friction: GeneratedHeat { total: 8.0, slave: 2.0, master: 6.0 },
-    };
-    assert_eq!(heat.leaving_slave(), 625.0 + 10.0 - 10.0 - 2.0);
+    let current = GeneratedHeat { total: 40.0, slave: 10.0, master: 30.0 };
+    let friction = GeneratedHeat { total: 8.0, slave: 2.0, master: 6.0 };
+    let heat = interface(625.0, 10.0, current, friction);
+    assert_eq!(heat.leaving_slave().value(), 625.0 + 10.0 - 10.0 - 2.0);
     assert_eq!((heat.into_slave(), heat.into_master()), (-623.0, 671.0));
-    let nothing = InterfaceHeat { conduction: 0.0, radiation: 0.0, current: NO_HEAT, friction: NO_HEAT };
-    assert!(nothing.into_slave().is_sign_positive() && nothing.leaving_slave().is_sign_positive());
+    let nothing = interface(0.0, 0.0, NO_HEAT, NO_HEAT);
+    assert!(nothing.into_slave().is_sign_positive() && nothing.leaving_slave().value().is_sign_positive());
     // Partial sums beyond the range of f64.
-    let large = InterfaceHeat {
-        conduction: f64::MAX,
-        radiation: f64::MAX,
-        current: GeneratedHeat { total: f64::MAX, slave: f64::MAX, master: 0.0 },
-        friction: NO_HEAT,
-    };
-    assert_eq!((large.leaving_slave(), large.into_master()), (f64::MAX, f64::INFINITY));
+    let current = GeneratedHeat { total: f64::MAX, slave: f64::MAX, master: 0.0 };
+    let large = interface(f64::MAX, f64::MAX, current, NO_HEAT);
+    assert_eq!((large.leaving_slave().value(), large.into_master()), (f64::MAX, f64::INFINITY));
+    // And what leaves a small area is within it where what leaves a unit of area is not.
+    let beyond = interface(f64::MAX, f64::MAX, NO_HEAT, NO_HEAT).leaving_slave();
+    assert_eq!((beyond.value(), beyond.times(0.25)), (f64::INFINITY, f64::MAX / 2.0));
 }
 
 #[test]
@@ -239,7 +242,7 @@ proptest! {
         let generation = HeatGeneration { fraction, slave_weight };
         let current = generated_heat(conductance, PotentialJump(jump), Dissipation::Steady, generation);
         let friction = frictional_heat(ShearStress(shear), SlipRate(slip), generation);
-        let heat = InterfaceHeat { conduction, radiation, current, friction };
+        let heat = interface(conduction, radiation, current, friction);
         let generated = current.total + friction.total;
         let both = heat.into_slave() + heat.into_master();
         let largest = [conduction, radiation, current.total, friction.total].into_iter().map(f64::abs).fold(0.0, f64::max);
@@ -251,7 +254,7 @@ proptest! {
     fn the_sum_of_heat_is_right(parts in prop::array::uniform4(finite())) {
         let [conduction, radiation, current, friction] = parts;
         let share = |slave| GeneratedHeat { total: slave, slave, master: slave };
-        let heat = InterfaceHeat { conduction, radiation, current: share(current), friction: share(friction) };
+        let heat = interface(conduction, radiation, share(current), share(friction));
         let exact_sum = exact(conduction) + exact(radiation) + exact(current) + exact(friction);
         let into_master = heat.into_master();
         if into_master.is_finite() {

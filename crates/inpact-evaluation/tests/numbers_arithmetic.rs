@@ -3,7 +3,7 @@
 mod table_judge;
 
 use inpact_evaluation::numbers::{
-    CompensatedSum, Scaled, mean, product, ratio, scaled_difference_product, two_product, two_sum, ulp,
+    CompensatedSum, Scaled, UnboundedSum, mean, product, ratio, scaled_difference_product, two_product, two_sum, ulp,
 };
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -153,4 +153,25 @@ fn compensated_sum_of_an_infinite_term_is_infinite() {
     let mut sum = CompensatedSum::default();
     sum.add_product(1e200, 1e200);
     assert_eq!(sum.total(), f64::INFINITY);
+}
+
+#[test]
+fn a_sum_leaves_the_range_on_its_way() {
+    let mut sum = UnboundedSum::default();
+    for term in [f64::MAX, f64::MAX, -f64::MAX, 1e300, -f64::MAX] {
+        sum.add(term);
+    }
+    assert_eq!(sum.total(), 1e300);
+    let mut sum = UnboundedSum::default();
+    sum.add(0.5);
+    sum.add_product(1e200, 1e200);
+    assert_eq!(sum.total(), f64::INFINITY);
+    sum.add_product(-1e200, 1e200);
+    sum.add_scaled(Scaled::new(2.0));
+    // The digits are those of the largest term, which was 1e400.
+    assert_eq!(sum.total(), 2.0);
+    sum.add(f64::NEG_INFINITY);
+    assert_eq!(sum.total(), f64::NEG_INFINITY);
+    sum.add(f64::INFINITY);
+    assert!(sum.total().is_nan());
 }

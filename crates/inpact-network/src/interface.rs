@@ -256,7 +256,7 @@ pub(crate) fn pore(
         multiplier: None,
     };
     let flow = law.flow(&point);
-    let filling = [flow.q_gap_slave, flow.q_gap_master];
+    let filling = [flow.q_gap_slave(), flow.q_gap_master()];
     let (Flow::Active | Flow::CutOff, [Some(into_slave), Some(into_master)]) = (flow.across, filling) else {
         return (PoreElement::NeedsLength, [0.0; 2]);
     };

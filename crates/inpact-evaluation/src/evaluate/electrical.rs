@@ -7,8 +7,8 @@ use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::{Branch, Conductance, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
 use crate::law::electrical::{Dissipation, ExactFlow, flow};
-use crate::law::heat::GeneratedHeat;
-use crate::numbers::{Scaled, is_moderate, mean};
+use crate::law::heat::HeatAmounts;
+use crate::numbers::{Amount, is_moderate, mean};
 use crate::plan::Source;
 use crate::results::{Along, ResultBatch, Status};
 use crate::table::Sides;
@@ -39,7 +39,7 @@ pub(super) fn evaluate(
     scratch: &mut Scratch,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) -> (Outcome, Option<GeneratedHeat>) {
+) -> (Outcome, Option<HeatAmounts>) {
     let found = match &law.conductance {
         ConductanceSource::Tables(_) => found,
         ConductanceSource::User(routine) => match user::conductance(routine, row, &mut scratch.fields, tally) {
@@ -112,7 +112,7 @@ fn evaluate_flow(
     history: Option<&mut ElectricalHistory>,
     results: &mut ResultBatch,
     tally: &mut InteractionTally,
-) -> Option<GeneratedHeat> {
+) -> Option<HeatAmounts> {
     let source = law.jump.as_ref()?;
     let Some(jump) = row.fetch(source, |slave, master| PotentialJump::between(slave, master).0) else {
         tally.incomplete_flows += 1;
@@ -149,21 +149,20 @@ fn evaluate_flow(
     };
     let exact = if needs_care { ExactFlow::new((value, found.rest), jump, dissipation, generation) } else { None };
     let flow = match exact {
-        Some(exact) => exact.rounded(generation),
+        Some(exact) => exact.rounded(),
         None => flow(value, jump, dissipation, generation),
     };
+    let current_density = exact.map_or_else(|| Amount::new(flow.current_density), |exact| exact.current_density);
+    let heat = exact.map_or_else(|| HeatAmounts::from(flow.heat), |exact| exact.heat);
     // Of a flow out of the range of f64 the part of a small area may be within it.
-    let of_area = |rounded: f64, exact: Option<Scaled>| match (area?, exact) {
-        (area, Some(exact)) if area.is_finite() => Some((exact * Scaled::new(area)).to_f64()),
-        (area, _) => Some(rounded * area),
-    };
+    let of_area = |amount: Amount| area.map(|area| amount.times(area));
     let slots = &law.slots;
     // No current is 0, not −0.
     let mut set = |slot, value: Option<f64>| results.set(slot, row.index, value.map(|value| value + 0.0));
     set(slots.ecd, Some(flow.current_density));
-    set(slots.ecda, of_area(flow.current_density, exact.map(|exact| exact.current_density)));
+    set(slots.ecda, of_area(current_density));
     set(slots.sjd, Some(flow.heat.total));
-    set(slots.sjda, of_area(flow.heat.total, exact.map(|exact| exact.heat)));
+    set(slots.sjda, of_area(heat.total));
     set(slots.heat_slave, Some(flow.heat.slave));
     set(slots.heat_master, Some(flow.heat.master));
     if let (Some((history, _)), Some(increment)) = (history, increment) {
@@ -176,7 +175,7 @@ fn evaluate_flow(
         set(slots.sjdt, Some(history.heat()));
         set(slots.sjdta, history.heat_of_area());
     }
-    Some(flow.heat)
+    Some(heat)
 }
 
 /// Whether the jump is the difference of potentials so much larger that few of its digits are left.

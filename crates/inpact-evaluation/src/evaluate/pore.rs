@@ -7,7 +7,7 @@ use crate::evaluator::FoundValue;
 use crate::history::{PoreHistory, PoreIncrement};
 use crate::law::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
 use crate::law::pore::{BulkPermeabilities, Flow, Gap, PoreFlow, PorePoint};
-use crate::numbers::mean;
+use crate::numbers::{Amount, mean};
 use crate::results::{Along, ResultBatch, Status};
 use inpact_parser::model::Regime;
 
@@ -119,12 +119,12 @@ fn set_flow(
     let area = law.area.and_then(|place| row.number(place));
     let leaving = flow.leaving_slave();
     let mut set = |slot, value| results.set(slot, row.index, value);
-    set(slots.pfl, leaving);
-    set(slots.pfla, leaving.zip(area).map(|(leaving, area)| leaving * area));
+    set(slots.pfl, leaving.map(Amount::value));
+    set(slots.pfla, leaving.zip(area).map(|(leaving, area)| leaving.times(area)));
     set(slots.permeability, flow.permeability);
-    set(slots.q_across, flow.q_across);
-    set(slots.q_gap_slave, flow.q_gap_slave);
-    set(slots.q_gap_master, flow.q_gap_master);
+    set(slots.q_across, flow.q_across());
+    set(slots.q_gap_slave, flow.q_gap_slave());
+    set(slots.q_gap_master, flow.q_gap_master());
     set(slots.q_slave, flow.into_slave());
     set(slots.q_master, flow.into_master());
     if let Some((history, increment)) = history {

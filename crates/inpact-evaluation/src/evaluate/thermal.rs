@@ -8,24 +8,20 @@ use crate::compile::{CompiledConduction, CompiledFriction, CompiledRadiation, Co
 use crate::history::ThermalHistory;
 use crate::law::conductance::{Branch, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, ContactState};
-use crate::law::friction::{ShearStress, SlipRate, frictional_heat};
-use crate::law::heat::GeneratedHeat;
-use crate::law::thermal::{
-    InterfaceHeat, Temperatures, ThermalConductance, conducted_heat, mean_mass_flow, reference_conducted_heat,
-};
-use crate::numbers::mean;
+use crate::law::friction::{ShearStress, SlipRate, frictional_heat_amounts};
+use crate::law::heat::HeatAmounts;
+use crate::law::thermal::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat_amount, mean_mass_flow};
+use crate::numbers::{Amount, mean};
 use crate::plan::{CurrentHeat, MassFlow};
 use crate::results::{Along, ResultBatch, Status};
 use crate::table::Sides;
 use inpact_parser::grammar::Dialect;
 
-const NO_HEAT: GeneratedHeat = GeneratedHeat { total: 0.0, slave: 0.0, master: 0.0 };
-
 /// Evaluates the law, given the heat of the current in the same row; gives its status.
 pub(super) fn evaluate(
     law: &CompiledThermal,
     row: Row<'_>,
-    heat_of_current: Option<GeneratedHeat>,
+    heat_of_current: Option<HeatAmounts>,
     history: Option<&mut ThermalHistory>,
     scratch: (&mut Vec<f64>, &mut Vec<f64>),
     results: &mut ResultBatch,
@@ -39,32 +35,30 @@ pub(super) fn evaluate(
     let (mut is_beyond, mut gives_something) = (false, false);
     // A part that the plan does not have is known to be nothing.
     let conduction = match &law.conduction {
-        None => Some(0.0),
+        None => Some(Amount::ZERO),
         Some(part) => {
             let conductance = evaluate_conductance(law, part, row, scratch, results, tally);
             is_beyond |= conductance.is_some_and(|(.., sides)| !sides.is_within());
             gives_something |= conductance.is_some();
-            let heat = conductance.zip(across).map(|((value, rest, _), sides)| match rest {
-                Some(rest) => reference_conducted_heat(value, rest, sides),
-                None => conducted_heat(value, sides),
-            });
-            results.set(law.slots.conduction, row.index, heat);
+            let both = conductance.zip(across);
+            let heat = both.map(|((value, rest, _), sides)| conducted_heat_amount(value, rest, sides));
+            results.set(law.slots.conduction, row.index, heat.map(Amount::value));
             heat
         }
     };
     let radiation = match &law.radiation {
-        None => Some(0.0),
+        None => Some(Amount::ZERO),
         Some(part) => {
             let radiated = temperatures.and_then(|sides| radiate(part, row, sides, tally));
             is_beyond |= radiated.is_some_and(|(_, sides)| !sides.is_within());
             gives_something |= radiated.is_some();
             let heat = radiated.map(|(heat, _)| heat);
-            results.set(law.slots.radiation, row.index, heat);
+            results.set(law.slots.radiation, row.index, heat.map(Amount::value));
             heat
         }
     };
-    let friction = law.friction.map_or(Some(NO_HEAT), |part| rub(part, row, tally));
-    let current = if law.current == CurrentHeat::Generated { heat_of_current } else { Some(NO_HEAT) };
+    let friction = law.friction.map_or(Some(HeatAmounts::ZERO), |part| rub(part, row, tally));
+    let current = if law.current == CurrentHeat::Generated { heat_of_current } else { Some(HeatAmounts::ZERO) };
     let all = (|| {
         Some(InterfaceHeat { conduction: conduction?, radiation: radiation?, current: current?, friction: friction? })
     })();
@@ -159,7 +153,7 @@ fn radiate(
     row: Row<'_>,
     temperatures: Temperatures,
     tally: &mut InteractionTally,
-) -> Option<(f64, Sides)> {
+) -> Option<(Amount, Sides)> {
     let clearance = row.state.table_clearance(row.clearance)?;
     let (view_factor, sides) = part.law.view_factor(Clearance(clearance), row.state);
     if !sides.is_within() {
@@ -167,13 +161,13 @@ fn radiate(
     }
     let zero = part.law.absolute_zero;
     tally.below_absolute_zero += u64::from(temperatures.slave < zero || temperatures.master < zero);
-    Some((part.law.heat(view_factor, temperatures), sides))
+    Some((part.law.heat_amount(view_factor, temperatures), sides))
 }
 
 /// The heat of friction; an open row has none, whatever it says of it.
-fn rub(part: CompiledFriction, row: Row<'_>, tally: &mut InteractionTally) -> Option<GeneratedHeat> {
+fn rub(part: CompiledFriction, row: Row<'_>, tally: &mut InteractionTally) -> Option<HeatAmounts> {
     if row.state == ContactState::Open {
-        return Some(NO_HEAT);
+        return Some(HeatAmounts::ZERO);
     }
     let slip_rate = match part.slip_rate {
         Speed::Place(place) => row.number(place).map(SlipRate),
@@ -185,8 +179,8 @@ fn rub(part: CompiledFriction, row: Row<'_>, tally: &mut InteractionTally) -> Op
                 Dialect::Abaqus => (shear, slip_rate),
                 Dialect::Calculix => (ShearStress(shear.0.abs()), SlipRate(slip_rate.0.abs())),
             };
-            let heat = frictional_heat(shear, slip_rate, part.generation);
-            tally.negative_friction += u64::from(heat.total < 0.0);
+            let heat = frictional_heat_amounts(shear, slip_rate, part.generation);
+            tally.negative_friction += u64::from(heat.total.value() < 0.0);
             Some(heat)
         }
         None => None,
@@ -197,7 +191,7 @@ fn set_flows(
     law: &CompiledThermal,
     row: Row<'_>,
     all: Option<InterfaceHeat>,
-    friction: Option<GeneratedHeat>,
+    friction: Option<HeatAmounts>,
     history: Option<&mut ThermalHistory>,
     results: &mut ResultBatch,
 ) {
@@ -208,11 +202,11 @@ fn set_flows(
     set(slots.weight, law.friction.map(|part| part.generation.slave_weight));
     set(slots.into_slave, all.map(|heat| heat.into_slave()));
     set(slots.into_master, all.map(|heat| heat.into_master()));
-    set(slots.hfl, leaving);
-    set(slots.hfla, leaving.zip(area).map(|(leaving, area)| leaving * area));
+    set(slots.hfl, leaving.map(Amount::value));
+    set(slots.hfla, leaving.zip(area).map(|(leaving, area)| leaving.times(area)));
     let rubbed = friction.map(|heat| heat.total);
-    set(slots.sfdr, rubbed);
-    set(slots.sfdra, rubbed.zip(area).map(|(rubbed, area)| rubbed * area));
+    set(slots.sfdr, rubbed.map(Amount::value));
+    set(slots.sfdra, rubbed.zip(area).map(|(rubbed, area)| rubbed.times(area)));
     let Some((history, time)) = history.zip(row.time) else { return };
     if let Some(leaving) = leaving {
         history.leaving.add(time, leaving, area);

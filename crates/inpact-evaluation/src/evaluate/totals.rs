@@ -3,7 +3,7 @@
 //! *CONTACT PRINT, TOTALS=YES prints such sums for each increment (semantics O-1); here they are those of the latest time, or of all rows where there is no time.
 //! Sums are compensated and taken in the order of the rows, so that they depend neither on threads nor on batches.
 
-use crate::numbers::CompensatedSum;
+use crate::numbers::UnboundedSum;
 use crate::results::{Output, ResultBatch};
 
 /// The sums of an interaction over the rows of its latest time.
@@ -13,7 +13,7 @@ pub struct Totals {
     pub time: Option<f64>,
     /// How many rows were added up: those that have one of the outputs.
     pub rows: u64,
-    sums: Vec<CompensatedSum>,
+    sums: Vec<UnboundedSum>,
 }
 
 /// The outputs that are added up, those that are multiplied by the area of the node, with their places among the results.
@@ -36,7 +36,7 @@ impl Totals {
         } else if time != self.time {
             return;
         }
-        self.sums.resize_with(summed.len(), CompensatedSum::default);
+        self.sums.resize_with(summed.len(), UnboundedSum::default);
         let mut has_number = false;
         for (sum, (_, place)) in self.sums.iter_mut().zip(summed) {
             if let Some(value) = results.numbers[*place].get(row) {
@@ -49,6 +49,6 @@ impl Totals {
 
     /// The sums, in the order of the outputs that are added up.
     pub fn values(&self) -> impl Iterator<Item = f64> {
-        self.sums.iter().map(CompensatedSum::total)
+        self.sums.iter().map(UnboundedSum::total)
     }
 }

@@ -3,6 +3,7 @@
 //! Backward Euler, as the integrals of current are (O-5). The two flows have increments of their own, because a row may know one and not the other.
 
 use super::{HistoryStart, Integral};
+use crate::numbers::Amount;
 
 /// The integrals of the heat that leaves the slave and of the heat of friction.
 #[derive(Clone, Debug, Default)]
@@ -35,10 +36,10 @@ impl FlowHistory {
     }
 
     /// Goes on to the row at `time`, whose flow holds since the row before, or since the start; `area` is the area of the node, if known.
-    pub fn add(&mut self, time: f64, flow: f64, area: Option<f64>) {
+    pub fn add(&mut self, time: f64, flow: Amount, area: Option<f64>) {
         let duration = self.previous.or_else(|| self.start.before(time)).map(|start| time - start);
         self.previous = Some(time);
-        self.integral.add_increment(flow, duration, area);
+        self.integral.add(flow, duration, area);
     }
 
     /// The integral of the flow per area.

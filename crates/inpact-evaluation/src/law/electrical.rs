@@ -22,8 +22,8 @@
 
 use super::conductance::ConductanceTables;
 use super::contact::PotentialJump;
-use super::heat::{GeneratedHeat, HeatGeneration};
-use crate::numbers::{Scaled, is_zero_or_ordinary};
+use super::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
+use crate::numbers::{Amount, Scaled, is_zero_or_ordinary};
 
 /// The electrical law of one surface interaction.
 #[derive(Clone, Debug)]
@@ -72,9 +72,9 @@ pub fn flow(
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactFlow {
     /// J.
-    pub current_density: Scaled,
-    /// q_g.
-    pub heat: Scaled,
+    pub current_density: Amount,
+    /// q_g and its shares.
+    pub heat: HeatAmounts,
 }
 
 impl ExactFlow {
@@ -92,14 +92,14 @@ impl ExactFlow {
         }
         let conductance = Scaled::new(value) + Scaled::new(rest);
         Some(Self {
-            current_density: conductance * Scaled::new(jump.0),
-            heat: scaled_total(conductance, (jump.0, start.0), fraction),
+            current_density: Amount::exactly(conductance * Scaled::new(jump.0)),
+            heat: HeatAmounts::share(scaled_total(conductance, (jump.0, start.0), fraction), slave_weight),
         })
     }
 
     /// Each result rounded once.
-    pub fn rounded(&self, generation: HeatGeneration) -> ElectricalFlow {
-        ElectricalFlow { current_density: self.current_density.to_f64(), heat: shared(self.heat, generation) }
+    pub fn rounded(&self) -> ElectricalFlow {
+        ElectricalFlow { current_density: self.current_density.value(), heat: self.heat.rounded() }
     }
 }
 
@@ -148,7 +148,7 @@ pub fn generated_heat(
 /// [`generated_heat`] for finite inputs of any size, whose intermediate products may leave the range of f64; rounded once.
 #[cold]
 fn scaled_heat(conductance: Scaled, jumps: (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
-    shared(scaled_total(conductance, jumps, generation.fraction), generation)
+    HeatAmounts::share(scaled_total(conductance, jumps, generation.fraction), generation.slave_weight).rounded()
 }
 
 /// q_g for the jumps at the end and at the start of an increment.
@@ -156,14 +156,4 @@ fn scaled_total(conductance: Scaled, (end, start): (f64, f64), fraction: f64) ->
     let (end, start) = (Scaled::new(end), Scaled::new(start));
     let square_sum = end * end + end * start + start * start;
     Scaled::new(fraction) * conductance * (square_sum / Scaled::new(3.0))
-}
-
-/// A heat and the shares of both sides, each rounded once.
-fn shared(total: Scaled, generation: HeatGeneration) -> GeneratedHeat {
-    let slave_weight = Scaled::new(generation.slave_weight);
-    GeneratedHeat {
-        total: total.to_f64(),
-        slave: (slave_weight * total).to_f64(),
-        master: ((Scaled::new(1.0) + -slave_weight) * total).to_f64(),
-    }
 }

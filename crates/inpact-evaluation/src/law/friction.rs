@@ -12,8 +12,8 @@
 //! Derivatives: ∂q_g/∂τ = η γ̇, ∂q_g/∂γ̇ = η τ.
 //! Source: semantics H-02 to H-04, K-38; Analysis User's Guide 37.2.1 (6.14).
 
-use super::heat::{GeneratedHeat, HeatGeneration};
-use crate::numbers::{is_zero_or_ordinary, product};
+use super::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
+use crate::numbers::{Scaled, is_moderate, is_zero_or_ordinary, product};
 
 /// Frictional shear stress τ (F L⁻²).
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -33,4 +33,15 @@ pub fn frictional_heat(shear: ShearStress, slip_rate: SlipRate, generation: Heat
     };
     // No heat is 0, not −0.
     GeneratedHeat { total: total + 0.0, slave: share(slave_weight) + 0.0, master: share(1.0 - slave_weight) + 0.0 }
+}
+
+/// [`frictional_heat`] for what it is multiplied with and summed up to.
+pub fn frictional_heat_amounts(shear: ShearStress, slip_rate: SlipRate, generation: HeatGeneration) -> HeatAmounts {
+    let HeatGeneration { fraction, slave_weight } = generation;
+    let inputs = [shear.0, slip_rate.0, fraction, slave_weight];
+    if inputs.into_iter().all(is_moderate) || !inputs.into_iter().all(f64::is_finite) {
+        return frictional_heat(shear, slip_rate, generation).into();
+    }
+    let total = Scaled::new(fraction) * Scaled::new(shear.0) * Scaled::new(slip_rate.0);
+    HeatAmounts::share(total, slave_weight)
 }

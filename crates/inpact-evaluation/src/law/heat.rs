@@ -9,6 +9,8 @@
 //!
 //! Semantics H-02 to H-04, K-35 to K-37; Analysis User's Guide 37.2.1 and Keywords Guide, 6.14.
 
+use crate::numbers::{Amount, Scaled};
+
 /// Fraction of the dissipated energy that becomes heat, and the slave surface's share of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatGeneration {
@@ -34,4 +36,43 @@ pub struct GeneratedHeat {
     pub slave: f64,
     /// Heat into the master surface, (1 − f)ηP.
     pub master: f64,
+}
+
+/// [`GeneratedHeat`] as amounts, which their sums and products may need unrounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeatAmounts {
+    /// Heat into both sides together.
+    pub total: Amount,
+    /// Heat into the slave surface.
+    pub slave: Amount,
+    /// Heat into the master surface.
+    pub master: Amount,
+}
+
+impl HeatAmounts {
+    /// No heat.
+    pub const ZERO: Self = Self { total: Amount::ZERO, slave: Amount::ZERO, master: Amount::ZERO };
+
+    /// A heat of any size, shared; the weight must be finite.
+    pub fn share(total: Scaled, slave_weight: f64) -> Self {
+        let weight = Scaled::new(slave_weight);
+        let master_weight = Scaled::new(1.0) + -weight;
+        Self {
+            total: Amount::exactly(total),
+            slave: Amount::exactly(weight * total),
+            master: Amount::exactly(master_weight * total),
+        }
+    }
+
+    /// Each rounded once.
+    pub fn rounded(&self) -> GeneratedHeat {
+        GeneratedHeat { total: self.total.value(), slave: self.slave.value(), master: self.master.value() }
+    }
+}
+
+impl From<GeneratedHeat> for HeatAmounts {
+    fn from(heat: GeneratedHeat) -> Self {
+        let GeneratedHeat { total, slave, master } = heat;
+        Self { total: Amount::new(total), slave: Amount::new(slave), master: Amount::new(master) }
+    }
 }

@@ -27,7 +27,7 @@
 
 use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
 use crate::evaluator::FoundValue;
-use crate::numbers::{Scaled, ratio, scaled_difference_product, two_difference};
+use crate::numbers::{Amount, Scaled, is_moderate, ratio, scaled_difference_product, two_difference};
 use crate::table::{PiecewiseTable, Sides};
 
 /// The pore fluid law of one surface interaction.
@@ -144,11 +144,9 @@ pub struct PoreFlow {
     /// Whether an infinite permeability holds the two pore pressures equal here.
     pub is_constrained: bool,
     /// Flow from master to slave.
-    pub q_across: Option<f64>,
-    /// Flow into the slave out of the closing gap.
-    pub q_gap_slave: Option<f64>,
-    /// Flow into the master out of the closing gap.
-    pub q_gap_master: Option<f64>,
+    pub crossing: Option<Amount>,
+    /// Flow into slave and master out of the closing gap.
+    pub filling: Option<[Amount; 2]>,
     /// w, the slave's share of gap filling.
     pub slave_share: f64,
     /// Δb, the change of the filled width over the increment, and what its rounding took away; zeros but for [`Gap::Since`].
@@ -158,20 +156,34 @@ pub struct PoreFlow {
 }
 
 impl PoreFlow {
+    /// Flow from master to slave, q_across.
+    pub fn q_across(&self) -> Option<f64> {
+        self.crossing.map(Amount::value)
+    }
+
+    /// Flow into the slave out of the closing gap, q_gap,slave.
+    pub fn q_gap_slave(&self) -> Option<f64> {
+        self.filling.map(|[slave, _]| slave.value())
+    }
+
+    /// Flow into the master out of the closing gap, q_gap,master.
+    pub fn q_gap_master(&self) -> Option<f64> {
+        self.filling.map(|[_, master]| master.value())
+    }
+
     /// All flow into the slave, q_s.
     pub fn into_slave(&self) -> Option<f64> {
-        Some(self.q_gap_slave? + self.q_across?)
+        Some(Amount::sum([self.filling?[0], self.crossing?]).value())
     }
 
     /// All flow into the master, q_m.
     pub fn into_master(&self) -> Option<f64> {
-        Some(self.q_gap_master? - self.q_across?)
+        Some(Amount::sum([self.filling?[1], -self.crossing?]).value())
     }
 
     /// Pore volume flux leaving the slave (output PFL), −q_s.
-    pub fn leaving_slave(&self) -> Option<f64> {
-        // 0 − q and not −q: no flow is 0, not −0.
-        Some(0.0 - self.into_slave()?)
+    pub fn leaving_slave(&self) -> Option<Amount> {
+        Some(Amount::sum([-self.filling?[0], -self.crossing?]))
     }
 }
 
@@ -194,10 +206,10 @@ impl PoreLaw {
         let gap_fill = self.gap_fill(point);
         let (permeability, rest, sides) = self.permeability_in_force(across, point, find);
         let is_constrained = across == Flow::Active && matches!(self.permeability, Permeability::Infinite);
-        let q_across = match permeability {
+        let crossing = match permeability {
             Some(permeability) if across == Flow::Active => Some(flow_of(permeability, rest, point)),
-            _ if is_constrained => point.multiplier,
-            _ if across == Flow::CutOff => Some(0.0),
+            _ if is_constrained => point.multiplier.map(Amount::new),
+            _ if across == Flow::CutOff => Some(Amount::ZERO),
             _ => None,
         };
         let (slave_share, master_share) = self.gap_shares(point.bulk);
@@ -205,24 +217,12 @@ impl PoreLaw {
         // The rate of the filled width; the cutoff of an increment stands in its widths.
         let rate = match (gap_fill, point.gap) {
             (Flow::NeedsCharacteristicLength, _) => None,
-            (_, Gap::Since { duration, .. }) => Some(width_change.0 / duration),
-            (_, Gap::Steady) | (Flow::CutOff, _) => Some(0.0),
-            (Flow::Active, Gap::Changing(rate)) => Some(given_rate(point.clearance, rate)),
+            (_, Gap::Since { duration, .. }) => Some(width_rate(width_change, duration)),
+            (_, Gap::Steady) | (Flow::CutOff, _) => Some(Amount::ZERO),
+            (Flow::Active, Gap::Changing(rate)) => Some(Amount::new(given_rate(point.clearance, rate))),
         };
-        let q_gap_slave = rate.map(|rate| 0.0 - slave_share * rate);
-        let q_gap_master = rate.map(|rate| 0.0 - master_share * rate);
-        PoreFlow {
-            across,
-            gap_fill,
-            permeability,
-            is_constrained,
-            q_across,
-            q_gap_slave,
-            q_gap_master,
-            slave_share,
-            width_change,
-            sides,
-        }
+        let filling = rate.map(|rate| [slave_share, master_share].map(|share| filling_of(share, rate)));
+        PoreFlow { across, gap_fill, permeability, is_constrained, crossing, filling, slave_share, width_change, sides }
     }
 
     /// The slope of the permeability in force along contact pressure, and in `variables` along mean pore pressure, mean temperature and field variables.
@@ -328,15 +328,35 @@ fn given_rate(clearance: Clearance, rate: ClearanceRate) -> f64 {
     if has_gap || clearance.0.is_nan() { rate.0 } else { 0.0 }
 }
 
-/// k (p_master − p_slave); with what rounding took away from k in twice the precision, rounded once.
-fn flow_of(permeability: f64, rest: Option<f64>, point: &PorePoint<'_>) -> f64 {
-    let (slave, master) = point.jump.map_or((point.slave.0, point.master.0), |jump| (jump, 0.0));
-    match rest {
-        Some(rest) if [permeability, rest, slave, master].iter().all(|input| input.is_finite()) => {
-            ((Scaled::new(permeability) + Scaled::new(rest)) * Scaled::difference(master, slave)).to_f64()
-        }
-        _ => scaled_difference_product(permeability, master, slave),
+/// ḃ over an increment, of the change of the width and what its rounding took away.
+fn width_rate((change, error): (f64, f64), duration: f64) -> Amount {
+    let inputs = [change, error, duration];
+    if inputs.into_iter().all(is_moderate) || !inputs.into_iter().all(f64::is_finite) {
+        return Amount::new(change / duration);
     }
+    Amount::exactly((Scaled::new(change) + Scaled::new(error)) / Scaled::new(duration))
+}
+
+/// −w ḃ.
+fn filling_of(share: f64, rate: Amount) -> Amount {
+    match rate.exact() {
+        Some(exact) if !(rate.is_moderate() && is_moderate(share)) && share.is_finite() => {
+            Amount::exactly(-(Scaled::new(share) * exact))
+        }
+        // 0 − q and not −q: no flow is 0, not −0.
+        _ => Amount::new(0.0 - share * rate.value()),
+    }
+}
+
+/// k (p_master − p_slave); `rest` is what rounding took away from k, where that is known.
+fn flow_of(permeability: f64, rest: Option<f64>, point: &PorePoint<'_>) -> Amount {
+    let (slave, master) = point.jump.map_or((point.slave.0, point.master.0), |jump| (jump, 0.0));
+    let inputs = [permeability, rest.unwrap_or(0.0), slave, master];
+    let is_plain = rest.is_none() && inputs.into_iter().all(is_moderate);
+    if is_plain || !inputs.into_iter().all(f64::is_finite) {
+        return Amount::new(scaled_difference_product(permeability, master, slave));
+    }
+    Amount::exactly((Scaled::new(permeability) + Scaled::new(inputs[1])) * Scaled::difference(master, slave))
 }
 
 /// The contact pressure the table is read at: 0 while open (P-34).

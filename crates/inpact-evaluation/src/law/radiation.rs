@@ -21,7 +21,7 @@
 
 use super::contact::{Clearance, ContactState};
 use super::thermal::{SideSlopes, Temperatures};
-use crate::numbers::{Scaled, is_zero_or_ordinary, product};
+use crate::numbers::{Amount, Scaled, is_moderate, is_zero_or_ordinary, product};
 use crate::table::{PiecewiseTable, Sides};
 
 /// The radiation law of one surface interaction.
@@ -92,6 +92,16 @@ impl RadiationLaw {
         radiated_heat(self.coefficient, view_factor, self.absolute_zero, temperatures)
     }
 
+    /// [`Self::heat`] for what it is multiplied with and summed up to.
+    pub fn heat_amount(&self, view_factor: f64, temperatures: Temperatures) -> Amount {
+        let Temperatures { slave, master, jump } = temperatures;
+        let inputs = [self.coefficient.0, view_factor, self.absolute_zero, slave, master, jump.unwrap_or(0.0)];
+        if inputs.into_iter().all(is_moderate) || !inputs.into_iter().all(f64::is_finite) {
+            return Amount::new(self.heat(view_factor, temperatures));
+        }
+        Amount::exactly(exact_radiated_heat(self.coefficient, view_factor, self.absolute_zero, temperatures))
+    }
+
     /// The slopes of q_r along both temperatures.
     pub fn heat_slopes(&self, view_factor: f64, temperatures: Temperatures) -> SideSlopes {
         let of_side = |temperature: f64| {
@@ -115,15 +125,15 @@ pub fn radiated_heat(
 ) -> f64 {
     let Temperatures { slave, master, jump } = temperatures;
     let (a, b, difference) = (slave - absolute_zero, master - absolute_zero, jump.unwrap_or(slave - master));
-    let is_moderate = |value: f64| value == 0.0 || MODERATE.contains(&value.abs());
-    let is_harmless = is_moderate(a)
-        && is_moderate(b)
-        && is_moderate(difference)
+    let is_mild = |value: f64| value == 0.0 || MODERATE.contains(&value.abs());
+    let is_harmless = is_mild(a)
+        && is_mild(b)
+        && is_mild(difference)
         && is_zero_or_ordinary(coefficient.0)
         && is_zero_or_ordinary(view_factor);
     let inputs = [coefficient.0, view_factor, absolute_zero, slave, master, jump.unwrap_or(0.0)];
     if !is_harmless && inputs.iter().all(|input| input.is_finite()) {
-        return radiated_heat_of_extremes(coefficient, view_factor, absolute_zero, temperatures);
+        return exact_radiated_heat(coefficient, view_factor, absolute_zero, temperatures).to_f64() + 0.0;
     }
     // No heat is 0, not −0.
     coefficient.0 * view_factor * ((a * a + b * b) * (a + b)) * difference + 0.0
@@ -131,14 +141,14 @@ pub fn radiated_heat(
 
 /// [`radiated_heat`] for finite inputs of extreme size, whose powers may leave the range of f64.
 #[cold]
-fn radiated_heat_of_extremes(
+fn exact_radiated_heat(
     coefficient: RadiationCoefficient,
     view_factor: f64,
     absolute_zero: f64,
     temperatures: Temperatures,
-) -> f64 {
+) -> Scaled {
     let absolute = |temperature| Scaled::difference(temperature, absolute_zero);
     let (a, b) = (absolute(temperatures.slave), absolute(temperatures.master));
     let powers = (a * a + b * b) * (a + b) * temperatures.difference();
-    (Scaled::new(coefficient.0) * Scaled::new(view_factor) * powers).to_f64() + 0.0
+    Scaled::new(coefficient.0) * Scaled::new(view_factor) * powers
 }

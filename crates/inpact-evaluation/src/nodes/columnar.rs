@@ -374,10 +374,12 @@ fn invalid(error: ArrowError) -> io::Error {
 }
 
 fn invalid_as(kind: &str, error: ArrowError) -> io::Error {
+    use io::ErrorKind::{InvalidData, InvalidInput, Other, UnexpectedEof};
     match error {
-        // A place before its beginning, or beyond its end, is one that a sound file does not point to.
+        // A place before its beginning, or beyond its end, is one that a sound file does not point to;
+        // what is packed wrongly comes as an error without a kind, which no system gives.
         ArrowError::IoError(_, error)
-            if !matches!(error.kind(), io::ErrorKind::UnexpectedEof | io::ErrorKind::InvalidInput) =>
+            if !matches!(error.kind(), UnexpectedEof | InvalidInput | InvalidData | Other) =>
         {
             error
         }

@@ -74,3 +74,66 @@ impl FromIterator<f64> for CompensatedSum {
         sum
     }
 }
+
+/// A [`CompensatedSum`] whose terms and partial sums may leave the range of f64: it is finite wherever the exact sum is.
+///
+/// As long as all stay within the range it costs what a compensated sum costs; once one leaves it, the sum goes on in [`Scaled`] numbers,
+/// and is good to 2⁻¹⁰² of the largest term or partial sum.
+/// Terms that are infinite or NaN themselves make it what they make of a plain sum.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct UnboundedSum {
+    plain: CompensatedSum,
+    /// The sum, once it or a term of it has left the range.
+    beyond: Option<Box<Scaled>>,
+}
+
+impl UnboundedSum {
+    /// Adds one term.
+    #[inline]
+    pub fn add(&mut self, term: f64) {
+        self.add_plain(|sum| sum.add(term), || term.is_finite().then(|| Scaled::new(term)));
+    }
+
+    /// Adds the product of `a` and `b` with the digits its rounding loses.
+    #[inline]
+    pub fn add_product(&mut self, a: f64, b: f64) {
+        let exact = || (a.is_finite() && b.is_finite()).then(|| Scaled::new(a) * Scaled::new(b));
+        self.add_plain(|sum| sum.add_product(a, b), exact);
+    }
+
+    /// Adds a term of twice the precision of f64.
+    pub fn add_scaled(&mut self, term: Scaled) {
+        self.add_plain(|sum| sum.add_scaled(term), || Some(term));
+    }
+
+    /// Adds a term in the plain way as long as that stays finite; `exact` is the term, where it is finite.
+    #[inline]
+    fn add_plain(&mut self, add: impl FnOnce(&mut CompensatedSum), exact: impl FnOnce() -> Option<Scaled>) {
+        if self.beyond.is_none() {
+            let before = self.plain;
+            add(&mut self.plain);
+            if !self.plain.total().is_finite() {
+                self.go_beyond(before, exact());
+            }
+        } else if let Some(term) = exact() {
+            self.beyond = self.beyond.take().map(|sum| Box::new(*sum + term));
+        } else {
+            (self.beyond, self.plain) = (None, CompensatedSum::default());
+            add(&mut self.plain);
+        }
+    }
+
+    #[cold]
+    fn go_beyond(&mut self, before: CompensatedSum, term: Option<Scaled>) {
+        if let (Some(term), true) = (term, before.total().is_finite()) {
+            let CompensatedSum { sum, compensation } = before;
+            self.beyond = Some(Box::new(Scaled::new(sum) + Scaled::new(compensation) + term));
+        }
+    }
+
+    /// The sum, rounded once; infinite where it exceeds the range of f64.
+    #[inline]
+    pub fn total(&self) -> f64 {
+        self.beyond.as_ref().map_or_else(|| self.plain.total(), |sum| sum.to_f64() + 0.0)
+    }
+}

@@ -76,6 +76,8 @@ impl Summary<'_> {
             beyond_curves: of.beyond_curves,
             below_absolute_zero: of.below_absolute_zero,
             negative_friction: of.negative_friction,
+            closing: of.closing.rows,
+            contradictory_rates: of.contradictory_rates.rows,
             unnumbered_nodes: of.unnumbered_nodes,
             electrical_regime: plan.electrical.as_ref().map(|law| law.regime.to_string()),
             pore_regime: plan.pore.as_ref().map(|law| law.regime.to_string()),
@@ -123,6 +125,10 @@ struct InteractionRecord<'a> {
     beyond_curves: u64,
     below_absolute_zero: u64,
     negative_friction: u64,
+    /// Rows that take the jump of an open circuit into the heat of the increment that closes it (D022).
+    closing: u64,
+    /// Rows whose given rate contradicts the change of their clearance (D021).
+    contradictory_rates: u64,
     unnumbered_nodes: u64,
     electrical_regime: Option<String>,
     pore_regime: Option<String>,
