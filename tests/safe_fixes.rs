@@ -19,7 +19,7 @@ use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model::{self, Model};
 use inpact_parser::span::SourceId;
 use inpact_parser::{format as layout, json};
-use inpact_validation::{Diagnostic, Edit, FixSafety, diagnostic};
+use inpact_validation::{Diagnostic, Edit, FixSafety, apply};
 use mutation::{Chance, files, project};
 use oracle::{Language, read as read_by_semantics};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -230,7 +230,7 @@ fn safe_fixes_change_nothing(bytes: &[u8], grammar: &Grammar) {
     let fixes = safe_edits(&found);
     for fix in fixes.iter().take(30) {
         SINGLE_FIXES.fetch_add(1, Ordering::Relaxed);
-        compare(&diagnostic::apply(bytes, fix), "a safe fix");
+        compare(&apply(bytes, fix), "a safe fix");
     }
     let mut text = bytes.to_vec();
     for round in 0.. {
@@ -239,7 +239,7 @@ fn safe_fixes_change_nothing(bytes: &[u8], grammar: &Grammar) {
         if edits.is_empty() {
             break;
         }
-        text = diagnostic::apply(&text, &edits);
+        text = apply(&text, &edits);
         compare(&text, "all safe fixes");
     }
 }

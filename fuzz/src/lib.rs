@@ -13,7 +13,7 @@ use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model::Model;
 use inpact_parser::span::{SourceId, Span};
 use inpact_parser::{format as layout, json, model};
-use inpact_validation::{Diagnostic, Edit, FixSafety, diagnostic};
+use inpact_validation::{Diagnostic, Edit, FixSafety, apply};
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
@@ -79,7 +79,7 @@ pub fn check(bytes: &[u8]) {
             if fixed_all {
                 break;
             }
-            let after = diagnostic::apply(&text, &edits);
+            let after = apply(&text, &edits);
             assert!(after != text, "a fix changes nothing");
             text = after;
             let said = said(&model::read(&scan("deck", &text, grammar), grammar).0);

@@ -3,7 +3,7 @@
 //! The columns and their other names are a contract with users; [`Column`] is its list.
 //! A table is read in batches of rows, so that its length costs no memory: [`NodeReader`] turns the cells that were asked for into [`Batch`]es,
 //! and everything else is passed over unread.
-//! What is wrong with a table is a value, [`DataDiagnostic`] (rules D001 to D010 and D020); errors are those of reading only.
+//! What is wrong with a table is a value, a `Diagnostic` of rules D001 to D010 and D020 to D022; errors are those of reading only.
 //!
 //! Knows no law and no deck: what a column is needed for is the plan's business.
 
@@ -14,13 +14,13 @@ mod columnar;
 mod contract;
 mod csv;
 mod decode;
-mod diagnostic;
 mod foreign;
 mod header;
 mod lines;
 mod node_index;
 mod number;
 mod reader;
+mod rules;
 #[cfg(feature = "columnar")]
 mod soundness;
 mod wait;
@@ -29,11 +29,11 @@ pub use batch::{Batch, LabelColumn, NumberColumn};
 pub(crate) use column::coordinates;
 pub use column::{Column, Direction, Part};
 pub use contract::{COLUMN_PAGES, ColumnPage};
-pub use diagnostic::{
-    BEYOND_TABLE, CONTRADICTORY_RATE, DATA_RULES, DUPLICATE_COLUMN, DataDiagnostic, DataRule, Findings,
-    HEAT_OF_CLOSING, MALFORMED_CELL, MISSING_COLUMN, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, Place,
-    TIME_NOT_ASCENDING, UNKNOWN_COLUMN, UNKNOWN_INTERACTION, USER_FAULT,
-};
 pub use header::{Header, HeaderCell};
+pub use inpact_diagnostics::{Findings, Place};
 pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
 pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};
+pub use rules::{
+    BEYOND_TABLE, CONTRADICTORY_RATE, DATA_RULES, DUPLICATE_COLUMN, HEAT_OF_CLOSING, MALFORMED_CELL, MISSING_COLUMN,
+    NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE, TIME_NOT_ASCENDING, UNKNOWN_COLUMN, UNKNOWN_INTERACTION, USER_FAULT,
+};

@@ -137,7 +137,7 @@ fn a_fault_is_told_with_its_row_and_the_row_has_no_results() {
     let mut findings = inpact_evaluation::nodes::Findings::new("nodes.csv");
     run.tally.expect("the table is right").report_user_faults(&mut findings);
     let told: Vec<_> =
-        findings.into_list().into_iter().map(|found| (found.code, found.place.line, found.message)).collect();
+        findings.into_list().into_iter().map(|found| (found.code, found.primary.line(), found.message)).collect();
     let message = |what: &str| format!("user subroutine GAPELECTR {what}");
     assert_eq!(
         told,

@@ -3,22 +3,22 @@
 //! A scene file is TOML ([`read`]); large parts of it can stand in tables beside it. No file is opened here: the caller gives bytes.
 
 mod course;
-mod diagnostic;
 mod file;
 mod matrix;
 pub(crate) mod nearest;
 mod read;
+mod rules;
 mod shape;
 mod tables;
 mod usable;
 mod values;
 
 pub use course::Course;
-pub use diagnostic::{
+pub use read::{SceneFiles, read, read_as_far_as_it_goes};
+pub use rules::{
     CONTRADICTORY_VALUES, DUPLICATE_NODE, FLOATING_BODY, MALFORMED_SCENE, MALFORMED_TIME, MISSING_QUANTITY,
     NOT_CONVERGED, SCENE_RULES, UNKNOWN_NODE, UNUSABLE_NUMBER,
 };
-pub use read::{SceneFiles, read, read_as_far_as_it_goes};
 
 use inpact_evaluation::history::{ClosingHeat, HistoryStart};
 use inpact_evaluation::nodes::Place;

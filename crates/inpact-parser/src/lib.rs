@@ -8,7 +8,7 @@
 //! The rule numbers in this crate (S-13, T-05, K-52, Q-1, …) are those of the project's semantics,
 //! which restate the Abaqus Analysis User's Guide, Keywords Reference Guide and Theory Guide.
 
-pub mod span;
+pub use inpact_diagnostics::span;
 
 pub mod grammar;
 

@@ -1,24 +1,27 @@
 //! Runs the rules and puts their findings in order.
 
-use crate::diagnostic::Diagnostic;
 use crate::directives::{self, Directive};
 use crate::lost::{lost_lines, without_consequences};
-use crate::rule::{Context, FixKind, Report, Rule};
-use crate::rules::{RULES, s018_ignore_without_effect};
+use crate::rule::{Check, Context, Report};
+use crate::rules::{CHECKS, s018_ignore_without_effect};
 use crate::tables::{all_tables, radiation_tables};
+use inpact_diagnostics::{Diagnostic, FixKind, Rule};
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::Model;
 use inpact_parser::problem::Problem;
+use inpact_parser::span::SourceId;
+use std::collections::HashMap;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Checks a deck and its model by every rule; findings come in the order of the deck.
 pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     with_context((deck, grammar, model, problems), |context| {
-        for rule in RULES {
+        for (rule, check) in CHECKS {
             let mut report = Report::new(rule, &mut diagnostics);
-            (rule.check)(context, &mut report);
+            check(context, &mut report);
             report.finish();
         }
     });
@@ -35,14 +38,15 @@ pub fn fixable(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Proble
     let mut directives = directives::read(deck);
     let mut diagnostics = Vec::new();
     with_context((deck, grammar, model, problems), |context| {
-        for rule in RULES.iter().filter(|rule| rule.fix != FixKind::None) {
+        for (rule, check) in CHECKS.iter().filter(|(rule, _)| rule.fix != FixKind::None) {
             let mut found = Vec::new();
-            (rule.check)(context, &mut Report::without_limit(rule, &mut found));
+            check(context, &mut Report::without_limit(rule, &mut found));
             found.retain(|found| found.fix.is_some() && !is_silenced(&mut directives, found));
             diagnostics.append(&mut found);
         }
     });
     diagnostics.sort_by_key(|found| (found.primary.span.source, found.primary.span.start, found.severity, found.code));
+    name_files(deck, &mut diagnostics);
     diagnostics
 }
 
@@ -54,13 +58,13 @@ pub fn time_rules(
     problems: &[Problem],
 ) -> Vec<(&'static str, Duration)> {
     with_context((deck, grammar, model, problems), |context| {
-        let time = |rule: &&'static Rule| {
+        let time = |(rule, check): &(&'static Rule, Check)| {
             let start = Instant::now();
             let mut diagnostics = Vec::new();
-            (rule.check)(context, &mut Report::new(rule, &mut diagnostics));
+            check(context, &mut Report::new(rule, &mut diagnostics));
             (rule.code, start.elapsed())
         };
-        RULES.iter().map(time).collect()
+        CHECKS.iter().map(time).collect()
     })
 }
 
@@ -96,18 +100,23 @@ fn is_silenced(directives: &mut [Directive], found: &Diagnostic) -> bool {
     })
 }
 
-/// Finds line and column of every label, in one sweep over the deck.
+/// Finds file, line and column of every label, in one sweep over the deck.
 fn locate(deck: &Deck, diagnostics: &mut [Diagnostic]) {
-    let labels = |found: &Diagnostic| {
-        [found.primary.span].into_iter().chain(found.secondary.iter().map(|l| l.span)).collect::<Vec<_>>()
-    };
-    let spans: Vec<_> = diagnostics.iter().flat_map(labels).collect();
+    name_files(deck, diagnostics);
+    let spans: Vec<_> = diagnostics.iter().flat_map(Diagnostic::labels).map(|label| label.span).collect();
     let mut positions = deck.positions(&spans).into_iter();
-    for found in diagnostics {
-        for label in std::iter::once(&mut found.primary).chain(&mut found.secondary) {
-            if let Some(position) = positions.next() {
-                label.position = position;
-            }
+    for label in diagnostics.iter_mut().flat_map(Diagnostic::labels_mut) {
+        if let Some(position) = positions.next() {
+            label.position = position;
         }
+    }
+}
+
+/// Gives every label the name of its file.
+fn name_files(deck: &Deck, diagnostics: &mut [Diagnostic]) {
+    let mut names: HashMap<SourceId, Arc<str>> = HashMap::new();
+    for label in diagnostics.iter_mut().flat_map(Diagnostic::labels_mut) {
+        let source = label.span.source;
+        label.file = Arc::clone(names.entry(source).or_insert_with(|| Arc::from(deck.source(source).name())));
     }
 }

@@ -1,7 +1,7 @@
 //! Comments that speak to inpact: `** inpact: ignore T005, P008 -- reason` silences these rules for the next block.
 
-use crate::diagnostic::Diagnostic;
 use crate::rules::RULES;
+use inpact_diagnostics::Diagnostic;
 use inpact_parser::deck::{Block, Deck};
 use inpact_parser::span::Span;
 

@@ -4,8 +4,6 @@
 //! A rule sees the deck, the grammar, the model and what the reader met; it opens no file, prints nothing and cannot fail.
 //! Its doc comment is its page, its `explain` text and its test: the examples in it are run.
 
-pub mod diagnostic;
-
 pub mod rule;
 
 pub mod rules;
@@ -38,5 +36,5 @@ mod words;
 mod directives;
 
 pub use checking::{check, fixable, time_rules};
-pub use diagnostic::{Diagnostic, Edit, Fix, FixSafety, Label, Severity};
-pub use rule::{Context, Report, Rule};
+pub use inpact_diagnostics::{Diagnostic, Edit, Fix, FixKind, FixSafety, Label, Rule, Severity, apply};
+pub use rule::{Context, Report};

@@ -4,8 +4,8 @@
 //! of its own, and its other cells may not be what they seem. What is left of an ascending table by leaving rows out
 //! ascends as well.
 
-use crate::diagnostic::Edit;
 use crate::rule::Context;
+use inpact_diagnostics::Edit;
 use inpact_parser::model::Table;
 use std::cmp::Ordering;
 use std::ops::Range;

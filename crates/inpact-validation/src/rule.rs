@@ -1,8 +1,8 @@
 //! What a rule is, what it sees, and how it reports.
 
-use crate::diagnostic::{Diagnostic, Label, Severity};
 use crate::lost::LostLine;
 use crate::tables::trimmed;
+use inpact_diagnostics::{Diagnostic, Label, Rule};
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Grammar};
@@ -13,49 +13,23 @@ use inpact_parser::span::Span;
 /// The most findings of one rule in one deck; more are counted, not shown.
 const MOST_OF_ONE_RULE: usize = 1000;
 
-/// A rule of `inpact check`: its metadata, its page and its check.
-#[derive(Debug)]
-pub struct Rule {
-    /// The code: fixed, never used again.
-    pub code: &'static str,
-    /// The name: fixed.
-    pub name: &'static str,
-    /// How grave a finding is unless the rule or the configuration says otherwise.
-    pub severity: Severity,
-    /// Whether findings come with a fix, and of what kind.
-    pub fix: FixKind,
-    /// Which rule of the semantics it enforces.
-    pub source: &'static str,
-    /// Its page in Markdown: the doc comment of its file.
-    pub documentation: &'static str,
-    /// Looks for findings.
-    pub check: fn(&Context<'_>, &mut Report<'_>),
-}
-
-/// Whether a rule offers fixes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FixKind {
-    /// It offers none.
-    None,
-    /// A fix that changes no meaning: applied by `--fix`.
-    Safe,
-    /// A fix that changes the meaning: applied only when asked for by code.
-    ChangesMeaning,
-}
+/// Looks for the findings of a rule.
+pub(crate) type Check = fn(&Context<'_>, &mut Report<'_>);
 
 /// Declares the rule of a file: its doc comment becomes the rule's page.
 macro_rules! declare_rule {
     ($(#[doc = $line:literal])+ $code:literal, $name:literal, $severity:ident, fix: $fix:ident, source: $source:literal) => {
         $(#[doc = $line])+
-        pub static RULE: $crate::rule::Rule = $crate::rule::Rule {
+        pub static RULE: inpact_diagnostics::Rule = inpact_diagnostics::Rule {
             code: $code,
             name: $name,
-            severity: $crate::diagnostic::Severity::$severity,
-            fix: $crate::rule::FixKind::$fix,
+            severity: inpact_diagnostics::Severity::$severity,
+            fix: inpact_diagnostics::FixKind::$fix,
             source: $source,
             documentation: concat!($($line, "\n"),+),
-            check,
         };
+
+        pub(crate) const CHECK: $crate::rule::Check = check;
     };
 }
 pub(crate) use declare_rule;
@@ -196,17 +170,7 @@ impl<'a> Report<'a> {
 
     /// Reports a finding at `span`; what comes back takes labels, help and fix.
     pub fn at(&mut self, span: Span, message: impl Into<String>) -> &mut Diagnostic {
-        let diagnostic = Diagnostic {
-            code: self.rule.code,
-            name: self.rule.name,
-            severity: self.rule.severity,
-            message: message.into(),
-            primary: Label::new(span, ""),
-            secondary: Vec::new(),
-            note: None,
-            help: None,
-            fix: None,
-        };
+        let diagnostic = Diagnostic::new(self.rule, message, Label::new(span, ""));
         self.reported += 1;
         if self.reported > self.most {
             return self.overflow.insert(Box::new(diagnostic));

@@ -2,7 +2,8 @@
 //!
 //! A new rule is a file in `rules/` and its line in the list below; a test compares the list with the folder.
 
-use crate::rule::Rule;
+use crate::rule::Check;
+use inpact_diagnostics::Rule;
 
 /// Declares the modules of the rules and lists them.
 macro_rules! list_rules {
@@ -11,6 +12,9 @@ macro_rules! list_rules {
 
         /// Every rule, in the order of the codes.
         pub static RULES: &[&Rule] = &[$(&$module::RULE),+];
+
+        /// Every rule with its check, in the same order.
+        pub(crate) static CHECKS: &[(&Rule, Check)] = &[$((&$module::RULE, $module::CHECK)),+];
     };
 }
 

@@ -3,7 +3,7 @@
 use inpact_parser::deck::{Deck, Keep, ScanOptions, Scanner};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model;
-use inpact_validation::{Diagnostic, Severity, diagnostic};
+use inpact_validation::{Diagnostic, Severity, apply};
 
 fn scanned(bytes: &[u8], grammar: &Grammar, keep: Keep) -> Deck {
     let mut scanner = Scanner::new("test.inp", ScanOptions { grammar, keep });
@@ -37,7 +37,7 @@ fn check(bytes: impl AsRef<[u8]>, expected: &[&str]) {
 fn check_fixed(text: &str, code: &str, expected: &str) {
     let of_code = findings(text.as_bytes()).into_iter().filter(|found| found.code == code);
     let edits: Vec<_> = of_code.filter_map(|found| found.fix).flat_map(|fix| fix.edits).collect();
-    let fixed = diagnostic::apply(text.as_bytes(), &edits);
+    let fixed = apply(text.as_bytes(), &edits);
     assert_eq!(String::from_utf8_lossy(&fixed), expected);
 }
 

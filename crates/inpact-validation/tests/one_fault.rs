@@ -3,7 +3,7 @@
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model;
-use inpact_validation::{Diagnostic, diagnostic};
+use inpact_validation::{Diagnostic, apply};
 
 fn findings(deck: &str) -> Vec<Diagnostic> {
     let grammar = Grammar::builtin();
@@ -33,7 +33,7 @@ fn fixed(deck: &str, code: &str) -> String {
     let edits: Vec<_> =
         findings(deck).into_iter().filter(|found| found.code == code).filter_map(|found| found.fix).collect();
     let edits: Vec<_> = edits.into_iter().flat_map(|fix| fix.edits).collect();
-    String::from_utf8(diagnostic::apply(deck.as_bytes(), &edits)).expect("the deck is UTF-8")
+    String::from_utf8(apply(deck.as_bytes(), &edits)).expect("the deck is UTF-8")
 }
 
 #[test]

@@ -8,9 +8,9 @@
 use inpact_parser::deck::{FoundFile, IncludedFiles, Keep, ScanOptions, Scanner, scan};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model;
-use inpact_validation::rule::{FixKind, Rule};
 use inpact_validation::rules::RULES;
-use inpact_validation::{Diagnostic, FixSafety, diagnostic};
+use inpact_validation::{Diagnostic, FixSafety, apply};
+use inpact_validation::{FixKind, Rule};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -117,7 +117,7 @@ fn shown(found: &[Diagnostic]) -> String {
 fn fixed(text: &str, rule: &Rule, grammar: &Grammar) -> String {
     let of_rule = findings(text, grammar).into_iter().filter(|found| found.code == rule.code);
     let edits: Vec<_> = of_rule.filter_map(|found| found.fix).flat_map(|fix| fix.edits).collect();
-    String::from_utf8(diagnostic::apply(text.as_bytes(), &edits)).expect("an example is UTF-8")
+    String::from_utf8(apply(text.as_bytes(), &edits)).expect("an example is UTF-8")
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! How a command ends: the exit codes, and what is said when it cannot go on.
 
-use crate::visible::{visible, visible_json};
+use inpact_diagnostics::visible::{visible, visible_json};
 use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};

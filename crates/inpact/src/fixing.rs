@@ -12,7 +12,7 @@ use crate::input::{self, HeldFiles, LocatedDeck};
 use crate::settings::Settings;
 use inpact_parser::deck::Keep;
 use inpact_parser::model;
-use inpact_validation::{Diagnostic, Fix, FixSafety, diagnostic, fixable};
+use inpact_validation::{Diagnostic, Fix, FixSafety, apply, fixable};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -88,7 +88,7 @@ pub(crate) fn need_of(deck: &LocatedDeck, settings: &Settings, selection: &FixSe
 /// All findings with a fix, however many there are.
 fn findings(LocatedDeck { deck, .. }: &LocatedDeck, settings: &Settings) -> Vec<Diagnostic> {
     let (model, problems) = model::read(deck, settings.grammar);
-    settings.apply(fixable(deck, settings.grammar, &model, &problems), deck)
+    settings.apply(fixable(deck, settings.grammar, &model, &problems))
 }
 
 /// Applies the fixes of all decks to the files that are held.
@@ -124,7 +124,7 @@ pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &F
             mended.findings += findings;
             for (place, edits) in edits {
                 if let Some(file) = held.get(&place) {
-                    held.set(&place, diagnostic::apply(&file.now, &edits));
+                    held.set(&place, apply(&file.now, &edits));
                     touched.insert(place);
                 }
             }

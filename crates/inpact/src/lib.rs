@@ -15,10 +15,10 @@ mod page;
 mod progress;
 mod reach;
 mod render;
+mod rules;
 mod settings;
 mod threads;
 mod user_library;
-mod visible;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;

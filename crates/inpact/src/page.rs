@@ -1,10 +1,9 @@
 //! The pages of rules, keywords and columns as Markdown: what `explain` prints, and what the documentation is made of.
 
-use inpact_evaluation::nodes::{COLUMN_PAGES, ColumnPage, DataRule};
+use inpact_diagnostics::{FixKind, Rule};
+use inpact_evaluation::nodes::{COLUMN_PAGES, ColumnPage};
 use inpact_evaluation::results::{OUTPUT_PAGES, OutputPage};
 use inpact_parser::grammar::{Column, Data, Definition, Level, ParameterDefinition, ParameterKind, Product, RowShape};
-use inpact_validation::Rule;
-use inpact_validation::rule::FixKind;
 use std::fmt::Write;
 
 /// The page of a rule.
@@ -22,14 +21,6 @@ pub(crate) fn of_rule(rule: &Rule) -> String {
     }
     // What the harness of the tests is told is nothing to a reader.
     page.replace("```inp,expect", "```inp").replace("```inp,fixed", "```inp")
-}
-
-/// The page of a rule about data, which is found where `found` says.
-pub(crate) fn of_data_rule(rule: &DataRule, found: &str) -> String {
-    let DataRule { code, name, severity, summary, explanation } = rule;
-    format!(
-        "# {code} {name}\n\nSeverity: {severity}. Found in {found}.\n\nWhat is wrong: {summary}.\n\n{explanation}\n"
-    )
 }
 
 /// The page of a column of node tables.

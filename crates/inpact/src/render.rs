@@ -7,9 +7,9 @@ mod github;
 mod json;
 mod sarif;
 
-use crate::visible::visible_json;
 use anstream::ColorChoice;
 use clap::ValueEnum;
+use inpact_diagnostics::visible::visible_json;
 use inpact_parser::deck::Deck;
 use inpact_validation::Diagnostic;
 

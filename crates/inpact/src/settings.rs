@@ -5,10 +5,9 @@ use crate::files;
 use crate::reach::irregular;
 use clap::{Args, ValueEnum};
 use globset::{Glob, GlobMatcher};
-use inpact_parser::deck::Deck;
+use inpact_diagnostics::{Diagnostic, Severity};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_validation::rules::RULES;
-use inpact_validation::{Diagnostic, Severity};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -259,13 +258,12 @@ impl Settings {
     }
 
     /// Changes severities as configured, and leaves out what is switched off or ignored for this file.
-    pub(crate) fn apply(&self, diagnostics: Vec<Diagnostic>, deck: &Deck) -> Vec<Diagnostic> {
+    pub(crate) fn apply(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         if self.levels.is_empty() && self.ignores.is_empty() {
             return diagnostics;
         }
         let judged = diagnostics.into_iter().filter_map(|mut found| {
-            let file = deck.source(found.primary.span.source).name();
-            if self.is_ignored(found.code, Path::new(file)) {
+            if self.is_ignored(found.code, Path::new(&*found.primary.file)) {
                 return None;
             }
             match self.levels.get(found.code) {

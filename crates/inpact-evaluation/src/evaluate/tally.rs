@@ -7,8 +7,8 @@ use crate::nodes::{BEYOND_TABLE, CONTRADICTORY_RATE, Findings, HEAT_OF_CLOSING, 
 use crate::plan::{InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, Status, push_number};
 use crate::table::{Sides, Tail};
+use inpact_diagnostics::Severity;
 use inpact_parser::model::Name;
-use inpact_validation::Severity;
 
 /// The place of the permeability table among the tables of an interaction; 0 is conductance against clearance, 1 against pressure.
 pub(super) const PERMEABILITY: usize = 2;
@@ -221,7 +221,7 @@ impl Tally {
                         let Beyond { severity, help } = beyond(planned, table, axis.along, side);
                         let words = Words { name: &interaction.name, what, against: planned.against };
                         let message = words.message(axis.along, rows, side, end);
-                        let place = Place { row: None, line: None, column: Some(axis.along.to_string()) };
+                        let place = Place { column: Some(axis.along.to_string()), ..Place::default() };
                         findings.report_as(severity, &BEYOND_TABLE, place, message, help);
                     }
                 }

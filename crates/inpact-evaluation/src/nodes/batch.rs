@@ -1,6 +1,6 @@
 //! Some rows of a node table as columns.
 
-use super::diagnostic::Place;
+use inpact_diagnostics::Place;
 
 /// Some consecutive rows of a node table: the columns that were asked for, in the order they were asked for.
 #[derive(Debug, Clone, Default)]
@@ -226,7 +226,8 @@ impl Batch {
 
     /// Where row `row` of the batch stands in the file.
     pub fn place(&self, row: usize, column: Option<String>) -> Place {
-        Place { row: Some(self.first_row + row as u64 + 1), line: self.lines.get(row).copied(), column }
+        let line = self.lines.get(row).copied();
+        Place { row: Some(self.first_row + row as u64 + 1), line, column, bytes: None }
     }
 
     /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.

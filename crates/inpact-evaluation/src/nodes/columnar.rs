@@ -4,9 +4,9 @@
 //! Key columns keep their array, so that a result table has them as they are; their text is made when somebody asks for it.
 
 use super::batch::{Batch, LabelColumn};
-use super::diagnostic::{Findings, MALFORMED_CELL, Place};
 use super::header::Header;
 use super::reader::{ColumnStatistics, ReadSeek};
+use super::rules::MALFORMED_CELL;
 use super::soundness::{self, caught, unsound};
 use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
 use arrow::compute::cast;
@@ -14,6 +14,7 @@ use arrow::datatypes::{DataType, Float64Type, SchemaRef};
 use arrow::error::ArrowError;
 use arrow::ipc::reader::{FileReader, StreamReader};
 use bytes::Bytes;
+use inpact_diagnostics::{Findings, Place};
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder};
 use parquet::errors::ParquetError;
@@ -188,7 +189,7 @@ impl ColumnarReader {
             let name = field.name();
             let what = if help.contains("text") { "labels" } else { "numbers" };
             let message = format!("column `{name}` is of type {}, which holds no {what}", field.data_type());
-            let place = Place { row: None, line: None, column: Some(name.clone()) };
+            let place = Place { column: Some(name.clone()), ..Place::default() };
             findings.report(&MALFORMED_CELL, place, message, help);
         }
     }

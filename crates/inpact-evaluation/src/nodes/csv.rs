@@ -2,10 +2,11 @@
 
 use super::batch::Batch;
 use super::decode::{Decoded, Layout, Problem, ProblemKind};
-use super::diagnostic::{Findings, MALFORMED_CELL, MISSING_COLUMN, Place};
 use super::header::Header;
 use super::lines::{Cells, Piece, Pieces, end_of_row, is_blank};
+use super::rules::{MALFORMED_CELL, MISSING_COLUMN};
 use super::wait::wait_for;
+use inpact_diagnostics::{Findings, Place};
 use std::collections::VecDeque;
 use std::io::{self, Read};
 use std::sync::Arc;
@@ -179,7 +180,7 @@ impl<'a> CsvReader<'a> {
         if self.pieces.gave_up() {
             let row = self.rows_before + 1;
             let message = format!("row {row} is longer than any row: a quote in it is not closed");
-            let place = Place { row: Some(row), line: Some(self.lines_before + 1), column: None };
+            let place = Place { row: Some(row), ..Place::of_line(self.lines_before + 1) };
             findings.report(&MALFORMED_CELL, place, message, "close the quote, or write two quotes for one in a text");
         }
     }
@@ -187,7 +188,7 @@ impl<'a> CsvReader<'a> {
     #[cold]
     fn report(&self, problem: &Problem, findings: &mut Findings) {
         let row = self.rows_before + problem.row;
-        let place = |column| Place { row: Some(row), line: Some(self.lines_before + problem.line), column };
+        let place = |column| Place { row: Some(row), column, ..Place::of_line(self.lines_before + problem.line) };
         match &problem.kind {
             ProblemKind::Count(found) => {
                 let message = format!("row {row} has {found} cells, the header {}", self.header.cells.len());

@@ -1,7 +1,8 @@
 //! The header of a node table: which of its columns mean what.
 
 use super::column::Column;
-use super::diagnostic::{DUPLICATE_COLUMN, Findings, Place, UNKNOWN_COLUMN};
+use super::rules::{DUPLICATE_COLUMN, UNKNOWN_COLUMN};
+use inpact_diagnostics::{Findings, Place};
 use std::collections::HashMap;
 
 /// The header line of a node table.
@@ -73,7 +74,7 @@ impl Header {
             } else {
                 format!("columns `{}` and `{}` both mean `{column}`", first.text, cell.text)
             };
-            let place = Place { row: None, line, column: Some(cell.text.clone()) };
+            let place = Place { line, column: Some(cell.text.clone()), ..Place::default() };
             findings.report(&DUPLICATE_COLUMN, place, message, "keep one of the two");
         }
     }

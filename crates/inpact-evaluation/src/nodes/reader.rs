@@ -8,9 +8,9 @@ use super::column::Column;
 #[cfg(feature = "columnar")]
 use super::columnar::{ColumnarReader, Storage};
 use super::csv::CsvReader;
-use super::diagnostic::Findings;
 use super::foreign;
 use super::header::Header;
+use inpact_diagnostics::Findings;
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 

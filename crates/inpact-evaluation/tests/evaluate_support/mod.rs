@@ -79,9 +79,8 @@ pub(crate) fn evaluate_with(deck: &str, nodes: &str, choices: &Choices, rows_of_
 
 fn lines(findings: Findings) -> Vec<String> {
     let lines = findings.into_list().into_iter().map(|found| {
-        let place = found.place;
-        let line = place.line.map_or_else(|| "-".to_owned(), |line| line.to_string());
-        let column = place.column.unwrap_or_else(|| "-".to_owned());
+        let line = found.primary.line().map_or_else(|| "-".to_owned(), |line| line.to_string());
+        let column = found.cell.and_then(|cell| cell.field).unwrap_or_else(|| "-".to_owned());
         let help = found.help.map_or_else(String::new, |help| format!(" ({help})"));
         format!("{line}:{column}: {}[{} {}] {}{help}", found.severity, found.code, found.name, found.message)
     });

@@ -6,7 +6,7 @@
 //! What is held in memory follows the entries that are there, not the size that the file says.
 
 use super::Field;
-use super::diagnostic::{MALFORMED_SCENE, UNUSABLE_NUMBER};
+use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use super::usable::Refusal;
 use inpact_evaluation::nodes::{Findings, MALFORMED_CELL, Place};
 use std::collections::{HashMap, HashSet};
@@ -30,7 +30,7 @@ pub(super) fn matrix(
     });
     match field.and_then(|field| Ok((field, read(bytes)?))) {
         Err((line, Refusal { rule, column, message, help })) => {
-            findings.report(rule, Place { line: Some(line as u64), row: None, column }, message, help);
+            findings.report(rule, Place { column, ..Place::of_line(line as u64) }, message, help);
         }
         Ok((field, Entries { sign, entries })) => {
             for (ends, value) in entries {

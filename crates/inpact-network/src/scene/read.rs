@@ -3,12 +3,12 @@
 //! Every problem found is reported, with its line; a scene with errors is not given.
 
 use super::course::Course;
-use super::diagnostic::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE};
 use super::file::{
     self, ClosingHeatName, Condition, InterfaceEntry, LinkEntry, LinkFileEntry, NodeEntry, ProcedureName, SceneFile,
     StartFromName, TimeEntry,
 };
 use super::nearest::meant_or;
+use super::rules::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE};
 use super::shape::{self, Shaped};
 use super::usable::{self, Given, Refusal};
 use super::values::{Keyed, Number, Pair};
@@ -16,10 +16,9 @@ use super::{
     Conditions, Field, Procedure, Scene, SceneInterface, SceneLink, StartFrom, Steps, TimeSpan, matrix, tables,
 };
 use crate::linear::index;
+use inpact_diagnostics::{Diagnostic, Findings, Place, Rule, Severity};
 use inpact_evaluation::history::ClosingHeat;
-use inpact_evaluation::nodes::{DataDiagnostic, DataRule, Findings, Place};
 use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
-use inpact_validation::Severity;
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
 use toml::Spanned;
@@ -33,18 +32,14 @@ pub trait SceneFiles {
 /// Reads a scene; `name` is what the scene file is called in findings.
 ///
 /// The scene is `None` where one of the findings is an error.
-pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<DataDiagnostic>) {
+pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<Diagnostic>) {
     let (scene, found) = read_as_far_as_it_goes(text, name, files);
     let has_errors = found.iter().any(|found| found.severity == Severity::Error);
     (scene.filter(|_| !has_errors), found)
 }
 
 /// Reads a scene and gives what could be read of it beside its errors, so that more can be said of it; `None` where it is no scene at all.
-pub fn read_as_far_as_it_goes(
-    text: &str,
-    name: &str,
-    files: &mut dyn SceneFiles,
-) -> (Option<Scene>, Vec<DataDiagnostic>) {
+pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<Diagnostic>) {
     let mut reader = Reader::new(text, name);
     let Shaped { table, problems, lacks_nodes } = shape::shaped(text);
     reader.lacks_nodes = lacks_nodes;
@@ -94,7 +89,7 @@ pub(super) struct Reader<'a> {
     comparisons: usize,
     pub(super) findings: Findings,
     /// What was found in tables.
-    found: Vec<DataDiagnostic>,
+    found: Vec<Diagnostic>,
 }
 
 impl<'a> Reader<'a> {
@@ -124,13 +119,13 @@ impl<'a> Reader<'a> {
         self.line(spanned.span().start)
     }
 
-    fn report(&mut self, rule: &DataRule, line: u64, message: impl Into<String>, help: &str) {
-        self.findings.report(rule, Place { line: Some(line), ..Place::default() }, message, help);
+    fn report(&mut self, rule: &Rule, line: u64, message: impl Into<String>, help: &str) {
+        self.findings.report(rule, Place::of_line(line), message, help);
     }
 
     fn refuse(&mut self, line: u64, refusal: Refusal) {
         let Refusal { rule, column, message, help } = refusal;
-        self.findings.report(rule, Place { line: Some(line), row: None, column }, message, help);
+        self.findings.report(rule, Place { column, ..Place::of_line(line) }, message, help);
     }
 
     /// A number as it is written.

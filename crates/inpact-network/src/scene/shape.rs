@@ -4,12 +4,12 @@
 //! an entry as a whole, so that the rest can be read and has its own problems told in the same run.
 //! The keys are those of `file.rs`; a test compares them with its schema.
 
-use super::diagnostic::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use super::file;
 use super::nearest::{listed, meant_or, near};
+use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use super::usable::lost;
 use super::values::{Entry, Listed, Number};
-use inpact_evaluation::nodes::DataRule;
+use inpact_diagnostics::Rule;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
@@ -21,7 +21,7 @@ const LONGEST_QUOTE: usize = 60;
 pub(super) struct Problem {
     /// The byte it begins at.
     pub(super) at: usize,
-    pub(super) rule: &'static DataRule,
+    pub(super) rule: &'static Rule,
     pub(super) message: String,
     pub(super) help: String,
 }

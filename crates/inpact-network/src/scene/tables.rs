@@ -7,9 +7,9 @@
 //! | interfaces | `slave`, `master` (or `secondary`, `main`), `interaction`; and of a node table `area`, `clearance`, `pressure`, `closed`, `fv1` …, `temp` (or `temperature`), `mass_flow`, `shear`, `slip_rate`, `clearance_rate`, `char_length`, `perm_s`, `perm_m` |
 
 use super::course::Course;
-use super::diagnostic::MALFORMED_SCENE;
 use super::nearest::{meant_or, quoted};
 use super::read::CheckedCondition;
+use super::rules::MALFORMED_SCENE;
 use super::usable::{self, Given, Refusal};
 use super::{Field, SceneInterface};
 use csv::StringRecord;
@@ -363,7 +363,7 @@ fn each_row<C: Copy + PartialEq>(
     };
     let mut columns: Vec<(usize, C)> = Vec::new();
     for (place, header) in headers.iter().enumerate() {
-        let at = Place { line: Some(1), column: Some(header.to_owned()), ..Place::default() };
+        let at = Place { column: Some(header.to_owned()), ..Place::of_line(1) };
         match named(&header.to_ascii_lowercase()) {
             None => {
                 let help = meant_or(header, quoted(all_columns), all_columns);
@@ -378,7 +378,7 @@ fn each_row<C: Copy + PartialEq>(
     }
     for (column, name) in needed {
         if !columns.iter().any(|(_, other)| other == column) {
-            let at = Place { line: Some(1), ..Place::default() };
+            let at = Place::of_line(1);
             findings.report(&MISSING_COLUMN, at, format!("column `{name}` is missing"), all_columns);
         }
     }
@@ -393,7 +393,7 @@ fn each_row<C: Copy + PartialEq>(
         let line = record.position().map_or(0, csv::Position::line);
         let row = Row { record: &record, columns: &columns, headers: &headers, number, line };
         if let Err(Refusal { rule, column, message, help }) = take(&row) {
-            findings.report(rule, Place { row: Some(number), line: Some(line), column }, message, help);
+            findings.report(rule, Place { row: Some(number), column, ..Place::of_line(line) }, message, help);
         }
     }
 }

@@ -1,12 +1,12 @@
 //! What of a scene can be used: the one home of what the scene file and the tables beside it refuse alike.
 
 use super::Field;
-use super::diagnostic::{MALFORMED_SCENE, UNUSABLE_NUMBER};
-use inpact_evaluation::nodes::DataRule;
+use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
+use inpact_diagnostics::Rule;
 
 /// Why something is not taken: the rule, the words, and what to do.
 pub(super) struct Refusal {
-    pub(super) rule: &'static DataRule,
+    pub(super) rule: &'static Rule,
     /// What the header of a table calls the column, where it is about one cell.
     pub(super) column: Option<String>,
     pub(super) message: String,
@@ -14,7 +14,7 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
-    pub(super) fn new(rule: &'static DataRule, message: String, help: impl Into<String>) -> Self {
+    pub(super) fn new(rule: &'static Rule, message: String, help: impl Into<String>) -> Self {
         Self { rule, column: None, message, help: help.into() }
     }
 

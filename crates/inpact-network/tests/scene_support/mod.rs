@@ -2,7 +2,7 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
-use inpact_evaluation::nodes::{DataDiagnostic, Findings};
+use inpact_diagnostics::{Diagnostic, Findings};
 use inpact_evaluation::plan::Choices;
 use inpact_network::Problem;
 use inpact_network::scene::{Scene, SceneFiles, read};
@@ -86,11 +86,12 @@ pub fn refused(text: &str) -> Vec<String> {
 }
 
 /// A finding in one line: where, what, and what to do.
-pub fn line(finding: &DataDiagnostic) -> String {
-    let DataDiagnostic { code, name, severity, message, help, file, place } = finding;
-    let line = place.line.map_or("-".to_owned(), |line| line.to_string());
-    let row = place.row.map_or(String::new(), |row| format!(" row {row}"));
-    let column = place.column.as_ref().map_or(String::new(), |column| format!(" column {column}"));
+pub fn line(finding: &Diagnostic) -> String {
+    let Diagnostic { code, name, severity, message, help, primary, .. } = finding;
+    let (file, cell) = (&primary.file, finding.cell.clone().unwrap_or_default());
+    let line = primary.line().map_or("-".to_owned(), |line| line.to_string());
+    let row = cell.row.map_or(String::new(), |row| format!(" row {row}"));
+    let column = cell.field.as_ref().map_or(String::new(), |column| format!(" column {column}"));
     let help = help.as_ref().map_or(String::new(), |help| format!("\n    help: {help}"));
     format!("{file}:{line}{row}{column}: {severity:?}[{code} {name}] {message}{help}")
 }

@@ -1,7 +1,7 @@
 //! K001: keyword lines whose words mean no keyword.
 
 use super::k015_not_in_release::keyword_of_other_release;
-use crate::diagnostic::{Diagnostic, Edit, FixSafety, Severity};
+use inpact_diagnostics::{Diagnostic, Edit, FixSafety, Severity};
 use crate::invisible;
 use crate::rule::{Context, Report, declare_rule};
 use crate::words::did_you_mean;

@@ -1,6 +1,6 @@
 //! K003: keywords that are cut short.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::{Grammar, Lookup};
 

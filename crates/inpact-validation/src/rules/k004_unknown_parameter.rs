@@ -2,7 +2,7 @@
 
 use super::k015_not_in_release::parameter_of_other_release;
 use super::s005_unterminated_quote::open_quote;
-use crate::diagnostic::{Edit, FixSafety, Severity};
+use inpact_diagnostics::{Edit, FixSafety, Severity};
 use crate::invisible;
 use crate::parameter::{self, GivenParameter, given_as};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};

@@ -1,6 +1,6 @@
 //! P004: fractions of dissipated energy below 0 or above 1.
 
-use crate::diagnostic::Severity;
+use inpact_diagnostics::Severity;
 use crate::heat::{all, item};
 use crate::quantity::number;
 use crate::rule::{Context, Report, declare_rule};

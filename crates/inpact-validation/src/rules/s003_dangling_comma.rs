@@ -1,6 +1,6 @@
 //! S003: commas at the end of keyword lines that nothing continues.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::span::Span;

@@ -1,7 +1,7 @@
 //! S006: items that are no numbers where numbers are due.
 
 use super::s005_unterminated_quote::open_quote;
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::invisible::{self, Hidden};
 use crate::parameter::{self, substituted};
 use crate::rule::{Context, Report, declare_rule};

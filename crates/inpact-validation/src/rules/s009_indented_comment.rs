@@ -1,6 +1,6 @@
 //! S009: comments that stand behind blanks.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::lines::{LineKind, line_kind, lines};
 use inpact_parser::deck::{Block, LineNote, LineNoteKind};

@@ -1,6 +1,6 @@
 //! S010: empty lines among the rows of a table.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::deck::lines::next_line;

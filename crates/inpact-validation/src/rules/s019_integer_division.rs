@@ -1,6 +1,6 @@
 //! S019: integers divided by integers, whose quotient depends on the release.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::expression::{Division, IntegerDivision};
 use inpact_parser::span::Span;

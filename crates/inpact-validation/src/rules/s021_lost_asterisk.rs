@@ -1,6 +1,6 @@
 //! S021: keyword lines that have lost their asterisk.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::invisible;
 use crate::lost::LostLine;
 use crate::rule::{Context, Report, declare_rule};

@@ -1,6 +1,6 @@
 //! T001: rows whose first independent variable falls inside a group.
 
-use crate::diagnostic::FixSafety;
+use inpact_diagnostics::FixSafety;
 use crate::order::{falls, sort_edits};
 use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};

@@ -1,6 +1,6 @@
 //! T003: groups of rows that do not stand in ascending order.
 
-use crate::diagnostic::FixSafety;
+use inpact_diagnostics::FixSafety;
 use crate::order::{falls, sort_edits};
 use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};

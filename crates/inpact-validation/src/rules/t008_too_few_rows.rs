@@ -1,6 +1,6 @@
 //! T008: tables with fewer rows than their option needs.
 
-use crate::diagnostic::Severity;
+use inpact_diagnostics::Severity;
 use crate::order::falls;
 use crate::quantity::{and_more, column_words, number};
 use crate::rule::{Context, Report, declare_rule};

@@ -1,6 +1,6 @@
 //! T009: options that need rows and have none.
 
-use crate::diagnostic::Severity;
+use inpact_diagnostics::Severity;
 use crate::parameter::given_as;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use crate::tables::columns_are_unclear;

@@ -1,6 +1,6 @@
 //! T014: long rows written on one line.
 
-use crate::diagnostic::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety};
 use crate::problems::first_of_each_block;
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};

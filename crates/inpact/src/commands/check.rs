@@ -192,7 +192,7 @@ fn judge(
     style: Style,
 ) -> (String, Tally) {
     let (model, problems) = model::read(deck, settings.grammar);
-    let diagnostics = settings.apply(check(deck, settings.grammar, &model, &problems), deck);
+    let diagnostics = settings.apply(check(deck, settings.grammar, &model, &problems));
     let text = if arguments.diff || arguments.statistics {
         String::new()
     } else {

@@ -144,7 +144,7 @@ impl EvaluableArguments {
         if is_unavailable {
             return Ok(None);
         }
-        let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
+        let found = settings.apply(check(&deck, grammar, &model, &problems));
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &names, format);
         let deck_name = self.deck.display().to_string();

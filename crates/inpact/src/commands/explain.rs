@@ -3,12 +3,11 @@
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::page;
+use crate::rules;
 use clap::{Args, ValueEnum};
-use inpact_evaluation::nodes::{COLUMN_PAGES, Column, DATA_RULES, DataRule};
+use inpact_evaluation::nodes::{COLUMN_PAGES, Column};
 use inpact_evaluation::results::Output;
-use inpact_network::scene::SCENE_RULES;
 use inpact_parser::grammar::{Grammar, nearest_names};
-use inpact_validation::rules::RULES;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -46,30 +45,17 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// The rules about data, and where they are found: node tables, then scenes.
-fn data_rules() -> impl Iterator<Item = (&'static DataRule, &'static str)> {
-    let of_nodes = DATA_RULES.iter().map(|rule| (*rule, "node tables, by `eval`, `plan` and `tradeoff`"));
-    let of_scenes =
-        SCENE_RULES.iter().map(|rule| (*rule, "scenes and the tables beside them, by `solve` and `tradeoff --scene`"));
-    of_nodes.chain(of_scenes)
-}
-
 fn all_pages() -> String {
     let grammar = Grammar::builtin();
-    let rules = RULES.iter().map(|rule| (rule.code, page::of_rule(rule)));
-    let rules = rules.chain(data_rules().map(|(rule, found)| (rule.code, page::of_data_rule(rule, found))));
-    let rules: BTreeMap<&str, String> = rules.collect();
+    let rules: BTreeMap<&str, String> = rules::all().map(|rule| (rule.code, page::of_rule(rule))).collect();
     let keywords = grammar.keywords().filter_map(|(_, keyword)| keyword.definition()).map(page::of_keyword);
     rules.into_values().chain(keywords).chain([page::of_columns()]).collect::<Vec<_>>().join("\n")
 }
 
 fn page_of(what: &str) -> Result<String, Failure> {
     let is_meant = |code: &str, name: &str| code.eq_ignore_ascii_case(what) || name.eq_ignore_ascii_case(what);
-    if let Some(rule) = RULES.iter().find(|rule| is_meant(rule.code, rule.name)) {
+    if let Some(rule) = rules::all().find(|rule| is_meant(rule.code, rule.name)) {
         return Ok(page::of_rule(rule));
-    }
-    if let Some(rule) = data_rules().find(|(rule, _)| is_meant(rule.code, rule.name)) {
-        return Ok(page::of_data_rule(rule.0, rule.1));
     }
     if what.eq_ignore_ascii_case("columns") {
         return Ok(page::of_columns());
@@ -93,8 +79,7 @@ fn page_of(what: &str) -> Result<String, Failure> {
         }
         None => {
             let outputs: Vec<String> = Output::NAMED.iter().map(ToString::to_string).collect();
-            let rules = RULES.iter().flat_map(|rule| [rule.code, rule.name]);
-            let rules = rules.chain(data_rules().flat_map(|(rule, _)| [rule.code, rule.name]));
+            let rules = rules::all().flat_map(|rule| [rule.code, rule.name]);
             let columns = COLUMN_PAGES.iter().flat_map(|page| page.names).copied();
             let rules = rules.chain(columns).chain(outputs.iter().map(String::as_str));
             let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));

@@ -2,9 +2,8 @@
 
 use crate::failure::{say, say_json};
 use crate::render::{self, Format, Style};
-use crate::visible::visible_line;
 use clap::ValueEnum;
-use inpact_evaluation::nodes::DataDiagnostic;
+use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::plan::concerning;
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
@@ -50,7 +49,7 @@ pub(crate) fn say_deck_findings(
 }
 
 /// Says what is wrong with a node table.
-pub(crate) fn say_data_findings(found: Vec<DataDiagnostic>, format: FindingFormat) {
+pub(crate) fn say_data_findings(found: Vec<Diagnostic>, format: FindingFormat) {
     for found in found {
         match format {
             FindingFormat::Concise => say(&visible_line(&concise(&found))),
@@ -60,15 +59,16 @@ pub(crate) fn say_data_findings(found: Vec<DataDiagnostic>, format: FindingForma
 }
 
 /// `file:line: severity[CODE] message`, and what to do.
-fn concise(found: &DataDiagnostic) -> String {
-    let DataDiagnostic { code, severity, message, file, .. } = found;
-    let line = found.place.line.map_or_else(String::new, |line| format!(":{line}"));
+fn concise(found: &Diagnostic) -> String {
+    let Diagnostic { code, severity, message, primary, .. } = found;
+    let file = &primary.file;
+    let line = primary.line().map_or_else(String::new, |line| format!(":{line}"));
     let help = found.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
     format!("{file}{line}: {severity}[{code}] {message}{help}")
 }
 
 /// The fields of a finding in a deck; instead of a column and a span a row and the name of its cell's column.
-fn json(found: &DataDiagnostic) -> String {
+fn json(found: &Diagnostic) -> String {
     #[derive(Serialize)]
     struct Record<'a> {
         code: &'a str,
@@ -83,16 +83,17 @@ fn json(found: &DataDiagnostic) -> String {
         message: &'a str,
         help: Option<&'a str>,
     }
+    let cell = found.cell.as_ref();
     let record = Record {
         code: found.code,
         name: found.name,
         severity: found.severity.word(),
-        file: &found.file,
-        line: found.place.line,
-        column: None,
-        span: None,
-        row: found.place.row,
-        field: found.place.column.as_deref(),
+        file: &found.primary.file,
+        line: found.primary.line(),
+        column: found.primary.column(),
+        span: found.primary.bytes(),
+        row: cell.and_then(|cell| cell.row),
+        field: cell.and_then(|cell| cell.field.as_deref()),
         message: &found.message,
         help: found.help.as_deref(),
     };

@@ -54,7 +54,7 @@ fn model_view(arguments: &JsonArguments, settings: &Settings) -> Result<(String,
     let deck = input::read_deck(&arguments.deck, Keep::Interpreted, settings)?;
     let (model, problems) = model::read(&deck, settings.grammar);
     let text = json::model::write(&model, &arguments.deck.display().to_string());
-    let findings = settings.apply(check(&deck, settings.grammar, &model, &problems), &deck);
+    let findings = settings.apply(check(&deck, settings.grammar, &model, &problems));
     let errors: Vec<_> = findings.into_iter().filter(|found| found.severity == Severity::Error).collect();
     let said = render::diagnostics(&errors, &deck, Format::Concise, Style::Plain);
     if !said.is_empty() {

@@ -6,8 +6,8 @@ use super::laws::LawArguments;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::settings::DeckArguments;
-use crate::visible::{visible, visible_json};
 use clap::{Args, ValueEnum};
+use inpact_diagnostics::visible::{visible, visible_json};
 use inpact_evaluation::plan::{
     CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, FormPlan, GovernedBy, InteractionPlan, Node,
     Plan, PorePlan, SlipRateSource, Source, TablePlan, ThermalPlan, UserPlan,

@@ -9,7 +9,7 @@ use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::reach;
 use crate::settings::DeckArguments;
-use inpact_evaluation::nodes::{DataDiagnostic, Findings};
+use inpact_diagnostics::{Diagnostic, Findings};
 use inpact_evaluation::plan::Choices;
 use inpact_network::scene::{self, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
@@ -82,7 +82,7 @@ impl SolvableScene {
             closing_heat: scene.closing_heat(),
             ..laws.choices(&model, grammar.dialect(), Some(regime))?
         };
-        let found = settings.apply(check(&deck, grammar, &model, &problems), &deck);
+        let found = settings.apply(check(&deck, grammar, &model, &problems));
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
         let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();
@@ -102,7 +102,7 @@ impl SolvableScene {
     }
 
     /// What there is to say of a failure after the time of the last state that was found.
-    pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<DataDiagnostic> {
+    pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<Diagnostic> {
         let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
     }

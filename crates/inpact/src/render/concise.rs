@@ -1,7 +1,7 @@
 //! A line a finding: `file:line:col: severity[CODE] message`.
 
 use super::include_chain;
-use crate::visible::visible_line;
+use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::Deck;
 use inpact_validation::Diagnostic;
 

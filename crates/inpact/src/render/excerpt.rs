@@ -3,7 +3,7 @@
 //! A deck may hold any bytes and lines of any length: what is no UTF-8 is shown as `?`, byte for byte, so that offsets
 //! stay what they are, and of an endless line only the surroundings of the label are shown.
 
-use crate::visible::{is_hidden, visible_line};
+use inpact_diagnostics::visible::{is_hidden, visible_line};
 use inpact_parser::deck::Deck;
 use inpact_validation::Label;
 use memchr::{memchr, memrchr};

@@ -2,7 +2,7 @@
 
 use super::excerpt::Excerpt;
 use super::{Style, include_chain};
-use crate::visible::visible;
+use inpact_diagnostics::visible::visible;
 use inpact_parser::deck::{Deck, Excerpts};
 use inpact_validation::{Diagnostic, Label, Severity};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};

@@ -1,6 +1,6 @@
 //! Workflow commands of GitHub Actions: findings that show up beside the lines of a pull request.
 
-use crate::visible::visible;
+use inpact_diagnostics::visible::visible;
 use inpact_parser::deck::Deck;
 use inpact_validation::{Diagnostic, Severity};
 

@@ -1,6 +1,7 @@
 //! What to say of a scene that was not solved.
 
-use inpact_evaluation::nodes::{DataDiagnostic, Findings, Place, USER_FAULT};
+use inpact_diagnostics::{Diagnostic, Findings, Place};
+use inpact_evaluation::nodes::USER_FAULT;
 use inpact_network::scene::{
     CONTRADICTORY_VALUES, FLOATING_BODY, Field, MISSING_QUANTITY, NOT_CONVERGED, Scene, UNUSABLE_NUMBER,
 };
@@ -10,11 +11,7 @@ use inpact_network::{RowFault, RowFaultReason, SolveFailure};
 const MOST_NAMED: usize = 8;
 
 /// The findings of a failure in a scene of this name, in the increment after a time where there was one.
-pub(super) fn findings(
-    failure: &SolveFailure,
-    scene: &Scene,
-    (name, after): (&str, Option<f64>),
-) -> Vec<DataDiagnostic> {
+pub(super) fn findings(failure: &SolveFailure, scene: &Scene, (name, after): (&str, Option<f64>)) -> Vec<Diagnostic> {
     let mut findings = Findings::new(name);
     let when = after.map_or(String::new(), |time| format!(" in the increment after time {time:?}"));
     let place = |node: u32| Place { line: scene.node_lines.get(&node).copied(), ..Place::default() };

@@ -4,9 +4,10 @@ use super::super::findings::{FindingFormat, say_data_findings};
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
+use inpact_diagnostics::{Cell, Diagnostic, Findings, Place};
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::Evaluation;
-use inpact_evaluation::nodes::{Batch, CONTRADICTORY_RATE, DataDiagnostic, Findings, NodeReader, Place};
+use inpact_evaluation::nodes::{Batch, CONTRADICTORY_RATE, NodeReader};
 use inpact_evaluation::plan::{make, survey};
 use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
 use inpact_network::scene::Scene;
@@ -54,25 +55,28 @@ pub(super) fn write(
 }
 
 /// Findings about the table as such about the scene, which has other lines: the row of the table tells that of the scene.
-fn of_scene(findings: Findings, scene: &Scene) -> Vec<DataDiagnostic> {
+fn of_scene(findings: Findings, scene: &Scene) -> Vec<Diagnostic> {
     // Every state has a row of each interface, in the order of the scene.
-    let number = |place: &Place| usize::try_from(place.row?).ok()?.checked_sub(1)?.checked_rem(scene.interfaces.len());
-    let told = |found: DataDiagnostic| {
-        let (at, message) = match number(&found.place) {
+    let number = |cell: &Cell| usize::try_from(cell.row?).ok()?.checked_sub(1)?.checked_rem(scene.interfaces.len());
+    let placed = |found: Diagnostic| {
+        let (place, message) = match found.cell.as_ref().and_then(number) {
             Some(row) => scene.interfaces[row].located(found.message),
             None => (Place::default(), found.message),
         };
-        DataDiagnostic { place: Place { column: found.place.column, ..at }, message, ..found }
+        let column = found.cell.and_then(|cell| cell.field);
+        let cell = Some(Cell { row: None, field: column });
+        Diagnostic { primary: place.label(&found.primary.file), cell, message, ..found }
     };
     // What contradicts a given rate was said of the scene itself, before it was solved.
     let list = findings.into_list().into_iter().filter(|found| found.code != CONTRADICTORY_RATE.code);
-    list.map(told).collect()
+    list.map(placed).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::of_scene;
-    use inpact_evaluation::nodes::{Findings, NON_FINITE, Place};
+    use inpact_diagnostics::{Findings, Place};
+    use inpact_evaluation::nodes::NON_FINITE;
     use inpact_network::scene::{self, SceneFiles};
 
     struct Rows;
@@ -90,11 +94,11 @@ mod tests {
         let (scene, _) = scene::read(text, "s.toml", &mut Rows);
         let mut findings = Findings::new("s.toml");
         for row in [None, Some(3), Some(4)] {
-            findings.report(&NON_FINITE, Place { row, line: row, column: None }, "wrong", "");
+            findings.report(&NON_FINITE, Place { row, line: row, ..Place::default() }, "wrong", "");
         }
         let told: Vec<_> = of_scene(findings, &scene.expect("a scene"))
             .into_iter()
-            .map(|found| (found.place.line, found.place.row, found.message))
+            .map(|found| (found.primary.line(), found.cell.and_then(|cell| cell.row), found.message))
             .collect();
         let in_table = "wrong (line 2 of `rows.csv`)".to_owned();
         assert_eq!(

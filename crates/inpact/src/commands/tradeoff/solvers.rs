@@ -15,7 +15,7 @@ use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files;
 use crate::threads::with_threads;
-use crate::visible::visible;
+use inpact_diagnostics::visible::visible;
 use std::path::Path;
 
 /// Measures on a scene; `None` after saying what is wrong with it, as `solve` says it.

@@ -14,7 +14,7 @@ use crate::commands::evaluable::EvaluableArguments;
 use crate::commands::findings::say_data_findings;
 use crate::failure::Failure;
 use crate::files;
-use crate::visible::visible;
+use inpact_diagnostics::visible::visible;
 use inpact_evaluation::nodes::Findings;
 
 /// Measures on a deck and its node table; `None` after saying what is wrong with them.

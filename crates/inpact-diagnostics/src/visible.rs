@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::fmt::Write;
 
 /// The text of a message, in which line ends and tabs stay: what is not to be seen is written as `\u{1b}`.
-pub(crate) fn visible(text: &str) -> Cow<'_, str> {
+pub fn visible(text: &str) -> Cow<'_, str> {
     escaped(
         text,
         |character| is_hidden(character) && !matches!(character, '\n' | '\t'),
@@ -18,7 +18,7 @@ pub(crate) fn visible(text: &str) -> Cow<'_, str> {
 }
 
 /// The text of a message that is one line: line ends and tabs are escaped too.
-pub(crate) fn visible_line(text: &str) -> Cow<'_, str> {
+pub fn visible_line(text: &str) -> Cow<'_, str> {
     escaped(text, is_hidden, |out, character| {
         let _ = match character {
             '\n' | '\r' | '\t' => write!(out, "{}", character.escape_default()),
@@ -28,7 +28,7 @@ pub(crate) fn visible_line(text: &str) -> Cow<'_, str> {
 }
 
 /// JSON in which no character is hidden: `\u009b` means the same to who reads JSON. Line ends and tabs between values stay.
-pub(crate) fn visible_json(json: &str) -> Cow<'_, str> {
+pub fn visible_json(json: &str) -> Cow<'_, str> {
     escaped(
         json,
         |character| is_hidden(character) && !matches!(character, '\n' | '\t' | '\r'),
@@ -41,7 +41,7 @@ pub(crate) fn visible_json(json: &str) -> Cow<'_, str> {
 }
 
 /// Whether a character is obeyed rather than shown: control characters, marks of direction, what is as wide as nothing.
-pub(crate) fn is_hidden(character: char) -> bool {
+pub fn is_hidden(character: char) -> bool {
     character.is_control()
         || matches!(character,
             '\u{AD}' | '\u{34F}' | '\u{61C}' | '\u{115F}'..='\u{1160}' | '\u{17B4}'..='\u{17B5}' | '\u{180B}'..='\u{180F}'

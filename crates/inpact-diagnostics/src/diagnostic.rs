@@ -1,0 +1,159 @@
+//! What is wrong, where, why, and what to do: the one source of every output format.
+
+use crate::fix::{Edit, Fix, FixSafety};
+use crate::rule::Rule;
+use crate::severity::Severity;
+use crate::span::{Position, Span};
+use std::sync::Arc;
+
+/// One finding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// The stable code, such as `T001`.
+    pub code: &'static str,
+    /// The stable name, such as `not-ascending`.
+    pub name: &'static str,
+    /// How grave it is.
+    pub severity: Severity,
+    /// What is wrong, with the values in it; names in backticks, no full stop.
+    pub message: String,
+    /// Where it is.
+    pub primary: Label,
+    /// Row and column by name, where a finding is about a table or a scene; `None` in a deck.
+    pub cell: Option<Cell>,
+    /// The other places it has to do with.
+    pub secondary: Vec<Label>,
+    /// Why it matters: the rule or the physics.
+    pub note: Option<String>,
+    /// What to do.
+    pub help: Option<String>,
+    /// A change of the deck that mends it.
+    pub fix: Option<Fix>,
+}
+
+/// A place in a file with a few words about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// What the file is called in messages; empty until line and column are found out.
+    pub file: Arc<str>,
+    /// The bytes it points at.
+    pub span: Span,
+    /// Line and column of the first of them.
+    pub position: Position,
+    /// How much of that is known.
+    pub extent: Extent,
+    /// What to say there; may be empty.
+    pub text: String,
+}
+
+/// How closely a place is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// By its bytes.
+    Span,
+    /// By its line: neither the column nor the bytes mean anything.
+    Line,
+    /// The file as a whole, or a row of a file that has no lines.
+    File,
+}
+
+/// A cell of a table as its header and the count of its rows tell it; what does not apply is `None`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Cell {
+    /// The row, counted from 1 below the header.
+    pub row: Option<u64>,
+    /// What the header calls the column.
+    pub field: Option<String>,
+}
+
+impl Diagnostic {
+    /// A finding of a rule, as grave as that says, at a place.
+    pub fn new(rule: &Rule, message: impl Into<String>, primary: Label) -> Self {
+        Self {
+            code: rule.code,
+            name: rule.name,
+            severity: rule.severity,
+            message: message.into(),
+            primary,
+            cell: None,
+            secondary: Vec::new(),
+            note: None,
+            help: None,
+            fix: None,
+        }
+    }
+
+    /// The place it is at, then the others.
+    pub fn labels(&self) -> impl Iterator<Item = &Label> {
+        std::iter::once(&self.primary).chain(&self.secondary)
+    }
+
+    /// The same, to be changed.
+    pub fn labels_mut(&mut self) -> impl Iterator<Item = &mut Label> {
+        std::iter::once(&mut self.primary).chain(&mut self.secondary)
+    }
+
+    /// Says a few words at the place itself.
+    pub fn label(&mut self, text: impl Into<String>) -> &mut Self {
+        self.primary.text = text.into();
+        self
+    }
+
+    /// Points at another place.
+    pub fn also(&mut self, span: Span, text: impl Into<String>) -> &mut Self {
+        self.secondary.push(Label::new(span, text));
+        self
+    }
+
+    /// Says what to do.
+    pub fn help(&mut self, text: impl Into<String>) -> &mut Self {
+        self.help = Some(text.into());
+        self
+    }
+
+    /// Says why it matters.
+    pub fn note(&mut self, text: impl Into<String>) -> &mut Self {
+        self.note = Some(text.into());
+        self
+    }
+
+    /// Offers a change that mends it.
+    pub fn fix(&mut self, safety: FixSafety, title: impl Into<String>, edits: Vec<Edit>) -> &mut Self {
+        self.fix = Some(Fix { title: title.into(), safety, edits });
+        self
+    }
+
+    /// Departs from the rule's own severity.
+    pub fn severity(&mut self, severity: Severity) -> &mut Self {
+        self.severity = severity;
+        self
+    }
+}
+
+impl Label {
+    /// A label whose file, line and column are found out later, all at once.
+    pub fn new(span: Span, text: impl Into<String>) -> Self {
+        Self {
+            file: Arc::default(),
+            span,
+            position: Position { line: 1, column: 1 },
+            extent: Extent::Span,
+            text: text.into(),
+        }
+    }
+
+    /// The line, from 1, where it is known.
+    pub fn line(&self) -> Option<u64> {
+        (self.extent != Extent::File).then_some(self.position.line)
+    }
+
+    /// The column, from 1, where it is known.
+    pub fn column(&self) -> Option<u64> {
+        (self.extent == Extent::Span).then_some(self.position.column)
+    }
+
+    /// The bytes from start to end, where they are known.
+    pub fn bytes(&self) -> Option<[u64; 2]> {
+        (self.extent == Extent::Span).then_some([self.span.start, self.span.end])
+    }
+}

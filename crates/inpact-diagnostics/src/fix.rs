@@ -1,0 +1,68 @@
+//! Changes that mend a finding: edits on spans, and what they make of the bytes of a file.
+
+use crate::span::Span;
+
+/// A change of the deck that makes a finding go away.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fix {
+    /// What it does, in the imperative.
+    pub title: String,
+    /// Whether the meaning of the deck stays the same.
+    pub safety: FixSafety,
+    /// The changes; they do not overlap, and no byte outside their spans is touched.
+    pub edits: Vec<Edit>,
+}
+
+/// Whether a fix may be applied without being asked for by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FixSafety {
+    /// The deck means the same afterwards.
+    Safe,
+    /// The deck means something else afterwards: what was likely meant.
+    ChangesMeaning,
+}
+
+/// Bytes put in the place of a span.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Edit {
+    /// What is replaced; an empty span inserts.
+    pub span: Span,
+    /// What stands there afterwards.
+    pub replacement: Vec<u8>,
+}
+
+impl Edit {
+    /// Puts `replacement` in the place of `span`.
+    pub fn new(span: Span, replacement: impl Into<Vec<u8>>) -> Self {
+        Self { span, replacement: replacement.into() }
+    }
+
+    /// Takes the bytes of `span` away.
+    pub fn delete(span: Span) -> Self {
+        Self::new(span, Vec::new())
+    }
+}
+
+/// Applies edits to the bytes of the file they point into.
+///
+/// Of two edits that overlap the later one is left out.
+pub fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
+    let mut sorted: Vec<&Edit> = edits.iter().collect();
+    sorted.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    let mut result = Vec::with_capacity(bytes.len());
+    let mut copied: u64 = 0;
+    let slice = |from: u64, to: u64| {
+        let index = |offset: u64| usize::try_from(offset).unwrap_or(bytes.len()).min(bytes.len());
+        &bytes[index(from)..index(to)]
+    };
+    for edit in sorted {
+        if edit.span.start < copied {
+            continue;
+        }
+        result.extend_from_slice(slice(copied, edit.span.start));
+        result.extend_from_slice(&edit.replacement);
+        copied = edit.span.end;
+    }
+    result.extend_from_slice(slice(copied, u64::MAX));
+    result
+}

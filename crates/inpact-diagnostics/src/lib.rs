@@ -1,0 +1,19 @@
+//! What a finding is: the [`Rule`] it is of, how grave it is, where, why, what to do, and how that mends it.
+//!
+//! Findings in decks, node tables and scenes are of one kind, [`Diagnostic`], a plain value that knows its file, line, column and bytes.
+//! Knows nothing of keywords, tables or laws, opens no file and prints nothing.
+
+mod diagnostic;
+mod findings;
+mod fix;
+mod rule;
+mod severity;
+
+pub mod span;
+pub mod visible;
+
+pub use diagnostic::{Cell, Diagnostic, Extent, Label};
+pub use findings::{Findings, Place};
+pub use fix::{Edit, Fix, FixSafety, apply};
+pub use rule::{FixKind, Rule};
+pub use severity::Severity;
