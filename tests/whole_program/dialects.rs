@@ -59,7 +59,7 @@ fn keyword_lines_go_on_in_abaqus_only() {
 
 #[test]
 fn an_unknown_keyword_is_an_error_in_abaqus_and_a_warning_in_calculix() {
-    let folder = Folder::with(&[("d.inp", "*NODE PRINTT\n*NODE\n1, 0.\n")]);
+    let folder = Folder::with(&[("d.inp", "*NODD PRINT\n*NODE\n1, 0.\n")]);
     assert_eq!(check(&folder, &[]), (vec!["error[K001]".to_owned()], 1));
     assert_eq!(check(&folder, &["--dialect", "calculix"]), (vec!["warning[K001]".to_owned()], 0));
     // Keywords of one of the two programs.

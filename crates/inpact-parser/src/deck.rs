@@ -13,7 +13,7 @@ mod survey;
 mod text;
 
 pub use data_line::items;
-pub use include::{Excerpts, FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, MOST_LEVELS};
+pub use include::{Excerpts, FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::Source;
 

@@ -35,6 +35,9 @@ const ABAQUS_NAMES: &str = include_str!("../../../grammar/names/abaqus.txt");
 /// Every keyword of CalculiX, one a line, without blanks.
 const CALCULIX_NAMES: &str = include_str!("../../../grammar/names/calculix.txt");
 
+/// The one keyword that CalculiX compares with the blank behind it: `*GAP X` is not *GAP.
+const ONLY_WHOLE: &[u8] = b"GAP";
+
 /// Whose keyword language it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Dialect {
@@ -73,6 +76,8 @@ pub struct Keyword {
     is_listed: bool,
     /// Whether the definition is that of another dialect, whose parameters may differ.
     is_borrowed: bool,
+    /// Whose language it is.
+    dialect: Dialect,
     definition: OnceLock<Option<Box<Definition>>>,
 }
 
@@ -99,6 +104,7 @@ impl Grammar {
         if dialect == Dialect::Calculix {
             for keyword in &mut keywords {
                 keyword.is_listed = calculix_names.binary_search(&keyword.folded.as_str()).is_ok();
+                keyword.dialect = dialect;
                 keyword.is_borrowed = !replaced.iter().any(|(name, _)| *name == keyword.name);
             }
         }
@@ -130,7 +136,7 @@ impl Grammar {
             return Lookup::Exact(id);
         }
         if self.dialect == Dialect::Calculix {
-            return self.plural_of(folded.as_bytes());
+            return self.name_before(folded.as_bytes());
         }
         let from = self.keywords.partition_point(|keyword| keyword.folded.as_bytes() < folded.as_bytes());
         let candidates = (from..self.keywords.len())
@@ -140,10 +146,11 @@ impl Grammar {
         lookup::decide(folded.as_bytes(), candidates)
     }
 
-    /// CalculiX compares as many letters as its own name has, so its decks have `*FLUID SECTIONS` for *FLUID SECTION.
-    fn plural_of(&self, folded: &[u8]) -> Lookup<KeywordId> {
-        let singular = folded.strip_suffix(b"S").and_then(|singular| self.exact.get(singular)).copied();
-        singular.filter(|id| self.has(*id)).map_or(Lookup::Unknown, Lookup::Exact)
+    /// CalculiX compares as many letters as its own name has: `*GAP CONDUCTANCES` is *GAP CONDUCTANCE (CX-03).
+    fn name_before(&self, folded: &[u8]) -> Lookup<KeywordId> {
+        let shorter = (1..folded.len()).rev().map(|length| &folded[..length]).filter(|name| *name != ONLY_WHOLE);
+        let mut found = shorter.filter_map(|name| self.exact.get(name).copied().filter(|id| self.has(*id)));
+        found.next().map_or(Lookup::Unknown, Lookup::Exact)
     }
 
     /// Whether the dialect and the release have the keyword.
@@ -202,7 +209,15 @@ impl KeywordId {
 impl Keyword {
     fn new(name: &str, source: Option<&'static str>) -> Self {
         let folded = name.chars().filter(|character| !character.is_ascii_whitespace()).collect();
-        Self { name: name.to_owned(), folded, source, is_listed: true, is_borrowed: false, definition: OnceLock::new() }
+        Self {
+            name: name.to_owned(),
+            folded,
+            source,
+            is_listed: true,
+            is_borrowed: false,
+            dialect: Dialect::Abaqus,
+            definition: OnceLock::new(),
+        }
     }
 
     /// What the keyword means; `None` when only its name is known.
@@ -212,6 +227,9 @@ impl Keyword {
             let mut definition = Definition::parse(self.source?).ok()?;
             if self.is_borrowed {
                 definition.loosen();
+            }
+            if self.dialect == Dialect::Calculix {
+                definition.ask_for_words_in_full();
             }
             Some(Box::new(definition))
         };

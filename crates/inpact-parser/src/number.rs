@@ -2,6 +2,10 @@
 //!
 //! Reading is exact: the result is the f64 nearest to the decimal that stands there.
 
+mod fortran;
+
+pub use fortran::{FortranNumber, read_fortran};
+
 /// Why a text is no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NumberError {

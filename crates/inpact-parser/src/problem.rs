@@ -18,6 +18,19 @@ pub struct Problem {
     pub keyword: Span,
 }
 
+/// What is read of a float of more than 20 characters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LongNumber {
+    /// All of it, as Abaqus may.
+    Whole,
+    /// Its first 20 characters, which are the same number up to rounding (CX-05).
+    SameValue,
+    /// Its first 20 characters, which are this number.
+    OtherValue(f64),
+    /// Its first 20 characters, which are none.
+    Nothing,
+}
+
 /// What a [`Problem`] is about.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ProblemKind {
@@ -28,10 +41,12 @@ pub enum ProblemKind {
         /// The column it stands in.
         column: String,
     },
-    /// A float of more than 20 characters; read in full (S-34).
+    /// A float of more than 20 characters (S-34, CX-05).
     NumberTooLong {
         /// How many characters it has.
         characters: usize,
+        /// What the dialect reads of it.
+        read: LongNumber,
     },
     /// An empty line inside a table; skipped (S-08).
     BlankRow,

@@ -51,7 +51,7 @@ fn a_line_of_data_without_end() {
         assert_eq!(law.clearance.as_ref().expect("a table").values, [1.; 3]);
         let (_, _, problems) = read(&[TABLE.as_bytes(), &bytes("0", size), b"., 0.\n"].concat());
         assert!(
-            matches!(&problems[..], [Problem { kind: ProblemKind::NumberTooLong { characters }, .. }] if *characters == size + 1)
+            matches!(&problems[..], [Problem { kind: ProblemKind::NumberTooLong { characters, .. }, .. }] if *characters == size + 1)
         );
     }
 }

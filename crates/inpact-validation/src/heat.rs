@@ -1,11 +1,13 @@
 //! The rows of *GAP HEAT GENERATION, for the rules on them.
 
+use crate::constants::constants;
 use crate::rule::Context;
+
 use inpact_parser::model::{HeatGeneration, Model, SetAsideItem};
 use inpact_parser::span::Span;
 
 /// Every *GAP HEAT GENERATION that the reader took for a sub-option of an interaction, misplaced ones too.
-pub(crate) fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
+fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
     let placed = model.all_interactions().filter_map(|interaction| interaction.gap_heat_generation.as_ref());
     let aside = model.set_aside.iter().filter_map(|aside| match &aside.item {
         SetAsideItem::HeatGeneration(heat) => Some(heat),
@@ -14,8 +16,24 @@ pub(crate) fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
     placed.chain(aside)
 }
 
+/// An item of every row that is read, with its place; where there is no row, its default at the keyword line.
+///
+/// Abaqus reads one row; CalculiX judges every row, though the last alone counts (CX-10).
+pub(crate) fn items(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
+    if context.is_for_calculix() {
+        return items_of_all_rows(context, index);
+    }
+    let of = |heat: &HeatGeneration| (item(context, heat, index), [heat.fraction, heat.slave_weight][index]);
+    all(context.model).map(of).collect()
+}
+
+fn items_of_all_rows(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
+    let blocks = context.defined_blocks().filter(|block| block.name == "GAP HEAT GENERATION");
+    blocks.flat_map(|block| constants(context, block, index)).collect()
+}
+
 /// The span of an item of its row; the row where the item is not written, the keyword line where there is no row.
-pub(crate) fn item(context: &Context<'_>, heat: &HeatGeneration, index: usize) -> Span {
+fn item(context: &Context<'_>, heat: &HeatGeneration, index: usize) -> Span {
     let Some(row) = heat.row else { return heat.span };
     let item = context.deck.data_lines_in(row).next().and_then(|line| line.items().nth(index));
     item.unwrap_or(row)

@@ -11,6 +11,8 @@ pub mod rules;
 mod assembly;
 mod checking;
 
+mod constants;
+
 mod heat;
 mod invisible;
 mod lost;

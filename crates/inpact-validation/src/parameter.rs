@@ -57,17 +57,21 @@ pub(crate) fn given_as<'a>(block: DefinedBlock<'a>, name: &str) -> Option<GivenP
 
 /// Whether the line gives the parameter of that full name, or something that is likely a misspelling of it.
 pub(crate) fn may_be_given(context: &Context<'_>, block: DefinedBlock<'_>, name: &str) -> bool {
+    // CalculiX passes over a misspelt parameter (CX-04): then the one that is meant is not given.
     given_as(block, name).is_some()
-        || block.keyword.parameters.iter().any(|parameter| match &parameter.resolved {
-            Lookup::Exact(_) | Lookup::Abbreviated(_) => false,
-            Lookup::Ambiguous(indices) => indices.iter().any(|index| block.definition.parameters[*index].name == name),
-            // A value without a name may be that of any parameter.
-            Lookup::Unknown if parameter.name.is_empty() => true,
-            Lookup::Unknown => {
-                let written = context.deck.shown(parameter.name);
-                block.definition.nearest_parameters(&written, 3).contains(&name)
-            }
-        })
+        || !context.is_for_calculix()
+            && block.keyword.parameters.iter().any(|parameter| match &parameter.resolved {
+                Lookup::Exact(_) | Lookup::Abbreviated(_) => false,
+                Lookup::Ambiguous(indices) => {
+                    indices.iter().any(|index| block.definition.parameters[*index].name == name)
+                }
+                // A value without a name may be that of any parameter.
+                Lookup::Unknown if parameter.name.is_empty() => true,
+                Lookup::Unknown => {
+                    let written = context.deck.shown(parameter.name);
+                    block.definition.nearest_parameters(&written, 3).contains(&name)
+                }
+            })
 }
 
 impl GivenParameter<'_> {

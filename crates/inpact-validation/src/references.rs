@@ -76,6 +76,10 @@ impl Definitions {
 
     /// What a misspelt keyword defines may be what is meant: the keyword has a finding of its own.
     fn add_possible(&mut self, context: &Context<'_>) {
+        // CalculiX passes over it.
+        if context.is_for_calculix() {
+            return;
+        }
         for keyword in context.keyword_lines().filter(|keyword| keyword.id().is_none()) {
             self.add_name_of(context, keyword);
         }
@@ -85,7 +89,7 @@ impl Definitions {
         for parameter in &keyword.parameters {
             let is_name = context.deck.text(parameter.name).eq_ignore_ascii_case(b"NAME");
             if let Some(value) = parameter.value.filter(|_| is_name) {
-                self.add(Name::new(&context.value(value)), value);
+                self.add(context.name(value), value);
             }
         }
     }
@@ -126,7 +130,7 @@ pub(crate) fn suggestion(definitions: &Definitions, name: &Name, finding: usize)
 
 /// The name in upper case without blanks and quotes.
 fn folded(name: &Name) -> String {
-    let kept = name.canonical().chars().filter(|character| !character.is_ascii_whitespace());
+    let kept = name.canonical().chars().filter(|character| !character.is_ascii_whitespace() && *character != '"');
     kept.map(|character| character.to_ascii_uppercase()).collect()
 }
 
@@ -161,7 +165,7 @@ pub(crate) fn uses_of_interactions(context: &Context<'_>) -> Vec<Use> {
     let assignments = assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT"));
     let changes = context.defined_blocks().filter(|block| block.name == "CHANGE FRICTION").filter_map(|block| {
         let span = given_as(block, "INTERACTION")?.value()?;
-        Some(Use { name: Name::new(&context.value(span)), span, keyword: "CHANGE FRICTION" })
+        Some(Use { name: context.name(span), span, keyword: "CHANGE FRICTION" })
     });
     pairs.chain(assignments).chain(changes).collect()
 }

@@ -5,8 +5,8 @@ use crate::tables::trimmed;
 use inpact_diagnostics::{Diagnostic, Label, Rule};
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
 use inpact_parser::expression::substitute;
-use inpact_parser::grammar::{Definition, Grammar};
-use inpact_parser::model::{Model, TableOf};
+use inpact_parser::grammar::{Definition, Dialect, Grammar};
+use inpact_parser::model::{Model, Name, TableOf};
 use inpact_parser::problem::Problem;
 use inpact_parser::span::Span;
 
@@ -80,6 +80,11 @@ impl<'a> Context<'a> {
         })
     }
 
+    /// Whether the deck is for CalculiX, which is judged by what ccx does with it (semantics, section 12).
+    pub fn is_for_calculix(&self) -> bool {
+        self.grammar.dialect() == Dialect::Calculix
+    }
+
     /// The text of a span for a message.
     pub fn shown(&self, span: Span) -> String {
         shorten(&self.deck.shown(span))
@@ -92,6 +97,11 @@ impl<'a> Context<'a> {
             Ok(replaced) => replaced.trim().to_owned(),
             Err(_) => text,
         }
+    }
+
+    /// The name that a value or an item is in the dialect of the deck.
+    pub fn name(&self, span: Span) -> Name {
+        Name::in_dialect(&self.value(span), self.grammar.dialect())
     }
 
     /// The span of cell `column` of row `row` of a table, found again in the deck's text; the row's span when it is not there.

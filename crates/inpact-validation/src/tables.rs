@@ -25,10 +25,13 @@ pub(crate) fn sound_tables<'a, 'deck>(context: &'a Context<'deck>) -> impl Itera
 
 /// The keyword lines whose rows hold something else than their columns say.
 fn misread(context: &Context<'_>) -> HashSet<Span> {
-    let of_rows = context
-        .problems
-        .iter()
-        .filter(|problem| matches!(problem.kind, ProblemKind::TooManyItems { .. } | ProblemKind::IncompleteRow { .. }));
+    // CalculiX passes over items behind those it reads.
+    let is_misread = |kind: &ProblemKind| match kind {
+        ProblemKind::TooManyItems { .. } => !context.is_for_calculix(),
+        ProblemKind::IncompleteRow { .. } => true,
+        _ => false,
+    };
+    let of_rows = context.problems.iter().filter(|problem| is_misread(&problem.kind));
     let of_lines = context.defined_blocks().filter(|block| {
         let is_table = matches!(block.definition.rows(), RowShape::Table | RowShape::HeadedTable);
         is_table && columns_are_unclear(context, *block)
@@ -38,7 +41,7 @@ fn misread(context: &Context<'_>) -> HashSet<Span> {
 
 /// Whether the keyword line has a parameter that nobody can tell, or leaves open how many columns there are.
 pub(crate) fn columns_are_unclear(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
-    if block.definition.parameters_complete && has_unclear_parameters(block.keyword) {
+    if block.definition.parameters_complete && !context.is_for_calculix() && has_unclear_parameters(block.keyword) {
         return true;
     }
     let mut counts = given(block).filter(|given| given.definition.name == "DEPENDENCIES");

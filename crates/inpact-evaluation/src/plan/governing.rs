@@ -1,6 +1,7 @@
 //! Which interaction governs a row.
 
 use crate::nodes::{Batch, Column, Findings, Header, MISSING_COLUMN, Place, UNKNOWN_INTERACTION};
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Model, Name};
 use std::collections::HashMap;
 
@@ -121,6 +122,10 @@ pub enum NameFault {
 /// # Errors
 /// None of that name, or more than one that it may be.
 pub fn find_interaction(model: &Model, text: &str) -> Result<usize, NameFault> {
+    // In a deck of CalculiX quotes are letters of the name (CX-02); no name of Abaqus has any, so that one look serves both.
+    if let Some(index) = model.interactions.get_index_of(&Name::in_dialect(text, Dialect::Calculix)) {
+        return Ok(index);
+    }
     let name = Name::new(text);
     let exact = || model.interactions.keys().position(|known| known.is_quoted() && known.canonical() == text.trim());
     if let Some(index) = model.interactions.get_index_of(&name).or_else(exact) {

@@ -13,6 +13,7 @@ use super::source::{Source, cell};
 use super::thermal_parts::{plan_conduction, plan_friction, plan_radiation};
 use super::thermal_tables::ThermalTables;
 use super::{Derivatives, ElectricalPlan, History, TablePlan};
+use crate::accuracy::Wanted;
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
 use crate::results::Output;
@@ -206,7 +207,16 @@ pub(super) fn plan_thermal(
         }
     }
     plan_flows(planner, &mut plan, unknown, outputs, left_out);
-    if planner.choices.accuracy.is_reference() {
+    let has_curves = plan
+        .conduction
+        .as_ref()
+        .is_some_and(|conduction| conduction.dialect == Dialect::Calculix && !conduction.tables.is_empty());
+    if has_curves && planner.choices.accuracy != Wanted::default() {
+        notes.push(
+            "the curves of CalculiX are no plain table: they are evaluated in full accuracy, whatever accuracy is asked for"
+                .to_owned(),
+        );
+    } else if planner.choices.accuracy.is_reference() {
         notes.push(
             "conducted heat and that of the current have the accuracy of the reference; radiation, friction and the sum are rounded as in full accuracy".to_owned(),
         );

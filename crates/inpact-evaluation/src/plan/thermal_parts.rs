@@ -172,14 +172,8 @@ pub(super) fn plan_friction(
         }
         return Planned::Absent;
     }
-    if planner.choices.dialect == Dialect::Calculix {
-        let needed = [
-            (planner.interaction.gap_heat_generation.is_some(), "generates heat with *GAP HEAT GENERATION only"),
-            (has_option("GAP CONDUCTANCE"), "generates heat with *GAP CONDUCTANCE beside it only"),
-        ];
-        if let Some((_, why)) = needed.into_iter().find(|(is_given, _)| !is_given) {
-            return Planned::LeftOut(Reason::NotInCalculix(why));
-        }
+    if planner.choices.dialect == Dialect::Calculix && planner.interaction.gap_heat_generation.is_none() {
+        return Planned::LeftOut(Reason::NotInCalculix("generates heat with *GAP HEAT GENERATION only"));
     }
     let needed: Vec<Column> = if given_speed.is_some() { vec![Column::Shear] } else { columns.to_vec() };
     let lacking: Vec<Column> = needed.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();

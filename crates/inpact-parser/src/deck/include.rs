@@ -6,12 +6,18 @@
 
 use super::scan::LeadingRows;
 use super::{Block, Deck, KeywordLine, ScanOptions, Scanner, Source};
+use crate::grammar::Dialect;
 use crate::span::{SourceId, Span};
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-/// The most files below one another, the deck itself not counted (S-52).
-pub const MOST_LEVELS: usize = 5;
+/// The most files below one another, the deck itself not counted: five in Abaqus (S-52), nine in CalculiX (CX-06).
+pub fn most_levels(dialect: Dialect) -> usize {
+    match dialect {
+        Dialect::Abaqus => 5,
+        Dialect::Calculix => 9,
+    }
+}
 
 /// The most files a deck may include in all: a bound against files that include one another over and over.
 pub const MOST_FILES: usize = 200_000;
@@ -42,7 +48,7 @@ pub enum IncludeOutcome {
     Unreadable(String),
     /// It lies outside of this folder, beyond which nothing may be read.
     Outside(String),
-    /// It lies over five levels deep (S-52).
+    /// It lies too many levels deep ([`most_levels`]).
     TooDeep,
     /// So many files are included already ([`MOST_FILES`]) that nobody can mean them all.
     TooMany,
@@ -184,8 +190,13 @@ impl Assembly<'_> {
     }
 
     fn include(&mut self, keyword: &KeywordLine) -> Include {
-        // CalculiX has FILE for INPUT as well, and decks for Abaqus have it too.
-        let name = self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE"));
+        let name = match self.options.grammar.dialect() {
+            // FILE stands for INPUT in decks that ran all the same.
+            Dialect::Abaqus => self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE")),
+            // CalculiX looks for the first `=` (CX-06).
+            Dialect::Calculix => keyword.parameters.iter().find_map(|parameter| parameter.value),
+        };
+        let name = name.filter(|name| !name.is_empty());
         let outcome = match name {
             _ if self.is_given(keyword, "PASSWORD") => IncludeOutcome::Encrypted,
             None => IncludeOutcome::Unnamed,
@@ -195,17 +206,19 @@ impl Assembly<'_> {
     }
 
     fn read_file(&mut self, name: Span, keyword: Span) -> IncludeOutcome {
-        if self.level >= MOST_LEVELS {
+        if self.level >= most_levels(self.options.grammar.dialect()) {
             return IncludeOutcome::TooDeep;
         }
         if self.deck.sources.len() > MOST_FILES {
             return IncludeOutcome::TooMany;
         }
         let written = self.deck.shown(name);
-        // Blanks carry no meaning outside quotes (S-22).
+        let without_blanks = |text: &str| text.split_ascii_whitespace().collect::<String>();
+        // Blanks carry no meaning outside quotes (S-22), for CalculiX inside them neither (CX-06).
         let written = match written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
+            Some(quoted) if self.options.grammar.dialect() == Dialect::Calculix => without_blanks(quoted),
             Some(quoted) => quoted.to_owned(),
-            None => written.split_ascii_whitespace().collect(),
+            None => without_blanks(&written),
         };
         let from = self.deck.source(name.source).name();
         if let Some(folder) = self.files.outside(&written, from) {

@@ -39,13 +39,25 @@ pub(super) struct ParameterPieces {
 ///
 /// Never fails: what cannot be read stays inside a name or a value.
 pub(super) fn parse(text: &[u8]) -> KeywordPieces {
+    parse_words(text, word)
+}
+
+/// Parses a keyword line of CalculiX, in which every comma separates (CX-02).
+pub(super) fn parse_unprotected(text: &[u8]) -> KeywordPieces {
+    parse_words(text, |input| take_till(|byte| byte == b',').parse(input))
+}
+
+/// What takes one item of a line.
+type TakeItem = fn(&[u8]) -> IResult<&[u8], &[u8]>;
+
+fn parse_words(text: &[u8], word: TakeItem) -> KeywordPieces {
     let joined = join_physical_lines(text);
     let mut pieces = KeywordPieces::default();
     let start = joined.iter().position(|byte| *byte == b'*').map_or(0, |star| star + 1);
     let (rest, name) = word(&joined[start..]).unwrap_or((&[], &joined[start..]));
     pieces.name = trimmed(&joined, range_of(&joined, name));
     let mut rest = rest;
-    while let Ok((behind, item)) = next_item(rest) {
+    while let Ok((behind, item)) = preceded(tag(","), word).parse(rest) as IResult<&[u8], &[u8]> {
         let range = range_of(&joined, item);
         pieces.final_comma = Some(range.start - 1);
         if !joined[range.clone()].trim_ascii().is_empty() {
@@ -77,11 +89,6 @@ fn join_physical_lines(text: &[u8]) -> std::borrow::Cow<'_, [u8]> {
         joined[blank_from..line.end].fill(b' ');
     }
     joined.into()
-}
-
-/// An item behind a comma; fails at the end of the line.
-fn next_item(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    preceded(tag(","), word).parse(input)
 }
 
 /// Everything up to the next comma that is neither inside quotes nor inside parentheses (S-20, S-41).
@@ -168,6 +175,13 @@ mod tests {
         assert_eq!(shown("*A, NAME=\"x, y=z\", U"), "A | NAME = \"x, y=z\" | U");
         assert_eq!(shown("*PARAMETER, DEPENDENT=(a, b), T=1"), "PARAMETER | DEPENDENT = (a, b) | T = 1");
         assert_eq!(shown("*A, N=(x, y"), "A | N = (x | y");
+    }
+
+    #[test]
+    fn cx_02_every_comma_separates_in_calculix() {
+        let pieces = parse_unprotected(b"*A, NAME=\"x, y\", (b, c)");
+        assert_eq!(pieces.parameters.len(), 4);
+        assert_eq!(pieces.parameters[0].value, Some(9..11));
     }
 
     #[test]

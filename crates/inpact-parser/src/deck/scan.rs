@@ -477,7 +477,10 @@ fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {
 
 /// Resolves the pieces of a keyword line that stands at `start` in the file.
 fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> KeywordLine {
-    let pieces = keyword_line::parse(text);
+    let pieces = match grammar.dialect() {
+        Dialect::Abaqus => keyword_line::parse(text),
+        Dialect::Calculix => keyword_line::parse_unprotected(text),
+    };
     let span = |range: Range<usize>| Span::new(id, start + range.start as u64, start + range.end as u64);
     let point = |at: usize| span(at..at + 1);
     let resolved = grammar.keyword_named(&text[pieces.name.clone()]);

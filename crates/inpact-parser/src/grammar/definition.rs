@@ -2,7 +2,7 @@
 
 use super::data::{Data, Layout, RowShape};
 use super::dimension::Dimension;
-use super::lookup::{Lookup, lookup_among, lookup_name};
+use super::lookup::{Lookup, begins_with_name, is_name, lookup_among, lookup_name};
 use super::nearest;
 use super::release::Release;
 use serde::Deserialize;
@@ -41,6 +41,19 @@ pub struct Definition {
     pub parameters: Vec<ParameterDefinition>,
     /// Its rows.
     pub data: Data,
+    /// How parameters are recognised.
+    #[serde(skip)]
+    words: Words,
+}
+
+/// How much of a name must be written (S-13, CX-03).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Words {
+    /// As much as tells it from all others, as Abaqus has it.
+    #[default]
+    Abbreviated,
+    /// All of it, as CalculiX has it; flags and choices may go on behind it.
+    InFull,
 }
 
 /// A parameter of a keyword line.
@@ -90,6 +103,9 @@ pub struct ParameterDefinition {
     pub description: String,
     /// Where that is said: manual section, rule number.
     pub source: String,
+    /// How choices are recognised.
+    #[serde(skip)]
+    words: Words,
 }
 
 /// What the value of a parameter is.
@@ -189,8 +205,26 @@ impl Definition {
     /// The parameter that is written so in a deck for `release`, as its place in the list (S-13, S-16).
     pub fn parameter_named_in(&self, written: &[u8], release: Release) -> Lookup<usize> {
         let parameters = self.parameters.iter().enumerate();
+        if self.words == Words::InFull {
+            return self.parameter_in_full(written);
+        }
         let there = parameters.filter(|(_, parameter)| release.is_within(parameter.since, parameter.until));
         lookup_among(written, there.map(|(index, parameter)| (index, parameter.name.as_str())))
+    }
+
+    /// The parameter that is written in full; CalculiX looks at no more letters than the name of a flag has (CX-03).
+    fn parameter_in_full(&self, written: &[u8]) -> Lookup<usize> {
+        let is_meant = |parameter: &ParameterDefinition| match parameter.kind {
+            ParameterKind::Flag => begins_with_name(written, &parameter.name),
+            _ => is_name(written, &parameter.name),
+        };
+        self.parameters.iter().position(is_meant).map_or(Lookup::Unknown, Lookup::Exact)
+    }
+
+    /// Has parameters and choices recognised as CalculiX does it (CX-03).
+    pub(super) fn ask_for_words_in_full(&mut self) {
+        self.words = Words::InFull;
+        self.parameters.iter_mut().for_each(|parameter| parameter.words = Words::InFull);
     }
 
     /// Names of parameters that somebody who wrote this may have meant, the nearest first.
@@ -259,6 +293,9 @@ impl ParameterDefinition {
 
     /// The choice that is written so (S-13); `None` when there is none, or more than one.
     pub fn choice_named(&self, written: &[u8]) -> Option<&str> {
+        if self.words == Words::InFull {
+            return self.choices.iter().map(String::as_str).find(|choice| begins_with_name(written, choice));
+        }
         let index = lookup_name(written, self.choices.iter().map(String::as_str)).found()?;
         Some(&self.choices[index])
     }

@@ -78,6 +78,17 @@ fn begins_with(name: &str, folded: &[u8]) -> Match {
     if letters.next().is_none() { Match::Exact } else { Match::Prefix }
 }
 
+/// Whether what is written is that name in full.
+pub(super) fn is_name(written: &[u8], name: &str) -> bool {
+    fold(written).eq(fold(name.as_bytes()))
+}
+
+/// Whether what is written is that name in full, with or without letters behind it.
+pub(super) fn begins_with_name(written: &[u8], name: &str) -> bool {
+    let mut letters = fold(written);
+    fold(name.as_bytes()).all(|letter| letters.next() == Some(letter))
+}
+
 /// A written word without blanks and tabs, in upper case (S-07, S-11, S-12).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Folded {

@@ -3,6 +3,7 @@
 //! Walks the blocks once, in reading order, and knows at each where it is: in a part, in a step, inside which interaction.
 //! Collects problems and never stops at one (T-44).
 
+mod constants;
 mod entry;
 mod interaction;
 mod parameters;

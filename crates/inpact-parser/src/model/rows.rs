@@ -6,9 +6,9 @@ use super::SubOption;
 use super::table::{CellText, Table};
 use crate::deck::{Block, DataLine, Deck, items};
 use crate::expression::{Parameters, SubstitutionError, substitute};
-use crate::grammar::Layout;
-use crate::number::{FLOAT_CHARACTERS, read_float};
-use crate::problem::{Problem, ProblemKind};
+use crate::grammar::{Dialect, Layout};
+use crate::number::{FLOAT_CHARACTERS, FortranNumber, read_float, read_fortran};
+use crate::problem::{LongNumber, Problem, ProblemKind};
 use crate::span::Span;
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: u
 pub(super) fn read_table(
     deck: &Deck,
     block: &Block,
-    layout: Layout,
+    (layout, dialect): (Layout, Dialect),
     parameters: &Parameters,
     problems: &mut Vec<Problem>,
 ) -> Table {
@@ -43,6 +43,7 @@ pub(super) fn read_table(
     let mut reader = RowReader {
         deck,
         keyword,
+        dialect,
         layout: &layout,
         lines: layout.lines_per_row(),
         parameters,
@@ -54,7 +55,10 @@ pub(super) fn read_table(
     let mut line_of_row = 0;
     for line in deck.data_lines(block) {
         if line.is_blank() {
-            reader.report(ProblemKind::BlankRow, line.span);
+            // CalculiX passes over them (CX-01).
+            if dialect == Dialect::Abaqus {
+                reader.report(ProblemKind::BlankRow, line.span);
+            }
             continue;
         }
         line_of_row = reader.take_line(&line, line_of_row);
@@ -70,6 +74,7 @@ pub(super) fn read_table(
 struct RowReader<'a> {
     deck: &'a Deck,
     keyword: Span,
+    dialect: Dialect,
     layout: &'a Layout,
     lines: usize,
     parameters: &'a Parameters,
@@ -161,20 +166,11 @@ impl RowReader<'_> {
     }
 
     fn value(&mut self, text: &[u8], item: Span, column: usize) -> Option<f64> {
-        match read_float(text) {
-            Ok(value) => {
-                let written = usize::try_from(item.len()).unwrap_or(usize::MAX);
-                if written > FLOAT_CHARACTERS && written == text.len() {
-                    self.report(ProblemKind::NumberTooLong { characters: written }, item);
-                }
-                Some(value)
-            }
-            Err(error) => {
-                let column = self.layout.columns[column].clone();
-                self.report(ProblemKind::MalformedNumber { error, column }, item);
-                None
-            }
+        let (value, problem) = read_number(text, item, self.dialect, &self.layout.columns[column]);
+        if let Some(kind) = problem {
+            self.report(kind, item);
         }
+        value
     }
 
     fn extend_last_row(&mut self, line: Span) {
@@ -224,6 +220,41 @@ pub(super) fn undefined_parameter(
     let SubstitutionError::Undefined(name) = error else { return None };
     let similar = parameters.name_in_other_case(name).map(str::to_owned);
     Some(Problem { kind: ProblemKind::UndefinedParameter { name: name.clone(), similar }, span, keyword })
+}
+
+/// The number that an item of a column is in a dialect, and what is to be said of it.
+pub(super) fn read_number(
+    text: &[u8],
+    item: Span,
+    dialect: Dialect,
+    column: &str,
+) -> (Option<f64>, Option<ProblemKind>) {
+    let malformed = |error| (None, Some(ProblemKind::MalformedNumber { error, column: column.to_owned() }));
+    let characters = usize::try_from(item.len()).unwrap_or(usize::MAX);
+    let long = |read| Some(ProblemKind::NumberTooLong { characters, read });
+    if dialect == Dialect::Abaqus {
+        return match read_float(text) {
+            Ok(value) if FLOAT_CHARACTERS < characters && characters == text.len() => {
+                (Some(value), long(LongNumber::Whole))
+            }
+            Ok(value) => (Some(value), None),
+            Err(error) => malformed(error),
+        };
+    }
+    match read_fortran(text) {
+        Ok(FortranNumber::Whole(value)) => (Some(value), None),
+        Ok(FortranNumber::Cut { value, whole: Some(whole) }) if differs_by_rounding(value, whole) => {
+            (Some(value), long(LongNumber::SameValue))
+        }
+        Ok(FortranNumber::Cut { value, .. }) => (Some(value), long(LongNumber::OtherValue(value))),
+        Ok(FortranNumber::CutToNothing) => (None, long(LongNumber::Nothing)),
+        Err(error) => malformed(error),
+    }
+}
+
+/// Whether digits that ccx does not read (CX-05) change nothing that anybody meant: 15 digits are as many as an f64 tells apart.
+fn differs_by_rounding(cut: f64, whole: f64) -> bool {
+    (cut - whole).abs() <= 1e-15 * whole.abs()
 }
 
 /// How many items belong on line `line` of a row, counted from 0.

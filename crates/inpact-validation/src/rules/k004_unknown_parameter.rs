@@ -2,7 +2,7 @@
 
 use super::k015_not_in_release::parameter_of_other_release;
 use super::s005_unterminated_quote::open_quote;
-use inpact_diagnostics::{Edit, FixSafety, Severity};
+use inpact_diagnostics::{Diagnostic, Edit, FixSafety, Severity};
 use crate::invisible;
 use crate::parameter::{self, GivenParameter, given_as};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
@@ -63,10 +63,9 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
     let keyword = block.name;
     if parameter.name.is_empty() {
         let value = context.shown(parameter.value.unwrap_or(parameter.name));
-        report
-            .at(parameter.span(), format!("the value `{value}` of `*{keyword}` belongs to no parameter"))
-            .label("a name is missing before `=`")
-            .help("write the name of the parameter before `=`");
+        let found = report.at(parameter.span(), format!("the value `{value}` of `*{keyword}` belongs to no parameter"));
+        found.label("a name is missing before `=`").help("write the name of the parameter before `=`");
+        soften(context, found);
         return;
     }
     let written = context.deck.text(parameter.name);
@@ -88,7 +87,7 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
     let message = format!("`*{keyword}` has no parameter `{}`", context.shown(parameter.name));
     // A suggestion costs a comparison with every name, and a finding that is only counted shows none.
     if report.is_full() {
-        report.at(parameter.name, message);
+        soften(context, report.at(parameter.name, message));
         return;
     }
     let release = context.grammar.release();
@@ -103,6 +102,7 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
     });
     let found = report.at(parameter.name, message);
     found.label("unknown parameter").help(help);
+    soften(context, found);
     if let Some(meant) = only_candidate(block, parameter, &near) {
         found.fix(FixSafety::ChangesMeaning, format!("write `{meant}`"), vec![Edit::new(parameter.name, meant)]);
     }
@@ -129,4 +129,11 @@ fn only_candidate<'a>(block: DefinedBlock<'_>, parameter: &Parameter, near: &[&'
         ValueUse::Optional => true,
     };
     (fits && given_as(block, meant).is_none()).then_some(meant)
+}
+
+/// CalculiX warns of a parameter that it does not know, and goes on without it (CX-04).
+fn soften(context: &Context<'_>, found: &mut Diagnostic) {
+    if context.is_for_calculix() {
+        found.severity(Severity::Warning).note("CalculiX goes on without the parameter");
+    }
 }

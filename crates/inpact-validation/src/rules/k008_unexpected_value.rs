@@ -30,6 +30,10 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
+    // CalculiX looks at the name of a flag only (CX-03).
+    if context.is_for_calculix() {
+        return;
+    }
     for given in all_given(context).filter(|given| given.definition.value_use() == ValueUse::Never) {
         let Some(value) = given.parameter.value else { continue };
         let (name, keyword) = (&given.definition.name, given.block.name);

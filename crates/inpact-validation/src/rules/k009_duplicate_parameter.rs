@@ -37,7 +37,11 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                     .at(given.parameter.span(), format!("`{name}` of `*{}` is given twice", block.name))
                     .label("this one is used here")
                     .also(first, "given before")
-                    .note("Abaqus ignores one of the two, and the manual does not say which")
+                    .note(if context.is_for_calculix() {
+                        "CalculiX takes the last of several values, of NAME the first"
+                    } else {
+                        "Abaqus ignores one of the two, and the manual does not say which"
+                    })
                     .help("take one of them away");
             }
         }

@@ -43,10 +43,12 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for given in defines {
         let (Some(value), Some(text)) = (given.value(), given.text(context)) else { continue };
         // A quote that does not close has its own finding.
-        if open_quote(&text).is_some() {
+        if open_quote(&text).is_some() && !context.is_for_calculix() {
             continue;
         }
-        let Some(fault) = fault(&text) else { continue };
+        // CalculiX takes any letters (CX-02), but not any number of them.
+        let fault = if context.is_for_calculix() { fault_of_length(&text) } else { fault(&text) };
+        let Some(fault) = fault else { continue };
         let shown = context.shown(value);
         report.at(value, format!("`{shown}` is no legal name: {}", fault.what)).label(fault.what).help(fault.help);
     }
@@ -57,6 +59,8 @@ struct Fault {
     what: &'static str,
     help: &'static str,
 }
+
+const TOO_LONG: Fault = Fault { what: "it has more than 80 characters", help: "shorten it" };
 
 fn fault(text: &[u8]) -> Option<Fault> {
     match text {
@@ -86,14 +90,20 @@ fn fault_of_unquoted(text: &[u8]) -> Option<Fault> {
             ("it has a period in it", "leave the period out, or quote the name wherever it is used")
         }
         _ if text.contains(&b'=') => ("it has `=` in it", "put a comma before the next parameter, or quote the name"),
-        _ => return fault_of_any(text.iter().filter(|byte| !byte.is_ascii_whitespace()).count(), text),
+        _ => return fault_of_length(text).or_else(|| fault_of_any(0, text)),
     };
     Some(Fault { what, help })
 }
 
+/// Blanks do not count.
+fn fault_of_length(text: &[u8]) -> Option<Fault> {
+    let length = text.iter().filter(|byte| !byte.is_ascii_whitespace()).count();
+    (length > LONGEST).then_some(TOO_LONG)
+}
+
 fn fault_of_any(length: usize, name: &[u8]) -> Option<Fault> {
     if length > LONGEST {
-        return Some(Fault { what: "it has more than 80 characters", help: "shorten it" });
+        return Some(TOO_LONG);
     }
     let is_reserved = name.starts_with(b"__") && name.ends_with(b"__");
     is_reserved.then_some(Fault {

@@ -1,6 +1,6 @@
 //! P003: heat that is shared by a fraction outside 0 to 1.
 
-use crate::heat::{all, item};
+use crate::heat::items;
 use crate::quantity::number;
 use crate::rule::{Context, Report, declare_rule};
 
@@ -34,13 +34,12 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for heat in all(context.model) {
-        let share = heat.slave_weight;
+    for (place, share) in items(context, 1) {
         // A share that is no number has a finding of its own (S006).
         if share.is_nan() || (0.0..=1.0).contains(&share) {
             continue;
         }
-        let found = report.at(item(context, heat, 1), format!("heat share {} lies outside of 0 to 1", number(share)));
+        let found = report.at(place, format!("heat share {} lies outside of 0 to 1", number(share)));
         found.label("the fraction that goes into the slave surface");
         found.note("what one side gets above the whole heat would be taken from the other side");
         if share > 1.0 && share <= 100.0 {

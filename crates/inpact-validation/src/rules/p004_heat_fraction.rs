@@ -1,7 +1,7 @@
 //! P004: fractions of dissipated energy below 0 or above 1.
 
+use crate::heat::items;
 use inpact_diagnostics::Severity;
-use crate::heat::{all, item};
 use crate::quantity::number;
 use crate::rule::{Context, Report, declare_rule};
 
@@ -44,17 +44,23 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for heat in all(context.model) {
-        let fraction = heat.fraction;
-        if fraction < 0.0 {
+    for (place, fraction) in items(context, 0) {
+        // CalculiX refuses zero, which an empty item is there (CX-10).
+        if context.is_for_calculix() && fraction == 0.0 {
             report
-                .at(item(context, heat, 0), format!("heat fraction {} is negative", number(fraction)))
+                .at(place, "heat fraction 0: CalculiX stops")
+                .label("the fraction of the dissipated energy that becomes heat")
+                .note("CalculiX wants a fraction above zero, and reads an empty item as 0")
+                .help("give a value above 0, or take `*GAP HEAT GENERATION` out");
+        } else if fraction < 0.0 {
+            report
+                .at(place, format!("heat fraction {} is negative", number(fraction)))
                 .label("the fraction of the dissipated energy that becomes heat")
                 .note("a negative fraction would cool the interface by what it dissipates")
                 .help("give a value from 0 to 1");
         } else if fraction > 1.0 {
             report
-                .at(item(context, heat, 0), format!("heat fraction {} is above 1", number(fraction)))
+                .at(place, format!("heat fraction {} is above 1", number(fraction)))
                 .severity(Severity::Note)
                 .label("the fraction of the dissipated energy that becomes heat")
                 .note("a value above 1 makes sense only as a factor between the units of energy and of heat")

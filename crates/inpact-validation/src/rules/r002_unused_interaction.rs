@@ -78,7 +78,7 @@ fn all_uses(context: &Context<'_>) -> Vec<Use> {
             let name = context.deck.text(parameter.name);
             let Some(value) = parameter.value.filter(|_| name.eq_ignore_ascii_case(b"INTERACTION")) else { continue };
             // *CONTACT PAIR is among the uses already; twice does no harm.
-            let name = Name::new(&context.value(value));
+            let name = context.name(value);
             uses.push(Use { name, span: value, keyword: "" });
         }
     }

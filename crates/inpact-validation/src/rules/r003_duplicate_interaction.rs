@@ -10,7 +10,7 @@ declare_rule! {
     ///
     /// ## Why
     /// Both cannot govern, and the manual does not say which one does.
-    /// inpact evaluates the last one.
+    /// inpact evaluates the last one; in a deck for CalculiX the first, which is what ccx takes.
     ///
     /// ## What to do
     /// Rename one of them, or put their options under one *SURFACE INTERACTION.
@@ -37,19 +37,23 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for aside in &context.model.set_aside {
-        let (SetAsideReason::ReplacedBy(later), SetAsideItem::Interaction(earlier)) = (aside.reason, &aside.item)
-        else {
-            continue;
+        let SetAsideItem::Interaction(interaction) = &aside.item else { continue };
+        let (later, earlier, note) = match aside.reason {
+            SetAsideReason::ReplacedBy(later) => (later, interaction.span, "both cannot govern; inpact evaluates the last"),
+            SetAsideReason::Shadowed { first } => {
+                (interaction.span, first, "both cannot govern; CalculiX takes the first for a contact pair")
+            }
+            SetAsideReason::Misplaced => continue,
         };
         // Interactions without a name are K006.
-        if earlier.name.canonical().is_empty() {
+        if interaction.name.canonical().is_empty() {
             continue;
         }
         report
-            .at(later, format!("interaction `{}` is defined twice", earlier.name))
+            .at(later, format!("interaction `{}` is defined twice", interaction.name))
             .label("defined again")
-            .also(earlier.span, "defined here before")
-            .note("both cannot govern; inpact evaluates the last")
+            .also(earlier, "defined here before")
+            .note(note)
             .help("rename one of them, or put their options under one `*SURFACE INTERACTION`");
     }
 }

@@ -34,11 +34,15 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         match block.name {
             "STEP" => in_step = true,
             "END STEP" => in_step = false,
-            "CONTACT PAIR" if !in_step && !names_interaction(block) => {
+            "CONTACT PAIR" if (!in_step || context.is_for_calculix()) && !names_interaction(context, block) => {
                 report
                     .at(context.trimmed(block.keyword.span), "contact pair without an interaction")
                     .label("`INTERACTION` is missing")
-                    .note("in Abaqus/Standard every contact pair names its interaction")
+                    .note(if context.is_for_calculix() {
+                        "in CalculiX every contact pair names its interaction"
+                    } else {
+                        "in Abaqus/Standard every contact pair names its interaction"
+                    })
                     .help("give `INTERACTION=NAME` with the name of a `*SURFACE INTERACTION`");
             }
             _ => {}
@@ -47,6 +51,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 }
 
 /// Whether the line has INTERACTION, or something that may be meant by it.
-fn names_interaction(block: DefinedBlock<'_>) -> bool {
+fn names_interaction(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
+    if context.is_for_calculix() {
+        return given_as(block, "INTERACTION").is_some_and(|given| given.value().is_some());
+    }
     has_unclear_parameters(block.keyword) || given_as(block, "INTERACTION").is_some()
 }

@@ -1,5 +1,6 @@
 //! R006: names that are quoted in one place and not in the other.
 
+use inpact_diagnostics::Severity;
 use crate::references::{Definitions, Found, Use, uses_of_interactions, uses_of_surfaces};
 use crate::rule::{Context, Report, declare_rule};
 
@@ -33,23 +34,26 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let interactions = uses_of_interactions(context);
     if !interactions.is_empty() {
-        check_uses(report, &interactions, &Definitions::interactions(context));
+        check_uses(context, report, &interactions, &Definitions::interactions(context));
     }
     let surfaces = uses_of_surfaces(context);
     if !surfaces.is_empty() {
-        check_uses(report, &surfaces, &Definitions::surfaces(context));
+        check_uses(context, report, &surfaces, &Definitions::surfaces(context));
     }
 }
 
-fn check_uses(report: &mut Report<'_>, uses: &[Use], definitions: &Definitions) {
+fn check_uses(context: &Context<'_>, report: &mut Report<'_>, uses: &[Use], definitions: &Definitions) {
     for used in uses {
         let Found::QuotedOtherwise(defined, span) = definitions.find(&used.name) else { continue };
         let (here, there) = if used.name.is_quoted() { ("quoted", "unquoted") } else { ("unquoted", "quoted") };
-        report
+        let found = report
             .at(used.span, format!("`{}` is {here} here and {there} where it is defined", used.name))
             .label(here)
             .also(span, format!("{there}: `{defined}`"))
             .note("quotes keep case and blanks, so that the two are different names")
             .help(format!("write `{defined}` here"));
+        if context.is_for_calculix() {
+            found.severity(Severity::Error).note("for CalculiX quotes are letters of the name, so that the two are different names");
+        }
     }
 }

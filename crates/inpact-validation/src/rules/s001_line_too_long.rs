@@ -34,6 +34,9 @@ declare_rule! {
 /// The most characters of a keyword or data line.
 const LIMIT: usize = 256;
 
+/// As many as CalculiX has room for, the line end and an end mark included.
+const CALCULIX_LIMIT: usize = 1319;
+
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let notes = || context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::TooLong);
     if notes().next().is_none() || reading(context) == Reading::NoDeck {
@@ -41,6 +44,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     for note in notes() {
         let line = context.deck.text(note.span).trim_ascii_end();
+        // CalculiX reads 1320 characters of a line (CX-01).
+        if context.is_for_calculix() && line.len() < CALCULIX_LIMIT {
+            continue;
+        }
         // A character of several bytes is not cut in two.
         let first_beyond =
             (0..=LIMIT.min(line.len())).rev().find(|at| line.get(*at).is_none_or(|byte| byte & 0xC0 != 0x80));

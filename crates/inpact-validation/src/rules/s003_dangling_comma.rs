@@ -52,6 +52,10 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for keyword in context.keyword_lines() {
         let Some(comma) = keyword.dangling_comma else { continue };
+        // CalculiX passes over the comma; only what was meant to continue the line is lost (CX-01).
+        if context.is_for_calculix() && !is_meant_to_go_on(context, comma) {
+            continue;
+        }
         // Of several commas all must go: each would dangle in turn.
         let before = context.deck.text(Span::new(comma.source, keyword.span.start, comma.start));
         let word_end = before.iter().rposition(|byte| !matches!(byte, b',' | b' ' | b'\t')).map_or(0, |last| last + 1);
@@ -70,4 +74,12 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .help("take the comma away")
             .fix(FixSafety::Safe, "take the comma away", vec![Edit::delete(commas)]);
     }
+}
+
+/// Whether the line behind the comma reads as parameters.
+fn is_meant_to_go_on(context: &Context<'_>, comma: Span) -> bool {
+    let blocks = context.deck.blocks().iter();
+    let mut of_comma = blocks.filter(|block| block.keyword.as_ref().is_some_and(|keyword| keyword.span.contains(comma)));
+    let first = of_comma.next().and_then(|block| context.deck.data_lines(block).find(|line| !line.is_blank()));
+    first.is_some_and(|line| line.text.contains(&b'='))
 }

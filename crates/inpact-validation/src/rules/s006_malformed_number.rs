@@ -74,7 +74,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 fn say(context: &Context<'_>, report: &mut Report<'_>, span: Span, error: NumberError, place: &str) {
     let written = context.deck.text(span);
     let Some(text) = substituted(context, span) else { return };
-    if open_quote(written).is_some() {
+    if open_quote(written).is_some() && !context.is_for_calculix() {
         return;
     }
     let shown = context.shown(span);

@@ -1,10 +1,12 @@
 //! S008: numbers with more characters than Abaqus reads.
 
+use inpact_diagnostics::Severity;
 use crate::parameter::{self, GivenParameter};
+use crate::quantity::number;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ParameterKind;
 use inpact_parser::number::{FLOAT_CHARACTERS, INTEGER_DIGITS, float_text, float_text_that_fits, read_float};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::problem::{LongNumber, ProblemKind};
 
 declare_rule! {
     /// A number has more characters than Abaqus allows: 20 for a float with sign, point and exponent, 9 digits for an integer.
@@ -36,21 +38,35 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let long = |kind: &ProblemKind| match kind {
-        ProblemKind::NumberTooLong { characters } => Some(*characters),
+        ProblemKind::NumberTooLong { characters, read } => Some((*characters, *read)),
         _ => None,
     };
     // The problems of a block follow one another.
     for of_block in context.problems.chunk_by(|a, b| a.keyword == b.keyword) {
-        let mut found = of_block.iter().filter_map(|problem| Some((problem.span, long(&problem.kind)?)));
-        let Some((span, characters)) = found.next() else { continue };
-        let count = 1 + found.count();
+        let found = of_block.iter().filter_map(|problem| Some((problem.span, long(&problem.kind)?)));
+        // One that is read as another number comes before those that are only long.
+        let mut found: Vec<_> = found.collect();
+        found.sort_by_key(|(_, (_, read))| matches!(read, LongNumber::Whole | LongNumber::SameValue));
+        let Some(&(span, (characters, read))) = found.first() else { continue };
         let shown = context.shown(span);
         let diagnostic =
             report.at(span, format!("`{shown}` has {characters} characters: a float has {FLOAT_CHARACTERS} at most"));
-        let number = read_float(context.deck.text(span)).unwrap_or(f64::NAN);
-        diagnostic.label("read in full here").help(shorter(number));
-        if count > 1 {
-            diagnostic.note(format!("{count} numbers of this block are too long; this is the first"));
+        diagnostic.help(match read_float(context.deck.text(span)) {
+            Ok(number) => shorter(number),
+            Err(_) => "write fewer digits: 17 tell any two numbers apart".to_owned(),
+        });
+        match read {
+            LongNumber::Whole => diagnostic.label("read in full here"),
+            LongNumber::SameValue => diagnostic.label("CalculiX reads the first 20 characters, which are the same number"),
+            LongNumber::OtherValue(value) => diagnostic
+                .severity(Severity::Error)
+                .label(format!("CalculiX reads the first 20 characters, and so {}", number(value))),
+            LongNumber::Nothing => diagnostic
+                .severity(Severity::Error)
+                .label("CalculiX reads the first 20 characters, which are no number"),
+        };
+        if found.len() > 1 {
+            diagnostic.note(format!("{} numbers of this block are too long; this is the first", found.len()));
         }
     }
     for given in parameter::all_given(context) {

@@ -52,7 +52,8 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let notes = || context.deck.notes().iter().filter(|note| note.kind == LineNoteKind::IndentedComment);
-    if notes().next().is_none() {
+    // For CalculiX blanks carry no meaning anywhere (CX-01).
+    if context.is_for_calculix() || notes().next().is_none() {
         return;
     }
     let mut blocks: Vec<&Block> = context.deck.blocks().iter().filter(|block| !block.rows.is_empty()).collect();

@@ -1,7 +1,8 @@
 //! S012: included files that cannot be read.
 
+use crate::parameter::given;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::deck::IncludeOutcome;
+use inpact_parser::deck::{Include, IncludeOutcome};
 
 declare_rule! {
     /// An *INCLUDE names a file that is not there or cannot be read, or names none.
@@ -28,6 +29,13 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for include in context.deck.includes() {
+        // CalculiX has INPUT or any other parameter with a value; where there is none it stops (CX-06).
+        if context.is_for_calculix() && include.outcome == IncludeOutcome::Unnamed && !is_given(context, include) {
+            report
+                .at(context.trimmed(include.keyword), "`*INCLUDE` names no file")
+                .label("a name is missing")
+                .help("write `INPUT=` and the name of the file");
+        }
         // A file without a name is a missing parameter (K006).
         let (IncludeOutcome::Unreadable(reason), Some(name)) = (&include.outcome, include.name) else { continue };
         let shown = context.shown(name);
@@ -47,4 +55,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .note("the rest of the deck is checked without it")
             .help("correct the name, or say where the file is with `--include-dir`");
     }
+}
+
+/// Whether the line has INPUT or FILE, though without a value (K007).
+fn is_given(context: &Context<'_>, include: &Include) -> bool {
+    let mut lines = context.defined_blocks().filter(|block| block.keyword.span == include.keyword);
+    lines.any(|block| given(block).next().is_some())
 }

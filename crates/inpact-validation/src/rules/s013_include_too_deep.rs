@@ -1,7 +1,7 @@
 //! S013: files that include one another, or lie too deep.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::deck::{IncludeOutcome, MOST_FILES, MOST_LEVELS};
+use inpact_parser::deck::{IncludeOutcome, MOST_FILES, most_levels};
 
 declare_rule! {
     /// Files include one another without end, lie more than five levels below the deck, or are more than 200,000.
@@ -33,7 +33,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .label("being read already")
                 .help("take this *INCLUDE out"),
             IncludeOutcome::TooDeep => report
-                .at(span, format!("`{shown}` lies more than {MOST_LEVELS} levels below the deck"))
+                .at(span, format!("`{shown}` lies more than {} levels below the deck", most_levels(context.grammar.dialect())))
                 .label("not read")
                 .help("include it from the deck itself"),
             IncludeOutcome::TooMany => report

@@ -1,5 +1,6 @@
 //! T006: rows with more items than the option has.
 
+use inpact_diagnostics::Severity;
 use crate::parameter::given_as;
 use crate::problems::{first_of_each_block, has_no_place, of_clear_columns};
 use crate::quantity::{and_more, count};
@@ -37,6 +38,9 @@ declare_rule! {
     "T006", "too-many-items", Error, fix: None, source: "S-33, K-54"
 }
 
+/// The most items on a line that CalculiX has room for.
+const CALCULIX_ITEMS: usize = 16;
+
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for problem in context.problems {
         let ProblemKind::PropertyCount { stated, given } = problem.kind else { continue };
@@ -61,6 +65,13 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let place = if lines > 1 { "line of the row" } else { "row" };
         let message = format!("{place} has {}, the option has room for {allowed}", count(given, "item"));
         let found = report.at(first.problem.span, message);
+        if context.is_for_calculix() {
+            let is_refused = CALCULIX_ITEMS < given;
+            found.severity(if is_refused { Severity::Error } else { Severity::Warning });
+            found.label(if is_refused { "CalculiX stops at more than 16 items" } else { "CalculiX does not read this" });
+            found.also(context.trimmed(first.problem.keyword), "the option").help("take the items out");
+            continue;
+        }
         found.label("too much").also(context.trimmed(first.problem.keyword), "the option");
         let more = and_more(first.more, "row of this block has too many", "rows of this block have too many");
         found.note(format!("only the items of the option may stand in a row; inpact leaves out the rest{more}"));

@@ -1,5 +1,6 @@
 //! T009: options that need rows and have none.
 
+use crate::constants::behavior;
 use inpact_diagnostics::Severity;
 use crate::parameter::given_as;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
@@ -60,7 +61,7 @@ fn needs_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     let data = &block.definition.data;
     let is_given = |name: &String| given_as(block, name).is_some();
     // Only options of numbers: what other options need is no question of tables.
-    ((data.required && data.shape.is_numbers()) || block.name == HEAT_GENERATION)
+    ((data.required && data.shape.is_numbers()) || block.name == HEAT_GENERATION || is_behavior_with_rows(context, block))
         && !data.ignored_with.iter().any(is_given)
         && !columns_are_unclear(context, block)
 }
@@ -83,4 +84,11 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>) 
     } else {
         found.note("without values there is no law").help("give the rows");
     }
+}
+
+/// Whether it is a *SURFACE BEHAVIOR of a law that CalculiX has no default for.
+fn is_behavior_with_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
+    context.is_for_calculix()
+        && block.name == "SURFACE BEHAVIOR"
+        && matches!(behavior(context, block), Some("EXPONENTIAL" | "TABULAR"))
 }

@@ -41,11 +41,13 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for first in first_of_each_block(context, has_no_place) {
         let name = first.block.map_or("the option", |block| block.name);
         let more = and_more(first.more, "row is too much", "rows are too much");
-        report
-            .at(context.trimmed(first.problem.span), format!("second row in `*{name}`, which has only one"))
-            .label("not read")
-            .also(context.trimmed(first.problem.keyword), "the option")
-            .note(format!("inpact reads the first row only{more}"))
-            .help("take the row out, or put its keyword in front of it");
+        let found = report.at(context.trimmed(first.problem.span), format!("`*{name}` has only one row, and here are more"));
+        found.label("not read").also(context.trimmed(first.problem.keyword), "the option");
+        found.note(if context.is_for_calculix() {
+            format!("for CalculiX the last row counts{more}")
+        } else {
+            format!("inpact reads the first row only{more}")
+        });
+        found.help("take the row out, or put its keyword in front of it");
     }
 }

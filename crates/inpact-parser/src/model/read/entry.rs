@@ -45,7 +45,8 @@ impl Reader<'_> {
         let without = data.layout(|name| option.is_given(name), 0)?;
         let written = most_written(self.deck, option.block, &without, dependencies);
         let layout = data.layout_of(|name| option.is_given(name), dependencies, written)?;
-        let mut table = read_table(self.deck, option.block, layout, &self.model.parameters, &mut self.problems);
+        let in_dialect = (layout, self.grammar.dialect());
+        let mut table = read_table(self.deck, option.block, in_dialect, &self.model.parameters, &mut self.problems);
         if table.row_count() == 0 {
             return None;
         }
@@ -65,6 +66,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn generic(&mut self, option: Entry<'_>) -> SubOption {
+        self.check_constants(option);
         let is_table = matches!(option.definition.rows(), RowShape::Table) && !option.is_given("USER");
         let table = if is_table { self.table(option) } else { None };
         let rows = if table.is_some() || is_table { Vec::new() } else { self.texts(option.block) };
@@ -109,8 +111,13 @@ impl Reader<'_> {
         given.collect()
     }
 
+    /// The name that a value or an item is in the dialect.
+    pub(super) fn name(&self, span: Span) -> Name {
+        Name::in_dialect(&self.value_text(span), self.grammar.dialect())
+    }
+
     pub(super) fn reference(&self, span: Span) -> Option<Reference> {
-        (!span.is_empty()).then(|| Reference { name: Name::new(&self.value_text(span)), span })
+        (!span.is_empty()).then(|| Reference { name: self.name(span), span })
     }
 }
 

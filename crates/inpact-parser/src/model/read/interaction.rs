@@ -4,10 +4,11 @@ use super::Reader;
 use super::entry::{Entry, take};
 use crate::deck::{DataLine, KeywordLine};
 use crate::expression::substitute;
-use crate::grammar::KeywordId;
+use crate::grammar::{Dialect, KeywordId, RowShape};
 use crate::model::rows::undefined_parameter;
 use crate::model::{
     ConstraintMethod, ContactPermeability, HeatGeneration, Interaction, Name, SetAside, SetAsideItem, SetAsideReason,
+    Table,
 };
 use crate::number::{read_float, read_integer};
 use crate::problem::{Problem, ProblemKind};
@@ -22,10 +23,14 @@ impl Reader<'_> {
         // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
         take(&mut parameters, "NAME");
         let name = self.value_of(option, "NAME").unwrap_or_default();
-        let mut interaction = Interaction::new(Name::new(&name), option.keyword.visible_span(self.deck));
+        let name = Name::in_dialect(&name, self.grammar.dialect());
+        let mut interaction = Interaction::new(name, option.keyword.visible_span(self.deck));
         let is_user = parameters.iter().any(|parameter| parameter.name == "USER");
         interaction.parameters = parameters;
-        self.read_interaction_rows(option, is_user, &mut interaction);
+        // CalculiX interprets no row here.
+        if option.definition.rows() != RowShape::Items {
+            self.read_interaction_rows(option, is_user, &mut interaction);
+        }
         self.interaction = Some(interaction);
     }
 
@@ -100,6 +105,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn leave_interaction(&mut self, id: KeywordId, keyword: &KeywordLine) {
+        // CalculiX gathers the sub-options of an interaction wherever they stand (CX-09).
+        if self.grammar.dialect() == Dialect::Calculix {
+            self.parent = Some(id);
+            return;
+        }
         self.close_interaction(Some(keyword.visible_span(self.deck)));
         self.parent = Some(id);
     }
@@ -108,6 +118,13 @@ impl Reader<'_> {
         let Some(interaction) = self.interaction.take() else { return };
         self.closed_by = closed_by;
         let span = interaction.span;
+        // In CalculiX a contact pair takes the first of one name (K-06, CX-11).
+        if self.grammar.dialect() == Dialect::Calculix
+            && let Some(first) = self.model.interactions.get(&interaction.name)
+        {
+            let reason = SetAsideReason::Shadowed { first: first.span };
+            return self.set_aside(reason, SetAsideItem::Interaction(Box::new(interaction)));
+        }
         if let Some(earlier) = self.model.interactions.insert(interaction.name.clone(), interaction) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::Interaction(Box::new(earlier)));
         }
@@ -120,8 +137,11 @@ impl Reader<'_> {
     // Sub-options.
 
     pub(super) fn read_sub_option(&mut self, option: Entry<'_>) {
-        let under_other_parent = self.interaction.is_none()
-            && self.parent.is_some_and(|parent| option.definition.has_parent(&self.grammar.keyword(parent).name));
+        let parent = self.parent.map(|parent| self.grammar.keyword(parent).name.as_str());
+        let has_other_parent =
+            parent.is_some_and(|parent| parent != "SURFACE INTERACTION" && option.definition.has_parent(parent));
+        let is_outside = self.interaction.is_none() || self.grammar.dialect() == Dialect::Calculix;
+        let under_other_parent = is_outside && has_other_parent;
         if under_other_parent || (self.interaction.is_none() && option.definition.has_parent("MATERIAL")) {
             return;
         }
@@ -207,14 +227,21 @@ impl Reader<'_> {
     pub(super) fn read_heat_generation(&mut self, option: Entry<'_>, interaction: &mut Interaction) {
         let span = option.keyword.visible_span(self.deck);
         let table = self.table(option);
-        let row = table.as_ref().and_then(|table| table.rows.first().copied());
-        let values = table.as_ref().map_or(&[1.0, 0.5][..], |table| table.row(0));
+        // Of several rows Abaqus reads the first; for CalculiX the last counts (CX-10).
+        let rows = table.as_ref().map_or(0, Table::row_count);
+        let counting = match self.grammar.dialect() {
+            Dialect::Abaqus => 0,
+            Dialect::Calculix => rows.saturating_sub(1),
+        };
+        let row = table.as_ref().and_then(|table| table.rows.get(counting).copied());
+        let values = table.as_ref().map_or(&[1.0, 0.5][..], |table| table.row(counting));
         let [fraction, slave_weight] = [values[0], values[1]];
-        for surplus in table.iter().flat_map(|table| table.rows.iter().skip(1)) {
+        let all = table.iter().flat_map(|table| table.rows.iter().enumerate());
+        for (_, surplus) in all.filter(|(index, _)| *index != counting) {
             let problem = Problem { kind: ProblemKind::SurplusRow, span: *surplus, keyword: option.keyword.span };
             self.problems.push(problem);
         }
-        // Below zero CalculiX computes it, which is what a row without it says too.
+        // Below zero CalculiX computes it.
         let slip_rate = values.get(2).copied().filter(|speed| 0.0 <= *speed);
         let texts = table.iter().flat_map(|table| &table.texts).filter(|text| text.cell < 2).cloned().collect();
         let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate, texts };

@@ -1,0 +1,210 @@
+//! Posted decks of CalculiX: what ccx 2.20 was seen to do with each, and what inpact says (semantics, section 12).
+
+use crate::program::Folder;
+
+const CALCULIX: [&str; 2] = ["--dialect", "calculix"];
+
+/// The beginning of an interaction that ccx accepts.
+const PAD: &str = "*SURFACE INTERACTION, NAME=PAD\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E7\n";
+
+const NODES: &str = "area,clearance,pressure,temp_s,temp_m,shear,slip_rate\n1,0,250,300,400,125,7\n";
+
+/// Severity and code of each finding in `d.inp`.
+fn check(folder: &Folder) -> Vec<String> {
+    let run = folder.inpact(&[&["check", "--format", "concise", "d.inp"], &CALCULIX[..]].concat());
+    let found: Vec<String> =
+        run.output.lines().map(|line| line.split(' ').nth(1).expect("a severity").to_owned()).collect();
+    assert_eq!(run.code == 1, found.iter().any(|found| found.starts_with("error")), "{}{}", run.output, run.errors);
+    found
+}
+
+fn check_deck(deck: &str, expected: &[&str]) {
+    assert_eq!(check(&Folder::with(&[("d.inp", deck)])), expected, "{deck}");
+}
+
+/// Heat into the slave and into the master surface.
+fn heats(folder: &Folder) -> [f64; 2] {
+    folder.write("n.csv", NODES);
+    let run = folder.inpact(&[&["eval", "d.inp", "--nodes", "n.csv"], &CALCULIX[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let mut lines = run.output.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (header, row) = (lines.next().expect("a header"), lines.next().expect("a row"));
+    ["total_heat_s", "total_heat_m"].map(|name| {
+        let column = header.iter().position(|column| *column == name).expect("the column");
+        row[column].parse().expect("a number")
+    })
+}
+
+fn eval_deck(deck: &str, expected: [f64; 2]) {
+    let found = heats(&Folder::with(&[("d.inp", deck)]));
+    assert!(found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9), "{deck}{found:?}");
+}
+
+/// CX-01: blank lines, and comments behind blanks.
+#[test]
+fn cx_01_blanks_count_nowhere() {
+    let deck = format!(
+        "{}*GAP CONDUCTANCE\n100.\n\n**********\n** next section\n*STEP\n*COUPLED TEMPERATURE-DISPLACEMENT\n*END STEP\n",
+        PAD.replace("1.E7", "   ** N/mm3\n1.E7")
+    );
+    check_deck(&deck, &[]);
+    eval_deck(&deck, [1e4, -1e4]);
+    check_deck(&format!("{PAD}*GAP CONDUCTANCE,\n100.\n"), &[]);
+}
+
+/// CX-02: the quotes of a name are letters of it, everything else is allowed.
+#[test]
+fn cx_02_names() {
+    let deck = |defined: &str, used: &str| {
+        format!(
+            "{}*CONTACT PAIR, INTERACTION={used}, TYPE=SURFACE TO SURFACE\nSL, MA\n",
+            PAD.replace("=PAD", &format!("={defined}"))
+        )
+    };
+    for name in ["1PAD", "P.A", "P-1", "(PAD)", "P\"A", "__PAD__"] {
+        check_deck(&deck(name, name), &[]);
+    }
+    check_deck(&deck("\"s i\"", "\"S I\""), &[]);
+    check_deck(&deck("\"PAD\"", "PAD"), &["error[R006]"]);
+    check_deck(&deck(&"N".repeat(81), &"N".repeat(81)), &["error[K014]"]);
+}
+
+/// CX-03, CX-07: nothing is abbreviated, and a pair has its type and both surfaces.
+#[test]
+fn cx_03_and_cx_07_what_ccx_does_not_recognise() {
+    check_deck(
+        "*SURFACE INTERACTION, N=PAD\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LIN\n1.E7\n*CONTACT PAIR, INT=PAD, TYPE=SURF\nSL, MA\n",
+        &["error[K006]", "warning[K004]", "error[K010]", "error[R005]", "warning[K004]", "error[K010]"],
+    );
+    check_deck(&format!("{PAD}*CONTACT PAIR, INTERACTION=PAD\nSL, MA\n"), &["error[K006]"]);
+    check_deck(&format!("{PAD}*CONTACT PAIR, INTERACTION=PAD, TYPE=SURFACE TO SURFACE\nSL\n"), &["error[R007]"]);
+    // More letters than the name has are none.
+    let longer = PAD.replace("BEHAVIOR", "BEHAVIORS").replace("LINEAR", "LINEARLY");
+    check_deck(&format!("{longer}*GAP CONDUCTANCES\n100.\n"), &[]);
+}
+
+/// CX-04: an unknown parameter is warned of, and the evaluation goes on without it.
+#[test]
+fn cx_04_unknown_parameters() {
+    let deck = format!("{PAD}*GAP CONDUCTANCE, PRESSURE\n100., 0.\n200., 500.\n");
+    check_deck(&deck, &["warning[K004]"]);
+    eval_deck(&deck, [1.5e4, -1.5e4]);
+    let deck = format!("{PAD}*GAP CONDUCTANCE\n100., 0., , 5.\n200., 500., , x\n");
+    check_deck(&deck, &["warning[T006]"]);
+    eval_deck(&deck, [1.5e4, -1.5e4]);
+}
+
+/// CX-05: blanks inside numbers, bare exponents, 20 characters.
+#[test]
+fn cx_05_numbers() {
+    let deck = |row: &str| format!("{PAD}*GAP CONDUCTANCE\n{row}\n2.+2, 500.\n");
+    check_deck(&deck("1 00., 0."), &[]);
+    eval_deck(&deck("1 00., 0."), [1.5e4, -1.5e4]);
+    for (number, finding) in [
+        ("5.0000000000000000e+01", "error[S008]"),
+        ("0.00000000000000000000000001e+28", "error[S008]"),
+        ("50.000000000000000000000", "warning[S008]"),
+        ("1e", "error[S006]"),
+        ("nan", "error[S006]"),
+    ] {
+        check_deck(&deck(&format!("{number}, 0.")), &[finding]);
+    }
+    let folder = Folder::with(&[("d.inp", &deck("0.00000000000000000000000001e+28, 0."))]);
+    let run = folder.inpact(&[&["check", "d.inp"], &CALCULIX[..]].concat());
+    assert!(run.output.contains("CalculiX reads the first 20 characters, and so 0"), "{}", run.output);
+}
+
+/// CX-06: nine levels, and names without their blanks.
+#[test]
+fn cx_06_includes() {
+    let folder = Folder::with(&[("d.inp", "*INCLUDE, INPUT=l1.inc\n")]);
+    for level in 1..9 {
+        folder.write(&format!("l{level}.inc"), &format!("*INCLUDE, INPUT=l{}.inc\n", level + 1));
+    }
+    folder.write("l9.inc", &format!("{PAD}*GAP CONDUCTANCE\n100.\n"));
+    assert_eq!(check(&folder), Vec::<String>::new());
+    assert_eq!(heats(&folder), [1e4, -1e4]);
+    folder.write("l9.inc", "*INCLUDE, INPUT=l10.inc\n");
+    folder.write("l10.inc", "** deep\n");
+    assert_eq!(check(&folder), ["error[S013]"]);
+    let quoted = "*INCLUDE, INPUT=\"node sets.inc\"\n";
+    let folder = Folder::with(&[("d.inp", quoted), ("node sets.inc", "** not this\n")]);
+    assert_eq!(check(&folder), ["error[S012]"]);
+    folder.write("nodesets.inc", "** this\n");
+    assert_eq!(check(&folder), Vec::<String>::new());
+    assert_eq!(check(&Folder::with(&[("d.inp", "*INCLUDE, INPUT\n")])), ["error[K007]"]);
+    assert_eq!(check(&Folder::with(&[("d.inp", "*INCLUDE\n")])), ["error[S012]"]);
+}
+
+/// CX-08: the order of *SURFACE BEHAVIOR and *GAP CONDUCTANCE.
+#[test]
+fn cx_08_conductance_without_behavior() {
+    let interaction = "*SURFACE INTERACTION, NAME=PAD\n";
+    check_deck(&format!("{interaction}*GAP CONDUCTANCE\n100.\n"), &["error[K018]"]);
+    let behind = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E7\n";
+    check_deck(&format!("{interaction}*GAP CONDUCTANCE\n100.\n{behind}"), &["error[K018]"]);
+    check_deck(&format!("{interaction}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n"), &["error[T009]"]);
+    check_deck(&format!("{interaction}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\nabc\n"), &["error[S006]"]);
+}
+
+/// CX-09: cards behind the pair and inside a step.
+#[test]
+fn cx_09_cards_anywhere() {
+    let pair = "*CONTACT PAIR, INTERACTION=PAD, TYPE=SURFACE TO SURFACE\nSL, MA\n";
+    let conductance = "*GAP CONDUCTANCE\n100.\n";
+    for deck in [
+        format!("{PAD}{pair}{conductance}"),
+        format!("{pair}{PAD}{conductance}"),
+        format!("*STEP\n*COUPLED TEMPERATURE-DISPLACEMENT\n{PAD}{conductance}*END STEP\n"),
+        format!("{PAD}*STEP\n*COUPLED TEMPERATURE-DISPLACEMENT\n{conductance}{pair}*END STEP\n"),
+    ] {
+        check_deck(&deck, &[]);
+        eval_deck(&deck, [1e4, -1e4]);
+    }
+}
+
+/// CX-10: the rows of *GAP HEAT GENERATION.
+#[test]
+fn cx_10_heat_generation() {
+    let deck =
+        |rows: &str| format!("{PAD}*GAP CONDUCTANCE\n100.\n*FRICTION\n0.5, 1.E7\n*GAP HEAT GENERATION\n{rows}\n");
+    // Absent items are 0: no speed, no heat.
+    for rows in ["0.8", "1., 0.5"] {
+        check_deck(&deck(rows), &["warning[C004]"]);
+        eval_deck(&deck(rows), [1e4, -1e4]);
+    }
+    // The last row counts: 0.4 * 125 * 3, a quarter of it into the slave.
+    let rows = "0.8, 0.25, 3.\n0.4, 0.25, 3.";
+    check_deck(&deck(rows), &["warning[T017]"]);
+    eval_deck(&deck(rows), [1e4 + 37.5, -1e4 + 112.5]);
+    // Below zero ccx computes the speed: the column counts.
+    eval_deck(&deck("0.4, 0.25, -1."), [1e4 + 87.5, -1e4 + 262.5]);
+    check_deck(&deck("0., 0.5, 3."), &["error[P004]"]);
+    check_deck(&deck("0., 0.5, 3.\n0.4, 0.5, 3."), &["error[P004]", "warning[T017]"]);
+    check_deck(&deck(", 0.5, 3."), &["error[P004]", "warning[T013]"]);
+}
+
+/// K-06, CX-11: of two interactions of one name the first counts.
+#[test]
+fn cx_11_the_first_of_two_interactions() {
+    let deck = format!("{PAD}*GAP CONDUCTANCE\n50.\n{PAD}*GAP CONDUCTANCE\n100.\n");
+    let folder = Folder::with(&[("d.inp", &deck)]);
+    let run = folder.inpact(&[&["check", "d.inp"], &CALCULIX[..]].concat());
+    assert_eq!(run.code, 1);
+    assert!(run.output.contains("CalculiX takes the first for a contact pair"), "{}", run.output);
+    let document = folder.inpact(&[&["json", "d.inp"], &CALCULIX[..]].concat()).output;
+    let document: serde_json::Value = serde_json::from_str(&document).expect("JSON");
+    let others = document["interactions"]["PAD"]["other"].as_array().expect("others");
+    let table = others.iter().find(|other| other["keyword"] == "GAP CONDUCTANCE").expect("the option");
+    assert_eq!(table["table"]["rows"][0][0], 50.0);
+}
+
+/// Curves without pressures in common, and constants that ccx refuses.
+#[test]
+fn what_ccx_stops_at() {
+    check_deck(
+        &format!("{PAD}*GAP CONDUCTANCE\n100., 0., 293.\n200., 500., 293.\n150., 600., 393.\n300., 900., 393.\n"),
+        &["error[T018]"],
+    );
+    check_deck(&format!("{PAD}*FRICTION\n0., 1.E7\n"), &["error[P010]"]);
+}
