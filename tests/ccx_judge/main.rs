@@ -84,7 +84,7 @@ fn the_dialect_judges_as_ccx_does() {
     let count = std::env::var("INPACT_CCX_DECKS").ok().map_or(DECKS, |count| count.parse().expect("a number"));
     let cases = judge_all(count);
     if std::env::var_os("INPACT_CCX_SHOW").is_some() {
-        report::show(&cases);
+        let _ = writeln!(std::io::stderr(), "{}", report::shown(&cases));
     }
     if std::env::var_os("INPACT_UPDATE").is_some() && DECKS < count {
         report::write(&cases);

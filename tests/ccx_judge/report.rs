@@ -16,12 +16,14 @@ pub(crate) fn listed(cases: &[&Case]) -> String {
     })
 }
 
-/// Prints every disagreement with its deck.
-pub(crate) fn show(cases: &[Case]) {
+/// Every disagreement with its deck, and the table.
+pub(crate) fn shown(cases: &[Case]) -> String {
+    let mut text = String::new();
     for case in cases.iter().filter(|case| case.judgement.is_against()) {
         let deck = case.cubes.deck();
         let interface = deck.find("*SURFACE, NAME=").map_or("", |at| &deck[at..]);
-        println!(
+        let _ = writeln!(
+            text,
             "=== {} {:?}\n{:?}\n{interface}\n{}",
             case.number,
             case.changes,
@@ -29,7 +31,7 @@ pub(crate) fn show(cases: &[Case]) {
             case.cubes.nodes(case.cubes.temperatures)
         );
     }
-    println!("{}", table(cases));
+    text + &table(cases)
 }
 
 /// Writes the table into the page.

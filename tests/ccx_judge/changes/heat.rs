@@ -26,7 +26,7 @@ pub(super) const CHANGES: &[Change] = &[
     Change {
         name: "heat generation: several rows",
         apply: |cubes, random| {
-            row(cubes, random, &["0.8, 0.25, 3.\n0.4, 0.25, 3.", "0.8, 0.25, 3.\n0.5", "0., 0.25, 3.\n0.4, 0.25, 3."])
+            row(cubes, random, &["0.8, 0.25, 3.\n0.4, 0.25, 3.", "0.8, 0.25, 3.\n0.5", "0., 0.25, 3.\n0.4, 0.25, 3."]);
         },
     },
     Change { name: "heat generation: no rows", apply: |cubes, _| set_rows(cubes, HEAT, &[]) },

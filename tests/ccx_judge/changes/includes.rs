@@ -8,7 +8,7 @@ pub(super) const CHANGES: &[Change] = &[
     Change {
         name: "included table",
         apply: |cubes, random| {
-            include(cubes, random, &["INPUT=table.inc", "FILE=table.inc", "input = table.inc"], "table.inc")
+            include(cubes, random, &["INPUT=table.inc", "FILE=table.inc", "input = table.inc"], "table.inc");
         },
     },
     Change {

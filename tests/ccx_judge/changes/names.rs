@@ -31,7 +31,7 @@ fn rename(cubes: &mut Cubes, random: &mut Random, names: &[[&'static str; 2]]) {
     reword(cubes, "CONTACT PAIR", "INTERACTION=SI", &format!("INTERACTION={used}"));
     if reword(cubes, "SURFACE INTERACTION", "NAME=SI", &format!("NAME={defined}")) {
         // CalculiX cuts a name at a comma.
-        cubes.interaction = defined.split(',').next().unwrap_or_default().to_owned();
+        defined.split(',').next().unwrap_or_default().clone_into(&mut cubes.interaction);
     }
 }
 

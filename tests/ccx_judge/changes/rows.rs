@@ -23,7 +23,7 @@ pub(super) const CHANGES: &[Change] = &[
     Change {
         name: "one row",
         apply: |cubes, random| {
-            set_rows(cubes, "GAP CONDUCTANCE", &[random.of(&["100.", "100., 0.", "100., 500., 300."])])
+            set_rows(cubes, "GAP CONDUCTANCE", &[random.of(&["100.", "100., 0.", "100., 500., 300."])]);
         },
     },
     Change { name: "long line", apply: long_line },
@@ -38,7 +38,7 @@ pub(super) const CHANGES: &[Change] = &[
                 cubes,
                 "GAP CONDUCTANCE",
                 &["100., 0., 293.", "400., 1000., 293.", "200., 500., 293.", "1000., 5000., 293."],
-            )
+            );
         },
     },
     Change {
@@ -48,7 +48,7 @@ pub(super) const CHANGES: &[Change] = &[
                 cubes,
                 "GAP CONDUCTANCE",
                 &["100., 0., 293.", "200., 500., 293.", "300., 500., 293.", "1000., 5000., 293."],
-            )
+            );
         },
     },
     Change { name: "temperatures out of order", apply: temperatures_out_of_order },
@@ -60,7 +60,7 @@ pub(super) const CHANGES: &[Change] = &[
                 cubes,
                 "GAP CONDUCTANCE",
                 &["100., 0., 250.", "200., 500., 250.", "300., 600., 450.", "400., 900., 450."],
-            )
+            );
         },
     },
     Change { name: "curves over different pressures", apply: other_ranges },
@@ -68,7 +68,7 @@ pub(super) const CHANGES: &[Change] = &[
     Change {
         name: "conductance negative or zero",
         apply: |cubes, random| {
-            set_rows(cubes, "GAP CONDUCTANCE", &[random.of(&["-100., 0., 293.", "0., 0., 293."]), "200., 500., 293."])
+            set_rows(cubes, "GAP CONDUCTANCE", &[random.of(&["-100., 0., 293.", "0., 0., 293."]), "200., 500., 293."]);
         },
     },
     Change { name: "twenty rows", apply: twenty_rows },
