@@ -48,7 +48,11 @@ fn the_speed_of_a_row_of_calculix() {
     assert_eq!(speed("0.8, 0.25, 3.0"), Some((0.8, 0.25, Some(3.0))));
     assert_eq!(speed("0.8, 0.25, 0."), Some((0.8, 0.25, Some(0.0))));
     assert_eq!(speed("0.8, 0.25, -1."), Some((0.8, 0.25, None)));
-    assert_eq!(speed("0.8"), Some((0.8, 0.5, None)));
+    // CX-10: an item that is absent is 0, whether a comma stands for it or nothing does.
+    assert_eq!(speed("0.8"), Some((0.8, 0.0, Some(0.0))));
+    assert_eq!(speed("0.8,,3."), Some((0.8, 0.0, Some(3.0))));
+    // Of several rows the last counts.
+    assert_eq!(speed("0.8, 0.25, 3.0\n0.5"), Some((0.5, 0.0, Some(0.0))));
     let model = model_of("*SURFACE INTERACTION, NAME=A\n*GAP HEAT GENERATION\n0.8, 0.25\n", Grammar::builtin());
     assert_eq!(model.interactions[&Name::new("A")].gap_heat_generation.as_ref().map(|heat| heat.slip_rate), Some(None));
 }
