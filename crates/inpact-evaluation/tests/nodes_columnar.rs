@@ -13,6 +13,8 @@ use inpact_evaluation::nodes::{Batch, Column, Findings, NodeReader, Part, Select
 use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, Status, TableFormat};
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::basic::{Compression, GzipLevel, ZstdLevel};
+use parquet::file::properties::{WriterProperties, WriterVersion};
 use proptest::prelude::*;
 use std::io::{self, Cursor};
 use std::path::Path;
@@ -267,4 +269,73 @@ fn extensions_tell_the_format() {
     ] {
         assert_eq!(TableFormat::of_extension(Path::new(name)), format, "{name}");
     }
+}
+
+/// A table of three rows, packed in a way.
+fn packed(compression: Compression, version: WriterVersion) -> Vec<u8> {
+    let clearance = Float64Array::from(vec![0.05, 0.25, 1.0]);
+    let record = RecordBatch::try_from_iter([("clearance", Arc::new(clearance) as ArrayRef)]).expect("one column");
+    let properties = WriterProperties::builder().set_compression(compression).set_writer_version(version).build();
+    let mut bytes = Vec::new();
+    let mut writer = ArrowWriter::try_new(&mut bytes, record.schema(), Some(properties)).expect("a vector takes all");
+    writer.write(&record).expect("a vector takes all");
+    writer.close().expect("a vector takes all");
+    bytes
+}
+
+fn clearances(bytes: Vec<u8>) -> Result<Vec<Option<f64>>, String> {
+    let mut findings = Findings::new("nodes");
+    let mut reader =
+        NodeReader::open_any(Box::new(Cursor::new(bytes)), &mut findings).map_err(|error| error.to_string())?;
+    reader.select(&Selection { labels: Vec::new(), numbers: vec![Column::Clearance] });
+    let mut batch = Batch::default();
+    reader.read_batch(&mut batch, &mut findings).map_err(|error| error.to_string())?;
+    Ok((0..batch.rows).map(|row| batch.numbers[0].get(row)).collect())
+}
+
+#[test]
+fn compressed_parquet_is_read_or_refused_by_the_name_of_its_codec() {
+    let gzip = Compression::GZIP(GzipLevel::default());
+    let zstd = Compression::ZSTD(ZstdLevel::default());
+    for compression in
+        [Compression::UNCOMPRESSED, Compression::SNAPPY, zstd, gzip, Compression::LZ4, Compression::LZ4_RAW]
+    {
+        for version in [WriterVersion::PARQUET_1_0, WriterVersion::PARQUET_2_0] {
+            let read = clearances(packed(compression, version));
+            assert_eq!(read, Ok(vec![Some(0.05), Some(0.25), Some(1.0)]), "{compression:?} {version:?}");
+        }
+    }
+    // The codec of a column stands behind its name: 2 is gzip, 4 Brotli, 3 LZO, each in zigzag.
+    let bytes = packed(gzip, WriterVersion::PARQUET_1_0);
+    let footer = bytes.windows(11).rposition(|bytes| bytes == b"clearance\x15\x04").expect("the codec of the column");
+    for (code, name) in [(4, "Brotli"), (3, "LZO")] {
+        let mut bytes = bytes.clone();
+        bytes[footer + 10] = 2 * code;
+        let said = format!(
+            "column `clearance` is compressed with {name}, which is not read; write the table with Zstandard, Snappy, gzip or LZ4, or without compression"
+        );
+        assert_eq!(clearances(bytes), Err(said));
+    }
+}
+
+/// A page that says fewer bytes than gzip makes of it is not unpacked into memory.
+#[test]
+fn a_gzipped_page_comes_to_what_it_says() {
+    let zeros = Float64Array::from(vec![0.0; 1 << 16]);
+    let record = RecordBatch::try_from_iter([("clearance", Arc::new(zeros) as ArrayRef)]).expect("one column");
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::GZIP(GzipLevel::default()))
+        .set_dictionary_enabled(false)
+        .build();
+    let mut bytes = Vec::new();
+    let mut writer = ArrowWriter::try_new(&mut bytes, record.schema(), Some(properties)).expect("a vector takes all");
+    writer.write(&record).expect("a vector takes all");
+    writer.close().expect("a vector takes all");
+    // PageHeader: its kind, 0, then how many bytes it comes to, as seven bits a byte.
+    assert_eq!(bytes[4..7], [0x15, 0, 0x15]);
+    let last = (7..).find(|at| bytes[*at] & 0x80 == 0).expect("the last byte of a number");
+    assert_ne!(bytes[last], 1);
+    bytes[last] = 1;
+    let error = clearances(bytes).expect_err("it comes to more");
+    assert!(error.starts_with("it is no sound Parquet table (a page comes to more than the "), "{error}");
 }

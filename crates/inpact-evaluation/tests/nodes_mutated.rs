@@ -115,7 +115,9 @@ fn samples() -> Vec<(String, Vec<u8>)> {
     let mut samples = Vec::new();
     for (what, record) in [("numbers", record()), ("texts", record_of_texts())] {
         let zstd = Compression::ZSTD(parquet::basic::ZstdLevel::default());
-        for compression in [Compression::UNCOMPRESSED, Compression::SNAPPY, zstd] {
+        let gzip = Compression::GZIP(parquet::basic::GzipLevel::default());
+        let lz4 = [Compression::LZ4, Compression::LZ4_RAW];
+        for compression in [Compression::UNCOMPRESSED, Compression::SNAPPY, zstd, gzip, lz4[0], lz4[1]] {
             for version in [WriterVersion::PARQUET_1_0, WriterVersion::PARQUET_2_0] {
                 let name = format!("Parquet {compression:?} {version:?} of {what}");
                 samples.push((name, parquet(&record, compression, version)));

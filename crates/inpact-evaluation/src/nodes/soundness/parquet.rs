@@ -2,13 +2,14 @@
 
 use super::thrift::{Visitor, walk};
 use super::{most_unpacked, unsound};
+use flate2::read::MultiGzDecoder;
 use parquet::basic::{Compression, Encoding};
 use parquet::column::page::{Page, PageReader};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
 use parquet::file::reader::ChunkReader;
 use parquet::file::serialized_reader::SerializedPageReader;
-use std::io;
+use std::io::{self, Read};
 use std::sync::Arc;
 
 const KIND: &str = "Parquet";
@@ -113,6 +114,7 @@ pub(in crate::nodes) fn check_pages<R: ChunkReader + Clone + 'static>(
         }
         for leaf in (0..group.num_columns()).filter(|leaf| is_read(schema.get_column_root_idx(*leaf))) {
             let chunk = group.column(leaf);
+            check_codec(chunk)?;
             // A column that is no list has a value, if only none, in every row.
             if chunk.column_descr().max_rep_level() == 0 && chunk.num_values() != rows {
                 let name = chunk.column_descr().name();
@@ -127,6 +129,34 @@ pub(in crate::nodes) fn check_pages<R: ChunkReader + Clone + 'static>(
                 check_lengths(file, chunk, rows)?;
             }
         }
+    }
+    Ok(())
+}
+
+/// Refuses a column that is packed in a way that this program was not built to unpack.
+fn check_codec(chunk: &ColumnChunkMetaData) -> io::Result<()> {
+    let codec = match chunk.compression() {
+        // What Brotli makes of a few bytes has no bound, and LZO has no reader.
+        Compression::BROTLI(_) => "Brotli",
+        Compression::LZO => "LZO",
+        _ => return Ok(()),
+    };
+    let name = chunk.column_descr().name();
+    let cure = "write the table with Zstandard, Snappy, gzip or LZ4, or without compression";
+    let message = format!("column `{name}` is compressed with {codec}, which is not read; {cure}");
+    Err(io::Error::new(io::ErrorKind::InvalidData, message))
+}
+
+/// Checks that a page packed by gzip, but for its levels, comes to no more than it says: the library unpacks it to its end.
+fn check_gzip(page: &[u8], levels: u64, unpacked: u64) -> io::Result<()> {
+    let packed = usize::try_from(levels).ok().and_then(|levels| page.get(levels..));
+    let (Some(packed), Some(most)) = (packed, unpacked.checked_sub(levels)) else {
+        return Err(unsound(KIND, "the levels of a page are longer than the page"));
+    };
+    let mut bytes = MultiGzDecoder::new(packed).take(most.saturating_add(1));
+    let found = io::copy(&mut bytes, &mut io::sink()).map_err(|error| unsound(KIND, error))?;
+    if most < found {
+        return Err(unsound(KIND, format!("a page comes to more than the {unpacked} bytes that it says")));
     }
     Ok(())
 }
@@ -175,6 +205,10 @@ fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Res
             );
             return Err(unsound(KIND, message));
         }
+        if page.is_packed && matches!(chunk.compression(), Compression::GZIP(_)) {
+            let bytes = file.get_bytes(at, usize::try_from(packed).unwrap_or(usize::MAX)).map_err(invalid)?;
+            check_gzip(&bytes, u64::try_from(page.levels).unwrap_or(u64::MAX), unpacked)?;
+        }
         // The values of a dictionary are written out, in a bit at least.
         if page.is_dictionary && page.values.unsigned_abs() > unpacked.saturating_mul(8) {
             return Err(unsound(KIND, format!("a dictionary of {unpacked} bytes would have {} values", page.values)));
@@ -188,12 +222,20 @@ fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Res
 }
 
 /// What the header of a page says of it.
-#[derive(Default)]
 struct PageSizes {
     packed: i64,
     unpacked: i64,
     values: i64,
+    /// How many bytes of levels come first, which are never packed: in data pages of the second version.
+    levels: i64,
     is_dictionary: bool,
+    is_packed: bool,
+}
+
+impl Default for PageSizes {
+    fn default() -> Self {
+        Self { packed: 0, unpacked: 0, values: 0, levels: 0, is_dictionary: false, is_packed: true }
+    }
 }
 
 impl Visitor for PageSizes {
@@ -204,6 +246,8 @@ impl Visitor for PageSizes {
             [3] => self.packed = value,
             // The numbers of values in the headers of a data page, a dictionary, and a data page of the second version.
             [5 | 7 | 8, 1] => self.values = value,
+            [8, 5 | 6] => self.levels = self.levels.saturating_add(value),
+            [8, 7] => self.is_packed = value == 1,
             _ => {}
         }
     }

@@ -8,7 +8,7 @@ const DEEPEST: usize = 16;
 
 /// What a walk meets; the path are the numbers of the fields from the outermost structure inwards.
 pub(super) trait Visitor {
-    /// An integer.
+    /// An integer, or a field that is true (1) or false (0).
     fn integer(&mut self, path: &[i16], value: i64);
     /// A structure begins: the element of a list, or a field.
     fn structure(&mut self, _path: &[i16]) {}
@@ -52,7 +52,7 @@ impl<V: Visitor> Walk<'_, V> {
             self.path.push(field);
             match kind {
                 // True and false are the type itself.
-                1 | 2 => {}
+                1 | 2 => self.visitor.integer(&self.path, i64::from(kind == 1)),
                 kind => self.value(kind, 0)?,
             }
             self.path.pop();
