@@ -17,7 +17,7 @@ const CUT: &str = "the file is cut short, or the job has not ended yet; what sta
 const DAMAGED: &str = "the file is damaged here, or is no .dat of CalculiX; what stands before is read";
 
 /// Reads printed output of CalculiX: relative contact displacements (CDIS), contact stresses (CSTR), contact energy (CELS),
-/// statistics of contact pairs (CF) with their area, displacements, reaction forces and temperatures of nodes.
+/// statistics of contact pairs (CF) with their area, displacements, reaction forces, temperatures and heat of nodes.
 ///
 /// # Errors
 /// Where a row of a table that is read is none, or the last line has no end.
@@ -155,6 +155,8 @@ impl Reader {
             ("RF", of_set, &["RF1", "RF2", "RF3"])
         } else if what.starts_with("temperatures ") {
             ("NT", of_set, &["NT11"])
+        } else if what.starts_with("heat generation ") {
+            ("RFL", of_set, &["RFL11"])
         } else if let Some(pair) = what.strip_prefix("statistics for slave set ") {
             let (slave, master) = pair.split_once(", master set ").unwrap_or((pair, ""));
             let master = Some(master.trim()).filter(|master| !master.is_empty()).map(Name::from);

@@ -2,7 +2,7 @@
 //!
 //! Source: CalculiX GraphiX manual, "Result Format": columns are fixed, and numbers may touch each other.
 //! Times are those from the beginning of the analysis.
-//! `DISP` becomes `U`, `NDTEMP` becomes `NT` and `FORC` becomes `RF`, with Abaqus' names of components; the rest keep their names.
+//! `DISP` becomes `U`, `NDTEMP` `NT` and `FORC` `RF`, these and `RFL` with Abaqus' names of components; the rest keep their names.
 //! COPEN is negative where surfaces overlap; some releases write contact for all nodes, 0 where a node is none of a slave surface.
 
 use crate::collect::{self, PassedOver, Row};
@@ -164,6 +164,7 @@ fn as_abaqus(name: &str, columns: Vec<String>) -> (String, Vec<String>) {
         "DISP" => ("U".to_owned(), numbered("U", 1)),
         "FORC" => ("RF".to_owned(), numbered("RF", 1)),
         "NDTEMP" => ("NT".to_owned(), numbered("NT", 11)),
+        "RFL" => ("RFL".to_owned(), numbered("RFL", 11)),
         _ => (name.to_owned(), columns),
     }
 }
