@@ -40,6 +40,9 @@ pub fn read_rpt(bytes: &[u8]) -> Read {
     ended(reader.results, outcome)
 }
 
+/// The most lines of names above XY data; what is higher is no head, and would cost its height times its width.
+const MOST_HEAD_LINES: usize = 16;
+
 struct Reader {
     results: Results,
     /// Step, increment and time that the lines before say.
@@ -63,7 +66,9 @@ impl Reader {
                 self.field(lines, &before[from..])?;
                 before.clear();
             } else if line.is_blank() {
-                if before.first().is_some_and(|line| line.cells().next().is_some_and(|(_, cell)| cell == b"X")) {
+                let begins_table =
+                    before.first().is_some_and(|line| line.cells().next().is_some_and(|(_, cell)| cell == b"X"));
+                if begins_table && before.len() <= MOST_HEAD_LINES {
                     self.history(lines, &before)?;
                 }
                 before.clear();

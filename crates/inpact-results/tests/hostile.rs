@@ -11,7 +11,13 @@ const READERS: [fn(&[u8]) -> Read; 6] = [read, read_fil, read_rpt, read_frd, rea
 
 fn by_all_readers(bytes: &[u8]) {
     for read in READERS {
-        drop(read(bytes));
+        match read(bytes) {
+            Ok(results) => assert!(rectangular(&results)),
+            Err(failure) => {
+                assert!(failure.read.is_none_or(|results| rectangular(&results)));
+                assert!(failure.problem.place.byte <= bytes.len() as u64);
+            }
+        }
     }
 }
 
@@ -32,9 +38,16 @@ fn files() -> [Vec<u8>; 5] {
     [contact_fil().bytes(), frd().into_bytes(), dat().into_bytes(), rpt().into_bytes(), vtu()]
 }
 
+/// Whatever is given is rectangular: each column has a value a row.
+fn rectangular(results: &Results) -> bool {
+    let fields = results.frames.iter().flat_map(|frame| &frame.fields).chain(&results.coordinates);
+    fields
+        .flat_map(|field| field.columns.iter().map(|column| (&field.rows, column)))
+        .all(|(rows, column)| column.values.len() == rows.len())
+}
+
 /// Whether every row of a part is that of the whole, in its place.
 fn begins(part: &Field, whole: &Field) -> bool {
-    let rows = part.rows.len().min(part.columns.first().map_or(0, |column| column.values.len()));
     let labels = match (part.rows.nodes(), whole.rows.nodes()) {
         (Some(part), Some(whole)) => whole.starts_with(part),
         (None, None) => true,
@@ -43,7 +56,7 @@ fn begins(part: &Field, whole: &Field) -> bool {
     labels
         && part.columns.iter().zip(&whole.columns).all(|(part, whole)| {
             let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
-            part.name == whole.name && bits(&whole.values).starts_with(&bits(&part.values[..rows]))
+            part.name == whole.name && bits(&whole.values).starts_with(&bits(&part.values))
         })
 }
 
@@ -74,6 +87,7 @@ fn a_cut_changes_no_value() {
                 assert!(problem.place.byte <= end as u64 && 1 <= problem.place.line, "{end}: {problem}");
                 assert!(!problem.message.is_empty() && !problem.help.is_empty());
             }
+            assert!(found.as_ref().is_none_or(rectangular), "{} cut at {end}", expected.format);
             if let Some(found) = found.filter(|found| found.format == expected.format) {
                 // The time of a picture stands in an array, which may come behind the cut.
                 let pictures = expected.format == inpact_results::Format::Vtu;

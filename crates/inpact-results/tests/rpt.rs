@@ -116,3 +116,14 @@ fn a_real_history_is_read_value_by_value() {
         }
     }
 }
+
+/// A head as high as its table is wide would cost the product of both.
+#[test]
+fn a_high_head_over_a_wide_row_costs_no_product() {
+    let mut text = "X\n".repeat(60_000);
+    text.push('\n');
+    text.push_str(&"1 ".repeat(60_000));
+    text.push_str("\n\n");
+    let failure = read_rpt(text.as_bytes()).expect_err("no table");
+    assert!(failure.problem.message.contains("no table of nodes and no XY data"), "{failure}");
+}
