@@ -12,6 +12,7 @@ mod eval_modes;
 mod eval_silent;
 mod eval_tables;
 mod eval_user;
+mod eval_values;
 mod eval_wrong;
 mod fix;
 mod fix_files;
