@@ -34,7 +34,7 @@ mod thermal_tables;
 mod user;
 mod wanted;
 
-pub use choices::{Choices, Derivatives};
+pub use choices::{Choices, Currents, Derivatives};
 pub use concern::concerning;
 pub use governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
 pub use make::make;

@@ -36,6 +36,8 @@ pub struct Choices {
     pub history_start: HistoryStart,
     /// What the heat of an increment takes that closes a circuit.
     pub closing_heat: ClosingHeat,
+    /// Whether a current may flow where the rows do not tell of one.
+    pub currents: Currents,
 }
 
 impl Choices {
@@ -48,6 +50,16 @@ impl Choices {
     pub(super) fn asks_where(&self, is_meant: impl Fn(&Output) -> bool) -> bool {
         self.outputs.as_ref().is_none_or(|asked| asked.iter().any(is_meant))
     }
+}
+
+/// Whether a current may flow, and generate heat, where the rows have no potentials.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Currents {
+    /// Yes, unless the deck has procedures of which none solves for one.
+    #[default]
+    OfTheDeck,
+    /// No: the rows are those of a solution that has no potentials.
+    None,
 }
 
 /// Whether the slopes of conductance and permeability come out (semantics 4.4).

@@ -12,7 +12,7 @@ use super::reason::{Missing, Reason};
 use super::source::{Source, cell};
 use super::thermal_parts::{plan_conduction, plan_friction, plan_radiation};
 use super::thermal_tables::ThermalTables;
-use super::{Derivatives, ElectricalPlan, History, TablePlan};
+use super::{Currents, Derivatives, ElectricalPlan, History, TablePlan};
 use crate::accuracy::Wanted;
 use crate::law::heat::HeatGeneration;
 use crate::nodes::{Column, Part};
@@ -228,7 +228,11 @@ pub(super) fn plan_thermal(
         }
         let may_flow = planner.interaction.gap_electrical_conductance.is_some() && heat.is_some();
         if may_flow && current == CurrentHeat::None {
-            notes.push(format!("{SUM} a current: no procedure of the deck solves for one"));
+            let why = match planner.choices.currents {
+                Currents::OfTheDeck => "no procedure of the deck solves for one",
+                Currents::None => "no potentials are solved for",
+            };
+            notes.push(format!("{SUM} a current: {why}"));
         }
     }
     Some(plan)
@@ -247,6 +251,9 @@ fn current_heat(
         return Ok(CurrentHeat::Generated);
     }
     let procedures = &planner.model.procedures;
+    if planner.choices.currents == Currents::None {
+        return Ok(CurrentHeat::None);
+    }
     if !procedures.is_empty() && !procedures.iter().any(Procedure::solves_electrical) {
         return Ok(CurrentHeat::None);
     }

@@ -10,8 +10,8 @@ use crate::input;
 use crate::reach;
 use crate::settings::DeckArguments;
 use inpact_diagnostics::{Diagnostic, Findings};
-use inpact_evaluation::plan::Choices;
-use inpact_network::scene::{self, Scene, SceneFiles};
+use inpact_evaluation::plan::{Choices, Currents};
+use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{self, Model, Name, Regime};
@@ -77,7 +77,10 @@ impl SolvableScene {
         let grammar = settings.grammar;
         let (model, problems) = model::read(&deck, grammar);
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
+        // A scene that says nothing of potentials is one of heat alone.
+        let currents = if scene.mentions(Field::Potential) { Currents::OfTheDeck } else { Currents::None };
         let choices = Choices {
+            currents,
             history_start: scene.history_start(),
             closing_heat: scene.closing_heat(),
             ..laws.choices(&model, grammar.dialect(), Some(regime))?
