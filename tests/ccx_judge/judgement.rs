@@ -15,7 +15,10 @@ pub(crate) const REFUSED_ON_PURPOSE: &[(&[&str], &str)] = &[
         "two interactions of one name: ccx takes the first for a contact pair, and gives the sub-options behind the second to the second (K-06)",
     ),
     (&["T010"], "an option twice in one interaction: ccx takes the later one"),
-    (&["K009", "K010"], "a parameter twice on one line: ccx takes the last that it knows"),
+    (
+        &["K009", "K010"],
+        "a parameter twice on one line, the other time perhaps with a value that ccx does not know (K010): it takes the last that it knows",
+    ),
     (&["K012"], "a sub-option before the first *SURFACE INTERACTION: ccx gives it to the last material"),
     (
         &["S006"],
@@ -60,7 +63,12 @@ pub(crate) fn judge(cubes: &Cubes, ccx: &Ccx, inpact: &Inpact) -> Judgement {
         (Ccx::Stopped(_), false) => return Judgement::BothRefuse,
         (Ccx::Stopped(error), true) => return Judgement::Missed(error.clone()),
         (Ccx::Ran(_), false) => {
-            let is_meant = |code: &String| REFUSED_ON_PURPOSE.iter().any(|(codes, _)| codes.contains(&code.as_str()));
+            // A value that is unknown is a reason only beside another one that ccx takes.
+            let is_beside_another = |code: &str| code != "K010" || inpact.errors.contains("K009");
+            let is_meant = |code: &String| {
+                let is_listed = REFUSED_ON_PURPOSE.iter().any(|(codes, _)| codes.contains(&code.as_str()));
+                is_listed && is_beside_another(code)
+            };
             let is_on_purpose = inpact.errors.iter().all(is_meant);
             return if is_on_purpose { Judgement::OnPurpose(codes()) } else { Judgement::FalseAlarm(codes()) };
         }

@@ -208,3 +208,24 @@ fn what_ccx_stops_at() {
     );
     check_deck(&format!("{PAD}*FRICTION\n0., 1.E7\n"), &["error[P010]"]);
 }
+
+/// The curves of CalculiX have no modes: `plan` says so, and the heat is the same whatever is asked for.
+#[test]
+fn accuracy_changes_nothing_and_the_plan_says_so() {
+    const NOTE: &str = "the curves of CalculiX are no plain table";
+    let deck = format!("{PAD}*GAP CONDUCTANCE\n100., 0., 293.\n300., 5000., 293.\n150., 0., 393.\n400., 5000., 393.\n");
+    let folder = Folder::with(&[("d.inp", &deck), ("n.csv", NODES)]);
+    let output = |command: &str, arguments: &[&str]| {
+        let all = [&[command, "d.inp", "--nodes", "n.csv"], &CALCULIX[..], arguments].concat();
+        let run = folder.inpact(&all);
+        assert_eq!(run.code, 0, "{}", run.errors);
+        run.output
+    };
+    let plain = output("eval", &[]);
+    assert!(!output("plan", &[]).contains(NOTE));
+    for accuracy in ["fast", "reference"] {
+        let arguments = ["--accuracy", accuracy];
+        assert_eq!(output("eval", &arguments), plain);
+        assert!(output("plan", &arguments).contains(NOTE), "{accuracy}");
+    }
+}

@@ -38,7 +38,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                     .label("this one is used here")
                     .also(first, "given before")
                     .note(if context.is_for_calculix() {
-                        "CalculiX takes the last of several values, of NAME the first"
+                        "CalculiX takes the last of several values that it knows, of NAME the first"
                     } else {
                         "Abaqus ignores one of the two, and the manual does not say which"
                     })

@@ -12,6 +12,7 @@ declare_rule! {
     /// ## Why
     /// Abaqus does not read the row, or refuses the deck.
     /// inpact reads the first row only.
+    /// In a deck for CalculiX the last row of *GAP HEAT GENERATION counts, and that is the one that is read.
     ///
     /// ## What to do
     /// Take the row out, or put the keyword in front of it that it belongs to.
@@ -34,7 +35,19 @@ declare_rule! {
     /// *GAP HEAT GENERATION
     /// 1., 0.5
     /// ```
-    "T017", "surplus-row", Warning, fix: None, source: "S-38, K-01"
+    ///
+    /// ```inp,expect,calculix
+    /// *SURFACE INTERACTION, NAME=BRAKE
+    /// *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD
+    /// *GAP CONDUCTANCE
+    /// 100., 0., 293.
+    /// *FRICTION
+    /// 0.3, 1.E7
+    /// *GAP HEAT GENERATION
+    /// 0.8, 0.5, 3.
+    /// 0.9, 0.3, 3.
+    /// ```
+    "T017", "surplus-row", Warning, fix: None, source: "S-38, K-01, CX-10"
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
