@@ -162,3 +162,72 @@ fn s_018_a_comment_that_silences_nothing_is_reported() {
     assert!(run.output.lines().all(|line| line.contains("warning[S018]")), "{}", run.output);
     assert_eq!(run.code, 0);
 }
+
+const PLAIN: &str = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n20., 0.\n10., 0.1\n";
+const NODES: &str = "node,clearance,area\n1,0.05,nan\n";
+const EVAL: &[&str] = &["eval", "a.inp", "--nodes", "data/n.csv", "-o", "r.csv"];
+
+/// Rules of node tables are configured as those of decks are.
+#[test]
+fn rules_about_data_have_the_severity_of_the_configuration() {
+    let folder = Folder::with(&[("a.inp", PLAIN), ("data/n.csv", NODES)]);
+    let said = || {
+        let run = folder.inpact(EVAL);
+        let written = folder.path().join("r.csv").exists();
+        if written {
+            std::fs::remove_file(folder.path().join("r.csv")).expect("a file that is there");
+        }
+        let found = run
+            .errors
+            .lines()
+            .find(|line| line.contains("[D003]"))
+            .map(|line| line.split(' ').nth(1).map(str::to_owned));
+        (run.code, written, found.flatten().unwrap_or_default())
+    };
+    let expected = |code, written, found: &str| (code, written, found.to_owned());
+    assert_eq!(said(), expected(0, true, "warning[D003]"));
+    folder.write("inpact.toml", "[rules]\nD003 = \"off\"\n");
+    assert_eq!(said(), expected(0, true, ""));
+    folder.write("inpact.toml", "[rules]\nD003 = \"note\"\n");
+    assert_eq!(said(), expected(0, true, "note[D003]"));
+    folder.write("inpact.toml", "[rules]\nD003 = \"error\"\n");
+    assert_eq!(said(), expected(1, false, "error[D003]"));
+    folder.write("inpact.toml", "[[ignore]]\npaths = [\"data/*.csv\"]\nrules = [\"D003\"]\n");
+    assert_eq!(said(), expected(0, true, ""));
+    folder.write("inpact.toml", "[[ignore]]\npaths = [\"other/*.csv\"]\nrules = [\"D003\"]\n");
+    assert_eq!(said(), expected(0, true, "warning[D003]"));
+}
+
+/// What is found only after all rows were evaluated leaves no result either where it is made an error.
+#[test]
+fn a_note_about_rows_beyond_a_table_that_is_made_an_error_leaves_no_result() {
+    let folder = Folder::with(&[("a.inp", PLAIN), ("data/n.csv", "node,clearance\n1,0.5\n")]);
+    folder.write("inpact.toml", "[rules]\nD007 = \"error\"\n");
+    let run = folder.inpact(EVAL);
+    assert_eq!(run.code, 1, "{}", run.errors);
+    assert!(run.errors.contains("error[D007]") && run.errors.contains("no result is written"), "{}", run.errors);
+    assert!(!folder.path().join("r.csv").exists());
+}
+
+/// Nothing can be evaluated with a cell that is no number, whatever a configuration says.
+#[test]
+fn errors_of_data_cannot_be_configured_away() {
+    for text in ["[rules]\nD002 = \"warning\"\n", "[[ignore]]\npaths = [\"*\"]\nrules = [\"D002\"]\n"] {
+        let folder = Folder::with(&[("a.inp", PLAIN), ("data/n.csv", NODES), ("inpact.toml", text)]);
+        let run = folder.inpact(EVAL);
+        assert_eq!(run.code, 2, "{}", run.errors);
+        assert!(run.errors.contains("`D002` (malformed-cell) is always an error"), "{}", run.errors);
+    }
+}
+
+#[test]
+fn findings_of_data_are_printed_for_github() {
+    let folder = Folder::with(&[("a.inp", PLAIN), ("data/n.csv", NODES)]);
+    let eval = folder.inpact(&[EVAL, &["--format", "github"]].concat());
+    let plan = folder.inpact(&["plan", "a.inp", "--nodes", "data/n.csv", "--findings", "github"]);
+    for run in [eval, plan] {
+        assert_eq!(run.code, 0, "{}", run.errors);
+        assert!(run.errors.contains("::warning file=data/n.csv,line=2"), "{}", run.errors);
+        assert!(run.errors.contains("title=D003 non-finite::"), "{}", run.errors);
+    }
+}

@@ -20,8 +20,8 @@ pub struct Place {
     pub line: Option<u64>,
     /// What the header calls the column.
     pub column: Option<String>,
-    /// Its bytes in the file.
-    pub bytes: Option<Range<u64>>,
+    /// Its bytes in the file, and the column of the first of them, in characters from 1.
+    pub exact: Option<(Range<u64>, u64)>,
 }
 
 impl Place {
@@ -30,18 +30,18 @@ impl Place {
         Self { line: Some(line), ..Self::default() }
     }
 
-    /// The place as a label; its column is found out later.
+    /// The place as a label.
     pub fn label(&self, file: &Arc<str>) -> Label {
-        let extent = match (&self.bytes, self.line) {
+        let extent = match (&self.exact, self.line) {
             (Some(_), Some(_)) => Extent::Span,
             (_, Some(_)) => Extent::Line,
             (_, None) => Extent::File,
         };
-        let bytes = self.bytes.clone().unwrap_or_default();
+        let (bytes, column) = self.exact.clone().unwrap_or((0..0, 1));
         Label {
             file: Arc::clone(file),
             span: Span::new(SourceId::ROOT, bytes.start, bytes.end),
-            position: Position { line: self.line.unwrap_or(1), column: 1 },
+            position: Position { line: self.line.unwrap_or(1), column },
             extent,
             text: String::new(),
         }
@@ -87,6 +87,11 @@ impl Findings {
         found.help = Some(help.into()).filter(|help| !help.is_empty());
         found.cell = Some(Cell { row: place.row, field: place.column });
         self.kept.push(found);
+    }
+
+    /// The findings that are kept, in the order they were reported.
+    pub fn list(&self) -> &[Diagnostic] {
+        &self.kept
     }
 
     /// Whether one of them is an error.

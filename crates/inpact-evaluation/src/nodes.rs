@@ -19,6 +19,7 @@ mod header;
 mod lines;
 mod node_index;
 mod number;
+mod places;
 mod reader;
 mod rules;
 #[cfg(feature = "columnar")]
@@ -32,6 +33,7 @@ pub use contract::{COLUMN_PAGES, ColumnPage};
 pub use header::{Header, HeaderCell};
 pub use inpact_diagnostics::{Findings, Place};
 pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
+pub use places::locate;
 pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};
 pub use rules::{
     BEYOND_TABLE, CONTRADICTORY_RATE, DATA_RULES, DUPLICATE_COLUMN, HEAT_OF_CLOSING, MALFORMED_CELL, MISSING_COLUMN,

@@ -7,6 +7,8 @@ mod github;
 mod json;
 mod sarif;
 
+pub(crate) use self::github::write as github;
+
 use anstream::ColorChoice;
 use clap::ValueEnum;
 use inpact_diagnostics::visible::visible_json;
@@ -58,7 +60,7 @@ pub(crate) fn diagnostics(diagnostics: &[Diagnostic], deck: &Deck, format: Forma
         Format::Sarif => visible_json(&sarif::results(diagnostics, deck)).into_owned(),
         Format::Json => visible_json(&lines(json::write)).into_owned(),
         Format::Concise => lines(concise::write),
-        Format::Github => lines(github::write),
+        Format::Github => diagnostics.iter().map(github::write).collect(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! All rules there are: those of decks, of node tables and of scenes.
 
-use inpact_diagnostics::Rule;
+use inpact_diagnostics::{Rule, Severity};
 use inpact_evaluation::nodes::DATA_RULES;
 use inpact_network::scene::SCENE_RULES;
 use inpact_validation::rules::RULES;
@@ -8,4 +8,14 @@ use inpact_validation::rules::RULES;
 /// Every rule, in the order of the codes of decks, of node tables, of scenes.
 pub(crate) fn all() -> impl Iterator<Item = &'static Rule> {
     RULES.iter().chain(DATA_RULES).chain(SCENE_RULES).copied()
+}
+
+/// The rule of a code.
+pub(crate) fn of_code(code: &str) -> Option<&'static Rule> {
+    all().find(|rule| rule.code == code)
+}
+
+/// Whether data in which a rule finds something cannot be evaluated, whatever the configuration says of it.
+pub(crate) fn is_final(rule: &Rule) -> bool {
+    rule.severity == Severity::Error && DATA_RULES.iter().chain(SCENE_RULES).any(|of_data| of_data.code == rule.code)
 }

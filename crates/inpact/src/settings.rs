@@ -3,11 +3,11 @@
 use crate::failure::Failure;
 use crate::files;
 use crate::reach::irregular;
+use crate::rules;
 use clap::{Args, ValueEnum};
 use globset::{Glob, GlobMatcher};
 use inpact_diagnostics::{Diagnostic, Severity};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
-use inpact_validation::rules::RULES;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -210,10 +210,15 @@ fn read(path: &Path) -> Result<File, Failure> {
     let is_link = path.is_symlink();
     let shown = |error: &toml::de::Error| if is_link { error.message().to_owned() } else { error.to_string() };
     let file: File = toml::from_str(&text).map_err(|error| wrong(shown(&error).trim_end()))?;
-    let codes = file.rules.keys().chain(file.ignore.iter().flat_map(|entry| &entry.rules));
-    for code in codes {
-        if !RULES.iter().any(|rule| rule.code == code) {
+    let levels = file.rules.iter().map(|(code, level)| (code, *level));
+    let ignored = file.ignore.iter().flat_map(|entry| &entry.rules).map(|code| (code, Level::Off));
+    for (code, level) in levels.chain(ignored) {
+        let Some(rule) = rules::of_code(code) else {
             return Err(wrong(&format!("there is no rule `{code}`")));
+        };
+        if rules::is_final(rule) && level != Level::Error {
+            let message = format!("`{code}` ({}) is always an error: data that has it cannot be evaluated", rule.name);
+            return Err(wrong(&message));
         }
     }
     Ok(file)

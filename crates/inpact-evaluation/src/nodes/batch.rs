@@ -227,7 +227,7 @@ impl Batch {
     /// Where row `row` of the batch stands in the file.
     pub fn place(&self, row: usize, column: Option<String>) -> Place {
         let line = self.lines.get(row).copied();
-        Place { row: Some(self.first_row + row as u64 + 1), line, column, bytes: None }
+        Place { row: Some(self.first_row + row as u64 + 1), line, column, exact: None }
     }
 
     /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.

@@ -15,7 +15,7 @@ const PIECE: usize = 512 * 1024;
 const LONGEST_ROW: usize = 64 * 1024 * 1024;
 
 /// The mark that some programs begin a text with.
-const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// What may stand between cells; where a header leaves it open, the first of them does.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
@@ -249,7 +249,7 @@ fn end_of_rows(piece: &Piece, separator: u8) -> usize {
 }
 
 /// What stands between the cells of a header: what gives the most columns of the contract, then the most cells.
-fn separator_of(header: &[u8]) -> u8 {
+pub(super) fn separator_of(header: &[u8]) -> u8 {
     let mut cells = Cells::default();
     let mut score = |separator: u8| {
         cells.cut(header.strip_suffix(b"\r").unwrap_or(header), separator);

@@ -44,8 +44,8 @@ pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles
     let Shaped { table, problems, lacks_nodes } = shape::shaped(text);
     reader.lacks_nodes = lacks_nodes;
     for shape::Problem { at, rule, message, help } in problems {
-        let line = reader.line(at);
-        reader.report(rule, line, message, &help);
+        let place = reader.place(at);
+        reader.findings.report(rule, place, message, help);
     }
     match table.map(|table| SceneFile::deserialize(toml::de::Deserializer::from(table))) {
         Some(Ok(file)) => reader.take(file, files),
@@ -113,6 +113,25 @@ impl<'a> Reader<'a> {
     /// The line of a byte, from 1.
     fn line(&self, byte: usize) -> u64 {
         self.line_starts.partition_point(|&start| start <= byte.min(self.text.len())) as u64
+    }
+
+    /// The place of what begins at a byte: a key, a number, a text.
+    fn place(&self, byte: usize) -> Place {
+        let line = self.line(byte);
+        let start = self.line_starts[usize::try_from(line).unwrap_or(1) - 1];
+        let rest = self.text.get(byte..).unwrap_or_default();
+        let end = match rest.chars().next() {
+            Some(quote @ ('"' | '\'')) => match rest[1..].find([quote, '\n']) {
+                Some(end) if rest[1 + end..].starts_with(quote) => end + 2,
+                Some(end) => end + 1,
+                None => rest.len(),
+            },
+            Some('[' | '{') | None => rest.len().min(1),
+            Some(_) => rest.find(|end: char| end.is_whitespace() || ",=]}#".contains(end)).unwrap_or(rest.len()),
+        };
+        let column = self.text.get(start..byte).unwrap_or_default().chars().count() as u64 + 1;
+        let bytes = byte as u64..(byte + end.min(rest.len())) as u64;
+        Place { exact: Some((bytes, column)), ..Place::of_line(line) }
     }
 
     fn line_of<T>(&self, spanned: &Spanned<T>) -> u64 {

@@ -4,7 +4,7 @@ mod summary;
 
 use self::summary::Summary;
 use super::evaluable::{Evaluable, EvaluableArguments, READ_AHEAD};
-use super::findings::{FindingFormat, say_data_findings};
+use super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
 use super::laws::LawArguments;
 use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
@@ -81,11 +81,11 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     }
     let mut findings = Findings::new(&evaluable.nodes_name);
     let evaluated = evaluate(arguments, &mut evaluable, &mut findings);
-    say_data_findings(findings.into_list(), format);
+    say_data_findings(findings.into_list(), &evaluable.settings, format);
     let (tally, rows_out) = evaluated?;
     let summary = Summary { tally: &tally, plan: &evaluable.plan, rows_out, time: start.elapsed() };
     match format {
-        FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
+        FindingFormat::Concise | FindingFormat::Github => summary.text().iter().for_each(|line| say(line)),
         FindingFormat::Json => say_json(&summary.json()),
     }
     Ok(Outcome::Clean)
@@ -99,7 +99,7 @@ fn evaluate(
 ) -> Result<(Tally, u64), Failure> {
     let nodes_path = arguments.evaluable.nodes_path();
     let unreadable = |error| Failure::read(nodes_path, error);
-    let Evaluable { model, plan, choices, nodes_name, nodes, .. } = evaluable;
+    let Evaluable { settings, model, plan, choices, nodes_name, nodes, .. } = evaluable;
     let laws = compile(model, plan, choices);
     let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
@@ -126,6 +126,7 @@ fn evaluate(
         return Err(Failure::Data("the user subroutine fails, and no result is written".to_owned()));
     }
     tally.report(plan, findings);
+    refuse_configured_errors(findings.list(), settings)?;
     output.finish()?;
     Ok((tally, rows_out))
 }
@@ -158,7 +159,7 @@ fn write(
 fn nothing_to_evaluate(evaluable: &Evaluable, format: FindingFormat) -> Failure {
     let mut findings = Findings::new(&evaluable.nodes_name);
     evaluable.plan.report_missing(&mut findings);
-    say_data_findings(findings.into_list(), format);
+    say_data_findings(findings.into_list(), &evaluable.settings, format);
     let reasons = evaluable.plan.interactions.iter().flat_map(|interaction| {
         let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
         others.map(move |left_out| format!("{} of `{}`: {}", left_out.what, interaction.name, left_out.reason))

@@ -5,12 +5,13 @@ use super::laws::LawArguments;
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
-use crate::settings::DeckArguments;
+use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
+use inpact_diagnostics::{Extent, Findings};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
-use inpact_evaluation::nodes::{COLUMN_PAGES, Findings, NodeReader};
+use inpact_evaluation::nodes::{COLUMN_PAGES, NodeReader, locate};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, SurveyByNode, make, survey, survey_by_node};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
 use inpact_parser::deck::Keep;
@@ -18,7 +19,7 @@ use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::check;
 use std::fs::File;
-use std::io::{self, Seek, SeekFrom};
+use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// For each thread, how many pieces of a node table are decoded ahead.
@@ -87,6 +88,8 @@ enum AccuracyChoice {
 
 /// A node table that can be evaluated, with its deck and plan.
 pub(crate) struct Evaluable {
+    /// How findings are judged.
+    pub(crate) settings: Settings,
     pub(crate) model: Model,
     pub(crate) choices: Choices,
     pub(crate) plan: Plan,
@@ -133,22 +136,25 @@ impl EvaluableArguments {
         let nodes_name = self.nodes.display().to_string();
         let mut nodes = NodesInput::open(&self.nodes)?;
         let (surveyed, findings) = self.survey(&mut nodes, &model, &choices)?;
-        let has_errors = findings.has_errors();
-        say_data_findings(findings.into_list(), format);
+        let mut found = findings.into_list();
+        // Only a text table has lines, and cells that can be pointed at.
+        if found.iter().any(|found| found.primary.extent == Extent::Line) {
+            let table = BufReader::new(nodes.reader(&self.nodes)?);
+            locate(table, &mut found).map_err(|error| Failure::read(&self.nodes, error))?;
+        }
+        let has_errors = say_data_findings(found, &settings, format);
         let Some(surveyed) = surveyed.filter(|_| !has_errors) else { return Ok(None) };
         let plan = make(&model, &surveyed, &choices);
         let mut unavailable = Findings::new(&nodes_name);
         plan.report_unavailable(&choices, &mut unavailable);
-        let is_unavailable = unavailable.has_errors();
-        say_data_findings(unavailable.into_list(), format);
-        if is_unavailable {
+        if say_data_findings(unavailable.into_list(), &settings, format) {
             return Ok(None);
         }
         let found = settings.apply(check(&deck, grammar, &model, &problems));
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &names, format);
         let deck_name = self.deck.display().to_string();
-        Ok(Some(Evaluable { model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
+        Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
     }
 
     /// Reads the node table for the first time; a second time only if the rows of its nodes do not stand together.

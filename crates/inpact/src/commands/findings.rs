@@ -1,7 +1,8 @@
 //! What was found in decks and in data, on standard error.
 
-use crate::failure::{say, say_json};
+use crate::failure::{Failure, say, say_json};
 use crate::render::{self, Format, Style};
+use crate::settings::Settings;
 use clap::ValueEnum;
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::plan::concerning;
@@ -18,6 +19,8 @@ pub(crate) enum FindingFormat {
     Concise,
     /// A JSON object a line.
     Json,
+    /// Workflow commands of GitHub Actions.
+    Github,
 }
 
 /// Says what the check found in some interactions, notes left out; true if there are errors.
@@ -33,6 +36,7 @@ pub(crate) fn say_deck_findings(
     let format = match format {
         FindingFormat::Concise => Format::Concise,
         FindingFormat::Json => Format::Json,
+        FindingFormat::Github => Format::Github,
     };
     let text = render::diagnostics(&shown, deck, format, Style::Plain);
     match format {
@@ -48,14 +52,31 @@ pub(crate) fn say_deck_findings(
     errors(&shown) > 0
 }
 
-/// Says what is wrong with a node table.
-pub(crate) fn say_data_findings(found: Vec<Diagnostic>, format: FindingFormat) {
-    for found in found {
+/// Says what is wrong with a node table or a scene, as the configuration has it; true if there are errors.
+pub(crate) fn say_data_findings(found: Vec<Diagnostic>, settings: &Settings, format: FindingFormat) -> bool {
+    let found = settings.apply(found);
+    for found in &found {
         match format {
-            FindingFormat::Concise => say(&visible_line(&concise(&found))),
-            FindingFormat::Json => say_json(&json(&found)),
+            FindingFormat::Concise => say(&visible_line(&concise(found))),
+            FindingFormat::Json => say_json(&json(found)),
+            FindingFormat::Github => say(render::github(found).trim_end()),
         }
     }
+    has_errors(&found)
+}
+
+/// Whether one of the findings is an error.
+fn has_errors(found: &[Diagnostic]) -> bool {
+    found.iter().any(|found| found.severity == Severity::Error)
+}
+
+/// Refuses to keep a result where the configuration makes an error of what was found in its data.
+pub(crate) fn refuse_configured_errors(found: &[Diagnostic], settings: &Settings) -> Result<(), Failure> {
+    if has_errors(&settings.apply(found.to_vec())) {
+        let message = "the configuration makes an error of what was found, and no result is written";
+        return Err(Failure::Data(message.to_owned()));
+    }
+    Ok(())
 }
 
 /// `file:line: severity[CODE] message`, and what to do.

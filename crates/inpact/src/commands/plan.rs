@@ -31,6 +31,9 @@ pub(crate) struct PlanArguments {
     /// How to print the plan.
     #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
     format: PlanFormat,
+    /// How to print findings on standard error, instead of a line each, or of JSON with `--format json`.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    findings: Option<FindingFormat>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -42,10 +45,10 @@ enum PlanFormat {
 }
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
-    let findings = match arguments.format {
+    let findings = arguments.findings.unwrap_or(match arguments.format {
         PlanFormat::Text => FindingFormat::Concise,
         PlanFormat::Json => FindingFormat::Json,
-    };
+    });
     let PlanArguments { evaluable, laws, reading, .. } = arguments;
     files::name_as_inputs(&evaluable.inputs());
     files::check_targets(&[arguments.output.as_deref()])?;

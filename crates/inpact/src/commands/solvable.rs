@@ -8,19 +8,21 @@ use crate::failure::{Failure, say};
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::reach;
-use crate::settings::DeckArguments;
+use crate::settings::{DeckArguments, Settings};
 use inpact_diagnostics::{Diagnostic, Findings};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{self, Model, Name, Regime};
-use inpact_validation::{Severity, check};
+use inpact_validation::check;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// A scene with the model of its deck.
 pub(crate) struct SolvableScene {
+    /// How findings in the scene are judged.
+    pub(crate) settings: Settings,
     pub(crate) scene: Scene,
     pub(crate) model: Model,
     pub(crate) choices: Choices,
@@ -47,8 +49,7 @@ impl SolvableScene {
         let roots = settings.include_roots.as_slice();
         let mut files = FilesBeside { folder, roots, failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
-        let has_errors = found.iter().any(|found| found.severity == Severity::Error);
-        say_data_findings(found, format);
+        let has_errors = say_data_findings(found, &settings, format);
         let deck_path = scene.as_ref().map(|scene| folder.join(&scene.deck));
         if let (Some(deck), false) = (&deck_path, files.failures.is_empty()) {
             files.failures.extend(refuse_outside(deck, roots).and_then(|()| files::read_bytes(deck)).err());
@@ -69,12 +70,12 @@ impl SolvableScene {
             if let Ok(model) = read {
                 report_unknown_interactions(&scene, &model, &mut findings);
             }
-            say_data_findings(findings.into_list(), format);
+            say_data_findings(findings.into_list(), &settings, format);
             return Ok(None);
         }
-        let settings = reading.settings(&deck_path)?;
-        let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
-        let grammar = settings.grammar;
+        let of_deck = reading.settings(&deck_path)?;
+        let deck = input::read_deck(&deck_path, Keep::Interpreted, &of_deck)?;
+        let grammar = of_deck.grammar;
         let (model, problems) = model::read(&deck, grammar);
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
         // A scene that says nothing of potentials is one of heat alone.
@@ -85,7 +86,7 @@ impl SolvableScene {
             closing_heat: scene.closing_heat(),
             ..laws.choices(&model, grammar.dialect(), Some(regime))?
         };
-        let found = settings.apply(check(&deck, grammar, &model, &problems));
+        let found = of_deck.apply(check(&deck, grammar, &model, &problems));
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
         let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();
@@ -93,15 +94,15 @@ impl SolvableScene {
             return Ok(None);
         }
         let deck_name = deck_path.display().to_string();
-        Ok(Some(Self { scene, model, choices, name, deck_name }))
+        Ok(Some(Self { settings, scene, model, choices, name, deck_name }))
     }
 
     /// What is solved; `None` after saying what is missing.
     pub(crate) fn problem(&self, format: FindingFormat) -> Option<Problem<'_>> {
         let mut findings = Findings::new(&self.name);
         let problem = Problem::new(&self.scene, &self.model, &self.choices, &mut findings);
-        say_data_findings(findings.into_list(), format);
-        problem
+        let has_errors = say_data_findings(findings.into_list(), &self.settings, format);
+        problem.filter(|_| !has_errors)
     }
 
     /// What there is to say of a failure after the time of the last state that was found.

@@ -31,6 +31,9 @@ pub(crate) struct SolveArguments {
     /// How to print the state, and what there is to say on standard error.
     #[arg(long, value_enum, default_value_t = StateFormat::Csv)]
     format: StateFormat,
+    /// How to print findings on standard error, instead of a line each, or of JSON with `--format json`.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    findings: Option<FindingFormat>,
     /// Write the result table of the interfaces, as `eval` gives it; .csv, .parquet, .arrow by the extension.
     #[arg(long, value_name = "FILE")]
     interfaces: Option<PathBuf>,
@@ -94,7 +97,7 @@ pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
 
 fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    let format = arguments.format.of_findings();
+    let format = arguments.findings.unwrap_or(arguments.format.of_findings());
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
     files::check_targets(&targets)?;
     let prepared = SolvableScene::read(&arguments.scene, &arguments.laws, &arguments.reading, format)?;
@@ -117,7 +120,11 @@ fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         Ok(report) => Some(report),
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
-            say_data_findings(prepared.findings(&failure, last.as_ref().map(|state| state.time)), format);
+            say_data_findings(
+                prepared.findings(&failure, last.as_ref().map(|state| state.time)),
+                &prepared.settings,
+                format,
+            );
             None
         }
     };
@@ -133,7 +140,7 @@ fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         time: start.elapsed(),
     };
     match format {
-        FindingFormat::Concise => summary.text().iter().for_each(|line| say(line)),
+        FindingFormat::Concise | FindingFormat::Github => summary.text().iter().for_each(|line| say(line)),
         FindingFormat::Json => say_json(&summary.json().to_string()),
     }
     Ok(Outcome::Clean)

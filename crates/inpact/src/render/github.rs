@@ -1,21 +1,22 @@
 //! Workflow commands of GitHub Actions: findings that show up beside the lines of a pull request.
 
 use inpact_diagnostics::visible::visible;
-use inpact_parser::deck::Deck;
 use inpact_validation::{Diagnostic, Severity};
 
-pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
+/// A finding in a deck or in data.
+pub(crate) fn write(found: &Diagnostic) -> String {
     let command = match found.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
         Severity::Note => "notice",
     };
-    let file = property(deck.source(found.primary.span.source).name());
-    let place = found.primary.position;
+    let file = property(&found.primary.file);
+    let line = found.primary.line().map_or_else(String::new, |line| format!(",line={line}"));
+    let column = found.primary.column().map_or_else(String::new, |column| format!(",col={column}"));
     let title = property(&format!("{} {}", found.code, found.name));
     let help = found.help.iter().map(|help| format!("\n{help}"));
     let message = data(&std::iter::once(found.message.clone()).chain(help).collect::<String>());
-    format!("::{command} file={file},line={},col={},title={title}::{message}\n", place.line, place.column)
+    format!("::{command} file={file}{line}{column},title={title}::{message}\n")
 }
 
 /// The escapes of a message.

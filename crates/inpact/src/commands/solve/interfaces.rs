@@ -1,6 +1,6 @@
 //! The result table of the interfaces of a solved scene: its rows as a node table, evaluated as `eval` evaluates one.
 
-use super::super::findings::{FindingFormat, say_data_findings};
+use super::super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
@@ -21,13 +21,13 @@ pub(super) fn write(
     target: &Path,
     format: FindingFormat,
 ) -> Result<(), Failure> {
-    let SolvableScene { model, choices, name, scene, .. } = prepared;
+    let SolvableScene { settings, model, choices, name, scene, .. } = prepared;
     let unreadable = |error| Failure::read(Path::new("the interface rows"), error);
     let mut findings = Findings::new(name);
     let reader = NodeReader::open_any(Box::new(Cursor::new(table.clone())), &mut findings).map_err(unreadable)?;
     let surveyed = survey(reader, model, choices, &mut findings).map_err(unreadable)?;
     let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else {
-        say_data_findings(of_scene(findings, scene), format);
+        say_data_findings(of_scene(findings, scene), settings, format);
         return Err(Failure::Data("the interface rows of the scene cannot be evaluated".to_owned()));
     };
     let plan = make(model, &surveyed, choices);
@@ -50,7 +50,10 @@ pub(super) fn write(
     let tally = evaluation.finish();
     tally.report_user_faults(&mut findings);
     tally.report(&plan, &mut findings);
-    say_data_findings(of_scene(findings, scene), format);
+    let found = of_scene(findings, scene);
+    let kept = refuse_configured_errors(&found, settings);
+    say_data_findings(found, settings, format);
+    kept?;
     output.finish()
 }
 

@@ -37,7 +37,7 @@ fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
     let measured = match measure::measure(&prepared, &problem, arguments.rounds) {
         Ok(measured) => measured,
         Err(failed) => {
-            say_data_findings(prepared.findings(&failed.why, failed.after), format);
+            say_data_findings(prepared.findings(&failed.why, failed.after), &prepared.settings, format);
             return Ok(None);
         }
     };

@@ -31,9 +31,7 @@ fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments
     let mut findings = Findings::new(&scene.nodes_name);
     let nodes_path = table.nodes_path();
     let sample = subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings)?;
-    let has_errors = findings.has_errors();
-    say_data_findings(findings.into_list(), format);
-    if has_errors {
+    if say_data_findings(findings.into_list(), &scene.settings, format) {
         return Ok(None);
     }
     if sample.subjects.is_empty() {
