@@ -263,6 +263,77 @@ fn a_deck_that_has_no_line_end_is_given_up() {
     }
 }
 
+/// A device without an end, in the place of every file that can be named, with less memory than it would soon take.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_without_an_end_is_given_up_by_every_command_that_can_name_it() {
+    const SCENE: &str =
+        "deck = \"a.inp\"\n[[node]]\nname = \"1\"\npotential = { fixed = 0.0 }\n[[link_file]]\nfile = \"evil\"\n";
+    let folder = Folder::with(&[
+        ("a.inp", "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n 20., 0.\n 10., 0.1\n"),
+        ("user.inp", "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, USER\n"),
+        ("a.csv", "node,clearance,epot_s,epot_m\n7,-1e-3,3,1\n"),
+        ("names-deck.toml", "deck = \"evil\"\nfields = [\"potential\"]\n"),
+        ("names-table.toml", SCENE),
+        ("sub/a.inp", "*HEADING\n"),
+    ]);
+    for link in ["evil", "sub/inpact.toml"] {
+        std::os::unix::fs::symlink("/dev/zero", folder.path().join(link)).expect("linked");
+    }
+    let line = "line 1 is longer than 16777216 bytes";
+    let no_text = "it is no text: byte 1 is zero";
+    let irregular = "only regular files are read";
+    let device = "it is a device, and gives more than 67108864 bytes";
+    let runs: &[(&[&str], &str)] = &[
+        (&["check", "evil"], line),
+        (&["check", "--fix", "evil"], line),
+        (&["check", "--diff", "evil"], line),
+        (&["json", "evil"], line),
+        (&["json", "--view", "syntax", "evil"], line),
+        (&["fmt", "evil"], line),
+        (&["fmt", "--check", "evil"], line),
+        (&["fmt", "--diff", "evil"], line),
+        (&["inp", "evil"], no_text),
+        (&["inp", "evil", "--into", "new"], no_text),
+        (&["eval", "evil", "--nodes", "a.csv"], line),
+        (&["eval", "a.inp", "--nodes", "evil"], device),
+        (&["eval", "user.inp", "--nodes", "a.csv", "--user-library", "evil"], ""),
+        (&["plan", "evil", "--nodes", "a.csv"], line),
+        (&["plan", "a.inp", "--nodes", "evil"], device),
+        (&["tradeoff", "evil", "--nodes", "a.csv"], line),
+        (&["tradeoff", "a.inp", "--nodes", "evil"], device),
+        (&["tradeoff", "--scene", "evil"], no_text),
+        (&["solve", "evil"], no_text),
+        (&["solve", "names-deck.toml"], irregular),
+        (&["solve", "names-table.toml"], irregular),
+        (&["check", "--config", "evil", "a.inp"], no_text),
+        (&["solve", "--config", "evil", "names-deck.toml"], no_text),
+    ];
+    for (arguments, told) in runs {
+        let plain = command(folder.path(), arguments);
+        let mut limited = std::process::Command::new("sh");
+        limited.args(["-c", "ulimit -v 1048576 && exec \"$0\" \"$@\""]).arg(plain.get_program()).args(*arguments);
+        limited.current_dir(folder.path()).env("NO_COLOR", "1").env("RAYON_NUM_THREADS", "1");
+        let run = run(limited, b"");
+        assert_eq!(run.code, 2, "{arguments:?}: {}", run.shown());
+        assert!(run.errors.contains("evil"), "{arguments:?}: {}", run.shown());
+        assert!(run.errors.contains(told), "{arguments:?}: {}", run.shown());
+    }
+    // What only has the name of a configuration is none.
+    assert_eq!(folder.inpact(&["check", "sub/a.inp"]).code, 0);
+    // The same without a name.
+    for (arguments, told) in [(&["fmt", "-"][..], line), (&["inp", "-"], no_text), (&["solve", "-"], no_text)] {
+        let plain = command(folder.path(), arguments);
+        let mut limited = std::process::Command::new("sh");
+        limited
+            .args(["-c", "ulimit -v 1048576 && exec \"$0\" \"$@\" < /dev/zero"])
+            .arg(plain.get_program())
+            .args(arguments);
+        let run = run(limited, b"");
+        assert!(run.code == 2 && run.errors.contains(told), "{arguments:?}: {}", run.shown());
+    }
+}
+
 #[test]
 fn too_many_files_are_not_called_too_deep() {
     let folder = Folder::with(&[("n2.inp", "*NODE\n"), ("n1.inp", &"*INCLUDE, INPUT=n2.inp\n".repeat(200_002))]);

@@ -2,7 +2,7 @@
 //! an abort, or more memory than 512 MiB.
 //!
 //! The seeds are fixed. A long run, whose figures go into `docs/reliability.md`:
-//! `INPACT_TABLES=20000 cargo test --release -p inpact-evaluation --test nodes_mutated`.
+//! `INPACT_TABLES=20000 cargo test -p inpact-evaluation --test nodes_mutated`.
 
 #![cfg(feature = "columnar")]
 
@@ -21,6 +21,10 @@ use std::fmt::Write;
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 use std::sync::Arc;
+
+#[path = "../../../tests/attack/page.rs"]
+#[expect(unreachable_pub, reason = "the same file belongs to the suites of attacks")]
+mod page;
 
 /// The rows of every sample.
 const ROWS: usize = 40;
@@ -234,11 +238,12 @@ fn mutated_tables_give_rows_or_an_error() {
 
 /// Writes the figures of a long run into their section of `docs/reliability.md`.
 fn record_figures(count: usize, samples: &[(String, Vec<u8>)], (whole, unsound): (usize, usize), peak: Option<u64>) {
-    const TITLE: &str = "## Mutated node tables\n";
     let mut section = format!(
-        "{TITLE}\nWritten by `INPACT_TABLES={count} cargo test --release -p inpact-evaluation --test nodes_mutated`.\n\n\
+        "## Mutated node tables\n\n\
+         `INPACT_TABLES={count} cargo test -p inpact-evaluation --test nodes_mutated`\n\n\
          {} sound tables (Parquet of both versions, Arrow files and streams, each with every compression; CSV) are changed at random, \
-         in one to eight places each, and read to the end in one process.\n\n| | |\n|---|---|\n",
+         in one to eight places each, and read to the end in one process.\n\
+         A run with a panic that comes out, or an abort, stops at it, and writes nothing here.\n\n| | |\n|---|---|\n",
         samples.len()
     );
     let peak = peak.map_or("not known".to_owned(), |peak| format!("{} MiB", peak >> 20));
@@ -254,13 +259,5 @@ fn record_figures(count: usize, samples: &[(String, Vec<u8>)], (whole, unsound):
         writeln!(section, "| {what} | {figure} |").expect("a string takes all");
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reliability.md");
-    let page = std::fs::read_to_string(&path).unwrap_or_else(|_| "# Reliability\n".to_owned());
-    let (before, behind) = match page.split_once(TITLE) {
-        Some((before, rest)) => {
-            let next = rest.find("\n## ").map_or("", |next| &rest[next..]);
-            (before.trim_end().to_owned(), next.to_owned())
-        }
-        None => (page.trim_end().to_owned(), String::new()),
-    };
-    std::fs::write(path, format!("{before}\n\n{section}{behind}")).expect("written");
+    page::write_section(&path, "tables", &section).expect("written");
 }

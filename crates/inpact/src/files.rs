@@ -8,22 +8,22 @@ mod inputs;
 mod result;
 mod temporary;
 pub(crate) mod transaction;
+mod whole;
 
 pub(crate) use inputs::take_down_path as name_as_input;
 pub(crate) use result::{ResultFile, write_result};
 pub(crate) use temporary::remove_all as remove_temporary_files;
+pub(crate) use whole::{read_lines, read_text};
 
 use crate::failure::Failure;
 use inpact_parser::deck::Scanner;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use whole::LONGEST_LINE;
 
 /// How much of a deck is read at a time: small enough to stay in cache.
 const PIECE: usize = 64 * 1024;
-
-/// The longest line of a deck; Abaqus reads 256 characters.
-const LONGEST_LINE: usize = 16 << 20;
 
 /// The name that stands for standard input and standard output.
 pub(crate) const STANDARD_STREAM: &str = "-";
@@ -50,19 +50,18 @@ fn refuse_endless_line(path: &Path, scanner: &Scanner<'_>) -> Result<(), Failure
     if scanner.unfinished() <= LONGEST_LINE {
         return Ok(());
     }
-    let line = scanner.line();
-    let message =
-        format!("line {line} is longer than {LONGEST_LINE} bytes, the most that a line may have: it is no deck");
-    Err(Failure::read(path, io::Error::new(io::ErrorKind::InvalidData, message)))
+    Err(Failure::read(path, whole::endless_line(scanner.line())))
 }
 
 /// Opens a file for reading, or standard input for `-`.
 pub(crate) fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
     if path.as_os_str() == STANDARD_STREAM {
-        inputs::take_down_standard_input();
-        return Ok(Box::new(io::stdin().lock()));
+        let metadata = inputs::take_down_standard_input();
+        return Ok(Box::new(whole::bounded(io::stdin().lock(), metadata.as_ref())));
     }
-    Ok(Box::new(open_file(path)?))
+    let file = open_file(path)?;
+    let metadata = file.metadata().ok();
+    Ok(Box::new(whole::bounded(file, metadata.as_ref())))
 }
 
 /// Opens a file for reading.
@@ -74,20 +73,6 @@ pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     }
     inputs::take_down(&file, path);
     Ok(file)
-}
-
-/// Reads all of a text file, or of standard input for `-`.
-pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    let mut text = String::new();
-    open(path)?.read_to_string(&mut text).map_err(|error| Failure::read(path, error))?;
-    Ok(text)
-}
-
-/// Reads all bytes of a file.
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    let mut bytes = Vec::new();
-    open(path)?.read_to_end(&mut bytes).map_err(|error| Failure::read(path, error))?;
-    Ok(bytes)
 }
 
 /// Refuses results that would be written over a file that this run has read, or over one another; before the work is done, since they are refused again when they are written.

@@ -108,7 +108,7 @@ impl Before {
 fn read(path: &Path, arguments: &FormatArguments) -> Result<(Before, Vec<u8>), Failure> {
     let settings = arguments.reading.settings(path)?;
     let before = if path.as_os_str() == STANDARD_STREAM {
-        Before::Standard(files::read_bytes(path)?)
+        Before::Standard(files::read_lines(path)?)
     } else {
         Before::File(Snapshot::read(path)?)
     };

@@ -41,10 +41,7 @@ impl SolvableScene {
         let name = path.display().to_string();
         let folder =
             if path.as_os_str() == STANDARD_STREAM { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
-        let text = files::read_bytes(path)?;
-        let Ok(text) = String::from_utf8(text) else {
-            return Err(Failure::Data(format!("`{name}` is no scene: it is not UTF-8")));
-        };
+        let text = files::read_text(path)?;
         let settings = reading.settings(path)?;
         let roots = settings.include_roots.as_slice();
         let mut files = FilesBeside { folder, roots, failures: Vec::new() };
@@ -52,7 +49,7 @@ impl SolvableScene {
         let has_errors = say_data_findings(found, &settings, format);
         let deck_path = scene.as_ref().map(|scene| folder.join(&scene.deck));
         if let (Some(deck), false) = (&deck_path, files.failures.is_empty()) {
-            files.failures.extend(refuse_outside(deck, roots).and_then(|()| files::read_bytes(deck)).err());
+            files.failures.extend(refuse_outside(deck, roots).and_then(|()| files::open_file(deck).map(drop)).err());
         }
         if !files.failures.is_empty() {
             files.failures.iter().for_each(|failure| say(&format!("error: {failure}")));
@@ -136,7 +133,7 @@ struct FilesBeside<'a> {
 impl SceneFiles for FilesBeside<'_> {
     fn read(&mut self, name: &str) -> Option<Vec<u8>> {
         let path = self.folder.join(name);
-        match refuse_outside(&path, self.roots).and_then(|()| files::read_bytes(&path)) {
+        match refuse_outside(&path, self.roots).and_then(|()| files::read_lines(&path)) {
             Ok(bytes) => Some(bytes),
             Err(failure) => {
                 self.failures.push(failure);

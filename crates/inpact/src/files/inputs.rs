@@ -75,19 +75,22 @@ fn take_down_metadata(metadata: &Metadata, path: &Path) {
     inputs.places.insert(place);
 }
 
-/// Takes down standard input where it is a file.
+/// Takes down standard input where it is a file, and tells what it is.
 #[cfg(unix)]
-pub(super) fn take_down_standard_input() {
+pub(super) fn take_down_standard_input() -> Option<Metadata> {
     let metadata = standard_metadata(&std::io::stdin());
-    if let Some(metadata) = metadata.filter(Metadata::is_file) {
+    if let Some(metadata) = metadata.as_ref().filter(|metadata| metadata.is_file()) {
         let name = PathBuf::from("standard input");
-        inputs().files.entry(Identity::of(&metadata, &name)).or_insert(name);
+        inputs().files.entry(Identity::of(metadata, &name)).or_insert(name);
     }
+    metadata
 }
 
 /// Takes down standard input where it is a file: only Unix tells which.
 #[cfg(not(unix))]
-pub(super) fn take_down_standard_input() {}
+pub(super) fn take_down_standard_input() -> Option<Metadata> {
+    None
+}
 
 /// What a standard stream is.
 #[cfg(unix)]

@@ -11,6 +11,7 @@
 
 use super::inputs::Identity;
 use super::temporary::{Access, Hold, Temporary, hold};
+use super::whole::{bounded, lines_of};
 use super::{PIECE, access, folder_of, holders, open_file, sync_file, sync_folder, whole_path};
 use crate::failure::Failure;
 use std::collections::BTreeSet;
@@ -19,7 +20,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// How much is read of what is no file and may have no end, such as a device.
+/// How much is read of what is no file and may have no end, such as a pipe.
 const MOST_OF_STREAM: u64 = 1 << 30;
 
 /// A file as it was read: what it was and what was in it.
@@ -52,20 +53,16 @@ enum Expected {
 }
 
 impl Snapshot {
-    /// Reads a file, or what else has that name, once and whole.
+    /// Reads a deck, or what else has that name, once and whole.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let mut file = open_file(path)?;
         let unreadable = |error| Failure::read(path, error);
         let metadata = file.metadata().map_err(unreadable)?;
-        let mut bytes = Vec::new();
-        if metadata.is_file() {
-            file.read_to_end(&mut bytes).map_err(unreadable)?;
-        } else {
-            (&mut file).take(MOST_OF_STREAM + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-            if MOST_OF_STREAM < bytes.len() as u64 {
-                let message = format!("it is no file, and gives more than {MOST_OF_STREAM} bytes");
-                return Err(unreadable(io::Error::new(io::ErrorKind::InvalidData, message)));
-            }
+        let most = if metadata.is_file() { u64::MAX } else { MOST_OF_STREAM + 1 };
+        let bytes = lines_of(&mut bounded(&mut file, Some(&metadata)).take(most)).map_err(unreadable)?;
+        if most <= bytes.len() as u64 {
+            let message = format!("it is no file, and gives more than {MOST_OF_STREAM} bytes");
+            return Err(unreadable(io::Error::new(io::ErrorKind::InvalidData, message)));
         }
         let whole = whole_path(path);
         let identity = metadata.is_file().then(|| Identity::of(&metadata, &whole));

@@ -1,0 +1,159 @@
+//! What is read to its end, given up as soon as it shows that it is no file of its kind: a device such as `/dev/zero` has no end.
+
+use super::{PIECE, open};
+use crate::failure::Failure;
+use std::fs::Metadata;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The longest line of a deck or a table, in bytes; Abaqus reads 256 characters of a line.
+pub(super) const LONGEST_LINE: usize = 16 << 20;
+
+/// How much is read of a device, which may have no end; a terminal is one too.
+const MOST_OF_DEVICE: u64 = 64 << 20;
+
+/// An input that is given up where it is a device that goes on and on.
+pub(super) struct Bounded<R> {
+    input: R,
+    left: u64,
+}
+
+/// Bounds an input by what it is.
+pub(super) fn bounded<R: Read>(input: R, metadata: Option<&Metadata>) -> Bounded<R> {
+    Bounded { input, left: if metadata.is_some_and(is_device) { MOST_OF_DEVICE } else { u64::MAX } }
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let count = self.input.read(into)?;
+        match self.left.checked_sub(count as u64) {
+            Some(left) => self.left = left,
+            None => return Err(invalid(format!("it is a device, and gives more than {MOST_OF_DEVICE} bytes"))),
+        }
+        Ok(count)
+    }
+}
+
+#[cfg(unix)]
+fn is_device(metadata: &Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    metadata.file_type().is_char_device() || metadata.file_type().is_block_device()
+}
+
+/// Only Unix has devices that are named like files.
+#[cfg(not(unix))]
+fn is_device(_metadata: &Metadata) -> bool {
+    false
+}
+
+/// Reads all bytes of a deck or a table, or of standard input for `-`: lines, each of which ends.
+pub(crate) fn read_lines(path: &Path) -> Result<Vec<u8>, Failure> {
+    lines_of(&mut open(path)?).map_err(|error| Failure::read(path, error))
+}
+
+/// Reads all of a text whose lines may be of any length (JSON, TOML), or of standard input for `-`.
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+    text_of(&mut open(path)?).map_err(|error| Failure::read(path, error))
+}
+
+/// The lines of an input.
+pub(super) fn lines_of(input: &mut dyn Read) -> io::Result<Vec<u8>> {
+    let mut line_start = 0;
+    read_while(input, |bytes, new| {
+        let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
+        if let Some(end) = bytes[new..].iter().rposition(is_end) {
+            line_start = new + end + 1;
+        }
+        if bytes.len() - line_start <= LONGEST_LINE {
+            return Ok(());
+        }
+        let before = &bytes[..line_start];
+        let ends = before.iter().filter(|byte| **byte == b'\n').count();
+        let lone = before.windows(2).filter(|pair| pair[0] == b'\r' && pair[1] != b'\n').count();
+        let lone = lone + usize::from(before.ends_with(b"\r"));
+        Err(endless_line(ends + lone + 1))
+    })
+}
+
+/// What is said of a line without an end.
+pub(super) fn endless_line(line: impl std::fmt::Display) -> io::Error {
+    invalid(format!("line {line} is longer than {LONGEST_LINE} bytes, the most that a line may have: it is no deck"))
+}
+
+/// The text of an input: UTF-8, without the character NUL, which no JSON and no TOML has.
+fn text_of(input: &mut dyn Read) -> io::Result<String> {
+    let mut sound = 0;
+    let bytes = read_while(input, |bytes, new| {
+        if let Some(at) = bytes[new..].iter().position(|byte| *byte == 0) {
+            return Err(invalid(format!("it is no text: byte {} is zero", new + at + 1)));
+        }
+        match std::str::from_utf8(&bytes[sound..]) {
+            Ok(_) => sound = bytes.len(),
+            Err(error) => {
+                sound += error.valid_up_to();
+                // A character may go on in the next piece.
+                if error.error_len().is_some() {
+                    return Err(not_utf8(sound));
+                }
+            }
+        }
+        Ok(())
+    })?;
+    String::from_utf8(bytes).map_err(|error| not_utf8(error.utf8_error().valid_up_to()))
+}
+
+fn not_utf8(sound: usize) -> io::Error {
+    invalid(format!("it is not UTF-8: byte {} belongs to no character", sound + 1))
+}
+
+fn invalid(message: String) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, message)
+}
+
+/// Reads to the end, as long as `judge` allows: it sees what was read so far, and where the last piece of it begins.
+fn read_while(input: &mut dyn Read, mut judge: impl FnMut(&[u8], usize) -> io::Result<()>) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    loop {
+        let new = bytes.len();
+        if input.take(PIECE as u64).read_to_end(&mut bytes)? == 0 {
+            return Ok(bytes);
+        }
+        judge(&bytes, new)?;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LONGEST_LINE, PIECE, lines_of, text_of};
+    use std::io::{self, Read};
+
+    fn message<T: std::fmt::Debug>(read: io::Result<T>) -> String {
+        read.expect_err("refused").to_string()
+    }
+
+    #[test]
+    fn a_line_without_an_end_is_given_up_with_its_number() {
+        for head in ["a\nb\n", "a\r\nb\r\n", "a\rb\r", "a\r\n\r"] {
+            let told = message(lines_of(&mut head.as_bytes().chain(io::repeat(b'x'))));
+            assert!(told.starts_with("line 3 is longer than 16777216 bytes"), "{head:?}: {told}");
+        }
+        let longest = [vec![b'x'; LONGEST_LINE], b"\n".to_vec()].concat().repeat(2);
+        assert_eq!(lines_of(&mut longest.as_slice()).expect("as long as a line may be"), longest);
+    }
+
+    #[test]
+    fn a_text_is_utf8_wherever_its_pieces_end() {
+        for shift in 0..4 {
+            let text = format!("{}{}", "x".repeat(shift), "\u{1F600}\u{e9}".repeat(PIECE / 3));
+            assert_eq!(text_of(&mut text.as_bytes()).expect("a text"), text);
+            let bytes = text.as_bytes();
+            let cut = &bytes[..bytes.len() - 1];
+            let told = message(text_of(&mut &*cut));
+            assert_eq!(told, format!("it is not UTF-8: byte {} belongs to no character", bytes.len() - 1));
+        }
+        let told = message(text_of(&mut b"{}\0".chain(io::repeat(0))));
+        assert_eq!(told, "it is no text: byte 3 is zero");
+        let told = message(text_of(&mut b"{}".chain(io::repeat(0xFF))));
+        assert_eq!(told, "it is not UTF-8: byte 3 belongs to no character");
+    }
+}
