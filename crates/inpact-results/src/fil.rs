@@ -47,6 +47,8 @@ struct Reader {
     /// Names that are longer than a word, by the number that stands for them.
     labels: HashMap<i64, Name>,
     passed_over: PassedOver,
+    /// The values of the record that is being read.
+    values: Vec<f64>,
 }
 
 impl Reader {
@@ -63,6 +65,7 @@ impl Reader {
             freedoms: Vec::new(),
             labels: HashMap::new(),
             passed_over: PassedOver::default(),
+            values: Vec::new(),
         }
     }
 
@@ -200,8 +203,11 @@ impl Reader {
             return Err(misplaced(record, "the begin of an increment, record 2000, before it"));
         };
         let words = &record.attributes[first..];
-        let values: Option<Vec<f64>> = words.iter().map(|word| word.real()).collect();
-        let values = values.ok_or_else(|| misplaced(record, "values"))?;
+        self.values.clear();
+        for word in words {
+            self.values.push(word.real().ok_or_else(|| misplaced(record, "values"))?);
+        }
+        let values = self.values.as_slice();
         let key = (record.key, region, values.len());
         let at = match self.fields.get(&key) {
             // Whatever is written of a pair twice is there twice.
@@ -214,7 +220,7 @@ impl Reader {
             }
         };
         let field: &mut Field = &mut frame.fields[at];
-        collect::push(field, row, &values);
+        collect::push(field, row, values);
         Ok(())
     }
 
