@@ -11,7 +11,7 @@ mod table;
 use crate::collect::{self, PassedOver, Row};
 use crate::lines::{Line, LineEnd, Lines};
 use crate::number;
-use crate::problem::{Problem, Read, ended};
+use crate::problem::{Problem, Read, ended, shown};
 use crate::recognise::Format;
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 use names::Variable;
@@ -40,7 +40,7 @@ pub fn read_rpt(bytes: &[u8]) -> Read {
     ended(reader.results, outcome)
 }
 
-/// The most lines of names above XY data; what is higher is no head, and would cost its height times its width.
+/// The most lines of names above a table; what is higher is no head, and would cost its height times its width.
 const MOST_HEAD_LINES: usize = 16;
 
 struct Reader {
@@ -62,7 +62,7 @@ impl Reader {
                 return Err(Problem::new(line.place, "the last line has no end", table::CUT));
             }
             if is_rule(line.text) {
-                let from = before.len().saturating_sub(2);
+                let from = before.len().saturating_sub(MOST_HEAD_LINES);
                 self.field(lines, &before[from..])?;
                 before.clear();
             } else if line.is_blank() {
@@ -106,17 +106,20 @@ impl Reader {
 
     /// A table of a field report; `head` is the names of columns and what is under them.
     fn field(&mut self, lines: &mut Lines<'_>, head: &[Line<'_>]) -> Result<(), Problem> {
-        let Some((_, first)) = head.first().and_then(|line| line.cells().next()) else { return Ok(()) };
-        if first != b"Node" {
-            if first.eq_ignore_ascii_case(b"Element") || first.eq_ignore_ascii_case(b"Part") {
-                let what = String::from_utf8_lossy(head[0].text.trim_ascii()).into_owned();
-                self.passed_over.count(&format!("table `{what}`"));
+        let begins_with = |line: &Line<'_>, word: &[u8]| line.cells().next().is_some_and(|(_, cell)| cell == word);
+        let Some(from) = head.iter().position(|line| begins_with(line, b"Node")) else {
+            // Under the number of a source stands a rule as well.
+            if let Some(line) = head.first().filter(|line| !begins_with(line, b"Source")) {
+                self.passed_over.count(&format!("table `{}`", shown(line.text.trim_ascii())));
             }
             return Ok(());
-        }
+        };
+        // Under the names of columns stands where they are from; names that are long go on in the next line.
+        let head = &head[from..];
+        let to = head.iter().position(|line| begins_with(line, b"Label")).unwrap_or(head.len());
         let mut table = Table::default();
         let outcome = table.rows(lines);
-        let names = table.names(&head[..1]);
+        let names = table.names(&head[..to]);
         let mut nodes = Vec::with_capacity(table.labels().len());
         for (value, place) in table.labels() {
             match whole(*value) {

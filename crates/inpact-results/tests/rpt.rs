@@ -127,3 +127,23 @@ fn a_high_head_over_a_wide_row_costs_no_product() {
     let failure = read_rpt(text.as_bytes()).expect_err("no table");
     assert!(failure.problem.message.contains("no table of nodes and no XY data"), "{failure}");
 }
+
+#[test]
+fn names_that_go_on_in_the_next_line_are_joined() {
+    let text = "Field Output reported at nodes for part: A
+
+            Node          CPRESS           COPEN
+                      A_S1/A_M1       A_S1/A_M1
+           Label          @Loc 1          @Loc 1
+------------------------------------------------
+               7     1.09260E-03        -2.E-06
+
+";
+    let results = read_rpt(text.as_bytes()).expect("whole");
+    for (name, value) in [("CPRESS", 1.0926e-3), ("COPEN", -2e-6)] {
+        let (field, column) = results.frames[0].column(name).expect("there");
+        assert_eq!((field.rows.nodes(), column.values[0]), (Some(&[7][..]), value));
+        let region = [&field.region.slave, &field.region.master, &field.region.set].map(Option::as_deref);
+        assert_eq!(region, [Some("A_S1"), Some("A_M1"), Some("A")]);
+    }
+}

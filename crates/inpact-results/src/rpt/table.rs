@@ -82,7 +82,12 @@ impl Table {
             for (at, (name, end)) in names.iter_mut().zip(&self.ends).enumerate() {
                 let above = line.text.get(begin.min(line.text.len())..(*end).min(line.text.len())).unwrap_or_default();
                 let cell = if cells.len() == self.columns.len() { cells[at] } else { above };
-                name.push_str(String::from_utf8_lossy(cell).trim());
+                let cell = String::from_utf8_lossy(cell);
+                let cell = cell.trim();
+                if !name.is_empty() && !cell.is_empty() {
+                    name.push(' ');
+                }
+                name.push_str(cell);
                 begin = *end;
             }
         }
