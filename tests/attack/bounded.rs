@@ -16,3 +16,9 @@ fn the_edit_of_another_program_is_never_lost() {
     let report = inpact_attack::edits::run(Path::new(PROGRAM), 60, 1);
     assert!(report.faults.is_empty(), "{:#?}\n{}", report.faults, report.text);
 }
+
+#[test]
+fn hostile_files_are_read_or_refused() {
+    let report = inpact_attack::hostile::run(Path::new(PROGRAM), 120, 1);
+    assert!(report.faults.is_empty(), "{:#?}\n{}", report.faults, report.text);
+}

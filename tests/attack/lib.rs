@@ -5,6 +5,7 @@
 
 pub mod chance;
 pub mod edits;
+pub mod hostile;
 pub mod page;
 #[cfg(unix)]
 pub mod stops;

@@ -31,6 +31,8 @@ enum Suite {
     Stops,
     /// Another program edits the deck meanwhile.
     Edits,
+    /// Changed JSON, scenes, configurations and node tables.
+    Hostile,
 }
 
 impl Suite {
@@ -40,6 +42,7 @@ impl Suite {
             #[cfg(unix)]
             Self::Stops => "stops",
             Self::Edits => "edits",
+            Self::Hostile => "hostile",
         }
     }
 
@@ -48,6 +51,7 @@ impl Suite {
             #[cfg(unix)]
             Self::Stops => inpact_attack::stops::run(program, trials, seed),
             Self::Edits => inpact_attack::edits::run(program, trials, seed),
+            Self::Hostile => inpact_attack::hostile::run(program, trials, seed),
         }
     }
 }
