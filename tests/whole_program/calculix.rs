@@ -132,6 +132,9 @@ fn cx_06_includes() {
     assert_eq!(check(&folder), ["error[S012]"]);
     folder.write("nodesets.inc", "** this\n");
     assert_eq!(check(&folder), Vec::<String>::new());
+    // ccx cannot open `nodesets.inc,`.
+    folder.write("d.inp", "*INCLUDE, INPUT=nodesets.inc,\n");
+    assert_eq!(check(&folder), ["error[S012]"]);
     assert_eq!(check(&Folder::with(&[("d.inp", "*INCLUDE, INPUT\n")])), ["error[K007]"]);
     assert_eq!(check(&Folder::with(&[("d.inp", "*INCLUDE\n")])), ["error[S012]"]);
 }

@@ -193,8 +193,12 @@ impl Assembly<'_> {
         let name = match self.options.grammar.dialect() {
             // FILE stands for INPUT in decks that ran all the same.
             Dialect::Abaqus => self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE")),
-            // CalculiX looks for the first `=` (CX-06).
-            Dialect::Calculix => keyword.parameters.iter().find_map(|parameter| parameter.value),
+            // For CalculiX all that stands behind the first `=` is the name, commas included (CX-06).
+            Dialect::Calculix => {
+                let end = keyword.visible_span(&self.deck).end;
+                let value = keyword.parameters.iter().find_map(|parameter| parameter.value);
+                value.map(|value| Span::new(value.source, value.start, end))
+            }
         };
         let name = name.filter(|name| !name.is_empty());
         let outcome = match name {
