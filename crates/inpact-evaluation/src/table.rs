@@ -28,7 +28,7 @@ use marks::Marks;
 /// Without any axis the function is a constant.
 ///
 /// Between rows the function is linear along each axis, outside the rows of a group it is constant (T-04), or zero beyond the last row where [`Tail::Zero`] says so for axis 0.
-/// A group with one row is constant along its axis (T-07), whatever the tail.
+/// A group with one row is constant along its axis (T-07), but for axis 0 under [`Tail::Zero`], which holds beyond a single row too.
 /// It is built once and shared: a clone costs nothing.
 #[derive(Clone, Debug)]
 pub struct PiecewiseTable(Arc<Content>);
@@ -40,7 +40,7 @@ struct Content {
     axis_count: usize,
     /// What follows the last row of a group of axis 0.
     tail: Tail,
-    /// The axes the value depends on, fastest first. An axis every group of which has one row is left out.
+    /// The axes the value depends on, fastest first. An axis every group of which has one row is left out, unless the value drops beyond it.
     levels: Vec<Level>,
     /// One value a row.
     values: Vec<f64>,
@@ -78,12 +78,14 @@ pub struct AxisSummary {
     pub knot_count: usize,
     /// How many of these differ.
     pub distinct_count: usize,
+    /// Whether the value drops to zero beyond the last abscissa of each group: axis 0 under [`Tail::Zero`].
+    pub drops: bool,
 }
 
 impl AxisSummary {
-    /// Whether the table's value depends on this axis at all: some group has two abscissae.
+    /// Whether the table's value depends on this axis at all: some group has two abscissae, or the value drops beyond the last.
     pub fn matters(&self) -> bool {
-        self.knot_count > self.group_count
+        self.drops || self.group_count < self.knot_count
     }
 
     /// Whether all groups have one and the same single abscissa, as a blank column has (T-02).
@@ -101,6 +103,8 @@ pub(crate) struct Level {
     pub(crate) knots: Vec<f64>,
     /// Knot j owns the knots `children[j]..children[j + 1]` of the level below. Empty in the innermost level, whose knot j owns row j.
     pub(crate) children: Vec<usize>,
+    /// Whether the value drops to zero beyond the last knot of each group.
+    pub(crate) drops: bool,
 }
 
 /// The coordinates of a query: axis 0, then the others.

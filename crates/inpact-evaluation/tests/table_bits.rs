@@ -187,49 +187,49 @@ const HASHES: &[(Layout, usize, usize, [u64; 4])] = &[
         Layout::Ragged(Range::Ordinary),
         1,
         60,
-        [0x1952_6ef9_3bd2_4568, 0x0e59_3548_3372_4535, 0x5a5f_2d7d_3ce6_6b30, 0x9611_35d9_7760_5c93],
+        [0xaaec_56ab_f711_49c7, 0x02f0_4cb4_0d8d_a41b, 0xe31d_603a_fe27_80a0, 0x3a41_c1ed_01c7_c6e1],
     ),
     (
         Layout::Ragged(Range::Ordinary),
         2,
         40,
-        [0x21f8_7287_f6c7_8e8f, 0xdc50_5c47_9d1a_b61a, 0x7a2c_7fdc_f471_13ca, 0xd6f4_9881_f6f5_d2bd],
+        [0xc608_3903_4879_e5a9, 0x4165_e687_c376_6557, 0x014e_4b2e_8d85_f8e1, 0x8187_505d_5901_1c24],
     ),
     (
         Layout::Ragged(Range::Ordinary),
         3,
         20,
-        [0x74b9_0c94_0c4d_8b81, 0x58a0_d932_064c_3799, 0x901b_036f_63d5_9e97, 0x8560_996b_0f8c_ad3b],
+        [0x6101_c653_e1a0_a2f5, 0x3664_aebf_6cb6_009b, 0x49ec_82ee_64b0_cea9, 0x8560_996b_0f8c_ad3b],
     ),
     (
         Layout::Ragged(Range::Ordinary),
         4,
         10,
-        [0xd9ac_6962_eb62_dc92, 0xfef4_8e42_3d7f_9b93, 0x636d_a314_fbf9_49bb, 0xcbf2_9ce4_8422_2325],
+        [0x7fab_96d0_33bf_1e2f, 0x8d52_d76b_160e_5e36, 0xe6c8_a5ad_62d9_1905, 0xcbf2_9ce4_8422_2325],
     ),
     (
         Layout::Ragged(Range::AllDecades),
         1,
         60,
-        [0xf349_badf_e712_3ab7, 0x3cab_49cf_eebd_c0e0, 0xb8be_2106_856f_2fcc, 0x8b3e_3e63_2c8e_98ef],
+        [0x2f0d_cfd4_d6f6_5544, 0x9444_9adc_14a3_75a2, 0x6447_e4f7_83de_2b64, 0x3bbc_02ec_7d0c_e012],
     ),
     (
         Layout::Ragged(Range::AllDecades),
         2,
         40,
-        [0xb70f_037c_4098_0eb7, 0xf29b_c943_9a44_6748, 0xc8fc_bd5e_1cf2_784f, 0x803c_3ee5_b6bc_97a2],
+        [0x6388_10cf_69ca_f145, 0x1ebf_be2f_4828_bdc4, 0x4b68_7145_29c4_9421, 0xc36f_0355_6e1c_7a59],
     ),
     (
         Layout::Ragged(Range::AllDecades),
         3,
         20,
-        [0x41fe_a049_d5e3_4e5b, 0xe4a8_b35f_aef8_371f, 0xa285_cb52_d1c3_3824, 0x52bd_f68d_77d3_fd43],
+        [0x7e2c_62de_4cc0_4f63, 0x2b89_d2b2_9462_1c7e, 0x559d_d158_3c9f_4e44, 0x52bd_f68d_77d3_fd43],
     ),
     (
         Layout::Ragged(Range::AllDecades),
         4,
         10,
-        [0x5b4e_8eae_c8dd_5fde, 0xbb08_aaad_2919_be9b, 0x1e23_c288_63a6_c024, 0xe105_3515_5a51_92d3],
+        [0x6d64_62d5_608c_5721, 0x365d_9766_7969_04ef, 0x5fe7_3180_0127_2ddc, 0xe105_3515_5a51_92d3],
     ),
     (
         Layout::Rectilinear(&[7]),
@@ -271,7 +271,7 @@ const HASHES: &[(Layout, usize, usize, [u64; 4])] = &[
         Layout::Rectilinear(&[1, 5]),
         2,
         10,
-        [0xcf02_1fac_bd92_11f4, 0x2bb6_b5ca_8a38_ef18, 0x71a7_3c27_85a0_34ae, 0x4d8e_72c5_6f56_5937],
+        [0xfdd6_19f0_8f78_6a18, 0x097a_cecf_398b_5a39, 0x2908_6a8d_fc32_d994, 0x6f2e_a944_4cd3_64de],
     ),
     (
         Layout::Rectilinear(&[4, 3, 5]),
@@ -331,15 +331,14 @@ const HASHES: &[(Layout, usize, usize, [u64; 4])] = &[
 
 #[test]
 fn tables_of_every_shape_keep_their_bits() {
+    let mut changed = String::new();
     for (layout, axes, tables, expected) in HASHES {
         let found = hashes_of(*layout, *axes, *tables);
-        assert!(
-            found == *expected,
-            "{layout:?}, {axes} axes: [{:#x}, {:#x}, {:#x}, {:#x}]",
-            found[0],
-            found[1],
-            found[2],
-            found[3]
-        );
+        if found != *expected {
+            let [values, references, slopes, folded] = found;
+            let found = format!("[{values:#018x}, {references:#018x}, {slopes:#018x}, {folded:#018x}]");
+            changed += &format!("{layout:?}, {axes} axes: {found}\n");
+        }
     }
+    assert!(changed.is_empty(), "{changed}");
 }

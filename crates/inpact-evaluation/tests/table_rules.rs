@@ -1,5 +1,6 @@
 //! Tables by the numbered rules: order of rows, ragged groups, constant ends, single rows, the zero tail, published values.
 
+use inpact_evaluation::kernel::TableKernel;
 use inpact_evaluation::numbers::product;
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableFault, Tail};
 
@@ -97,16 +98,42 @@ fn t_02_a_blank_column_is_constant() {
     }
 }
 
-/// T-07: a group of one row is constant along its axis, under a zero tail too.
+/// T-07: a group of one row is constant along its axis.
 #[test]
 fn t_07_a_group_of_one_row_is_constant() {
     let rows: [&[f64]; 3] = [&[10.0, 0.0, 300.0], &[6.0, 1.0, 300.0], &[20.0, 0.0, 400.0]];
-    let zero = with_tail(&rows, Tail::Zero);
-    assert_eq!(zero.value(&[5.0, 400.0]), 20.0);
-    assert_eq!(zero.value(&[5.0, 350.0]), 10.0);
-    assert!(zero.sides(&[5.0, 400.0]).is_within());
+    let constant = table(&rows);
+    assert_eq!(constant.value(&[5.0, 400.0]), 20.0);
+    assert_eq!(constant.value(&[5.0, 350.0]), 13.0);
+    assert!(constant.sides(&[5.0, 400.0]).is_within());
+    assert_eq!(table(&[&[20.0, 0.0]]).value(&[5.0]), 20.0);
+}
+
+/// a zero tail follows a single row too, from the very next clearance on; T-07 stays for the other axes.
+#[test]
+fn q_38_a_zero_tail_follows_a_single_row() {
+    let least = f64::from_bits(1);
     let single = with_tail(&[&[20.0, 0.0]], Tail::Zero);
-    assert_eq!(single.value(&[5.0]), 20.0);
+    for (d, k) in [(-1.0, 20.0), (-0.0, 20.0), (0.0, 20.0), (least, 0.0), (1e6, 0.0), (f64::INFINITY, 0.0)] {
+        assert_eq!(single.value(&[d]), k, "{d:?}");
+        assert_eq!(single.sides(&[d]).is_above(0), 0.0 < d, "{d:?}");
+        assert_eq!(single.reference_value_at(d, &[]), k, "{d:?}");
+        let mut values = [f64::NAN; 20];
+        TableKernel::new(&single).values(&[&[d; 20]], &mut values);
+        assert_eq!(values, [k; 20], "{d:?}");
+    }
+    assert!(single.value(&[f64::NAN]).is_nan());
+    // Two temperatures, a row each, and one that has two: 14.5 of 10 and 20 at 345.
+    let pair = with_tail(&[&[10.0, 0.0, 300.0], &[20.0, 0.0, 400.0]], Tail::Zero);
+    assert_eq!([0.0, least, 1e6].map(|d| pair.value(&[d, 345.0])), [14.5, 0.0, 0.0]);
+    let ragged = with_tail(&[&[10.0, 0.0, 300.0], &[6.0, 1.0, 300.0], &[20.0, 0.0, 400.0]], Tail::Zero);
+    assert_eq!([0.0, 0.5, 1.0, 2.0].map(|d| ragged.value(&[d, 350.0])), [15.0, 4.0, 3.0, 0.0]);
+    assert_eq!(ragged.value(&[0.0, 500.0]), 20.0);
+    let folded = pair.folded(1, 345.0).expect("both groups drop at 0");
+    assert_eq!([0.0, least].map(|d| folded.value(&[d, f64::NAN])), [14.5, 0.0]);
+    let at_contact = pair.folded(0, 0.0).expect("both groups have 0");
+    assert_eq!(at_contact.value(&[f64::NAN, 345.0]), 14.5);
+    assert_eq!(pair.folded(0, least).expect("both groups end before it").value(&[f64::NAN, 345.0]), 0.0);
 }
 
 #[test]

@@ -10,7 +10,7 @@
 use super::vertices::{abscissae, all_abscissae, for_each_vertex};
 use super::{ErrorBound, Refusal, largest_magnitude};
 use crate::kernel::{InstructionSet, Lanes, Operation};
-use crate::table::{PiecewiseTable, Tail};
+use crate::table::PiecewiseTable;
 
 /// A table of two to four axes that matter, resampled on a regular grid over these.
 #[derive(Clone, Debug)]
@@ -353,10 +353,7 @@ fn merged(mut a: Vec<f64>, b: &[f64]) -> Vec<f64> {
 
 /// The innermost coordinate beyond which every value is zero, `greatest` if all groups end in zero at it or before.
 fn zero_beyond(table: &PiecewiseTable, greatest: f64) -> f64 {
-    let all_drop = table.levels()[0].axis == 0
-        && table.tail() == Tail::Zero
-        && table.levels()[1].children.windows(2).all(|group| group[1] - group[0] > 1);
-    if all_drop { greatest } else { f64::INFINITY }
+    if table.levels()[0].drops { greatest } else { f64::INFINITY }
 }
 
 /// The smallest magnitude of the table within the range of the grid; zero where signs differ or a group ends in zero before another.
@@ -364,8 +361,7 @@ fn smallest_magnitude(table: &PiecewiseTable) -> f64 {
     let least = table.values().iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = table.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let innermost = &table.levels()[0];
-    let ends_early = innermost.axis == 0
-        && table.tail() == Tail::Zero
+    let ends_early = innermost.drops
         && table.levels()[1].children[1..]
             .iter()
             .any(|&end| innermost.knots[end - 1] != innermost.knots[innermost.knots.len() - 1]);

@@ -2,16 +2,15 @@
 
 use std::ops::Range;
 
-use crate::table::{PiecewiseTable, Tail};
+use crate::table::PiecewiseTable;
 
 /// The abscissae of `level` within the given groups of the level below `height`, and the points just beyond the last rows of a table that drops to zero there; rising, each once.
 pub(super) fn abscissae(table: &PiecewiseTable, level: usize, height: usize, groups: &[Range<usize>]) -> Vec<f64> {
     let of_level = &table.levels()[level];
-    let drops = of_level.axis == 0 && table.tail() == Tail::Zero;
     let mut found = Vec::new();
     for group in groups.iter().flat_map(|group| groups_at(table, level, height, group.clone())) {
         found.extend_from_slice(&of_level.knots[group.clone()]);
-        if drops && group.len() > 1 {
+        if of_level.drops {
             found.push(of_level.knots[group.end - 1].next_up());
         }
     }

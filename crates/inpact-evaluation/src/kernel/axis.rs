@@ -78,7 +78,9 @@ impl Axis {
         let ranges: Vec<GroupRange> = groups[..breaks.len()]
             .iter()
             .map(|group| match knots(group) {
-                [only] => GroupRange { least: *only, greatest: *only, below: f64::NEG_INFINITY, above: f64::INFINITY },
+                [only] if !drops => {
+                    GroupRange { least: *only, greatest: *only, below: f64::NEG_INFINITY, above: f64::INFINITY }
+                }
                 knots => {
                     let (least, last) = (knots[0], knots[knots.len() - 1]);
                     GroupRange { least, greatest: if drops { last.next_up() } else { last }, below: least, above: last }

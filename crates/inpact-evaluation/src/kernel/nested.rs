@@ -14,7 +14,7 @@ use super::instruction_set::Lanes;
 use super::pieces::{Piece, half_segments};
 use super::{InstructionSet, Search, column_of};
 use crate::numbers::{is_ordinary, two_difference};
-use crate::table::{Level, PiecewiseTable, Sides, Tail};
+use crate::table::{Level, PiecewiseTable, Sides};
 
 /// A table with at least one axis that matters.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ impl NestedKernel {
             }
         };
         let innermost = &levels[0];
-        let beyond = (innermost.axis == 0 && table.tail() == Tail::Zero).then_some(0.0);
+        let beyond = innermost.drops.then_some(0.0);
         let mut pieces = Vec::new();
         let mut breaks = Vec::new();
         for rows in groups(0) {

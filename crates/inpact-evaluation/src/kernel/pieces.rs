@@ -73,7 +73,8 @@ pub(super) fn half_segments(
     }
     if last == 0 {
         pieces.push(Piece::new(knots[0], values[0], (0.0, 0.0)));
-    } else if let Some(beyond) = beyond {
+    }
+    if let Some(beyond) = beyond {
         let after = knots[last].next_up();
         breaks.push(after);
         pieces.push(Piece::new(after, beyond, (0.0, 0.0)));

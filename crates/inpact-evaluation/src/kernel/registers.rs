@@ -42,14 +42,14 @@ pub(super) struct RegisterKernel {
 }
 
 impl RegisterKernel {
-    /// The kernel of a table, if it has one axis and few knots.
+    /// The kernel of a table, if it has one axis and few knots, two at least.
     ///
     /// A value −0 would lose its sign where it is interpolated from itself; such a table is left to the other kernel.
     pub(super) fn new(table: &PiecewiseTable) -> Option<Self> {
         let [level] = table.levels() else { return None };
         let knots = &level.knots;
         let is_negative_zero = |value: &f64| *value == 0.0 && value.is_sign_negative();
-        if knots.len() > MOST_KNOTS || table.values().iter().any(is_negative_zero) {
+        if knots.len() < 2 || MOST_KNOTS < knots.len() || table.values().iter().any(is_negative_zero) {
             return None;
         }
         let segments = knots.len() - 1;
@@ -76,7 +76,7 @@ impl RegisterKernel {
             axis: level.axis,
             first: knots[0],
             last: knots[segments],
-            tail: if level.axis == 0 { table.tail() } else { Tail::Constant },
+            tail: if level.drops { Tail::Zero } else { Tail::Constant },
             halvings,
             halving_knots: halving_knots.map(cast),
             right_halves: of_segments(&|segment| last_of_left_half(knots[segment], knots[segment + 1]).next_up()),

@@ -5,7 +5,7 @@ use super::make::{LeftOuts, Planner};
 use super::reason::{Missing, Reason};
 use super::regime::regime;
 use super::source::{Source, whole_or_sides};
-use super::tables::{InteractionTables, added_rows, electrical_axis, matters};
+use super::tables::{InteractionTables, electrical_axis, matters};
 use super::user::{UserPlan, plan_user};
 use super::wanted::columns_of;
 use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
@@ -234,28 +234,22 @@ fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: 
 
 /// A table as the plan shows it.
 pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along) -> TablePlan {
-    let added = added_rows(table);
-    let axes = table.axes().iter().enumerate().map(|(axis, summary)| {
-        // What was added to complete a group of one row is no abscissa of the deck.
-        let is_completed = axis == 0 && added > 0;
-        let is_alone = is_completed && summary.greatest == summary.least.next_up();
-        AxisPlan {
-            along: along(axis),
-            least: summary.least,
-            greatest: if is_alone { summary.least } else { summary.greatest },
-            points: summary.distinct_count - usize::from(is_completed),
-            matters: summary.matters(),
-            fold: None,
-            is_idle: false,
-        }
+    let axes = table.axes().iter().enumerate().map(|(axis, summary)| AxisPlan {
+        along: along(axis),
+        least: summary.least,
+        greatest: summary.greatest,
+        points: summary.distinct_count,
+        matters: summary.matters(),
+        fold: None,
+        is_idle: false,
     });
     TablePlan {
         against: along(0),
-        rows: table.row_count() - added,
+        rows: table.row_count(),
         tail: table.tail(),
         ends_in_zero: false,
         axes: axes.collect(),
-        folded_rows: table.row_count() - added,
+        folded_rows: table.row_count(),
         shape: Shape::of(table),
         not_folded: Vec::new(),
         form: None,

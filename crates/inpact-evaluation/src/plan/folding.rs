@@ -2,7 +2,6 @@
 
 use super::make::Planner;
 use super::source::Source;
-use super::tables::added_rows;
 use super::{AxisPlan, FormPlan, TablePlan};
 use crate::accuracy::{Method, Shape, Wanted, choose};
 use crate::evaluator::Evaluator;
@@ -61,7 +60,7 @@ fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -
             Err(refusal) => plan.not_folded.push((of.along, refusal)),
         }
     }
-    plan.folded_rows = folded.row_count() - added_rows(&folded);
+    plan.folded_rows = folded.row_count();
     // With the others folded away, a variable may no longer make a difference.
     for (summary, of) in folded.axes().iter().zip(&mut plan.axes) {
         of.is_idle = of.matters && of.fold.is_none() && !summary.matters();

@@ -33,9 +33,7 @@ impl InteractionTables {
         let electrical = electrical.filter(|option| option.user.is_none());
         let permeability = interaction.contact_permeability.as_ref().and_then(|option| option.table.as_ref());
         Self {
-            clearance: electrical
-                .and_then(|option| option.clearance.as_ref())
-                .map(|table| clearance_table(&table.values, table.width(), tail)),
+            clearance: electrical.and_then(|option| option.clearance.as_ref()).map(|table| build(table, tail)),
             pressure: electrical.and_then(|option| option.pressure.as_ref()).map(|table| build(table, Tail::Constant)),
             permeability: permeability.map(|table| build(table, Tail::Constant)),
         }
@@ -61,37 +59,6 @@ impl InteractionTables {
     pub(crate) fn permeability(&self) -> Option<&PiecewiseTable> {
         self.permeability.as_ref()?.as_ref().ok()
     }
-}
-
-/// A table against clearance. The rule of its tail holds for a group of one row too, which [`PiecewiseTable`] takes for a constant (T-07).
-///
-/// So that only one row need not be known everywhere, such a group gets a second row of the same value at the next clearance that f64 has,
-/// beyond which it is zero as any other group is: the value of that one clearance, 5e-324, is the only one that differs.
-pub(super) fn clearance_table(cells: &[f64], width: usize, tail: Tail) -> Result<PiecewiseTable, TableError> {
-    let table = PiecewiseTable::from_rows(cells, width, tail)?;
-    if tail == Tail::Constant || width < 2 {
-        return Ok(table);
-    }
-    let rows: Vec<&[f64]> = cells.chunks_exact(width).collect();
-    let groups = || rows.chunk_by(|a, b| a[2..] == b[2..]);
-    if groups().all(|group| group.len() > 1) {
-        return Ok(table);
-    }
-    let mut completed = Vec::with_capacity(2 * cells.len());
-    for group in groups() {
-        completed.extend(group.iter().copied().flatten());
-        if let [row] = group {
-            completed.extend([row[0], row[1].next_up()]);
-            completed.extend(&row[2..]);
-        }
-    }
-    PiecewiseTable::from_rows(&completed, width, tail)
-}
-
-/// How many rows of a table [`clearance_table`] has added to those of the deck.
-pub(super) fn added_rows(table: &PiecewiseTable) -> usize {
-    let innermost = table.levels().first().filter(|level| level.axis == 0 && table.tail() == Tail::Zero);
-    innermost.map_or(0, |level| level.knots.windows(2).filter(|pair| pair[0].next_up() == pair[1]).count())
 }
 
 /// Which variable axis `axis` of a conductance table is (T-03).

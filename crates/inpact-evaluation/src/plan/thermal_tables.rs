@@ -1,7 +1,7 @@
 //! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
 
 use super::reason::Reason;
-use super::tables::{clearance_table, field_variable};
+use super::tables::field_variable;
 use crate::law::calculix::{CalculixConductance, CalculixError};
 use crate::law::conductance::ConductanceTables;
 use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
@@ -127,8 +127,7 @@ fn conductance(interaction: &Interaction, dialect: Dialect) -> Option<Conductanc
     }
     let build = |table: &Table, tail| PiecewiseTable::from_rows(&table.values, table.width(), tail);
     // Beyond the last clearance nothing is conducted, whatever is chosen for current (K-31, Q-1).
-    let clearance =
-        last(Some(TableKind::ThermalClearance)).map(|table| clearance_table(&table.values, table.width(), Tail::Zero));
+    let clearance = last(Some(TableKind::ThermalClearance)).map(|table| build(table, Tail::Zero));
     let pressure = last(Some(TableKind::ThermalPressure)).map(|table| build(table, Tail::Constant));
     let is_empty = clearance.is_none() && pressure.is_none();
     Some(if is_empty { ConductanceRows::Nothing } else { ConductanceRows::Tables { clearance, pressure } })
@@ -147,7 +146,8 @@ fn radiation_law(option: &SubOption, model: &Model) -> Result<RadiationLaw, Radi
     let coefficient =
         RadiationCoefficient::new(stefan_boltzmann, emissivities).ok_or(RadiationFault::BadEmissivities)?;
     let cells: Vec<[f64; 2]> = rows.iter().map(|row| [item(row, 0), item(row, 1)]).collect();
-    let view_factor = clearance_table(cells.as_flattened(), 2, Tail::Zero).map_err(RadiationFault::BrokenTable)?;
+    let view_factor =
+        PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Zero).map_err(RadiationFault::BrokenTable)?;
     Ok(RadiationLaw { coefficient, absolute_zero, view_factor })
 }
 

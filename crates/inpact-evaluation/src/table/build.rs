@@ -125,12 +125,14 @@ impl PiecewiseTable {
         let summaries: Vec<AxisSummary> = axes
             .iter()
             .zip(&group_counts)
-            .map(|(knots, &group_count)| AxisSummary {
+            .enumerate()
+            .map(|(axis, (knots, &group_count))| AxisSummary {
                 least: knots.iter().copied().fold(f64::INFINITY, f64::min),
                 greatest: knots.iter().copied().fold(f64::NEG_INFINITY, f64::max),
                 group_count,
                 knot_count: knots.len(),
                 distinct_count: distinct_count(knots, group_count),
+                drops: axis == 0 && tail == Tail::Zero,
             })
             .collect();
         let levels = levels_that_matter(axes, starts, &summaries);
@@ -176,7 +178,8 @@ fn distinct_count(knots: &[f64], group_count: usize) -> usize {
     sorted.len()
 }
 
-/// The levels of the axes some group of which has more than one knot, each linked to the next such axis inside it.
+/// The levels of the axes that matter: some group has more than one knot, or the value drops beyond the last;
+/// each is linked to the next such axis inside it.
 ///
 /// An axis left out has one knot a group, so its knot j is the only child of knot j of the axis outside it:
 /// knot j of the next axis that matters owns what knot j of the outermost left-out axis owns.
@@ -191,7 +194,7 @@ fn levels_that_matter(axes: Vec<Vec<f64>>, mut starts: Vec<Vec<usize>>, summarie
             children.push(below.knots.len());
             children
         });
-        levels.push(Level { axis, knots, children });
+        levels.push(Level { axis, knots, children, drops: summaries[axis].drops });
     }
     levels
 }

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::arithmetic::{AnyExponent, Arithmetic, Double, NotingSides, Plain, WithSlope};
-use super::{Level, PiecewiseTable, Point, Sides, Tail};
+use super::{Level, PiecewiseTable, Point, Sides};
 use crate::numbers::Scaled;
 
 /// Where a coordinate lies among the abscissae of a group.
@@ -129,7 +129,7 @@ impl PiecewiseTable {
                 }
                 Place::Above => {
                     arithmetic.outside(level.axis, Ordering::Greater);
-                    if level.axis == 0 && self.tail() == Tail::Zero {
+                    if level.drops {
                         return arithmetic.of_row(0.0);
                     }
                     knots.end - 1
@@ -164,9 +164,9 @@ impl PiecewiseTable {
 }
 
 impl Level {
-    /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07).
+    /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07), unless the value drops beyond it.
     pub(super) fn place(&self, knots: &Range<usize>, x: f64) -> Place {
-        if knots.len() == 1 {
+        if knots.len() == 1 && !self.drops {
             return Place::Knot(knots.start);
         }
         let group = &self.knots[knots.clone()];

@@ -81,7 +81,9 @@ impl PiecewiseTable {
         let always = self.0.marks.as_ref().map_or(sides, |marks| sides.or(marks.always));
         let ranges = self.levels().iter().zip(ranges).filter(|(level, _)| level.axis != axis);
         let ranges = ranges.filter_map(|(level, range)| Some((level.axis, range?))).collect();
-        let table = Self::from_rows(&folding.cells, self.axis_count() + 1, self.tail());
+        // A table that no longer depends on axis 0 drops nowhere.
+        let tail = if axis == 0 { Tail::Constant } else { self.tail() };
+        let table = Self::from_rows(&folding.cells, self.axis_count() + 1, tail);
         Ok(table.map_err(|_| FoldRefusal::TooManyRows)?.marked(Marks { always, ranges }))
     }
 }
@@ -117,9 +119,8 @@ impl Folding<'_> {
         if self.ranges[index].replace(range).is_some_and(|before| before != range) {
             return Err(FoldRefusal::RangesDiffer { axis: level.axis });
         }
-        let drop_of = |group: &Range<usize>| (group.len() > 1).then(|| level.knots[group.end - 1]);
-        let drops = index == 0 && self.table.tail() == Tail::Zero;
-        if drops && groups.iter().any(|group| drop_of(group) != drop_of(&groups[0])) {
+        let drop_of = |group: &Range<usize>| level.knots[group.end - 1];
+        if level.drops && groups.iter().any(|group| drop_of(group) != drop_of(&groups[0])) {
             return Err(FoldRefusal::DropsDiffer);
         }
         for x in common_knots(level, groups) {
@@ -164,7 +165,8 @@ impl Folding<'_> {
         match (&self.table.0.marks, &level.knots[group.clone()]) {
             (Some(marks), _) => marks.range(level.axis),
             (None, [first, .., last]) => (*first, *last),
-            // A group of one row is met by every point (T-07).
+            (None, [only]) if level.drops => (*only, *only),
+            // Any other group of one row is met by every point (T-07).
             _ => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }

@@ -83,8 +83,8 @@ impl PiecewiseTable {
                 (level.knots[knots.start], level.knots[knots.end - 1], knots.len())
             });
             let (least, greatest, first_count) = bounds.next()?;
-            let is_one_range =
-                first_count > 1 && bounds.all(|(first, last, count)| count > 1 && first == least && last == greatest);
+            let is_one_range = (level.drops || first_count > 1)
+                && bounds.all(|(first, last, count)| (level.drops || count > 1) && first == least && last == greatest);
             if !is_one_range {
                 return None;
             }

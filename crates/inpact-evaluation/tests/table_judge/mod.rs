@@ -87,12 +87,15 @@ pub fn table_value(rows: &[Vec<f64>], point: &[f64], ending: Ending) -> BigRatio
     };
     let of_group = |group: usize| table_value(groups[group].1, inner, ending);
     let last = groups.len() - 1;
+    // Beyond a single row too.
+    if inner.is_empty() && ending == Ending::Zero && groups[last].0 < x {
+        return BigRational::zero();
+    }
     if last == 0 || x <= groups[0].0 {
         return of_group(0);
     }
-    if x >= groups[last].0 {
-        let drops = inner.is_empty() && ending == Ending::Zero && x > groups[last].0;
-        return if drops { BigRational::zero() } else { of_group(last) };
+    if groups[last].0 <= x {
+        return of_group(last);
     }
     let right = groups.iter().position(|(knot, _)| *knot > x).unwrap();
     let (x0, x1) = (exact(groups[right - 1].0), exact(groups[right].0));
