@@ -4,6 +4,7 @@
 //! The scan says where rows stand without reading them ([`Deck`]); [`read`] then reads the rows of surfaces, of the sets that they name, of the elements in these,
 //! and of the nodes of the faces that were found: each once, straight from the bytes, and keeps only what surfaces need.
 //! Where bytes come from is the caller's ([`RowBytes`]).
+//! Temperatures, pore pressures and field variables that *INITIAL CONDITIONS gives these nodes are read with them.
 //!
 //! Nothing is guessed: what a surface or a pair asks for and what is not read here is named in [`Mesh::notes`], with its place.
 //!
@@ -11,17 +12,21 @@
 //! on *NODE and *ELEMENT), surfaces that are neither of elements nor of nodes, COMBINE, self-contact, and the surfaces that general contact finds by itself.
 
 mod elements;
+mod initial;
 mod labels;
 mod layout;
 mod nodes;
 mod pairs;
+mod place;
 mod reader;
 mod rows;
 mod sections;
 mod selection;
 mod surfaces;
 
+pub use initial::{InitialField, InitialQuantity};
 pub use pairs::{MeshPair, Sliding};
+pub use place::position;
 pub use rows::{KeptRows, RowBytes, SeekableRows};
 
 use crate::deck::Deck;
@@ -42,6 +47,8 @@ pub struct Mesh {
     pub surfaces: Vec<MeshSurface>,
     /// The pairs, in the order of the deck.
     pub pairs: Vec<MeshPair>,
+    /// What *INITIAL CONDITIONS says of the nodes, each quantity once.
+    pub initial: Vec<InitialField>,
     /// What was not read, or was read with something assumed.
     pub notes: Vec<MeshNote>,
 }

@@ -42,6 +42,8 @@ enum Command {
     Json(commands::json::JsonArguments),
     /// Write a deck from JSON, either view.
     Inp(commands::inp::InpArguments),
+    /// Make the node table of a deck's contact pairs from its mesh: a row a slave node.
+    Nodes(commands::nodes::NodesArguments),
     /// Evaluate the interface laws of a deck on node data.
     #[command(after_long_help = commands::evaluable::columns_help())]
     Eval(commands::eval::EvalArguments),
@@ -71,6 +73,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Fmt(arguments) => commands::fmt::run(&arguments),
         Command::Json(arguments) => commands::json::run(&arguments),
         Command::Inp(arguments) => commands::inp::run(&arguments),
+        Command::Nodes(arguments) => commands::nodes::run(&arguments),
         Command::Eval(arguments) => commands::eval::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Solve(arguments) => commands::solve::run(&arguments),

@@ -1,13 +1,12 @@
-//! A result table as Parquet or as an Arrow file.
+//! A result table, or a node table, as Parquet or as an Arrow file.
 //!
 //! Key columns keep the type they have in the node table, dictionaries apart, which become their values;
 //! from comma-separated values `node` and `interaction` are texts and `time` is a float.
 //! Results are floats with nulls where there is no number. Floats are stored plain and nothing is compressed, which is fastest;
 //! row groups are bounded, and so is memory.
 
-use super::batch::ResultBatch;
 use super::format::TableFormat;
-use super::output::Output;
+use super::writer::{Heading, Values};
 use crate::nodes::{Batch, Column, LabelColumn, NumberColumn};
 use arrow::array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow::buffer::{NullBuffer, ScalarBuffer};
@@ -32,7 +31,7 @@ type Stream<'a> = &'a mut (dyn Write + Send);
 pub(super) struct ColumnarWriter<'a> {
     format: TableFormat,
     keys: Vec<Column>,
-    outputs: Vec<Output>,
+    headings: Vec<Heading>,
     sink: Sink<'a>,
 }
 
@@ -45,18 +44,18 @@ enum Sink<'a> {
 }
 
 impl<'a> ColumnarWriter<'a> {
-    pub(super) fn new(output: Stream<'a>, format: TableFormat, keys: &[Column], outputs: &[Output]) -> Self {
-        Self { format, keys: keys.to_vec(), outputs: outputs.to_vec(), sink: Sink::Waiting(output) }
+    pub(super) fn new(output: Stream<'a>, format: TableFormat, keys: &[Column], headings: &[Heading]) -> Self {
+        Self { format, keys: keys.to_vec(), headings: headings.to_vec(), sink: Sink::Waiting(output) }
     }
 
-    pub(super) fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
-        let mut arrays = Vec::with_capacity(self.keys.len() + self.outputs.len());
+    pub(super) fn write(&mut self, batch: &Batch, values: Values<'_>) -> io::Result<()> {
+        let mut arrays = Vec::with_capacity(self.keys.len() + self.headings.len());
         for (key, label) in self.keys.iter().zip(&batch.labels) {
             arrays.push(key_array(*key, label, batch)?);
         }
-        let mut numbers = results.numbers.iter();
-        for output in &self.outputs {
-            arrays.push(match results.statuses(*output) {
+        let mut numbers = values.numbers.iter();
+        for heading in &self.headings {
+            arrays.push(match values.statuses(*heading) {
                 Some(statuses) => {
                     Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
                 }
@@ -82,9 +81,9 @@ impl<'a> ColumnarWriter<'a> {
     /// Writes what a file ends with.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         let keys = self.keys.iter().map(|key| if *key == Column::Time { DataType::Float64 } else { DataType::Utf8 });
-        let outputs =
-            self.outputs.iter().map(|output| if output.is_number() { DataType::Float64 } else { DataType::Utf8 });
-        self.begin(keys.chain(outputs).collect())?;
+        let values =
+            self.headings.iter().map(|heading| if heading.is_number() { DataType::Float64 } else { DataType::Utf8 });
+        self.begin(keys.chain(values).collect())?;
         match std::mem::replace(&mut self.sink, Sink::Finished) {
             Sink::Parquet(_, writer) => writer.close().map(drop).map_err(of_parquet),
             Sink::Arrow(_, mut writer) => writer.finish().map_err(of_arrow),
@@ -101,7 +100,7 @@ impl<'a> ColumnarWriter<'a> {
                 return Ok(());
             }
         };
-        let names = self.keys.iter().map(ToString::to_string).chain(self.outputs.iter().map(ToString::to_string));
+        let names = self.keys.iter().map(ToString::to_string).chain(self.headings.iter().map(ToString::to_string));
         let fields = names.zip(types).map(|(name, kind)| Field::new(name, kind, true));
         let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
         self.sink = match self.format {

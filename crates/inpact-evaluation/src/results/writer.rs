@@ -1,4 +1,4 @@
-//! A result table as comma-separated values.
+//! A result table, or a node table, as comma-separated values.
 //!
 //! Texts of the node table come out as they went in, quoted where they must be (RFC 4180).
 //! Numbers are printed in the shortest form that reads back to the same f64; a missing number is an empty cell.
@@ -8,11 +8,12 @@ use super::batch::ResultBatch;
 use super::columnar::ColumnarWriter;
 use super::format::TableFormat;
 use super::output::Output;
-use crate::nodes::{Batch, Column};
+use crate::nodes::{Batch, Column, NumberColumn};
 use rayon::prelude::*;
+use std::fmt;
 use std::io::{self, Write};
 
-/// Writes a result table to a stream.
+/// Writes a result table, or a node table, to a stream.
 pub struct ResultWriter<'a> {
     table: Table<'a>,
     rows_written: u64,
@@ -31,6 +32,56 @@ struct CsvWriter<'a> {
     blocks: Vec<Vec<u8>>,
 }
 
+/// A column behind the key columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Heading {
+    /// Numbers of a node table.
+    Given(Column),
+    /// A result.
+    Result(Output),
+}
+
+impl Heading {
+    fn all(outputs: &[Output]) -> Vec<Self> {
+        outputs.iter().copied().map(Self::Result).collect()
+    }
+
+    /// Whether its cells are numbers: the others are statuses.
+    pub(super) fn is_number(self) -> bool {
+        match self {
+            Self::Given(_) => true,
+            Self::Result(output) => output.is_number(),
+        }
+    }
+}
+
+impl fmt::Display for Heading {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Given(column) => column.fmt(formatter),
+            Self::Result(output) => output.fmt(formatter),
+        }
+    }
+}
+
+/// What some rows consist of besides their keys.
+#[derive(Clone, Copy)]
+pub(super) struct Values<'b> {
+    pub(super) numbers: &'b [NumberColumn],
+    /// `None` for rows of a node table, which has no statuses.
+    pub(super) results: Option<&'b ResultBatch>,
+}
+
+impl<'b> Values<'b> {
+    /// The statuses of a column of them.
+    pub(super) fn statuses(self, heading: Heading) -> Option<&'b [Option<super::Status>]> {
+        match heading {
+            Heading::Given(_) => None,
+            Heading::Result(output) => self.results?.statuses(output),
+        }
+    }
+}
+
 /// How many rows are turned into text at a time; blocks of them are independent of each other.
 const ROWS_OF_A_BLOCK: usize = 1024;
 
@@ -41,8 +92,8 @@ enum ResultColumn {
     Label(usize),
     /// A number of the results.
     Number(usize),
-    /// A status, that of this output.
-    Status(Output),
+    /// A status, that of this column.
+    Status(Heading),
 }
 
 impl std::fmt::Debug for ResultWriter<'_> {
@@ -57,8 +108,7 @@ impl<'a> ResultWriter<'a> {
     /// # Errors
     /// Those of writing.
     pub fn new(output: &'a mut (dyn Write + Send), keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
-        let table = Table::Csv(CsvWriter::new(output, keys, outputs)?);
-        Ok(Self { table, rows_written: 0 })
+        Self::with_headings(output, TableFormat::Csv, keys, &Heading::all(outputs))
     }
 
     /// Begins a table in some format; Parquet and Arrow are complete only after [`finish`](Self::finish).
@@ -71,11 +121,37 @@ impl<'a> ResultWriter<'a> {
         keys: &[Column],
         outputs: &[Output],
     ) -> io::Result<Self> {
+        Self::with_headings(output, format, keys, &Heading::all(outputs))
+    }
+
+    /// Begins a node table in some format: the key columns, which are those of the batches' labels, then the columns of numbers.
+    ///
+    /// # Errors
+    /// As [`with_format`](Self::with_format).
+    pub fn of_nodes(
+        output: &'a mut (dyn Write + Send),
+        format: TableFormat,
+        keys: &[Column],
+        numbers: &[Column],
+    ) -> io::Result<Self> {
+        let headings: Vec<Heading> = numbers.iter().copied().map(Heading::Given).collect();
+        Self::with_headings(output, format, keys, &headings)
+    }
+
+    fn with_headings(
+        output: &'a mut (dyn Write + Send),
+        format: TableFormat,
+        keys: &[Column],
+        headings: &[Heading],
+    ) -> io::Result<Self> {
         match format {
-            TableFormat::Csv => Self::new(output, keys, outputs),
+            TableFormat::Csv => {
+                let table = Table::Csv(CsvWriter::new(output, keys, headings)?);
+                Ok(Self { table, rows_written: 0 })
+            }
             #[cfg(feature = "columnar")]
             TableFormat::Parquet | TableFormat::Arrow => {
-                let table = ColumnarWriter::new(output, format, keys, outputs);
+                let table = ColumnarWriter::new(output, format, keys, headings);
                 Ok(Self { table: Table::Columnar(Box::new(table)), rows_written: 0 })
             }
             #[cfg(not(feature = "columnar"))]
@@ -91,10 +167,22 @@ impl<'a> ResultWriter<'a> {
     /// # Errors
     /// Those of writing.
     pub fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
+        self.write_values(batch, Values { numbers: &results.numbers, results: Some(results) })
+    }
+
+    /// Writes the rows of a batch itself, to a table that was begun with [`of_nodes`](Self::of_nodes).
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn write_nodes(&mut self, batch: &Batch) -> io::Result<()> {
+        self.write_values(batch, Values { numbers: &batch.numbers, results: None })
+    }
+
+    fn write_values(&mut self, batch: &Batch, values: Values<'_>) -> io::Result<()> {
         match &mut self.table {
-            Table::Csv(table) => table.write(batch, results)?,
+            Table::Csv(table) => table.write(batch, values)?,
             #[cfg(feature = "columnar")]
-            Table::Columnar(table) => table.write(batch, results)?,
+            Table::Columnar(table) => table.write(batch, values)?,
         }
         self.rows_written += batch.rows as u64;
         Ok(())
@@ -120,13 +208,13 @@ impl<'a> ResultWriter<'a> {
 }
 
 impl<'a> CsvWriter<'a> {
-    fn new(output: &'a mut (dyn Write + Send), keys: &[Column], outputs: &[Output]) -> io::Result<Self> {
-        let names = keys.iter().map(ToString::to_string).chain(outputs.iter().map(ToString::to_string));
+    fn new(output: &'a mut (dyn Write + Send), keys: &[Column], headings: &[Heading]) -> io::Result<Self> {
+        let names = keys.iter().map(ToString::to_string).chain(headings.iter().map(ToString::to_string));
         let header: Vec<String> = names.collect();
         output.write_all((header.join(",") + "\n").as_bytes())?;
         let mut columns: Vec<_> = (0..keys.len()).map(ResultColumn::Label).collect();
         let mut number = 0;
-        for kind in outputs {
+        for kind in headings {
             if kind.is_number() {
                 columns.push(ResultColumn::Number(number));
                 number += 1;
@@ -137,7 +225,7 @@ impl<'a> CsvWriter<'a> {
         Ok(Self { output, columns, blocks: Vec::new() })
     }
 
-    fn write(&mut self, batch: &Batch, results: &ResultBatch) -> io::Result<()> {
+    fn write(&mut self, batch: &Batch, values: Values<'_>) -> io::Result<()> {
         let blocks = batch.rows.div_ceil(ROWS_OF_A_BLOCK);
         if self.blocks.len() < blocks {
             self.blocks.resize_with(blocks, Vec::new);
@@ -147,7 +235,7 @@ impl<'a> CsvWriter<'a> {
             let first = block * ROWS_OF_A_BLOCK;
             text.clear();
             for row in first..batch.rows.min(first + ROWS_OF_A_BLOCK) {
-                push_row(text, columns, batch, results, row);
+                push_row(text, columns, batch, values, row);
             }
         });
         for text in &self.blocks[..blocks] {
@@ -158,7 +246,7 @@ impl<'a> CsvWriter<'a> {
 }
 
 /// Adds a row.
-fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, results: &ResultBatch, row: usize) {
+fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, values: Values<'_>, row: usize) {
     let start = text.len();
     for (index, column) in columns.iter().enumerate() {
         if index > 0 {
@@ -167,12 +255,12 @@ fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, results
         match column {
             ResultColumn::Label(label) => push_text(text, batch.labels[*label].get(row)),
             ResultColumn::Number(number) => {
-                if let Some(value) = results.numbers[*number].get(row) {
+                if let Some(value) = values.numbers[*number].get(row) {
                     push_number(text, value);
                 }
             }
-            ResultColumn::Status(output) => {
-                let status = results.statuses(*output).and_then(|statuses| statuses[row]);
+            ResultColumn::Status(heading) => {
+                let status = values.statuses(*heading).and_then(|statuses| statuses[row]);
                 text.extend_from_slice(status.map_or("", super::Status::word).as_bytes());
             }
         }

@@ -65,6 +65,7 @@ pub(super) struct Layout<'deck> {
     pub(super) parts: Vec<(Name, Definitions<'deck>)>,
     pub(super) instances: Vec<Instance<'deck>>,
     pub(super) clearances: Vec<Entry<'deck>>,
+    pub(super) initial_conditions: Vec<Entry<'deck>>,
     pub(super) assembly_name: Option<Name>,
 }
 
@@ -103,6 +104,7 @@ impl<'deck> Layout<'deck> {
                 "ENDINSTANCE" => level = Level::Assembly,
                 "ENDPART" | "ENDASSEMBLY" => level = Level::Model,
                 "CLEARANCE" => layout.clearances.push(entry),
+                "INITIALCONDITIONS" => layout.initial_conditions.push(entry),
                 _ => layout.at(&level).add(&name, entry),
             }
         }

@@ -15,8 +15,8 @@ use std::io;
 pub(super) struct Wanted {
     /// Ascending, each once.
     pub(super) labels: Vec<u32>,
-    /// In the same order; `None` where no *NODE has the number.
-    pub(super) points: Vec<Option<Point>>,
+    /// In the same order: where, and the keyword line of the *NODE option that says so; `None` where none has the number.
+    pub(super) points: Vec<Option<(Point, Span)>>,
 }
 
 impl Wanted {
@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
         selections: &[&Selection],
     ) -> io::Result<Vec<Vec<u32>>> {
         let mut selected: Vec<Vec<u32>> = vec![Vec::new(); selections.len()];
-        let mut extra: Vec<(u32, Point)> = Vec::new();
+        let mut extra: Vec<(u32, (Point, Span))> = Vec::new();
         if wanted.labels.is_empty() && selections.is_empty() {
             return Ok(selected);
         }
@@ -141,7 +141,7 @@ impl Reader<'_, '_> {
                     wrong.get_or_insert_with(|| (span, String::from_utf8_lossy(line).trim().to_owned()));
                     return;
                 };
-                let point = placement.put(system.point(point));
+                let point = (placement.put(system.point(point)), key);
                 match at {
                     Some(at) => {
                         wanted.points[at] = Some(point);
@@ -164,7 +164,7 @@ impl Reader<'_, '_> {
         }
         // Nodes of node sets were not known before.
         let known = std::mem::take(wanted);
-        let mut all: Vec<(u32, Option<Point>)> = known.labels.into_iter().zip(known.points).collect();
+        let mut all: Vec<(u32, Option<(Point, Span)>)> = known.labels.into_iter().zip(known.points).collect();
         all.extend(extra.into_iter().map(|(label, point)| (label, Some(point))));
         // Of a number defined twice, the later definition counts; the sort keeps their order.
         all.sort_by_key(|(label, _)| *label);

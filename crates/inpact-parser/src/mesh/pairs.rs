@@ -7,7 +7,7 @@ use crate::model::{ContactPair, Model, Name, Reference};
 use crate::number::read_float;
 use crate::span::Span;
 use inpact_geometry::{
-    ContactNode, DEFAULT_EXTENSION, ElementSpace, Extent, GeometryError, Master, PairOptions, Placed, Shares,
+    ContactNode, DEFAULT_EXTENSION, ElementSpace, Extent, GeometryError, Master, PairOptions, Placed, Point, Shares,
     contact_nodes,
 };
 
@@ -57,8 +57,24 @@ impl Mesh {
     ///
     /// Where the mesh has no geometry, and where the master is of nodes.
     pub fn contact(&self, pair: &MeshPair, thickness: f64) -> Result<Vec<ContactNode>, GeometryError> {
+        self.contact_at(&self.points, pair, thickness)
+    }
+
+    /// The same with the nodes at other places, in the order of [`Mesh::points`]: those of a deformed state.
+    ///
+    /// ADJUST and *CLEARANCE of the pair are applied here too; they say what is so at the beginning, so that a later state takes a pair without them.
+    ///
+    /// # Errors
+    ///
+    /// As [`contact`](Self::contact).
+    pub fn contact_at(
+        &self,
+        points: &[Point],
+        pair: &MeshPair,
+        thickness: f64,
+    ) -> Result<Vec<ContactNode>, GeometryError> {
         let SurfaceKind::Faces(master) = &self.surfaces[pair.master].kind else { return Ok(Vec::new()) };
-        let tree = Master::new(Placed::new(&master.surface, &self.points)?);
+        let tree = Master::new(Placed::new(&master.surface, points)?);
         let mut found = match &self.surfaces[pair.slave].kind {
             SurfaceKind::Faces(slave) => {
                 let thicknesses: Vec<f64> =
@@ -70,11 +86,11 @@ impl Mesh {
                     master_shifts: if pair.counts_thickness { &master.shifts } else { &[] },
                     extension: pair.extension,
                 };
-                contact_nodes(&Placed::new(&slave.surface, &self.points)?, &tree, &options)?
+                contact_nodes(&Placed::new(&slave.surface, points)?, &tree, &options)?
             }
             SurfaceKind::Nodes(slave) => {
                 let node = |(node, area): (&inpact_geometry::NodeId, &Option<f64>)| {
-                    let mut across = tree.project(self.points[node.index()], pair.extension);
+                    let mut across = tree.project(points[node.index()], pair.extension);
                     if let Some(across) = across.as_mut().filter(|_| pair.counts_thickness) {
                         across.clearance -= master.shifts[across.face.index()];
                     }

@@ -15,6 +15,7 @@ use crate::span::Span;
 use inpact_geometry::NodeId;
 use std::collections::{HashMap, HashSet};
 use std::io;
+use std::ops::Range;
 
 /// Where names are looked up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -50,6 +51,7 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) bodies: Vec<Body<'deck>>,
     pub(super) sets: HashMap<(Kind, Context, String), Selected>,
     pub(super) clearances: Vec<Entry<'deck>>,
+    pub(super) initial_conditions: Vec<Entry<'deck>>,
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
     notes: Vec<MeshNote>,
@@ -76,6 +78,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             bodies,
             sets: HashMap::new(),
             clearances: layout.clearances,
+            initial_conditions: layout.initial_conditions,
             assembly: layout.assembly,
             assembly_name: layout.assembly_name,
             notes: Vec::new(),
@@ -116,8 +119,10 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             })
             .collect();
         let pairs = pairs.into_iter().filter_map(|pair| pair.with_surfaces(&positions)).collect();
+        let initial = self.initial(&located)?;
         let Located { points, nodes, .. } = located;
-        Ok(Mesh { points, nodes, surfaces: surfaces.into_iter().flatten().collect(), pairs, notes: self.notes })
+        let surfaces = surfaces.into_iter().flatten().collect();
+        Ok(Mesh { points, nodes, surfaces, pairs, initial, notes: self.notes })
     }
 
     pub(super) fn note(&mut self, span: Span, message: String) {
@@ -224,19 +229,36 @@ pub(super) struct Located {
     points: Vec<[f64; 3]>,
     nodes: Vec<MeshNode>,
     ids: HashMap<(usize, u32), NodeId>,
+    /// The keyword line of the *NODE option that each stands in.
+    pub(super) options: Vec<Span>,
+    /// The nodes of each body.
+    pub(super) of_bodies: Vec<Range<usize>>,
     /// The numbers of the nodes of each pick.
     pub(super) of_picks: Vec<Vec<u32>>,
 }
 
 impl Located {
     fn add(&mut self, body: usize, instance: Option<&Name>, wanted: Wanted) {
+        let first = self.points.len();
         for (label, point) in wanted.labels.into_iter().zip(wanted.points) {
-            let Some(point) = point else { continue };
+            let Some((point, option)) = point else { continue };
             let Ok(id) = u32::try_from(self.points.len()) else { continue };
             self.ids.insert((body, label), NodeId(id));
             self.points.push(point);
+            self.options.push(option);
             self.nodes.push(MeshNode { instance: instance.cloned(), label });
         }
+        self.of_bodies.push(first..self.points.len());
+    }
+
+    /// How many nodes there are.
+    pub(super) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The number of a node in its body.
+    pub(super) fn label(&self, node: usize) -> u32 {
+        self.nodes[node].label
     }
 
     pub(super) fn id(&self, body: usize, label: u32) -> Option<NodeId> {

@@ -6,17 +6,17 @@ use self::summary::Summary;
 use super::evaluable::{Evaluable, EvaluableArguments, READ_AHEAD};
 use super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
 use super::laws::LawArguments;
+use super::table_output::TableOutput;
 use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
 use crate::settings::DeckArguments;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{Plan, Reason};
 use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
 use std::io::ErrorKind;
-use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(Debug, Args)]
@@ -27,37 +27,11 @@ pub(crate) struct EvalArguments {
     laws: LawArguments,
     #[command(flatten)]
     reading: DeckArguments,
-    /// Where to write the result, instead of standard output.
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// How the result is stored, instead of what the extension of its file says (.csv, .parquet, .arrow, .ipc, .feather).
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    output_format: Option<OutputFormat>,
+    #[command(flatten)]
+    output: TableOutput,
     /// How to print findings and summary on standard error.
     #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
     format: FindingFormat,
-}
-
-/// How a result table is stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum OutputFormat {
-    /// Comma-separated values.
-    Csv,
-    /// Parquet.
-    Parquet,
-    /// An Arrow IPC file.
-    Arrow,
-}
-
-impl EvalArguments {
-    fn table_format(&self) -> TableFormat {
-        match self.output_format {
-            Some(OutputFormat::Csv) => TableFormat::Csv,
-            Some(OutputFormat::Parquet) => TableFormat::Parquet,
-            Some(OutputFormat::Arrow) => TableFormat::Arrow,
-            None => self.output.as_deref().and_then(TableFormat::of_extension).unwrap_or_default(),
-        }
-    }
 }
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
@@ -67,12 +41,12 @@ pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
 fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::name_as_inputs(&arguments.evaluable.inputs());
-    files::check_targets(&[arguments.output.as_deref()])?;
+    files::check_targets(&[arguments.output.target()])?;
     let format = arguments.format;
     let prepared = arguments.evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
     let Some(mut evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     // What the deck includes is known now.
-    files::check_targets(&[arguments.output.as_deref()])?;
+    files::check_targets(&[arguments.output.target()])?;
     if evaluable.deck_has_errors {
         return Ok(Outcome::HasErrors);
     }
@@ -104,9 +78,9 @@ fn evaluate(
     let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
     reader.select(&plan.selection);
     reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
-    let mut output = ResultFile::create(arguments.output.as_deref())?;
+    let mut output = ResultFile::create(arguments.output.target())?;
     let evaluation = Evaluation::new(model, plan, &laws);
-    let written = write(&mut reader, evaluation, plan, (&mut output, arguments.table_format()), findings);
+    let written = write(&mut reader, evaluation, plan, (&mut output, arguments.output.format()), findings);
     let (tally, rows_out) = match written {
         Ok(counts) => counts,
         Err(Stopped::Reading(error)) => return Err(unreadable(error)),

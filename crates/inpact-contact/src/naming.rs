@@ -1,0 +1,26 @@
+//! What rows are called: a history is the rows of one name under one interaction, so that no two rows of a time may share it.
+
+use inpact_geometry::NodeId;
+use inpact_parser::mesh::{Mesh, MeshPair};
+use inpact_parser::model::Name;
+use std::collections::HashSet;
+
+/// The names given so far.
+#[derive(Debug, Default)]
+pub(crate) struct Names {
+    taken: HashSet<(Name, NodeId)>,
+    /// How many were told apart from another row of the same node.
+    pub(crate) told_apart: u64,
+}
+
+impl Names {
+    /// The name of a slave node's rows: `12`, or `PLATE-1.12`; with its master behind it, `12:TOP`, where an earlier pair under the same interaction has the node.
+    pub(crate) fn give(&mut self, mesh: &Mesh, pair: &MeshPair, interaction: &Name, node: NodeId) -> String {
+        let name = mesh.nodes[node.index()].to_string();
+        if self.taken.insert((interaction.clone(), node)) {
+            return name;
+        }
+        self.told_apart += 1;
+        format!("{name}:{}", mesh.surfaces[pair.master].name.written())
+    }
+}

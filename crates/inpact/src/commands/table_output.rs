@@ -1,0 +1,42 @@
+//! Where a table goes and how it is stored: for `eval` and `nodes`.
+
+use clap::{Args, ValueEnum};
+use inpact_evaluation::results::TableFormat;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(crate) struct TableOutput {
+    /// Where to write the result, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// How the result is stored, instead of what the extension of its file says (.csv, .parquet, .arrow, .ipc, .feather).
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    output_format: Option<OutputFormat>,
+}
+
+/// How a table is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OutputFormat {
+    /// Comma-separated values.
+    Csv,
+    /// Parquet.
+    Parquet,
+    /// An Arrow IPC file.
+    Arrow,
+}
+
+impl TableOutput {
+    /// Where it goes; `None` is standard output.
+    pub(crate) fn target(&self) -> Option<&Path> {
+        self.output.as_deref()
+    }
+
+    pub(crate) fn format(&self) -> TableFormat {
+        match self.output_format {
+            Some(OutputFormat::Csv) => TableFormat::Csv,
+            Some(OutputFormat::Parquet) => TableFormat::Parquet,
+            Some(OutputFormat::Arrow) => TableFormat::Arrow,
+            None => self.target().and_then(TableFormat::of_extension).unwrap_or_default(),
+        }
+    }
+}
