@@ -21,6 +21,7 @@ mod formats;
 mod growth;
 mod includes;
 mod json;
+mod nodes;
 mod plan;
 mod program;
 mod solve;

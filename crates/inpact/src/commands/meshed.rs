@@ -5,7 +5,7 @@ use crate::failure::{Failure, say, say_json};
 use crate::files;
 use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
-use crate::visible::visible_line;
+use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::mesh::{self, KeptRows, Mesh, MeshNote, RowBytes, SeekableRows};
 use inpact_parser::model::{self, Model};
