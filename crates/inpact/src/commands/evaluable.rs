@@ -125,7 +125,8 @@ impl EvaluableArguments {
         if is_standard(&self.deck) && is_standard(&self.nodes) {
             return Err(Failure::Usage("deck and node table cannot both be read from standard input".to_owned()));
         }
-        let settings = reading.settings(&self.deck)?;
+        let mut settings = reading.settings(&self.deck)?;
+        format.confine(&mut settings, &self.deck);
         let grammar = settings.grammar;
         let deck = input::read_deck(&self.deck, Keep::Interpreted, &settings)?;
         let (model, problems) = model::read(&deck, grammar);

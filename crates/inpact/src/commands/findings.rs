@@ -11,6 +11,7 @@ use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Model, Name};
 use inpact_validation::{Diagnostic, Severity};
 use serde::Serialize;
+use std::path::Path;
 
 /// How what is found is printed on standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -21,6 +22,15 @@ pub(crate) enum FindingFormat {
     Json,
     /// Workflow commands of GitHub Actions.
     Github,
+}
+
+impl FindingFormat {
+    /// Reads nothing outside of the repository where decks of strangers are judged, as `check` does.
+    pub(crate) fn confine(self, settings: &mut Settings, path: &Path) {
+        if self == Self::Github {
+            settings.confine_to_repository(path);
+        }
+    }
 }
 
 /// Says what the check found in some interactions, notes left out; true if there are errors.

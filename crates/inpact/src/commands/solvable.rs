@@ -42,7 +42,8 @@ impl SolvableScene {
         let folder =
             if path.as_os_str() == STANDARD_STREAM { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
         let text = files::read_text(path)?;
-        let settings = reading.settings(path)?;
+        let mut settings = reading.settings(path)?;
+        format.confine(&mut settings, path);
         let roots = settings.include_roots.as_slice();
         let mut files = FilesBeside { folder, roots, failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
@@ -59,7 +60,8 @@ impl SolvableScene {
         refuse_outside(&deck_path, roots)?;
         if has_errors {
             // What the deck has to say of the interfaces is said in the same run, where there is a deck.
-            let read = reading.settings(&deck_path).and_then(|settings| {
+            let read = reading.settings(&deck_path).and_then(|mut settings| {
+                format.confine(&mut settings, &deck_path);
                 let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
                 Ok(model::read(&deck, settings.grammar).0)
             });
@@ -70,7 +72,8 @@ impl SolvableScene {
             say_data_findings(findings.into_list(), &settings, format);
             return Ok(None);
         }
-        let of_deck = reading.settings(&deck_path)?;
+        let mut of_deck = reading.settings(&deck_path)?;
+        format.confine(&mut of_deck, &deck_path);
         let deck = input::read_deck(&deck_path, Keep::Interpreted, &of_deck)?;
         let grammar = of_deck.grammar;
         let (model, problems) = model::read(&deck, grammar);
