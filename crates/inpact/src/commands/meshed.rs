@@ -59,7 +59,7 @@ impl MeshedDeck {
             self.say_note(note, position.map_err(unreadable)?, format);
         }
         let more = notes.len().saturating_sub(MOST_NOTES);
-        if 0 < more && format == FindingFormat::Concise {
+        if 0 < more && format != FindingFormat::Json {
             say(&format!("{}: note: {more} more notes", visible_line(&self.name)));
         }
         Ok(())
@@ -68,7 +68,8 @@ impl MeshedDeck {
     fn say_note(&self, note: &MeshNote, place: Position, format: FindingFormat) {
         let file = self.deck.source(note.span.source).name();
         match format {
-            FindingFormat::Concise => {
+            // A note has no code, which an annotation would need as its title.
+            FindingFormat::Concise | FindingFormat::Github => {
                 let line = format!("{file}:{}:{}: note: {}", place.line, place.column, note.message);
                 say(&visible_line(&line));
             }

@@ -47,7 +47,9 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     }
     let seconds = start.elapsed().as_secs_f64();
     match arguments.format {
-        FindingFormat::Concise => summary_text(&rows, seconds).iter().for_each(|line| say(&visible_line(line))),
+        FindingFormat::Concise | FindingFormat::Github => {
+            summary_text(&rows, seconds).iter().for_each(|line| say(&visible_line(line)))
+        }
         FindingFormat::Json => say_json(&summary_json(&rows, seconds)),
     }
     Ok(Outcome::Clean)
