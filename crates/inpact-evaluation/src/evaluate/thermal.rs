@@ -64,7 +64,7 @@ pub(super) fn evaluate(
     })();
     let rubbed = friction.filter(|_| law.friction.is_some());
     gives_something |= rubbed.is_some();
-    set_flows(law, row, all, rubbed, history, results);
+    set_flows(law, row, all.as_ref(), rubbed, history, results);
     if !gives_something {
         return Outcome::Incomplete;
     }
@@ -190,7 +190,7 @@ fn rub(part: CompiledFriction, row: Row<'_>, tally: &mut InteractionTally) -> Op
 fn set_flows(
     law: &CompiledThermal,
     row: Row<'_>,
-    all: Option<InterfaceHeat>,
+    all: Option<&InterfaceHeat>,
     friction: Option<HeatAmounts>,
     history: Option<&mut ThermalHistory>,
     results: &mut ResultBatch,
@@ -198,10 +198,10 @@ fn set_flows(
     let slots = &law.slots;
     let area = law.area.and_then(|place| row.number(place));
     let mut set = |slot, value| results.set(slot, row.index, value);
-    let leaving = all.map(|heat| heat.leaving_slave());
+    let leaving = all.map(InterfaceHeat::leaving_slave);
     set(slots.weight, law.friction.map(|part| part.generation.slave_weight));
-    set(slots.into_slave, all.map(|heat| heat.into_slave()));
-    set(slots.into_master, all.map(|heat| heat.into_master()));
+    set(slots.into_slave, all.map(InterfaceHeat::into_slave));
+    set(slots.into_master, all.map(InterfaceHeat::into_master));
     set(slots.hfl, leaving.map(Amount::value));
     set(slots.hfla, leaving.zip(area).map(|(leaving, area)| leaving.times(area)));
     let rubbed = friction.map(|heat| heat.total);
