@@ -333,7 +333,7 @@ fn a_gzipped_page_comes_to_what_it_says() {
     writer.close().expect("a vector takes all");
     // PageHeader: its kind, 0, then how many bytes it comes to, as seven bits a byte.
     assert_eq!(bytes[4..7], [0x15, 0, 0x15]);
-    let last = (7..).find(|at| bytes[*at] & 0x80 == 0).expect("the last byte of a number");
+    let last = (7..bytes.len()).find(|at| bytes[*at] & 0x80 == 0).expect("the last byte of a number");
     assert_ne!(bytes[last], 1);
     bytes[last] = 1;
     let error = clearances(bytes).expect_err("it comes to more");
