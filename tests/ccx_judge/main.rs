@@ -40,7 +40,7 @@ fn draw(number: usize) -> (Cubes, Vec<&'static str>) {
     let mut random = Random::new(number as u64);
     let mut cubes = base::draw(&mut random);
     let mut chosen = vec![all[number % all.len()]];
-    if number % 3 == 0 {
+    if number.is_multiple_of(3) {
         for _ in 0..=random.below(2) {
             chosen.push(all[random.below(all.len())]);
         }

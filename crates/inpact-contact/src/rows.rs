@@ -7,15 +7,15 @@ use inpact_evaluation::nodes::{Batch, Column, Part};
 use inpact_evaluation::results::push_number;
 use inpact_geometry::{ContactNode, GeometryError, NodeId, Point, Projection, Vector};
 use inpact_parser::mesh::{InitialQuantity, Mesh, MeshNote, MeshPair, Sliding, SurfaceKind};
-use inpact_parser::model::{Model, Name};
+use inpact_parser::model::Model;
 use std::borrow::Cow;
 
 /// Why the rows of a pair cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("the contact pair of `{slave}` and `{master}` has no geometry{}: {reason}", at(*.time))]
 pub struct RowsError {
-    slave: Name,
-    master: Name,
+    slave: String,
+    master: String,
     time: Option<f64>,
     reason: String,
 }
@@ -37,7 +37,7 @@ pub struct NodeRows<'a> {
 
 /// A pair with what the solver starts from.
 struct Pair<'a> {
-    pair: &'a MeshPair,
+    of: &'a MeshPair,
     thickness: f64,
     start: Vec<ContactNode>,
     /// What ADJUST moves: it has moved before anything else, and is no rule for what follows.
@@ -85,8 +85,8 @@ impl<'a> NodeRows<'a> {
             let start = mesh.contact(pair, thickness);
             let start = start.and_then(|start| Ok((start, adjusted(mesh, pair, thickness)?)));
             let (start, adjusted) = start.map_err(|error| RowsError {
-                slave: slave.clone(),
-                master: master.clone(),
+                slave: slave.to_string(),
+                master: master.to_string(),
                 time: None,
                 reason: reason(mesh, &error),
             })?;
@@ -106,7 +106,7 @@ impl<'a> NodeRows<'a> {
                 };
                 notes.push(MeshNote { span: pair.span, message });
             }
-            pairs.push(Pair { pair, thickness, start, adjusted, names: given, summary });
+            pairs.push(Pair { of: pair, thickness, start, adjusted, names: given, summary });
         }
         if 0 < names.told_apart
             && let Some(first) = pairs.first()
@@ -115,7 +115,7 @@ impl<'a> NodeRows<'a> {
                 "{} slave nodes belong to several pairs of one interaction: their rows of the later ones are named with the master, `12:MASTER`",
                 names.told_apart
             );
-            notes.push(MeshNote { span: first.pair.span, message });
+            notes.push(MeshNote { span: first.of.span, message });
         }
         let mut keys = vec![Column::Node, Column::Interaction];
         if states.iter().any(|state| state.time.is_some()) {
@@ -188,7 +188,7 @@ impl<'a> NodeRows<'a> {
                     labels.push(time.as_deref().unwrap_or_default());
                 }
                 for (summary, numbers) in self.columns.iter_mut().zip(&mut batch.numbers) {
-                    let value = number(self.mesh, pair.pair, state, node, summary.column);
+                    let value = number(self.mesh, pair.of, state, node, summary.column);
                     summary.empty += u64::from(value.is_none());
                     numbers.push(value);
                 }
@@ -222,17 +222,17 @@ impl Pair<'_> {
     /// The geometry in a state.
     fn contact(&self, mesh: &Mesh, state: &State) -> Result<Cow<'_, [ContactNode]>, RowsError> {
         let Some(moved) = &state.displacements else { return Ok(Cow::Borrowed(&self.start)) };
-        if self.pair.sliding == Sliding::Small {
+        if self.of.sliding == Sliding::Small {
             return Ok(Cow::Owned(self.slid(mesh, moved)));
         }
         let mut points: Vec<Point> = mesh.points.iter().zip(moved).map(|(point, moved)| add(*point, *moved)).collect();
         for (node, offset) in &self.adjusted {
             points[node.index()] = add(points[node.index()], *offset);
         }
-        let contact = mesh.contact_at(&points, &without_start(self.pair), self.thickness);
+        let contact = mesh.contact_at(&points, &without_start(self.of), self.thickness);
         let contact = contact.map_err(|error| RowsError {
-            slave: self.summary.slave.clone(),
-            master: self.summary.master.clone(),
+            slave: self.summary.slave.to_string(),
+            master: self.summary.master.to_string(),
             time: state.time,
             reason: reason(mesh, &error),
         })?;
@@ -245,7 +245,7 @@ impl Pair<'_> {
         for node in &mut contact {
             let Some(across) = &mut node.across else { continue };
             let of_slave = moved[node.node.index()];
-            let of_master = interpolated(mesh, self.pair, across, |node| Some(moved[node.index()]));
+            let of_master = interpolated(mesh, self.of, across, |node| Some(moved[node.index()]));
             let along = of_master
                 .map_or(f64::NAN, |of_master| (0..3).map(|k| (of_slave[k] - of_master[k]) * across.normal[k]).sum());
             across.clearance += along;

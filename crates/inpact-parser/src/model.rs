@@ -121,10 +121,17 @@ pub struct HeatGeneration {
     pub fraction: f64,
     /// f, the fraction of that heat that goes into the slave surface.
     pub slave_weight: f64,
-    /// The relative speed of the surfaces, dimension L T⁻¹, where a row of CalculiX gives one (K-38); it is no part of the JSON view.
+    /// The relative speed of the surfaces, dimension L T⁻¹, as a row of CalculiX has it (K-38): below zero it is computed.
     pub slip_rate: Option<f64>,
-    /// What stands in the items that are not written as a number, as in [`Table::texts`]: 0 is the fraction, 1 the weight.
+    /// What stands in the items that are not written as a number, as in [`Table::texts`]: 0 is the fraction, 1 the weight, 2 the speed.
     pub texts: Vec<CellText>,
+}
+
+impl HeatGeneration {
+    /// The relative speed of the surfaces that the deck gives, dimension L T⁻¹; `None` where the solver computes it (K-38).
+    pub fn given_slip_rate(&self) -> Option<f64> {
+        self.slip_rate.filter(|speed| 0.0 <= *speed)
+    }
 }
 
 /// A keyword with its parameters and rows, not interpreted further.

@@ -78,7 +78,10 @@ impl InterfaceLaws {
             thermal: thermal(&thermal_tables, &mut left_out),
             radiation: radiation(&thermal_tables, choices.dialect, &mut left_out),
             friction: tells_of_friction(interaction).then(|| FrictionSource {
-                slip_rate: interaction.gap_heat_generation.as_ref().and_then(|heat| heat.slip_rate),
+                slip_rate: interaction
+                    .gap_heat_generation
+                    .as_ref()
+                    .and_then(inpact_parser::model::HeatGeneration::given_slip_rate),
                 takes_magnitudes: choices.dialect == Dialect::Calculix,
             }),
             pore: pore(interaction, &tables, choices, &mut left_out),

@@ -157,7 +157,11 @@ pub(super) fn plan_friction(
         let told = columns.iter().all(is_there);
         return if told { Planned::LeftOut(Reason::NoKeyword("FRICTION")) } else { Planned::Absent };
     }
-    let given_speed = planner.interaction.gap_heat_generation.as_ref().and_then(|heat| heat.slip_rate);
+    let given_speed = planner
+        .interaction
+        .gap_heat_generation
+        .as_ref()
+        .and_then(inpact_parser::model::HeatGeneration::given_slip_rate);
     let has_option = |keyword: &str| planner.interaction.other.iter().any(|option| option.keyword == keyword);
     // A deck without heat has friction too, and says nothing of its heat.
     let is_thermal = planner.interaction.gap_heat_generation.is_some()

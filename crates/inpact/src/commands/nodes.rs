@@ -48,7 +48,9 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     let seconds = start.elapsed().as_secs_f64();
     match arguments.format {
         FindingFormat::Concise | FindingFormat::Github => {
-            summary_text(&rows, seconds).iter().for_each(|line| say(&visible_line(line)))
+            for line in summary_text(&rows, seconds) {
+                say(&visible_line(&line));
+            }
         }
         FindingFormat::Json => say_json(&summary_json(&rows, seconds)),
     }

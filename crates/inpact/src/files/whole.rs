@@ -68,7 +68,7 @@ pub(super) fn lines_of(input: &mut dyn Read) -> io::Result<Vec<u8>> {
             return Ok(());
         }
         let before = &bytes[..line_start];
-        let ends = before.iter().filter(|byte| **byte == b'\n').count();
+        let ends = memchr::memchr_iter(b'\n', before).count();
         let lone = before.windows(2).filter(|pair| pair[0] == b'\r' && pair[1] != b'\n').count();
         let lone = lone + usize::from(before.ends_with(b"\r"));
         Err(endless_line(ends + lone + 1))

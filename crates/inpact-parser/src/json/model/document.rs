@@ -160,6 +160,9 @@ pub(super) struct HeatDocument {
     pub(super) fraction: Cell,
     /// f, the fraction of that heat that goes into the slave surface; without dimension.
     pub(super) slave_weight: Cell,
+    /// The relative speed of the surfaces, dimension L T⁻¹, where the deck is one of CalculiX; below zero it is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) slip_rate: Option<Cell>,
 }
 
 /// A keyword with its parameters and rows, not interpreted further.

@@ -98,8 +98,13 @@ impl InteractionDocument {
             row: None,
             fraction: heat.fraction.value(),
             slave_weight: heat.slave_weight.value(),
-            slip_rate: None,
-            texts: [heat.fraction, heat.slave_weight].into_iter().enumerate().filter_map(written).collect(),
+            slip_rate: heat.slip_rate.as_ref().map(Cell::value),
+            texts: [Some(heat.fraction), Some(heat.slave_weight), heat.slip_rate]
+                .into_iter()
+                .flatten()
+                .enumerate()
+                .filter_map(written)
+                .collect(),
         });
         let other = self.other.into_iter().enumerate();
         interaction.other = other

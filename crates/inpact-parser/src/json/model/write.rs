@@ -41,6 +41,7 @@ impl From<&Interaction> for InteractionDocument {
             gap_heat_generation: interaction.gap_heat_generation.as_ref().map(|heat| HeatDocument {
                 fraction: cell(heat.fraction, heat.texts.iter().find(|text| text.cell == 0)),
                 slave_weight: cell(heat.slave_weight, heat.texts.iter().find(|text| text.cell == 1)),
+                slip_rate: heat.slip_rate.map(|speed| cell(speed, heat.texts.iter().find(|text| text.cell == 2))),
             }),
             other: interaction.other.iter().map(Into::into).collect(),
         }

@@ -241,9 +241,8 @@ impl Reader<'_> {
             let problem = Problem { kind: ProblemKind::SurplusRow, span: *surplus, keyword: option.keyword.span };
             self.problems.push(problem);
         }
-        // Below zero CalculiX computes it.
-        let slip_rate = values.get(2).copied().filter(|speed| 0.0 <= *speed);
-        let texts = table.iter().flat_map(|table| &table.texts).filter(|text| text.cell < 2).cloned().collect();
+        let slip_rate = values.get(2).copied();
+        let texts = table.iter().flat_map(|table| &table.texts).filter(|text| text.cell < 3).cloned().collect();
         let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate, texts };
         if let Some(earlier) = interaction.gap_heat_generation.replace(heat) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::HeatGeneration(earlier));
