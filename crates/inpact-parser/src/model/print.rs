@@ -4,11 +4,11 @@
 
 use super::{
     ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction, Model,
-    Procedure, PropertyAssignment, Reference, SubOption, Table, read,
+    Name, Procedure, PropertyAssignment, Reference, SubOption, Table, read,
 };
 use crate::deck::scan;
 use crate::expression;
-use crate::grammar::{Definition, Grammar};
+use crate::grammar::{Definition, Dialect, Grammar};
 use crate::number::float_text;
 use std::fmt::Write;
 use thiserror::Error;
@@ -46,10 +46,31 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
     print_property_assignments(&mut out, &model.property_assignments);
     print_procedures(&mut out, &model.procedures);
     let (again, _) = read(&scan("", out.as_bytes(), grammar), grammar);
-    match difference(&model.without_places(), &again.without_places()) {
+    match difference(&named_in(grammar.dialect(), model.without_places()), &again.without_places()) {
         None => Ok(out),
         Some(what) => Err(PrintError { what }),
     }
+}
+
+/// The model with its names as a dialect compares them: JSON does not say of which dialect they are.
+fn named_in(dialect: Dialect, mut model: Model) -> Model {
+    let rename = |name: &mut Name| *name = Name::in_dialect(name.written(), dialect);
+    let interactions = std::mem::take(&mut model.interactions).into_values();
+    model.interactions = interactions
+        .map(|mut interaction| {
+            rename(&mut interaction.name);
+            (interaction.name.clone(), interaction)
+        })
+        .collect();
+    let pairs = model.contact_pairs.iter_mut().flat_map(|pair| {
+        let surfaces = pair.pairs.iter_mut().flat_map(|pair| [Some(&mut pair.slave), pair.master.as_mut()]);
+        surfaces.flatten().chain(pair.interaction.as_mut())
+    });
+    let assigned = model.property_assignments.iter_mut().flat_map(|assignment| {
+        [&mut assignment.first, &mut assignment.second, &mut assignment.interaction].into_iter().flatten()
+    });
+    pairs.chain(assigned).for_each(|reference| rename(&mut reference.name));
+    model
 }
 
 /// What two models differ in, if anything.

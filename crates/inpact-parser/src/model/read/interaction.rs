@@ -7,8 +7,8 @@ use crate::expression::substitute;
 use crate::grammar::{Dialect, KeywordId, RowShape};
 use crate::model::rows::undefined_parameter;
 use crate::model::{
-    ConstraintMethod, ContactPermeability, HeatGeneration, Interaction, Name, SetAside, SetAsideItem, SetAsideReason,
-    Table,
+    CellText, ConstraintMethod, ContactPermeability, HeatGeneration, Interaction, Name, SetAside, SetAsideItem,
+    SetAsideReason, Table,
 };
 use crate::number::{read_float, read_integer};
 use crate::problem::{Problem, ProblemKind};
@@ -241,8 +241,20 @@ impl Reader<'_> {
             let problem = Problem { kind: ProblemKind::SurplusRow, span: *surplus, keyword: option.keyword.span };
             self.problems.push(problem);
         }
-        let slip_rate = values.get(2).copied();
-        let texts = table.iter().flat_map(|table| &table.texts).filter(|text| text.cell < 3).cloned().collect();
+        let slip_rate = match self.grammar.dialect() {
+            Dialect::Abaqus => None,
+            // An item that is not there is 0 (CX-10).
+            Dialect::Calculix => Some(values.get(2).copied().unwrap_or_default()),
+        };
+        let texts = table.iter().flat_map(|table| {
+            let first = counting * table.width();
+            let of_row = move |text: &CellText| {
+                let cell = text.cell.checked_sub(first).filter(|cell| *cell < values.len())?;
+                Some(CellText { cell, text: text.text.clone() })
+            };
+            table.texts.iter().filter_map(of_row)
+        });
+        let texts = texts.collect();
         let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate, texts };
         if let Some(earlier) = interaction.gap_heat_generation.replace(heat) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::HeatGeneration(earlier));
