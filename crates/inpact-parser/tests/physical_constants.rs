@@ -43,7 +43,7 @@ fn the_speed_of_a_row_of_calculix() {
         model.interactions[&Name::new("A")]
             .gap_heat_generation
             .as_ref()
-            .map(|heat| (heat.fraction, heat.slave_weight, heat.slip_rate))
+            .map(|heat| (heat.fraction, heat.slave_weight, heat.given_slip_rate()))
     };
     assert_eq!(speed("0.8, 0.25, 3.0"), Some((0.8, 0.25, Some(3.0))));
     assert_eq!(speed("0.8, 0.25, 0."), Some((0.8, 0.25, Some(0.0))));
