@@ -2,20 +2,20 @@
 //!
 //! The way of a network, each step in the file of its name:
 //!
-//! 1. `bodies` refuses bodies without a path to a known value and names their nodes.
+//! 1. `components` refuses bodies without a path to a known value and names their nodes.
 //! 2. `core` merges nodes that infinite conductances join, and drops what conducts nothing.
-//! 3. `still` takes out parts into which nothing can flow, `series` nodes that only pass on what flows through them.
+//! 3. `dead_ends` takes out parts into which nothing can flow, `series` nodes that only pass on what flows through them.
 //! 4. `strength` and `relative` choose the unknowns by the strengths of the conductances: plain where they are alike, jumps where they are not.
 //! 5. `matrix` assembles, `ordering` orders, `factor` factors in f64 or f32, `iterative` does without a factor.
 //! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; what does not get there is tried again by a safer method, at last by `elimination`.
-//! 7. `series`, `still`, `infinite` and `hanging` put back what was left out: values, the flows through infinite conductances, jumps that no flow tells.
+//! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` put back what was left out: values, the flows through infinite conductances, jumps that no flow tells.
 
-mod bodies;
+mod components;
 mod core;
+mod dead_ends;
 mod edges;
 mod elimination;
 mod factor;
-mod hanging;
 mod infinite;
 mod iterative;
 mod largest;
@@ -27,12 +27,13 @@ mod relative;
 mod series;
 mod sets;
 mod solve;
-mod still;
+mod spanning_forest;
 mod strength;
 mod words;
 mod work;
 
 pub(crate) use self::core::{Core, NONE, Origins};
+pub(crate) use dead_ends::DeadEnds;
 pub(crate) use edges::{Balance, Edges};
 pub use factor::NoSolution;
 pub(crate) use factor::{Factor, Solves};
@@ -49,5 +50,4 @@ pub(crate) use relative::Form;
 pub(crate) use series::Series;
 pub(crate) use sets::{Sets, index};
 pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Shortcoming, Solver};
-pub(crate) use still::Still;
 pub use work::{Phases, Work};

@@ -52,7 +52,7 @@ pub(super) fn evaluate(
                 Some(RowConductance { conductance: Conductance { value, branch, sides }, rest: 0.0 })
             }
             Some(Err(fault)) => {
-                return (Outcome::Faulty(tally.count_fault().then(|| user::told(routine, row, &fault))), None);
+                return (Outcome::Faulty(tally.count_fault().then(|| user::fault_in_row(routine, row, &fault))), None);
             }
             None => None,
         },

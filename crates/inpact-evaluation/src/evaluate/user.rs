@@ -61,7 +61,7 @@ fn counter(value: f64) -> i32 {
 
 /// What there is to say of a row whose conductance is none.
 #[cold]
-pub(super) fn told(user: &CompiledUser, row: Row<'_>, fault: &UserFault) -> UserFaultInRow {
+pub(super) fn fault_in_row(user: &CompiledUser, row: Row<'_>, fault: &UserFault) -> UserFaultInRow {
     let place = row.batch.place(row.index, None);
     let number = place.row.unwrap_or_default();
     let clearance = row.number(user.clearance).unwrap_or(f64::NAN);

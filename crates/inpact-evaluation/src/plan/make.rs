@@ -129,9 +129,9 @@ impl Planner<'_> {
                 }
             }
         }
-        let untold = self.of.rows - self.of.closed - self.of.open;
-        if untold > 0 && (electrical.is_some() || thermal.is_some() || pore.is_some()) {
-            let rows = if untold == 1 { "1 row".to_owned() } else { format!("{untold} rows") };
+        let undetermined = self.of.rows - self.of.closed - self.of.open;
+        if undetermined > 0 && (electrical.is_some() || thermal.is_some() || pore.is_some()) {
+            let rows = if undetermined == 1 { "1 row".to_owned() } else { format!("{undetermined} rows") };
             notes.push(format!(
                 "{rows} from which contact cannot be told: `closed` empty, and `clearance` too or one of them NaN"
             ));
@@ -162,8 +162,9 @@ impl Planner<'_> {
         if !self.choices.accuracy.allows_folding() {
             return false;
         }
-        let asked = self.choices.outputs.as_ref();
-        self.choices.derivatives == Derivatives::LeftOut || asked.is_some_and(|asked| !asked.iter().any(is_slope))
+        let requested = self.choices.outputs.as_ref();
+        self.choices.derivatives == Derivatives::LeftOut
+            || requested.is_some_and(|requested| !requested.iter().any(is_slope))
     }
 
     pub(super) fn presence(self, column: Column) -> Presence {

@@ -154,8 +154,8 @@ pub(super) fn plan_friction(
     let columns = [Column::Shear, Column::SlipRate];
     let is_there = |column: &Column| planner.may_have(*column);
     if !tells_of_friction(planner.interaction) {
-        let told = columns.iter().all(is_there);
-        return if told { Planned::LeftOut(Reason::NoKeyword("FRICTION")) } else { Planned::Absent };
+        let is_described = columns.iter().all(is_there);
+        return if is_described { Planned::LeftOut(Reason::NoKeyword("FRICTION")) } else { Planned::Absent };
     }
     let given_speed = planner
         .interaction

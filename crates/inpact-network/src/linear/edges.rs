@@ -4,10 +4,10 @@
 //! Σ c (x − x') has not. Jumps and flows are kept in 106 bits, so that what refinement makes of a balance is limited by no rounding of f64.
 
 use super::core::{Core, NONE};
-use super::hanging::Hanging;
 use super::largest::largest_or_nan;
 use super::relative::Form;
 use super::sets::index;
+use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
 
 /// The elements of a core in terms of the unknowns; conductances may change, what is there may not.
@@ -245,9 +245,9 @@ impl Edges {
     }
 
     /// How the nodes of the unknowns hang on known values.
-    pub(super) fn hanging(&self, core: &Core, jumps: &[Wide]) -> Hanging {
+    pub(super) fn hanging(&self, core: &Core, jumps: &[Wide]) -> SpanningForest {
         let form = &self.form;
-        let mut hanging = Hanging::new(core);
+        let mut hanging = SpanningForest::new(core);
         for &unknown in &form.order {
             let above = match form.hangs_on[unknown as usize] {
                 NONE => form.bases[unknown as usize],

@@ -8,10 +8,10 @@
 //! A node with two conductances *and* a source stays: to share its source between its neighbours would make flows that cancel far larger than those that flow.
 
 use super::core::{Core, Element, NONE};
-use super::hanging::Hanging;
+use super::dead_ends::DeadEnds;
 use super::sets::index;
 use super::solve::{CoreFound, SMALL};
-use super::still::Still;
+use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::Wide;
 
 /// What was taken out, in order.
@@ -37,12 +37,12 @@ struct Step {
 
 impl Series {
     /// Takes out of a core what is still, and every free node with one or two conductances, but for those that have to stay.
-    pub(crate) fn take_out(core: &mut Core, still: &Still, stays: &dyn Fn(u32) -> bool) -> Self {
-        let is_still = |&end: &u32| still.is_still(end);
+    pub(crate) fn take_out(core: &mut Core, dead_ends: &DeadEnds, stays: &dyn Fn(u32) -> bool) -> Self {
+        let is_still = |&end: &u32| dead_ends.is_still(end);
         let mut series = Self {
             steps: Vec::new(),
             is_there: core.elements.iter().map(|element| !element.ends.iter().any(is_still)).collect(),
-            is_free: (0..core.free).map(|node| !still.is_still(node)).collect(),
+            is_free: (0..core.free).map(|node| !dead_ends.is_still(node)).collect(),
         };
         let mut degrees = vec![0_u32; core.free as usize];
         let there = core.elements.iter().zip(&series.is_there).filter_map(|(of, is_there)| is_there.then_some(of));
@@ -105,7 +105,7 @@ impl Series {
 }
 
 /// How a node between two elements differs from the far end of the stronger one, of the jump between their far ends: what flows is too small to tell.
-fn step_of_two(core: &Core, hanging: &Hanging, [first, second]: [(u32, u32); 2]) -> Wide {
+fn step_of_two(core: &Core, hanging: &SpanningForest, [first, second]: [(u32, u32); 2]) -> Wide {
     let conductance = |element: u32| core.elements[element as usize].conductance;
     let (weaker, stronger) =
         if strength(core, second.0) <= strength(core, first.0) { (second, first) } else { (first, second) };

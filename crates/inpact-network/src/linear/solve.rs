@@ -1,11 +1,11 @@
 //! From a linear network to its solution: what can be left out is left out, the rest is factored, refined and checked, and what was left out is put back.
 
-use super::bodies::refuse_floating;
+use super::components::refuse_floating;
 use super::core::{Core, NONE, Origins};
+use super::dead_ends::DeadEnds;
 use super::edges::{Balance, Edges};
 use super::elimination::eliminate;
 use super::factor::{Factor, NoSolution, Solves};
-use super::hanging::Hanging;
 use super::infinite;
 use super::iterative::ConjugateGradients;
 use super::largest::largest_or_nan;
@@ -16,7 +16,7 @@ use super::refinement::{GaveUp, Quality, Refined, refine};
 use super::relative::Form;
 use super::series::Series;
 use super::sets::index;
-use super::still::Still;
+use super::spanning_forest::SpanningForest;
 use super::work::{Phases, Work};
 use inpact_evaluation::numbers::Wide;
 use std::sync::Arc;
@@ -168,7 +168,7 @@ pub(super) struct CoreFound {
     pub(super) values: Vec<Wide>,
     pub(super) flows: Vec<Wide>,
     /// How nodes hang on known values; an elimination does not tell.
-    pub(super) hanging: Option<Hanging>,
+    pub(super) hanging: Option<SpanningForest>,
 }
 
 impl Solver {
@@ -235,21 +235,21 @@ impl Solver {
 
     /// Solves a core, in which all conductances are finite and every node has a path to a known value.
     pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<(CoreFound, LinearReport), LinearFailure> {
-        let still = Still::find(core);
-        let series = Series::take_out(core, &still, &|_| false);
+        let dead_ends = DeadEnds::find(core);
+        let series = Series::take_out(core, &dead_ends, &|_| false);
         let form = Form::choose(core, &series.is_there, &series.is_free);
         let mut report = LinearReport {
             unknowns: form.count(),
             relative: form.relative(),
             levels: form.scales.len(),
             taken_out: series.count(),
-            still: still.count(),
+            still: dead_ends.count(),
             tolerance: self.tolerance,
             ..LinearReport::default()
         };
         let mut found = self.solve_form(core, &series, form, &mut report)?;
         series.put_back(core, &mut found);
-        still.put_back(core, &mut found);
+        dead_ends.put_back(core, &mut found);
         Ok((found, report))
     }
 

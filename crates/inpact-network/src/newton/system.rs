@@ -3,7 +3,7 @@
 use crate::assembly::{Capacities, HeatTerm, RowTerms, network};
 use crate::knowledge::Knowledge;
 use crate::linear::{
-    Balance, Core, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, Still, index, largest_or_nan,
+    Balance, Core, DeadEnds, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, index, largest_or_nan,
 };
 use crate::problem::FieldNodes;
 use crate::scene::Field;
@@ -63,7 +63,7 @@ impl<'a> System<'a> {
                 *stays |= *source != 0.0;
             }
         }
-        let series = Series::take_out(&mut core, &Still::default(), &|node| stays[node as usize]);
+        let series = Series::take_out(&mut core, &DeadEnds::default(), &|node| stays[node as usize]);
         let form = Form::choose(&core, &series.is_there, &series.is_free);
         let edges = Edges::new(&core, form, &series.is_there);
         let mut system = Self { field, nodes, core, origins, edges, jumps: Vec::new(), start };

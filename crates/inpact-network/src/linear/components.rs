@@ -1,4 +1,4 @@
-//! Bodies: nodes that are joined by conductances. A body without a held value and without a store has no level, and is found before anything is factored.
+//! Connected components of a network: bodies, nodes that are joined by conductances. A body without a held value and without a store has no level, and is found before anything is factored.
 
 use super::network::{LinearNetwork, Unsolvable};
 use super::sets::{Sets, index};

@@ -13,7 +13,7 @@ use inpact_evaluation::numbers::Wide;
 
 /// The free nodes in such parts, those nearer to the rest first, each with the number whose value it has.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Still {
+pub(crate) struct DeadEnds {
     /// By free node; `NONE` for those in which something may flow. Empty where there is no such part.
     anchors: Vec<u32>,
 }
@@ -36,7 +36,7 @@ enum Known {
     Different,
 }
 
-impl Still {
+impl DeadEnds {
     /// Finds the parts of a core.
     pub(crate) fn find(core: &Core) -> Self {
         let anchors = Walk::new(core).run();

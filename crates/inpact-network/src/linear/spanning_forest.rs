@@ -10,7 +10,7 @@ use inpact_evaluation::numbers::Wide;
 
 /// For each free node of a core what it hangs on, and its step from there.
 #[derive(Clone, Debug)]
-pub(super) struct Hanging {
+pub(super) struct SpanningForest {
     /// The number, of a free node or a known value, that each free node hangs on.
     above: Vec<u32>,
     steps: Vec<Wide>,
@@ -20,7 +20,7 @@ pub(super) struct Hanging {
     rungs: Vec<u32>,
 }
 
-impl Hanging {
+impl SpanningForest {
     pub(super) fn new(core: &Core) -> Self {
         let nodes = core.free as usize;
         Self {
