@@ -1,5 +1,6 @@
 //! Runs the program as a user would: exit codes, standard streams, every format, every sample deck.
 
+mod bytes;
 mod calculix;
 mod check;
 mod columns;
@@ -34,6 +35,7 @@ mod solve_published;
 mod solve_silent;
 mod solve_transient;
 mod solve_wrong;
+mod table_judge;
 mod tradeoff;
 mod tradeoff_scene;
 mod unsound_tables;
