@@ -3,6 +3,7 @@
 //! Findings in decks, node tables and scenes are of one kind, [`Diagnostic`], a plain value that knows its file, line, column and bytes.
 //! Knows nothing of keywords, tables or laws, opens no file and prints nothing.
 
+mod columns;
 mod diagnostic;
 mod findings;
 mod fix;
@@ -12,6 +13,7 @@ mod severity;
 pub mod span;
 pub mod visible;
 
+pub use columns::ColumnUnit;
 pub use diagnostic::{Cell, Diagnostic, Extent, Label};
 pub use findings::{Findings, Place};
 pub use fix::{Edit, Fix, FixSafety, apply};

@@ -5,6 +5,7 @@
 //! Rows are a range of bytes until somebody reads them, so a mesh costs no number parsing (S-03 to S-37).
 
 mod data_line;
+mod edited;
 mod include;
 mod keyword_line;
 pub mod lines;
@@ -13,6 +14,7 @@ mod survey;
 mod text;
 
 pub use data_line::items;
+pub use edited::EditedText;
 pub use include::{Excerpts, FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::Source;

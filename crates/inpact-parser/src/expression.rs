@@ -20,6 +20,7 @@ mod functions;
 mod lexer;
 mod literal;
 mod logical_line;
+mod names;
 mod parameters;
 mod statement;
 mod substitute;
@@ -27,6 +28,7 @@ mod value;
 
 pub use division::{Division, IntegerDivision};
 pub use logical_line::StatementLine;
+pub use names::{is_parameter_name, names};
 pub use parameters::{Definition, Parameters};
 pub use statement::define;
 pub use substitute::{Reference, SubstitutionError, references, substitute};

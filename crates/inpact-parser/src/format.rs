@@ -22,6 +22,7 @@ mod rows;
 use crate::deck::{Block, Deck};
 use crate::grammar::{Definition, Grammar, KeywordId};
 use crate::span::SourceId;
+use inpact_diagnostics::{Edit, apply};
 
 /// The most characters of a keyword or data line (S-06).
 const LINE_CHARACTERS: usize = 256;
@@ -34,25 +35,28 @@ const USES_OF_INTERACTIONS: [&str; 2] = ["CONTACT PAIR", "CONTACT PROPERTY ASSIG
 /// The deck must have been scanned with [`Keep::Everything`](crate::deck::Keep::Everything), in the language of
 /// `grammar`; rows that were not kept would be missing.
 pub fn format(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<u8> {
+    apply(&deck.print(source), &edits(deck, source, grammar))
+}
+
+/// What changes a source file of the deck into the one style: a keyword line or the rows of a block each, in order.
+///
+/// Rows that were not kept are none that are formatted: a deck whose interpreted rows are kept gives all edits.
+pub fn edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edit> {
     let mut place = Place { grammar, in_interaction: false, parent: None };
-    let mut formatted = Vec::new();
+    let mut edits = Vec::new();
     for block in deck.blocks() {
         // Blocks of other files count too: they may open or close the interaction.
         let definition = place.enter(block);
+        let (Some(definition), Some(keyword)) = (definition, &block.keyword) else { continue };
         if block.rows.source != source {
             continue;
         }
-        let text = |span| deck.text(span);
-        let Some(keyword) = &block.keyword else {
-            formatted.extend_from_slice(text(block.rows));
-            continue;
-        };
-        let line = definition.and_then(|definition| keyword_line::format(deck, keyword, definition, grammar.dialect()));
-        formatted.extend_from_slice(line.as_deref().unwrap_or(text(keyword.span)));
-        let rows = definition.and_then(|definition| rows::format(deck, block, definition));
-        formatted.extend_from_slice(rows.as_deref().unwrap_or(text(block.rows)));
+        let line = keyword_line::format(deck, keyword, definition, grammar.dialect()).map(|line| (keyword.span, line));
+        let rows = rows::format(deck, block, definition).map(|rows| (block.rows, rows));
+        let changed = line.into_iter().chain(rows).filter(|(span, formatted)| deck.text(*span) != formatted);
+        edits.extend(changed.map(|(span, formatted)| Edit::new(span, formatted)));
     }
-    formatted
+    edits
 }
 
 /// Where in a deck one is, as far as it decides which blocks are formatted.

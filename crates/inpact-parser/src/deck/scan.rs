@@ -168,6 +168,18 @@ impl<'grammar> Scanner<'grammar> {
         self.pending.extend_from_slice(&bytes[complete..]);
     }
 
+    /// Takes whole lines of which it is known what they hold; rows that are not kept are passed over.
+    pub(super) fn push_surveyed(&mut self, bytes: &[u8], survey: Survey) {
+        let is_between_lines = self.pending.is_empty() && self.open_keyword.is_none();
+        // A CR at the very end may be half of a CR LF, and a byte order mark is no part of a row.
+        let is_rows = !survey.has_asterisk && bytes.ends_with(b"\n") && self.offset != 0;
+        if is_between_lines && is_rows {
+            self.rows(bytes, &[], survey);
+        } else {
+            self.push(bytes);
+        }
+    }
+
     /// How many bytes have been taken of a line that has not ended yet: they are kept until it does.
     pub fn unfinished(&self) -> usize {
         self.pending.len()

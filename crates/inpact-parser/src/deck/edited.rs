@@ -1,0 +1,298 @@
+//! The text of a file that is being edited, in pieces of which only those that change are looked at again.
+//!
+//! A deck of a hundred megabytes is mostly mesh. What a piece of it holds is surveyed once; a scan passes over a piece of mesh rows
+//! without touching its bytes, and gives the very deck that the whole text would.
+//! A piece ends behind a line end, and no CR is parted from its LF; only the last piece may end in the middle of a line.
+
+use super::Scanner;
+use super::lines::{count_line_ends, lines, without_line_end};
+use super::survey::Survey;
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// About how many bytes a piece has; a line is never cut.
+const PIECE: usize = 32 * 1024;
+
+/// Text that can be changed, and scanned again for what its interpreted blocks cost.
+///
+/// A clone shares the pieces.
+#[derive(Debug, Clone, Default)]
+pub struct EditedText {
+    pieces: Vec<Arc<Piece>>,
+    length: u64,
+}
+
+/// Whole lines, and what is known of them.
+#[derive(Debug)]
+struct Piece {
+    bytes: Box<[u8]>,
+    line_ends: u64,
+    survey: Survey,
+}
+
+impl EditedText {
+    /// The text of those bytes.
+    pub fn new(bytes: &[u8]) -> Self {
+        Self { pieces: cut(bytes, PIECE), length: bytes.len() as u64 }
+    }
+
+    /// The number of bytes.
+    pub fn length(&self) -> u64 {
+        self.length
+    }
+
+    /// The number of line ends.
+    pub fn line_ends(&self) -> u64 {
+        self.pieces.iter().map(|piece| piece.line_ends).sum()
+    }
+
+    /// Puts bytes in the place of others; a range that goes beyond the text is cut off there.
+    pub fn replace(&mut self, range: Range<u64>, with: &[u8]) {
+        self.replace_in_pieces(range, with, PIECE);
+    }
+
+    fn replace_in_pieces(&mut self, range: Range<u64>, with: &[u8], piece_length: usize) {
+        let (start, end) = (range.start.min(self.length), range.end.clamp(range.start.min(self.length), self.length));
+        let (mut first, mut first_start) = self.piece_at(start);
+        if let Some(before) = first.checked_sub(1) {
+            // A CR at the end of the piece before may find its LF now.
+            first = before;
+            first_start -= self.pieces[before].bytes.len() as u64;
+        }
+        let (mut behind, mut behind_start) = (first, first_start);
+        let mut joined = Vec::new();
+        while behind < self.pieces.len() && behind_start <= end {
+            joined.extend_from_slice(&self.pieces[behind].bytes);
+            behind_start += self.pieces[behind].bytes.len() as u64;
+            behind += 1;
+        }
+        let index = |offset: u64| usize::try_from(offset - first_start).unwrap_or(usize::MAX).min(joined.len());
+        joined.splice(index(start)..index(end), with.iter().copied());
+        // Pieces that follow begin with a line of their own, and a CR here is not parted from an LF there.
+        while behind < self.pieces.len() && !matches!(joined.last(), None | Some(b'\n')) {
+            joined.extend_from_slice(&self.pieces[behind].bytes);
+            behind += 1;
+        }
+        self.pieces.splice(first..behind, cut(&joined, piece_length));
+        self.length = self.length - (end - start) + with.len() as u64;
+    }
+
+    /// The bytes of a range, as far as there are.
+    pub fn bytes(&self, range: Range<u64>) -> Cow<'_, [u8]> {
+        let end = range.end.min(self.length);
+        let (index, piece_start) = self.piece_at(range.start.min(end));
+        let Some(piece) = self.pieces.get(index) else { return Cow::Borrowed(&[]) };
+        let local = |offset: u64| usize::try_from(offset - piece_start).unwrap_or(usize::MAX);
+        if end <= piece_start + piece.bytes.len() as u64 {
+            return Cow::Borrowed(piece.bytes.get(local(range.start.min(end))..local(end)).unwrap_or(&[]));
+        }
+        let mut bytes = Vec::new();
+        let mut skipped = local(range.start);
+        let mut left = usize::try_from(end - range.start).unwrap_or(usize::MAX);
+        for piece in &self.pieces[index..] {
+            let part = &piece.bytes[skipped..piece.bytes.len().min(skipped.saturating_add(left))];
+            bytes.extend_from_slice(part);
+            skipped = 0;
+            left -= part.len();
+            if left == 0 {
+                break;
+            }
+        }
+        Cow::Owned(bytes)
+    }
+
+    /// All bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.bytes(0..self.length).into_owned()
+    }
+
+    /// The bytes of a line without its line end, and where it begins; lines are counted from 0, and one behind the last is empty.
+    pub fn line(&self, line: u64) -> (u64, &[u8]) {
+        let mut left = line;
+        let mut start = 0;
+        for piece in &self.pieces {
+            // The line behind the last line end of a piece begins the next one.
+            if left < piece.line_ends || (left == piece.line_ends && !ends_line(&piece.bytes)) {
+                let index = usize::try_from(left).unwrap_or(usize::MAX);
+                let range = lines(&piece.bytes).nth(index).unwrap_or(piece.bytes.len()..piece.bytes.len());
+                return (start + range.start as u64, without_line_end(&piece.bytes[range]));
+            }
+            left -= piece.line_ends;
+            start += piece.bytes.len() as u64;
+        }
+        (start, &[])
+    }
+
+    /// The line that a byte lies in, counted from 0, and where it begins.
+    pub fn line_of(&self, offset: u64) -> (u64, u64) {
+        let (index, piece_start) = self.piece_at(offset.min(self.length));
+        let before: u64 = self.pieces[..index].iter().map(|piece| piece.line_ends).sum();
+        let Some(piece) = self.pieces.get(index) else { return (before, piece_start) };
+        let local = usize::try_from(offset.min(self.length) - piece_start).unwrap_or(usize::MAX);
+        let (mut line, mut start) = (before, piece_start);
+        for range in lines(&piece.bytes) {
+            let is_last = range.end == piece.bytes.len() && !ends_line(&piece.bytes);
+            if local < range.end || is_last {
+                return (line, start);
+            }
+            line += 1;
+            start = piece_start + range.end as u64;
+        }
+        (line, start)
+    }
+
+    /// Pushes the text into a scanner; pieces of rows that nobody keeps are passed over.
+    pub fn push_into(&self, scanner: &mut Scanner<'_>) {
+        for piece in &self.pieces {
+            scanner.push_surveyed(&piece.bytes, piece.survey);
+        }
+    }
+
+    /// How many bytes at the beginning and at the end are shared with another text; they do not overlap.
+    ///
+    /// Whole pieces are compared by being the same ones.
+    pub fn shared_with(&self, other: &Self) -> (u64, u64) {
+        let same = |(a, b): &(&Arc<Piece>, &Arc<Piece>)| Arc::ptr_eq(a, b);
+        let length = |(piece, _): (&Arc<Piece>, &Arc<Piece>)| piece.bytes.len() as u64;
+        let before = self.pieces.iter().zip(&other.pieces).take_while(same).count();
+        let (rest, rest_of_other) = (&self.pieces[before..], &other.pieces[before..]);
+        let behind = rest.iter().rev().zip(rest_of_other.iter().rev()).take_while(same).map(length).sum();
+        (self.pieces[..before].iter().map(|piece| piece.bytes.len() as u64).sum(), behind)
+    }
+
+    /// The piece that a byte lies in and where that begins; behind the last byte the last piece, where it does not end a line.
+    fn piece_at(&self, offset: u64) -> (usize, u64) {
+        let mut start = 0;
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let end = start + piece.bytes.len() as u64;
+            if offset < end || (index + 1 == self.pieces.len() && !ends_line(&piece.bytes)) {
+                return (index, start);
+            }
+            start = end;
+        }
+        (self.pieces.len(), start)
+    }
+}
+
+/// Cuts bytes into pieces of about that length, behind line ends.
+fn cut(bytes: &[u8], length: usize) -> Vec<Arc<Piece>> {
+    let mut pieces = Vec::new();
+    let mut rest = bytes;
+    while !rest.is_empty() {
+        let mut end = rest.len().min(length);
+        while end < rest.len() && (rest[end - 1] != b'\n' && (rest[end - 1] != b'\r' || rest[end] == b'\n')) {
+            end += memchr::memchr2(b'\n', b'\r', &rest[end..]).map_or(rest.len() - end, |found| found + 1);
+        }
+        let (piece, behind) = rest.split_at(end);
+        pieces.push(Arc::new(Piece {
+            bytes: piece.into(),
+            line_ends: count_line_ends(piece),
+            survey: Survey::of(piece),
+        }));
+        rest = behind;
+    }
+    pieces
+}
+
+fn ends_line(bytes: &[u8]) -> bool {
+    matches!(bytes.last(), Some(b'\n' | b'\r'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deck::{Keep, ScanOptions};
+    use crate::grammar::Grammar;
+    use proptest::prelude::*;
+
+    fn text() -> impl Strategy<Value = Vec<u8>> {
+        let part = prop_oneof![
+            8 => Just("1, 2., 3.\n"),
+            2 => Just("*NODE\n"),
+            2 => Just("*SURFACE INTERACTION, NAME=A\n"),
+            2 => Just("*GAP CONDUCTANCE,\n"),
+            1 => Just(" PRESSURE"),
+            1 => Just("** inpact: ignore T001\n"),
+            1 => Just("\r\n"),
+            1 => Just("\r"),
+            1 => Just("\n"),
+            1 => Just("é"),
+            1 => Just("*"),
+            1 => Just("*PARAMETER\nx = 1\n"),
+            1 => Just("1234567890123456789012345678901234567890123456789012345678901234567890123456789012345678901234567890\
+                1234567890123456789012345678901234567890123456789012345678901234567890123456789012345678901234567890\
+                12345678901234567890123456789012345678901234567890123456789012345678901234567890"),
+        ];
+        prop::collection::vec(part, 0..40).prop_map(|parts| parts.concat().into_bytes())
+    }
+
+    fn check(text: &EditedText, expected: &[u8]) {
+        assert_eq!(text.to_bytes(), expected);
+        assert_eq!(text.length(), expected.len() as u64);
+        for piece in &text.pieces {
+            assert_eq!(piece.line_ends, count_line_ends(&piece.bytes));
+        }
+        let starts: Vec<u64> = lines(expected).map(|range| range.start as u64).collect();
+        for (number, range) in lines(expected).enumerate() {
+            let found = text.line(number as u64);
+            assert_eq!(found, (range.start as u64, without_line_end(&expected[range.clone()])));
+            for offset in range {
+                assert_eq!(text.line_of(offset as u64), (number as u64, starts[number]), "{offset}");
+            }
+        }
+        let options = |keep| ScanOptions { grammar: Grammar::builtin(), keep };
+        for keep in [Keep::Everything, Keep::Interpreted] {
+            let mut in_pieces = Scanner::new("x", options(keep));
+            text.push_into(&mut in_pieces);
+            let mut at_once = Scanner::new("x", options(keep));
+            at_once.push(expected);
+            assert_eq!(in_pieces.finish(), at_once.finish());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn edits_give_the_text_and_the_deck_that_the_whole_text_gives(
+            first in text(),
+            edits in prop::collection::vec((any::<prop::sample::Index>(), 0_usize..60, text()), 1..8),
+        ) {
+            const LENGTH: usize = 24;
+            let mut text = EditedText { pieces: cut(&first, LENGTH), length: first.len() as u64 };
+            let mut expected = first;
+            check(&text, &expected);
+            for (at, removed, inserted) in edits {
+                let start = at.index(expected.len() + 1);
+                let end = (start + removed).min(expected.len());
+                let before = text.clone();
+                let as_it_was = expected.clone();
+                text.replace_in_pieces(start as u64..end as u64, &inserted, LENGTH);
+                expected.splice(start..end, inserted);
+                check(&text, &expected);
+                let (shared, shared_end) = text.shared_with(&before);
+                let (shared, shared_end) = (usize::try_from(shared).unwrap(), usize::try_from(shared_end).unwrap());
+                prop_assert!(shared + shared_end <= expected.len().min(as_it_was.len()));
+                prop_assert_eq!(&expected[..shared], &as_it_was[..shared]);
+                prop_assert_eq!(&expected[expected.len() - shared_end..], &as_it_was[as_it_was.len() - shared_end..]);
+            }
+        }
+
+        #[test]
+        fn any_range_of_bytes(text in text(), from in 0_u64..400, length in 0_u64..400) {
+            let edited = EditedText { pieces: cut(&text, 24), length: text.len() as u64 };
+            let index = |offset: u64| usize::try_from(offset).unwrap().min(text.len());
+            let bytes = edited.bytes(from..from + length);
+            prop_assert_eq!(&*bytes, &text[index(from)..index(from + length)]);
+        }
+    }
+
+    #[test]
+    fn a_change_beyond_the_end_is_at_the_end() {
+        let mut text = EditedText::new(b"*NODE\n1, 2.");
+        text.replace(100..200, b"\n");
+        assert_eq!(text.to_bytes(), b"*NODE\n1, 2.\n");
+        assert_eq!(text.line(2), (12, &b""[..]));
+        assert_eq!(text.line_of(12), (2, 12));
+        assert_eq!(text.line(9), (12, &b""[..]));
+    }
+}
