@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let grammar = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../../grammar").canonicalize()?;
+    let grammar = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("grammar").canonicalize()?;
     println!("cargo::rerun-if-changed=build.rs");
     list_folder(&grammar.join("keywords"), "keyword_files.rs")?;
     list_folder(&grammar.join("calculix"), "calculix_files.rs")

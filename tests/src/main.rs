@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    inpact::run(std::env::args_os())
+    inpact::cli::run(std::env::args_os())
 }

@@ -9,11 +9,15 @@ mod columnar;
 mod contract;
 mod format;
 mod output;
+#[cfg(feature = "columnar")]
+mod records;
 mod writer;
 
 pub use batch::{ResultBatch, Status, StatusByLaw};
 pub use contract::{OUTPUT_PAGES, OutputPage};
 pub use format::TableFormat;
 pub use output::{Along, Output};
+#[cfg(feature = "columnar")]
+pub use records::ResultRecords;
 pub(crate) use writer::number_text;
 pub use writer::{ResultWriter, push_number, rounded_up};

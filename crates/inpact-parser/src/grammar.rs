@@ -30,10 +30,10 @@ const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/keyword_files
 const CALCULIX_FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/calculix_files.rs"));
 
 /// Every keyword of Abaqus, one a line.
-const ABAQUS_NAMES: &str = include_str!("../../../grammar/names/abaqus.txt");
+const ABAQUS_NAMES: &str = include_str!("../grammar/names/abaqus.txt");
 
 /// Every keyword of CalculiX, one a line, without blanks.
-const CALCULIX_NAMES: &str = include_str!("../../../grammar/names/calculix.txt");
+const CALCULIX_NAMES: &str = include_str!("../grammar/names/calculix.txt");
 
 /// The one keyword that CalculiX compares with the blank behind it: `*GAP X` is not *GAP.
 const ONLY_WHOLE: &[u8] = b"GAP";

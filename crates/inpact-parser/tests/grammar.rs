@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../grammar")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar")
 }
 
 /// Every keyword file, by name.

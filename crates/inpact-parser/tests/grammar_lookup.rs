@@ -304,7 +304,7 @@ fn calculix_has_a_language_of_its_own() {
 #[test]
 fn the_files_for_calculix_load() {
     let grammar = Grammar::new(Dialect::Calculix, Release::NEWEST);
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../grammar/calculix");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar/calculix");
     let mut read = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -10,7 +10,7 @@ use serde::forward_to_deserialize_any;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-const SCHEMA: &str = include_str!("../../../grammar/keyword.schema.json");
+const SCHEMA: &str = include_str!("../grammar/keyword.schema.json");
 
 /// Takes down the names that a type asks for when it is read.
 struct NameRecorder<'a>(&'a mut &'static [&'static str]);

@@ -9,7 +9,7 @@ use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::SourceId;
 use std::collections::{BTreeMap, BTreeSet};
 
-const SYNTAX: &str = include_str!("../../../grammar/syntax.ebnf");
+const SYNTAX: &str = include_str!("../grammar/syntax.ebnf");
 
 /// The examples of a production.
 #[derive(Debug, Default)]

@@ -24,6 +24,8 @@ const MOST_ROUNDS: usize = 10;
 pub(crate) struct FixSelection {
     /// The codes whose fixes are applied although they change the meaning of the deck.
     pub(crate) also: Vec<String>,
+    /// The codes whose fixes are applied; `None` for all.
+    pub(crate) only: Option<Vec<String>>,
     pub(crate) reach: FixReach,
     pub(crate) purpose: Purpose,
 }
@@ -75,7 +77,8 @@ impl FixSelection {
     fn selects<'a>(&self, found: &'a Diagnostic) -> Option<&'a Fix> {
         let fix = found.fix.as_ref()?;
         let is_wanted = fix.safety == FixSafety::Safe || self.also.iter().any(|code| code == found.code);
-        is_wanted.then_some(fix)
+        let is_meant = self.only.as_ref().is_none_or(|only| only.iter().any(|code| code == found.code));
+        (is_wanted && is_meant).then_some(fix)
     }
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn read_located_deck(
     }
     let options = ScanOptions { grammar: settings.grammar, keep };
     let mut scanner = Scanner::new(&path.display().to_string(), options);
-    push(path, path, held, &mut scanner)?;
+    push(path, path, (held, settings), &mut scanner)?;
     let is_file = path.as_os_str() != STANDARD_STREAM;
     let own_folder = folder_of_deck(if is_file { path } else { Path::new("") });
     let places = vec![files::whole_path(path)];
@@ -58,10 +58,16 @@ pub(crate) fn read_located_deck(
 }
 
 /// Pushes the file at `path`, which messages call `name`.
-fn push(path: &Path, name: &Path, held: Option<&HeldFiles>, scanner: &mut Scanner<'_>) -> Result<(), Failure> {
-    match held {
-        Some(held) => scanner.push(&held.content(path, name)?),
-        None => files::push_all(path, scanner)?,
+fn push(
+    path: &Path,
+    name: &Path,
+    (held, settings): (Option<&HeldFiles>, &Settings),
+    scanner: &mut Scanner<'_>,
+) -> Result<(), Failure> {
+    match (held, settings.known_content(path)) {
+        (Some(held), _) => scanner.push(&held.content(path, name)?),
+        (None, Some(content)) => scanner.push(content),
+        (None, None) => files::push_all(path, scanner)?,
     }
     Ok(())
 }
@@ -80,7 +86,8 @@ struct FilesOnDisk<'a> {
 
 impl IncludedFiles for FilesOnDisk<'_> {
     fn deck(&self) -> Option<PathBuf> {
-        self.deck?.canonicalize().ok()
+        let deck = self.deck?;
+        deck.canonicalize().ok().or_else(|| self.settings.known_content(deck).map(|_| files::whole_path(deck)))
     }
 
     fn outside(&mut self, name: &str, from: &str) -> Option<String> {
@@ -89,7 +96,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
         let is_inside = |path: &PathBuf| reach::lies_in_all(path, &self.settings.include_roots);
         let mut candidates: Vec<PathBuf> = self.folders(from).map(|folder| folder.join(&name)).collect();
         let first = candidates.first().cloned();
-        candidates.retain(|path| path.exists());
+        candidates.retain(|path| self.is_there(path));
         let may_be_found =
             if candidates.is_empty() { first.iter().any(is_inside) } else { candidates.iter().any(is_inside) };
         (!may_be_found).then(|| root.display().to_string())
@@ -114,8 +121,11 @@ impl IncludedFiles for FilesOnDisk<'_> {
         let folders = self.folders(from);
         for folder in folders.clone() {
             let path = folder.join(name);
-            if !path.exists() || !reach::lies_in_all(&path, &self.settings.include_roots) {
+            if !self.is_there(&path) || !reach::lies_in_all(&path, &self.settings.include_roots) {
                 continue;
+            }
+            if self.settings.known_content(&path).is_some() {
+                return Ok(FoundFile { name: path.display().to_string(), path: files::whole_path(&path) });
             }
             return match reach::irregular(&path) {
                 None => identify(&path),
@@ -132,7 +142,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
 
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String> {
         // By its place: the name is for people, and need not be the whole truth.
-        let pushed = push(&file.path, Path::new(&file.name), self.held, scanner);
+        let pushed = push(&file.path, Path::new(&file.name), (self.held, self.settings), scanner);
         pushed.map_err(|failure| failure.about(Path::new(&file.name)).to_string())?;
         self.places.push(file.path.clone());
         Ok(())
@@ -140,6 +150,10 @@ impl IncludedFiles for FilesOnDisk<'_> {
 }
 
 impl<'a> FilesOnDisk<'a> {
+    fn is_there(&self, path: &Path) -> bool {
+        self.settings.known_content(path).is_some() || path.exists()
+    }
+
     /// The folders that a name may be relative to, in the order in which they are searched.
     fn folders<'b>(&self, from: &'b str) -> impl Iterator<Item = &'b Path> + Clone + use<'a, 'b>
     where

@@ -1,8 +1,35 @@
-//! The command line of inpact: arguments, files, exit codes, rendering.
+//! Checks, converts, evaluates and solves the contact interfaces of Abaqus input decks.
 //!
-//! No domain logic lives here; only here are files opened, colours known and exit codes chosen.
-//! Exit codes: 0 done, no errors found; 1 the deck or the data has errors; 2 wrong usage, or a file that cannot be read or written.
-//! A closed pipe (`inpact check … | head`) ends quietly with 0.
+//! This is the front door: decks with what they include, as their configuration has it; findings and their fixes; JSON both ways; the pages of `explain`;
+//! interface laws over record batches; scenes.
+//! Each stands on a crate that does it without files and settings, and may be used by itself: `inpact-parser`, `inpact-validation`, `inpact-evaluation`,
+//! `inpact-contact`, `inpact-network`.
+//! The command line is [`cli::run`].
+//!
+//! ```
+//! use inpact::{Deck, ReadOptions};
+//!
+//! let text = "\
+//! *SURFACE INTERACTION, NAME=JOINT
+//! *GAP ELECTRICAL CONDUCTANCE
+//! 4000., 0.
+//! 0., -2.
+//! ";
+//! let deck = Deck::parse("joint.inp", text, &ReadOptions::new().isolated())?;
+//! let found = deck.check();
+//! assert_eq!(found[0].code, "T001");
+//! assert_eq!(found[0].primary.line(), Some(4));
+//! # Ok::<(), inpact::Error>(())
+//! ```
+
+pub mod cli;
+pub mod pages;
+
+mod deck;
+mod error;
+#[cfg(feature = "columnar")]
+mod evaluation;
+mod fixes;
 
 mod chart;
 mod commands;
@@ -11,6 +38,7 @@ mod failure;
 mod files;
 mod fixing;
 mod input;
+mod json_deck;
 mod page;
 mod progress;
 mod reach;
@@ -20,67 +48,17 @@ mod settings;
 mod threads;
 mod user_library;
 
-use clap::{CommandFactory, Parser, Subcommand};
-use std::ffi::OsString;
-use std::process::ExitCode;
-
-/// Checks, converts and evaluates the contact interfaces of Abaqus input decks.
-#[derive(Debug, Parser)]
-#[command(name = "inpact", version, about, long_about = None, max_term_width = 100)]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    /// Check decks and fragments: what is wrong, where, and how to mend it.
-    Check(commands::check::CheckArguments),
-    /// Format decks: aligned tables and one style, where inpact reads them; the rest stays.
-    Fmt(commands::fmt::FormatArguments),
-    /// Print a deck as JSON.
-    Json(commands::json::JsonArguments),
-    /// Write a deck from JSON, either view.
-    Inp(commands::inp::InpArguments),
-    /// Make the node table of a deck's contact pairs from its mesh: a row a slave node.
-    Nodes(commands::nodes::NodesArguments),
-    /// Evaluate the interface laws of a deck on node data.
-    #[command(after_long_help = commands::evaluable::columns_help())]
-    Eval(commands::eval::EvalArguments),
-    /// Show what an evaluation would do: which laws, tables, columns and outputs, and what is left out and why.
-    #[command(after_long_help = commands::evaluable::columns_help())]
-    Plan(commands::plan::PlanArguments),
-    /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
-    Solve(commands::solve::SolveArguments),
-    /// Measure what accuracy costs: time and error of every mode on a deck and its node data, or of every solver on a scene.
-    Tradeoff(commands::tradeoff::TradeoffArguments),
-    /// Explain a rule, a keyword, or a column of node tables and results.
-    Explain(commands::explain::ExplainArguments),
-    /// Print the completions of a shell.
-    Completions(commands::shell::CompletionsArguments),
-    /// Print the manual page.
-    Man,
-}
-
-/// Runs the program with these arguments, the name of the program first.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
-        Err(error) => return failure::report_usage(&error),
-    };
-    let result = match arguments.command {
-        Command::Check(arguments) => commands::check::run(&arguments),
-        Command::Fmt(arguments) => commands::fmt::run(&arguments),
-        Command::Json(arguments) => commands::json::run(&arguments),
-        Command::Inp(arguments) => commands::inp::run(&arguments),
-        Command::Nodes(arguments) => commands::nodes::run(&arguments),
-        Command::Eval(arguments) => commands::eval::run(&arguments),
-        Command::Plan(arguments) => commands::plan::run(&arguments),
-        Command::Solve(arguments) => commands::solve::run(&arguments),
-        Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),
-        Command::Explain(arguments) => commands::explain::run(&arguments),
-        Command::Completions(arguments) => commands::shell::completions(&arguments, Arguments::command()),
-        Command::Man => commands::shell::manual(&Arguments::command()),
-    };
-    failure::exit_code(result)
-}
+#[cfg(feature = "columnar")]
+pub use arrow;
+pub use deck::Deck;
+pub use error::Error;
+#[cfg(feature = "columnar")]
+pub use evaluation::{EvaluateOptions, Evaluated};
+pub use fixes::{Fixed, FixedFile, Fixes};
+pub use inpact_diagnostics::{Diagnostic, Edit, Extent, Fix, FixKind, FixSafety, Label, Rule, Severity, span};
+pub use inpact_evaluation::accuracy::{Accuracy, Tolerance};
+pub use inpact_evaluation::history::HistoryStart;
+pub use inpact_parser::grammar::{Dialect, Release};
+pub use inpact_parser::model::{Model, Regime};
+pub use render::Format;
+pub use settings::{ReadOptions, RelativeTo};

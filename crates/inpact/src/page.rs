@@ -7,7 +7,12 @@ use inpact_parser::grammar::{Column, Data, Definition, Level, ParameterDefinitio
 use std::fmt::Write;
 
 /// The page of a rule.
-pub(crate) fn of_rule(rule: &Rule) -> String {
+///
+/// ```
+/// let rule = inpact::pages::rules().find(|rule| rule.name == "not-ascending").expect("there is one");
+/// assert!(inpact::pages::of_rule(rule).contains("Severity: error."));
+/// ```
+pub fn of_rule(rule: &Rule) -> String {
     let fix = match rule.fix {
         FixKind::None => "",
         FixKind::Safe => " `--fix` mends it.",
@@ -73,7 +78,13 @@ fn names(all: &[&str]) -> String {
 }
 
 /// The page of a keyword.
-pub(crate) fn of_keyword(definition: &Definition) -> String {
+///
+/// ```
+/// let grammar = inpact_parser::grammar::Grammar::builtin();
+/// let keyword = grammar.keywords().find_map(|(_, keyword)| keyword.definition()).expect("there is one");
+/// assert!(inpact::pages::of_keyword(keyword).starts_with(&format!("# *{}\n", keyword.name)));
+/// ```
+pub fn of_keyword(definition: &Definition) -> String {
     let mut page = format!("# *{}\n\n{}.\n\n", definition.name, definition.summary);
     let levels: Vec<&str> = definition.levels.iter().map(|level| level_name(*level)).collect();
     let _ = writeln!(page, "- Level: {}", levels.join(", "));

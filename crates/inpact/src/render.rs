@@ -17,7 +17,8 @@ use inpact_validation::Diagnostic;
 
 /// The output formats of diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
+#[non_exhaustive]
+pub enum Format {
     /// With an excerpt of the deck, labels and help.
     Full,
     /// A line each: `file:line:col: severity[CODE] message`.

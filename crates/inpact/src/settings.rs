@@ -1,46 +1,131 @@
-//! How a deck is read and judged: `inpact.toml`, found upward from the deck, and the arguments that override it.
+//! How a deck is read and judged: `inpact.toml`, found upward from the deck, and the options or arguments that override it.
+
+mod arguments;
+
+pub(crate) use self::arguments::DeckArguments;
 
 use crate::failure::Failure;
 use crate::files;
 use crate::reach::irregular;
 use crate::rules;
-use clap::{Args, ValueEnum};
+use clap::ValueEnum;
 use globset::{Glob, GlobMatcher};
 use inpact_diagnostics::{Diagnostic, Severity};
+use inpact_parser::deck::Keep;
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The name of the configuration file.
 pub(crate) const FILE_NAME: &str = "inpact.toml";
 
-/// How a deck is read; the same for every command that reads one.
-#[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "How the deck is read")]
-pub(crate) struct DeckArguments {
-    /// Whose keyword language the deck is in [default: abaqus].
-    #[arg(long, value_enum)]
-    dialect: Option<DialectName>,
-    /// Which release of Abaqus the deck is for: 6.11, 6.14, 2016, 2017, 2022, 2024 [default: 2024].
-    #[arg(long)]
-    release: Option<Release>,
-    /// Look for included files here as well; may be given several times.
-    #[arg(long, value_name = "FOLDER")]
-    include_dir: Vec<PathBuf>,
-    /// Read no included file outside of this folder [default: the repository, for `--format github` and `--format sarif`].
-    #[arg(long, value_name = "FOLDER")]
-    include_root: Option<PathBuf>,
-    /// What the names of included files are relative to [default: deck].
-    #[arg(long, value_enum)]
-    relative_to: Option<RelativeTo>,
-    /// Read this configuration instead of the `inpact.toml` above the deck.
-    #[arg(long, value_name = "FILE", conflicts_with = "isolated")]
-    config: Option<PathBuf>,
-    /// Read no configuration.
-    #[arg(long)]
-    isolated: bool,
+/// How a deck is read: what is not said here is as the `inpact.toml` above the deck has it, and otherwise as documented.
+///
+/// ```
+/// use inpact::{Deck, Dialect, ReadOptions};
+///
+/// let options = ReadOptions::new().isolated().dialect(Dialect::Calculix);
+/// let deck = Deck::parse("joint.inp", "*SURFACE INTERACTION, NAME=A\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n", &options)?;
+/// assert_eq!(deck.check(), []);
+/// # Ok::<(), inpact::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct ReadOptions {
+    pub(crate) dialect: Option<Dialect>,
+    pub(crate) release: Option<Release>,
+    pub(crate) include_dirs: Vec<PathBuf>,
+    pub(crate) include_root: Option<PathBuf>,
+    pub(crate) relative_to: Option<RelativeTo>,
+    pub(crate) configuration: Configuration,
+    pub(crate) keep: Keep,
+    pub(crate) overlay: Overlay,
+}
+
+/// Which `inpact.toml` counts.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) enum Configuration {
+    /// The nearest above the deck.
+    #[default]
+    Nearest,
+    /// This one.
+    File(PathBuf),
+    /// None.
+    Nothing,
+}
+
+/// Files whose content is known without their being read, by their whole paths: what an editor has open, or what was parsed from a text.
+pub(crate) type Overlay = BTreeMap<PathBuf, Arc<[u8]>>;
+
+impl ReadOptions {
+    /// Everything as the configuration above the deck has it.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Whose keyword language the deck is in; Abaqus' unless said otherwise.
+    #[must_use]
+    pub fn dialect(mut self, dialect: Dialect) -> Self {
+        self.dialect = Some(dialect);
+        self
+    }
+
+    /// Which release of Abaqus the deck is for; the newest unless said otherwise.
+    #[must_use]
+    pub fn release(mut self, release: Release) -> Self {
+        self.release = Some(release);
+        self
+    }
+
+    /// Looks for included files in this folder as well.
+    #[must_use]
+    pub fn include_dir(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.include_dirs.push(folder.into());
+        self
+    }
+
+    /// Reads no included file outside of this folder.
+    #[must_use]
+    pub fn include_root(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.include_root = Some(folder.into());
+        self
+    }
+
+    /// What the names of included files are relative to (S-54); the deck unless said otherwise.
+    #[must_use]
+    pub fn relative_to(mut self, relative_to: RelativeTo) -> Self {
+        self.relative_to = Some(relative_to);
+        self
+    }
+
+    /// Reads this configuration instead of the `inpact.toml` above the deck.
+    #[must_use]
+    pub fn configuration(mut self, file: impl Into<PathBuf>) -> Self {
+        self.configuration = Configuration::File(file.into());
+        self
+    }
+
+    /// Reads no configuration.
+    #[must_use]
+    pub fn isolated(mut self) -> Self {
+        self.configuration = Configuration::Nothing;
+        self
+    }
+
+    /// Keeps the text of every row, of meshes too, which [`Deck::to_syntax_json`](crate::Deck::to_syntax_json) needs and takes memory.
+    #[must_use]
+    pub fn keep_everything(mut self) -> Self {
+        self.keep = Keep::Everything;
+        self
+    }
+
+    /// Takes `content` for what is in the file at `path`, be it there or not: the unsaved text of an editor.
+    #[must_use]
+    pub fn file(mut self, path: impl AsRef<Path>, content: impl Into<Vec<u8>>) -> Self {
+        self.overlay.insert(files::whole_path(path.as_ref()), content.into().into());
+        self
+    }
 }
 
 /// The dialects by the names users give them.
@@ -53,10 +138,20 @@ enum DialectName {
     Calculix,
 }
 
+impl DialectName {
+    fn dialect(self) -> Dialect {
+        match self {
+            Self::Abaqus => Dialect::Abaqus,
+            Self::Calculix => Dialect::Calculix,
+        }
+    }
+}
+
 /// What the names of included files are relative to (S-54).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum RelativeTo {
+#[non_exhaustive]
+pub enum RelativeTo {
     /// The folder of the deck, as for Abaqus.
     Deck,
     /// The folder of the file that includes them.
@@ -123,57 +218,59 @@ pub(crate) struct Settings {
     ignores: Vec<(Vec<GlobMatcher>, Vec<String>)>,
     /// The folder of the configuration file, which the paths in `ignores` are relative to.
     root: PathBuf,
+    /// Files whose content is known.
+    pub(crate) overlay: Overlay,
 }
 
-impl DeckArguments {
-    /// The settings for the deck at `path`: the configuration above it, overridden by the arguments.
+impl Settings {
+    /// The settings for the deck at `path`: the configuration above it, overridden by the options.
     ///
     /// # Errors
     /// When the configuration cannot be read, or says what it cannot say.
-    pub(crate) fn settings(&self, path: &Path) -> Result<Settings, Failure> {
-        let (file, found) = match self.configuration_of(path) {
+    pub(crate) fn of(path: &Path, options: &ReadOptions) -> Result<Self, Failure> {
+        let (file, found) = match options.configuration_of(path) {
             Some(found) => (read(&found)?, found),
             None => (File::default(), PathBuf::new()),
         };
         let root = found.parent().unwrap_or(Path::new(""));
-        let release = match (self.release, &file.release) {
+        let release = match (options.release, &file.release) {
             (Some(release), _) => release,
             (None, Some(release)) => {
                 release.parse().map_err(|error| in_file(&found, &format!("`release`: {error}")))?
             }
             (None, None) => Release::NEWEST,
         };
-        let dialect = match self.dialect.or(file.dialect) {
-            Some(DialectName::Calculix) => Dialect::Calculix,
-            Some(DialectName::Abaqus) | None => Dialect::Abaqus,
-        };
+        let dialect = options.dialect.or(file.dialect.map(DialectName::dialect)).unwrap_or_default();
         let from_file = file.include_dirs.iter().map(|folder| root.join(folder));
-        let include_root = match (&self.include_root, &file.include_root) {
+        let include_root = match (&options.include_root, &file.include_root) {
             (Some(folder), _) => Some(whole_folder(folder, "--include-root")?),
             (None, Some(RootEntry::Folder(folder))) => Some(whole_folder(&root.join(folder), "include-root")?),
             (None, Some(RootEntry::Repository(true))) => Some(repository_of(path)),
             (None, Some(RootEntry::Repository(false)) | None) => None,
         };
-        Ok(Settings {
+        let named = options.include_dirs.iter();
+        Ok(Self {
             grammar: grammar_of(dialect, release),
-            include_dirs: self.include_dir.iter().cloned().chain(from_file).collect(),
-            named_include_dirs: self.include_dir.iter().filter_map(|folder| folder.canonicalize().ok()).collect(),
+            include_dirs: named.clone().cloned().chain(from_file).collect(),
+            named_include_dirs: named.filter_map(|folder| folder.canonicalize().ok()).collect(),
             include_roots: include_root.into_iter().collect(),
-            has_named_root: self.include_root.is_some(),
-            relative_to: self.relative_to.or(file.relative_to).unwrap_or(RelativeTo::Deck),
+            has_named_root: options.include_root.is_some(),
+            relative_to: options.relative_to.or(file.relative_to).unwrap_or(RelativeTo::Deck),
             levels: file.rules,
             ignores: file.ignore.iter().map(|entry| matchers(entry, &found)).collect::<Result<_, _>>()?,
             root: found.canonicalize().ok().and_then(|found| Some(found.parent()?.to_owned())).unwrap_or_default(),
+            overlay: options.overlay.clone(),
         })
     }
+}
 
+impl ReadOptions {
     /// The configuration file that counts for a deck: the one that is named, or the nearest above the deck.
     fn configuration_of(&self, path: &Path) -> Option<PathBuf> {
-        if self.isolated {
-            return None;
-        }
-        if self.config.is_some() {
-            return self.config.clone();
+        match &self.configuration {
+            Configuration::Nothing => return None,
+            Configuration::File(file) => return Some(file.clone()),
+            Configuration::Nearest => {}
         }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().ok()?;
@@ -260,6 +357,11 @@ impl Settings {
         if !self.has_named_root {
             self.include_roots.push(repository_of(deck));
         }
+    }
+
+    /// What is in a file, where that is known without reading it.
+    pub(crate) fn known_content(&self, path: &Path) -> Option<&Arc<[u8]>> {
+        if self.overlay.is_empty() { None } else { self.overlay.get(&files::whole_path(path)) }
     }
 
     /// Changes severities as configured, and leaves out what is switched off or ignored for this file.

@@ -210,6 +210,13 @@ impl NumberColumn {
         self.values.clear();
         self.present.clear();
     }
+
+    /// Takes the numbers and their presence out, and leaves an empty column.
+    #[cfg(feature = "columnar")]
+    pub(crate) fn take(&mut self) -> (Vec<f64>, Option<Vec<bool>>) {
+        let present = std::mem::take(&mut self.present);
+        (std::mem::take(&mut self.values), Some(present).filter(|present| !present.is_empty()))
+    }
 }
 
 impl Batch {

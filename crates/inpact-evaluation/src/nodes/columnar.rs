@@ -61,6 +61,8 @@ enum Rows {
     Parquet(Shared, ArrowReaderMetadata),
     /// Nothing has been read.
     Arrow(Storage, Box<dyn ReadSeek>),
+    /// Rows that are in memory already.
+    Memory(Vec<RecordBatch>),
     Begun(Source),
     /// Another thread reads the next rows.
     UnderWay(Receiver<(Source, Read1)>),
@@ -112,9 +114,18 @@ impl ColumnarReader {
                 Ok((schema, Rows::Arrow(storage, input)))
             }
         })?;
+        Ok(Self::new(schema, rows, findings))
+    }
+
+    /// Reads what is in memory as record batches of this schema.
+    pub(super) fn of_batches(schema: SchemaRef, batches: Vec<RecordBatch>, findings: &mut Findings) -> Self {
+        Self::new(schema, Rows::Memory(batches), findings)
+    }
+
+    fn new(schema: SchemaRef, rows: Rows, findings: &mut Findings) -> Self {
         let header = Header::new(schema.fields().iter().map(|field| field.name().as_str()));
         header.report_duplicates(None, findings);
-        Ok(Self {
+        Self {
             header,
             schema,
             rows,
@@ -123,7 +134,7 @@ impl ColumnarReader {
             rows_of_a_batch: usize::MAX,
             rows_read: 0,
             reads_ahead: false,
-        })
+        }
     }
 
     pub(super) fn header(&self) -> &Header {
@@ -233,6 +244,10 @@ impl ColumnarReader {
                 } else {
                     Box::new(StreamReader::try_new(input, Some(read.clone())).map_err(invalid)?)
                 }
+            }
+            Rows::Memory(batches) => {
+                let read = read.clone();
+                Box::new(batches.into_iter().map(move |batch| batch.project(&read)))
             }
             Rows::Begun(_) | Rows::UnderWay(_) | Rows::Ended => Box::new(std::iter::empty()),
         };

@@ -119,6 +119,17 @@ impl<'a> NodeReader<'a> {
         NodeReader::open(Box::new(input), findings)
     }
 
+    /// Opens a node table that is in memory as record batches of one schema; its numbers are not copied until they are read.
+    #[cfg(feature = "columnar")]
+    pub fn of_batches(
+        schema: arrow::datatypes::SchemaRef,
+        batches: Vec<arrow::array::RecordBatch>,
+        findings: &mut Findings,
+    ) -> NodeReader<'static> {
+        let table = ColumnarReader::of_batches(schema, batches, findings);
+        NodeReader::new(Table::Columnar(Box::new(table)))
+    }
+
     fn new(table: Table<'a>) -> Self {
         Self { table, rows_of_a_batch: ROWS_OF_A_BATCH, selection: Selection::default() }
     }

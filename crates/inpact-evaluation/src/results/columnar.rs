@@ -56,9 +56,7 @@ impl<'a> ColumnarWriter<'a> {
         let mut numbers = values.numbers.iter();
         for heading in &self.headings {
             arrays.push(match values.statuses(*heading) {
-                Some(statuses) => {
-                    Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
-                }
+                Some(statuses) => status_array(statuses),
                 None => numbers
                     .next()
                     .map_or_else(|| Arc::new(Float64Array::new_null(batch.rows)) as ArrayRef, number_array),
@@ -130,7 +128,7 @@ fn properties(schema: &Schema) -> WriterProperties {
 }
 
 /// The array of a key column.
-fn key_array(key: Column, label: &LabelColumn, batch: &Batch) -> io::Result<ArrayRef> {
+pub(super) fn key_array(key: Column, label: &LabelColumn, batch: &Batch) -> io::Result<ArrayRef> {
     if let Some(array) = label.array() {
         return match array.data_type() {
             DataType::Dictionary(_, values) => cast(array, values).map_err(of_arrow),
@@ -161,12 +159,16 @@ fn no_key(batch: &Batch, row: usize, key: Column, text: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, message)
 }
 
+pub(super) fn status_array(statuses: &[Option<super::Status>]) -> ArrayRef {
+    Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
+}
+
 fn number_array(column: &NumberColumn) -> ArrayRef {
     let nulls = column.presence().map(NullBuffer::from).filter(|nulls| nulls.null_count() > 0);
     Arc::new(Float64Array::new(ScalarBuffer::from(column.values().to_vec()), nulls))
 }
 
-fn of_arrow(error: ArrowError) -> io::Error {
+pub(super) fn of_arrow(error: ArrowError) -> io::Error {
     match error {
         ArrowError::IoError(_, error) => error,
         error => io::Error::other(error),

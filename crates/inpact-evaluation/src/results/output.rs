@@ -160,6 +160,11 @@ impl Output {
         !matches!(self, Self::Status | Self::ElectricalStatus | Self::ThermalStatus | Self::PoreStatus)
     }
 
+    /// Whether it is a slope of a conductance or a permeability.
+    pub fn is_slope(self) -> bool {
+        matches!(self, Self::ConductanceSlope(_) | Self::ThermalConductanceSlope(_) | Self::PermeabilitySlope(_))
+    }
+
     /// The output of a name, blanks around it and case aside; `None` where there is none.
     pub fn named(name: &str) -> Option<Self> {
         let name = name.trim().to_ascii_lowercase();

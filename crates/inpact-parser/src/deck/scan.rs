@@ -22,11 +22,12 @@ const LINE_CHARACTERS: usize = 256;
 const LEADING_ROWS_KEPT: u64 = 64 * 1024;
 
 /// Which rows keep their text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Keep {
     /// All of them: the deck can be printed.
     Everything,
     /// Those of keywords whose rows somebody interprets: the deck can be checked and evaluated, in memory that follows the interpreted blocks and not the file.
+    #[default]
     Interpreted,
 }
 

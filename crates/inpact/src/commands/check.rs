@@ -82,6 +82,7 @@ impl CheckArguments {
         let is_wanted = self.fix || self.diff || self.fix_included || !self.fix_also.is_empty();
         is_wanted.then(|| FixSelection {
             also: self.fix_also.clone(),
+            only: None,
             reach: if self.fix_included { FixReach::EveryIncluded } else { FixReach::BelowDeck },
             purpose: if self.diff { Purpose::Show } else { Purpose::Write },
         })

@@ -217,13 +217,7 @@ impl EvaluableArguments {
 
     /// Slopes are planned where they are asked for in general or by name.
     fn derivatives(&self) -> Derivatives {
-        let is_slope = |output: &Output| {
-            matches!(
-                output,
-                Output::ConductanceSlope(_) | Output::ThermalConductanceSlope(_) | Output::PermeabilitySlope(_)
-            )
-        };
-        let by_name = self.outputs.as_ref().is_some_and(|outputs| outputs.iter().any(is_slope));
+        let by_name = self.outputs.as_ref().is_some_and(|outputs| outputs.iter().any(|output| output.is_slope()));
         if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
 

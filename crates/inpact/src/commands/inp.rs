@@ -4,10 +4,9 @@ mod into;
 
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
+use crate::json_deck;
 use clap::Args;
-use inpact_parser::grammar::{Dialect, Grammar, Release};
-use inpact_parser::json::{self, View};
-use inpact_parser::model::{self, Model};
+use inpact_parser::grammar::{Dialect, Release};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -39,38 +38,17 @@ pub(crate) fn run(arguments: &InpArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// The files that the JSON says; the model view is one, without a name.
+/// The files that the JSON says, after saying in which language, where it is not the newest of Abaqus.
 fn decks(text: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
-    let grammar = Grammar::builtin();
-    match json::view_of(text).map_err(|error| error.to_string())? {
-        View::Model => {
-            let model = json::model::read(text).map_err(|error| error.to_string())?;
-            let deck = print(&model)?;
-            Ok(vec![("deck.inp".to_owned(), deck.into_bytes())])
-        }
-        View::Syntax => json::syntax::read(text, grammar).map_err(|error| error.to_string()),
-    }
-}
-
-/// The deck that says this in Abaqus' newest language; where none does, in the one that the JSON was read in.
-///
-/// Before release 2024 integers divide as integers (S-60), and CalculiX has other columns.
-fn print(model: &Model) -> Result<String, String> {
-    let newest = match model::print(model, Grammar::builtin()) {
-        Ok(deck) => return Ok(deck),
-        Err(error) => error.to_string(),
-    };
-    let others = [(Dialect::Abaqus, Release::R2022), (Dialect::Calculix, Release::NEWEST)];
-    let deck = others.into_iter().find_map(|(dialect, release)| {
-        let deck = model::print(model, &Grammar::new(dialect, release)).ok()?;
+    let json_deck::Files { files, language } = json_deck::files(text)?;
+    if let Some((dialect, _)) = language {
         let language = match dialect {
             Dialect::Abaqus => format!("Abaqus before release {}", Release::NEWEST),
             Dialect::Calculix => "CalculiX".to_owned(),
         };
         say(&format!("the deck says this in {language} alone"));
-        Some(deck)
-    });
-    deck.ok_or(newest)
+    }
+    Ok(files)
 }
 
 fn in_file(path: &Path, message: &str) -> Failure {

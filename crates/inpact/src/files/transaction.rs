@@ -69,6 +69,11 @@ impl Snapshot {
         Ok(Self { name: path.to_owned(), path: whole, bytes: bytes.into(), identity })
     }
 
+    /// What is known of a file without reading it.
+    pub(crate) fn of_text(place: &Path, bytes: Arc<[u8]>) -> Self {
+        Self { name: place.to_owned(), path: place.to_owned(), bytes, identity: None }
+    }
+
     /// Whether it is a file, which can be written back.
     pub(crate) fn is_file(&self) -> bool {
         self.identity.is_some()

@@ -32,7 +32,10 @@ impl HeldFiles {
     /// What is in a file now; it is read when it is asked for the first time, and messages call it `name`.
     pub(crate) fn content(&self, path: &Path, name: &Path) -> Result<Arc<[u8]>, Failure> {
         let place = files::whole_path(path);
-        if let Some(held) = self.files().get(&place) {
+        if let Some(held) = self.files().get_mut(&place) {
+            if held.read.name == place {
+                name.clone_into(&mut held.read.name);
+            }
             return Ok(held.now.clone());
         }
         // Reading a pipe may take its time, in which others must not wait.
@@ -40,6 +43,12 @@ impl HeldFiles {
         name.clone_into(&mut read.name);
         let now = read.bytes.clone();
         Ok(self.files().entry(place).or_insert(Held { read, now }).now.clone())
+    }
+
+    /// Holds a file whose content is known, be it there or not; it cannot be written back.
+    pub(crate) fn hold(&self, place: &Path, content: &Arc<[u8]>) {
+        let read = Snapshot::of_text(place, content.clone());
+        self.files().entry(place.to_owned()).or_insert(Held { read, now: content.clone() });
     }
 
     /// Gives a file that is held new content.

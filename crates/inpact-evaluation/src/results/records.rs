@@ -1,0 +1,78 @@
+//! Results in memory as Arrow record batches.
+
+use super::batch::ResultBatch;
+use super::columnar::{key_array, of_arrow, status_array};
+use super::output::Output;
+use crate::nodes::{Batch, Column};
+use arrow::array::{ArrayRef, Float64Array, RecordBatch};
+use arrow::buffer::{NullBuffer, ScalarBuffer};
+use arrow::datatypes::{DataType, Field, Schema, SchemaRef};
+use std::io;
+use std::sync::Arc;
+
+/// Makes record batches of result batches, all of one schema: that of the columns [`ResultWriter`](super::ResultWriter) writes.
+#[derive(Debug)]
+pub struct ResultRecords {
+    keys: Vec<Column>,
+    outputs: Vec<Output>,
+    schema: Option<SchemaRef>,
+}
+
+impl ResultRecords {
+    /// Begins with the key columns, which are those of the batches' labels, and the outputs.
+    pub fn new(keys: &[Column], outputs: &[Output]) -> Self {
+        Self { keys: keys.to_vec(), outputs: outputs.to_vec(), schema: None }
+    }
+
+    /// The rows of a batch with their results, whose numbers are taken out and not copied.
+    ///
+    /// # Errors
+    /// A key that its column cannot hold.
+    pub fn record_batch(&mut self, batch: &Batch, results: &mut ResultBatch) -> io::Result<RecordBatch> {
+        let mut arrays: Vec<ArrayRef> = Vec::with_capacity(self.keys.len() + self.outputs.len());
+        for (key, label) in self.keys.iter().zip(&batch.labels) {
+            arrays.push(key_array(*key, label, batch)?);
+        }
+        let mut number = 0;
+        for output in &self.outputs {
+            if let Some(statuses) = results.statuses(*output) {
+                arrays.push(status_array(statuses));
+                continue;
+            }
+            arrays.push(match results.numbers.get_mut(number) {
+                Some(column) => {
+                    let (values, present) = column.take();
+                    let nulls = present.map(NullBuffer::from).filter(|nulls| nulls.null_count() > 0);
+                    Arc::new(Float64Array::new(ScalarBuffer::from(values), nulls))
+                }
+                None => Arc::new(Float64Array::new_null(batch.rows)),
+            });
+            number += 1;
+        }
+        let schema = match &self.schema {
+            Some(schema) => Arc::clone(schema),
+            None => self.begin(arrays.iter().map(|array| array.data_type().clone())),
+        };
+        RecordBatch::try_new(schema, arrays).map_err(of_arrow)
+    }
+
+    /// The schema of the record batches; where there was none, that of comma-separated values.
+    pub fn schema(&mut self) -> SchemaRef {
+        if let Some(schema) = &self.schema {
+            return Arc::clone(schema);
+        }
+        let keys = self.keys.iter().map(|key| if *key == Column::Time { DataType::Float64 } else { DataType::Utf8 });
+        let values =
+            self.outputs.iter().map(|output| if output.is_number() { DataType::Float64 } else { DataType::Utf8 });
+        let types: Vec<DataType> = keys.chain(values).collect();
+        self.begin(types.into_iter())
+    }
+
+    fn begin(&mut self, types: impl Iterator<Item = DataType>) -> SchemaRef {
+        let names = self.keys.iter().map(ToString::to_string).chain(self.outputs.iter().map(ToString::to_string));
+        let fields = names.zip(types).map(|(name, kind)| Field::new(name, kind, true));
+        let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
+        self.schema = Some(Arc::clone(&schema));
+        schema
+    }
+}

@@ -1,0 +1,197 @@
+//! A deck that was read with everything it includes.
+
+use crate::error::Error;
+use crate::failure::Failure;
+use crate::fixes::{Fixed, Fixes};
+use crate::input::{LocatedDeck, read_located_deck};
+use crate::json_deck;
+use crate::render::{self, Format, Style};
+use crate::settings::{ReadOptions, Settings};
+use inpact_diagnostics::Diagnostic;
+use inpact_parser::deck::Deck as Syntax;
+use inpact_parser::grammar::Grammar;
+use inpact_parser::json;
+use inpact_parser::model::{self, Model};
+use inpact_parser::problem::Problem;
+use std::path::{Path, PathBuf};
+
+/// A deck or a fragment of one, with everything it includes and the settings that count for it.
+///
+/// Reading never fails over what a deck says: that is what [`check`](Self::check) is for.
+pub struct Deck {
+    name: String,
+    pub(crate) located: LocatedDeck,
+    pub(crate) model: Model,
+    pub(crate) problems: Vec<Problem>,
+    pub(crate) settings: Settings,
+    pub(crate) options: ReadOptions,
+}
+
+impl Deck {
+    /// Reads the deck at `path`, or standard input for `-`, and what it includes.
+    ///
+    /// ```no_run
+    /// use inpact::{Deck, ReadOptions, Release};
+    ///
+    /// let options = ReadOptions::new().release(Release::R2022).include_dir("meshes");
+    /// let deck = Deck::read("joint.inp", &options)?;
+    /// for found in deck.check() {
+    ///     println!("{}: {}", found.code, found.message);
+    /// }
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a configuration that says what it cannot say.
+    /// An included file that is missing is no error but a finding.
+    pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let settings = Settings::of(path, options)?;
+        let located = read_located_deck(path, options.keep, &settings, None)?;
+        let (model, problems) = model::read(&located.deck, settings.grammar);
+        Ok(Self { name: path.display().to_string(), located, model, problems, settings, options: options.clone() })
+    }
+
+    /// Reads a deck from its text; `name` is what messages call it, and files that it includes are found from there.
+    ///
+    /// ```
+    /// use inpact::{Deck, ReadOptions};
+    ///
+    /// // What an editor has open counts instead of what is on disk.
+    /// let options = ReadOptions::new().isolated().file("gap.inp", "*GAP ELECTRICAL CONDUCTANCE\n1., 0.\n0., 2.\n");
+    /// let deck = Deck::parse("joint.inp", "*SURFACE INTERACTION, NAME=JOINT\n*INCLUDE, INPUT=gap.inp\n", &options)?;
+    /// assert!(deck.check().is_empty());
+    /// assert!(deck.model().interactions[0].gap_electrical_conductance.is_some());
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A configuration that cannot be read, or says what it cannot say.
+    pub fn parse(name: impl AsRef<Path>, text: impl Into<Vec<u8>>, options: &ReadOptions) -> Result<Self, Error> {
+        let name = name.as_ref();
+        Self::read(name, &options.clone().file(name, text))
+    }
+
+    /// Makes a deck from JSON that [`to_json`](Self::to_json) or [`to_syntax_json`](Self::to_syntax_json) gave.
+    ///
+    /// ```
+    /// use inpact::{Deck, ReadOptions};
+    ///
+    /// let options = ReadOptions::new().isolated();
+    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION, NAME=A\n", &options)?;
+    /// let again = Deck::from_json(&deck.to_json(), &options)?;
+    /// assert_eq!(again.to_inp()?, "*SURFACE INTERACTION, NAME=A\n1.,\n");
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// JSON that is no deck, with the path of what is wrong with it.
+    pub fn from_json(json: &str, options: &ReadOptions) -> Result<Self, Error> {
+        let json_deck::Files { files, language } = json_deck::files(json).map_err(Error::data)?;
+        let mut options = options.clone();
+        if let Some((dialect, release)) = language {
+            options = options.dialect(dialect).release(release);
+        }
+        let name = files.first().map_or_else(|| PathBuf::from("deck.inp"), |(name, _)| PathBuf::from(name));
+        for (name, bytes) in files {
+            options = options.file(name, bytes);
+        }
+        Self::read(&name, &options)
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where its files are, the deck itself first.
+    pub fn files(&self) -> &[PathBuf] {
+        self.located.places()
+    }
+
+    /// The contact interfaces that it defines.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Its lines and blocks, for `inpact-parser`.
+    pub fn syntax(&self) -> &Syntax {
+        &self.located.deck
+    }
+
+    /// The keyword language it was read in.
+    pub fn grammar(&self) -> &'static Grammar {
+        self.settings.grammar
+    }
+
+    /// What is wrong with it, in the order of the deck, with the severities of its configuration.
+    pub fn check(&self) -> Vec<Diagnostic> {
+        let found = inpact_validation::check(&self.located.deck, self.settings.grammar, &self.model, &self.problems);
+        self.settings.apply(found)
+    }
+
+    /// Findings of this deck as text in a format of `inpact check`, without colours.
+    ///
+    /// ```
+    /// use inpact::{Deck, Format, ReadOptions};
+    ///
+    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION\n", &ReadOptions::new().isolated())?;
+    /// let text = deck.render(&deck.check(), Format::Concise);
+    /// assert_eq!(text, "a.inp:1:1: error[K006] *SURFACE INTERACTION requires NAME\n");
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    pub fn render(&self, findings: &[Diagnostic], format: Format) -> String {
+        let frame = render::document(format);
+        frame.head + &render::diagnostics(findings, &self.located.deck, format, Style::Plain) + &frame.tail
+    }
+
+    /// Applies the fixes of its findings, in memory.
+    ///
+    /// ```
+    /// use inpact::{Deck, Fixes, ReadOptions};
+    ///
+    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTON, NAME=A\n", &ReadOptions::new().isolated())?;
+    /// let fixed = deck.fix(&Fixes::safe())?;
+    /// assert_eq!(fixed.findings(), 1);
+    /// assert_eq!(fixed.files()[0].after(), b"*SURFACE INTERACTION, NAME=A\n");
+    /// assert!(fixed.deck()?.check().is_empty());
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Files that cannot be read again, or a code that no rule has.
+    pub fn fix(&self, fixes: &Fixes) -> Result<Fixed, Error> {
+        Fixed::of(self, fixes)
+    }
+
+    /// What it says, as JSON of the schema `inpact/model/1`.
+    pub fn to_json(&self) -> String {
+        json::model::write(&self.model, &self.name)
+    }
+
+    /// How it says it, line by line, as JSON of the schema `inpact/syntax/1`.
+    ///
+    /// # Errors
+    /// A deck that was read without [`ReadOptions::keep_everything`].
+    pub fn to_syntax_json(&self) -> Result<String, Error> {
+        if let Some(incomplete) = self.located.deck.sources().iter().find(|source| !source.is_complete()) {
+            let message = format!("the rows of `{}` were not kept: read it with `keep_everything`", incomplete.name());
+            return Err(Failure::Usage(message).into());
+        }
+        Ok(json::syntax::write(&self.located.deck, self.settings.grammar))
+    }
+
+    /// A deck that says the same of the contact interfaces, in its dialect and release.
+    ///
+    /// # Errors
+    /// What no deck can say.
+    pub fn to_inp(&self) -> Result<String, Error> {
+        model::print(&self.model, self.settings.grammar).map_err(|error| Error::data(error.to_string()))
+    }
+}
+
+impl std::fmt::Debug for Deck {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Deck").field("name", &self.name).finish_non_exhaustive()
+    }
+}

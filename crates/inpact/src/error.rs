@@ -1,0 +1,87 @@
+//! The one error of this crate.
+
+use crate::failure::Failure;
+use inpact_diagnostics::Diagnostic;
+use std::error;
+use std::fmt;
+
+/// Why something could not be done: a file that cannot be read or written, wrong usage, or data with errors.
+///
+/// What is wrong with a deck that could be read is no error but a list of findings.
+///
+/// ```
+/// use inpact::{Deck, ReadOptions};
+///
+/// let error = Deck::read("no/such/deck.inp", &ReadOptions::new()).unwrap_err();
+/// assert!(error.is_io());
+/// assert!(error.to_string().starts_with("cannot read `no/such/deck.inp`"));
+/// ```
+pub struct Error {
+    failure: Failure,
+    findings: Vec<Diagnostic>,
+}
+
+impl Error {
+    /// Data that cannot be used.
+    pub(crate) fn data(message: impl Into<String>) -> Self {
+        Failure::Data(message.into()).into()
+    }
+
+    /// Data that cannot be used, with what was found in it.
+    #[cfg(feature = "columnar")]
+    pub(crate) fn of_findings(message: String, findings: Vec<Diagnostic>) -> Self {
+        Self { failure: Failure::Data(message), findings }
+    }
+
+    /// For commands that stand on the library.
+    pub(crate) fn into_failure(self) -> Failure {
+        self.failure
+    }
+
+    /// Whether a file cannot be read or written.
+    pub fn is_io(&self) -> bool {
+        matches!(self.failure, Failure::Read { .. } | Failure::Write { .. } | Failure::Output(_))
+    }
+
+    /// Whether what was asked for makes no sense, such as options that contradict one another.
+    pub fn is_usage(&self) -> bool {
+        matches!(self.failure, Failure::Usage(_))
+    }
+
+    /// Whether the data has errors that leave nothing to go on with.
+    pub fn is_data(&self) -> bool {
+        matches!(self.failure, Failure::Data(_) | Failure::AlreadySaid)
+    }
+
+    /// What was found in the data, where that is why.
+    pub fn findings(&self) -> &[Diagnostic] {
+        &self.findings
+    }
+}
+
+impl From<Failure> for Error {
+    fn from(failure: Failure) -> Self {
+        Self { failure, findings: Vec::new() }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.failure.fmt(formatter)
+    }
+}
+
+impl fmt::Debug for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_tuple("Error").field(&self.to_string()).finish()
+    }
+}
+
+impl error::Error for Error {
+    fn source(&self) -> Option<&(dyn error::Error + 'static)> {
+        match &self.failure {
+            Failure::Read { error, .. } | Failure::Write { error, .. } | Failure::Output(error) => Some(error),
+            Failure::Usage(_) | Failure::AlreadySaid | Failure::Data(_) => None,
+        }
+    }
+}

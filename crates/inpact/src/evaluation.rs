@@ -1,0 +1,335 @@
+//! The interface laws of a deck on record batches: Arrow in, Arrow out.
+
+use crate::deck::Deck;
+use crate::error::Error;
+use crate::failure::Failure;
+use crate::threads::with_threads;
+use arrow::array::RecordBatch;
+use arrow::datatypes::SchemaRef;
+use inpact_diagnostics::{Diagnostic, Findings, Severity};
+use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
+use inpact_evaluation::compile::compile;
+use inpact_evaluation::evaluate::Evaluation;
+use inpact_evaluation::history::HistoryStart;
+use inpact_evaluation::law::user::{UserConductance, UserLaw};
+use inpact_evaluation::nodes::{Batch, NodeReader};
+use inpact_evaluation::plan::{
+    Choices, Derivatives, Plan, Reason, Survey, SurveyByNode, concerning, make, survey, survey_by_node,
+};
+use inpact_evaluation::results::{Output, ResultBatch, ResultRecords};
+use inpact_parser::model::{Name, Regime};
+use std::ops::ControlFlow;
+
+/// What is evaluated, and how exactly; the default is what deck and columns say, in full accuracy.
+#[derive(Debug, Clone, Default)]
+pub struct EvaluateOptions {
+    outputs: Option<Vec<String>>,
+    threads: usize,
+    choices: Choices,
+}
+
+/// A result table in memory.
+#[derive(Debug, Clone)]
+pub struct Evaluated {
+    schema: SchemaRef,
+    batches: Vec<RecordBatch>,
+    findings: Vec<Diagnostic>,
+    notes: Vec<String>,
+}
+
+impl EvaluateOptions {
+    /// Everything that deck and columns give.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// These columns of results alone, by the names that `inpact explain columns` lists; one that cannot be given is an error then.
+    #[must_use]
+    pub fn outputs<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.outputs = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// The interaction that governs every row, instead of the one that column `interaction` names.
+    #[must_use]
+    pub fn interaction(mut self, name: &str) -> Self {
+        self.choices.interaction = Some(Name::new(name));
+        self
+    }
+
+    /// Steady state or transient, instead of what the deck's procedures say.
+    #[must_use]
+    pub fn regime(mut self, regime: Regime) -> Self {
+        self.choices.regime = Some(regime);
+        self
+    }
+
+    /// How exactly the values of tables are found.
+    #[must_use]
+    pub fn accuracy(mut self, accuracy: Accuracy) -> Self {
+        self.choices.accuracy = Wanted::Mode(accuracy);
+        self
+    }
+
+    /// The error that is acceptable: each table is evaluated in the cheapest way whose bound is within it.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: Tolerance) -> Self {
+        self.choices.accuracy = Wanted::Within(tolerance);
+        self
+    }
+
+    /// Gives the slopes of conductances and permeability as well.
+    #[must_use]
+    pub fn derivatives(mut self) -> Self {
+        self.choices.derivatives = Derivatives::Given;
+        self
+    }
+
+    /// The characteristic element length of all rows, L (P-20).
+    #[must_use]
+    pub fn characteristic_length(mut self, length: f64) -> Self {
+        self.choices.characteristic_length = Some(length);
+        self
+    }
+
+    /// Where the histories of nodes start (C-25).
+    #[must_use]
+    pub fn history_start(mut self, start: HistoryStart) -> Self {
+        self.choices.history_start = start;
+        self
+    }
+
+    /// The conductance of interactions with *GAP ELECTRICAL CONDUCTANCE, USER (U-1).
+    #[must_use]
+    pub fn user_conductance(mut self, conductance: impl UserConductance + 'static) -> Self {
+        self.choices.user_conductance = Some(UserLaw::new(conductance));
+        self
+    }
+
+    /// So many threads, instead of one a core; results do not depend on it.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    fn choices(&self, deck: &Deck) -> Result<Choices, Failure> {
+        let unknown = |name: &String| {
+            Failure::Usage(format!("there is no output `{name}`; `inpact explain columns` lists those there are"))
+        };
+        let named = |name: &String| Output::named(name).ok_or_else(|| unknown(name));
+        let outputs = self.outputs.as_ref().map(|names| names.iter().map(named).collect::<Result<Vec<_>, _>>());
+        let outputs = outputs.transpose()?;
+        let mut choices = Choices { dialect: deck.grammar().dialect(), ..self.choices.clone() };
+        if outputs.as_ref().is_some_and(|outputs| outputs.iter().any(|output| output.is_slope())) {
+            choices.derivatives = Derivatives::Given;
+        }
+        choices.outputs = outputs;
+        Ok(choices)
+    }
+}
+
+impl Deck {
+    /// Evaluates its interface laws on the rows of a node table, which has the columns that `inpact explain columns` lists.
+    ///
+    /// Rows out are rows in, in their order.
+    /// A row with a history needs the rows of its node before it, so that a table is evaluated whole.
+    ///
+    /// ```
+    /// use inpact::arrow::array::{AsArray, Float64Array, RecordBatch};
+    /// use inpact::arrow::datatypes::Float64Type;
+    /// use inpact::{Deck, EvaluateOptions, ReadOptions};
+    /// use std::sync::Arc;
+    ///
+    /// let text = "*SURFACE INTERACTION, NAME=JOINT\n*GAP ELECTRICAL CONDUCTANCE\n4000., 0.\n0., 2.\n";
+    /// let deck = Deck::parse("joint.inp", text, &ReadOptions::new().isolated())?;
+    /// let column = |values: [f64; 2]| Arc::new(Float64Array::from(values.to_vec())) as _;
+    /// let rows = RecordBatch::try_from_iter([("clearance", column([0.5, 1.0])), ("epot_jump", column([1.0, 2.0]))])?;
+    ///
+    /// let result = deck.evaluate(rows.schema(), vec![rows], &EvaluateOptions::new().outputs(["conductance", "ECD"]))?;
+    /// let column = |name| result.batches()[0].column_by_name(name).expect("it is there").as_primitive::<Float64Type>();
+    /// assert_eq!(column("conductance").values(), &[3000.0, 2000.0]);
+    /// assert_eq!(column("ECD").values(), &[3000.0, 4000.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A deck with errors in the interactions that are used, rows with errors, an output that is asked for and cannot be given:
+    /// [`Error::findings`] says what and where.
+    pub fn evaluate(
+        &self,
+        schema: SchemaRef,
+        batches: Vec<RecordBatch>,
+        options: &EvaluateOptions,
+    ) -> Result<Evaluated, Error> {
+        self.evaluate_watched(schema, batches, options, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same; `watch` is called with the number of rows that are done, after every batch, and may stop it.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate), and where `watch` stops it.
+    pub fn evaluate_watched(
+        &self,
+        schema: SchemaRef,
+        batches: Vec<RecordBatch>,
+        options: &EvaluateOptions,
+        watch: impl FnMut(u64) -> ControlFlow<()> + Send,
+    ) -> Result<Evaluated, Error> {
+        let choices = options.choices(self)?;
+        let rows = Rows { schema, batches };
+        with_threads(options.threads, || self.evaluate_rows(&rows, &choices, watch))
+    }
+
+    fn evaluate_rows(
+        &self,
+        rows: &Rows,
+        choices: &Choices,
+        mut watch: impl FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Evaluated, Error> {
+        if self.model.interactions.is_empty() {
+            return Err(Error::data(format!("`{}` defines no *SURFACE INTERACTION", self.name())));
+        }
+        let (surveyed, findings) = self.survey(rows, choices)?;
+        let mut found = self.judged(findings, "the table has errors")?;
+        let Some(surveyed) = surveyed else { return Err(Error::data("the table cannot be evaluated")) };
+        let plan = make(&self.model, &surveyed, choices);
+        let mut unavailable = Findings::new(TABLE);
+        plan.report_unavailable(choices, &mut unavailable);
+        found.extend(self.judged(unavailable, "an output that is asked for cannot be given")?);
+        found.extend(self.judged_deck(&plan)?);
+        if plan.outputs.is_empty() {
+            return Err(self.nothing_to_evaluate(&plan));
+        }
+        let laws = compile(&self.model, &plan, choices);
+        let mut findings = Findings::new(TABLE);
+        let mut reader = rows.reader(&mut findings);
+        reader.select(&plan.selection);
+        let mut evaluation = Evaluation::new(&self.model, &plan, &laws);
+        let mut records = ResultRecords::new(plan.keys(), &plan.outputs);
+        let (mut batch, mut results, mut out, mut done) = (Batch::default(), ResultBatch::default(), Vec::new(), 0);
+        while reader.read_batch(&mut batch, &mut findings).map_err(|error| unreadable(&error))? {
+            plan.name_rows(&mut batch);
+            evaluation.evaluate(&batch, &mut results);
+            out.push(records.record_batch(&batch, &mut results).map_err(|error| unreadable(&error))?);
+            done += batch.rows as u64;
+            if watch(done).is_break() {
+                return Err(Failure::Usage(format!("stopped after {done} rows")).into());
+            }
+        }
+        let tally = evaluation.finish();
+        tally.report_user_faults(&mut findings);
+        if !findings.has_errors() {
+            tally.report(&plan, &mut findings);
+        }
+        found.extend(self.judged(findings, "the rows have errors")?);
+        let notes = plan.interactions.iter().flat_map(|interaction| {
+            let name = &interaction.name;
+            let left_out = interaction.left_out.iter();
+            let left_out = left_out.map(move |left| format!("{name}: {} is left out: {}", left.what, left.reason));
+            left_out.chain(interaction.notes.iter().map(move |note| format!("{name}: {note}")))
+        });
+        Ok(Evaluated { schema: records.schema(), batches: out, findings: found, notes: notes.collect() })
+    }
+
+    /// Looks through the rows once; a second time only if the rows of its nodes do not stand together.
+    fn survey(&self, rows: &Rows, choices: &Choices) -> Result<(Option<Survey>, Findings), Error> {
+        let mut findings = Findings::new(TABLE);
+        let reader = rows.reader(&mut findings);
+        match survey_by_node(reader, &self.model, choices, &mut findings).map_err(|error| unreadable(&error))? {
+            SurveyByNode::Complete(surveyed) => Ok((surveyed, findings)),
+            SurveyByNode::Interleaved => {
+                let mut findings = Findings::new(TABLE);
+                let reader = rows.reader(&mut findings);
+                let surveyed =
+                    survey(reader, &self.model, choices, &mut findings).map_err(|error| unreadable(&error))?;
+                Ok((surveyed, findings))
+            }
+        }
+    }
+
+    /// Findings as the configuration has them; an error where one of them is.
+    fn judged(&self, findings: Findings, otherwise: &str) -> Result<Vec<Diagnostic>, Error> {
+        let found = self.settings.apply(findings.into_list());
+        match found.iter().find(|found| found.severity == Severity::Error) {
+            Some(first) => Err(Error::of_findings(format!("{otherwise}: {}", first.message), found)),
+            None => Ok(found),
+        }
+    }
+
+    /// What the check says of the interactions that are used.
+    fn judged_deck(&self, plan: &Plan) -> Result<Vec<Diagnostic>, Error> {
+        let found = self.check();
+        let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
+        let concerning = concerning(&found, self.syntax(), self.grammar(), &self.model, &names);
+        let concerning: Vec<Diagnostic> = concerning.into_iter().cloned().collect();
+        match concerning.iter().find(|found| found.severity == Severity::Error) {
+            Some(first) => {
+                let message = format!("`{}` has errors in what is evaluated: {}", self.name(), first.message);
+                Err(Error::of_findings(message, concerning))
+            }
+            None => Ok(concerning.into_iter().filter(|found| found.severity == Severity::Warning).collect()),
+        }
+    }
+
+    /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
+    fn nothing_to_evaluate(&self, plan: &Plan) -> Error {
+        let mut findings = Findings::new(TABLE);
+        plan.report_missing(&mut findings);
+        let reasons = plan.interactions.iter().flat_map(|interaction| {
+            let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
+            others.map(move |left| format!("{} of `{}`: {}", left.what, interaction.name, left.reason))
+        });
+        let found = self.settings.apply(findings.into_list());
+        let missing = found.iter().map(|found| found.message.clone());
+        let reasons: Vec<String> = missing.chain(reasons).collect();
+        let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join("; ")) };
+        Error::of_findings(format!("nothing of `{}` can be evaluated on these rows{reasons}", self.name()), found)
+    }
+}
+
+/// What messages call a table that is in memory.
+const TABLE: &str = "<table>";
+
+/// Rows in memory, which can be read more than once.
+struct Rows {
+    schema: SchemaRef,
+    batches: Vec<RecordBatch>,
+}
+
+impl Rows {
+    fn reader(&self, findings: &mut Findings) -> NodeReader<'static> {
+        NodeReader::of_batches(self.schema.clone(), self.batches.clone(), findings)
+    }
+}
+
+fn unreadable(error: &std::io::Error) -> Error {
+    Error::data(format!("the table cannot be evaluated: {error}"))
+}
+
+impl Evaluated {
+    /// The key columns of the table, then the results.
+    pub fn schema(&self) -> &SchemaRef {
+        &self.schema
+    }
+
+    /// The rows, as many as went in.
+    pub fn batches(&self) -> &[RecordBatch] {
+        &self.batches
+    }
+
+    /// The rows, to be taken away.
+    pub fn into_batches(self) -> Vec<RecordBatch> {
+        self.batches
+    }
+
+    /// Warnings and notes about deck and rows.
+    pub fn findings(&self) -> &[Diagnostic] {
+        &self.findings
+    }
+
+    /// What was left out and why, a sentence each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+}

@@ -1,0 +1,173 @@
+//! Fixes of a deck's findings, applied in memory, and written back where that is wanted.
+
+use crate::deck::Deck;
+use crate::difference;
+use crate::error::Error;
+use crate::failure::Failure;
+use crate::files::transaction;
+use crate::fixing::{self, FixReach, FixSelection, Mended, Need, Purpose, Subject};
+use crate::input::HeldFiles;
+use crate::rules;
+use crate::settings::ReadOptions;
+use std::path::{Path, PathBuf};
+
+/// Which fixes are applied, and to which files.
+#[derive(Debug, Clone, Default)]
+pub struct Fixes {
+    also: Vec<String>,
+    only: Option<Vec<String>>,
+    is_every_included: bool,
+}
+
+impl Fixes {
+    /// All fixes that leave the meaning of the deck as it is, in the deck and in what it includes from below its folder.
+    pub fn safe() -> Self {
+        Self::default()
+    }
+
+    /// The fixes of the rules of these codes alone, also where they change the meaning of the deck.
+    pub fn of<S: Into<String>>(codes: impl IntoIterator<Item = S>) -> Self {
+        let codes: Vec<String> = codes.into_iter().map(Into::into).collect();
+        Self { also: codes.clone(), only: Some(codes), is_every_included: false }
+    }
+
+    /// The fixes of the rules of these codes as well, although they change the meaning of the deck.
+    #[must_use]
+    pub fn also<S: Into<String>>(mut self, codes: impl IntoIterator<Item = S>) -> Self {
+        self.also.extend(codes.into_iter().map(Into::into));
+        self
+    }
+
+    /// In included files that lie outside of the folder of the deck too.
+    #[must_use]
+    pub fn in_every_included_file(mut self) -> Self {
+        self.is_every_included = true;
+        self
+    }
+
+    fn selection(&self) -> Result<FixSelection, Failure> {
+        if let Some(unknown) = self.also.iter().find(|code| rules::of_code(code).is_none()) {
+            return Err(Failure::Usage(format!("there is no rule `{unknown}`")));
+        }
+        Ok(FixSelection {
+            also: self.also.clone(),
+            only: self.only.clone(),
+            reach: if self.is_every_included { FixReach::EveryIncluded } else { FixReach::BelowDeck },
+            purpose: Purpose::Show,
+        })
+    }
+}
+
+/// What fixing a deck came to; nothing is written until [`write`](Self::write) is called.
+#[derive(Debug)]
+pub struct Fixed {
+    name: PathBuf,
+    options: ReadOptions,
+    findings: usize,
+    left: Vec<String>,
+    files: Vec<FixedFile>,
+    held: HeldFiles,
+}
+
+/// A file that fixing changes.
+#[derive(Debug, Clone)]
+pub struct FixedFile {
+    name: PathBuf,
+    path: PathBuf,
+    before: std::sync::Arc<[u8]>,
+    after: std::sync::Arc<[u8]>,
+}
+
+impl Fixed {
+    pub(crate) fn of(deck: &Deck, fixes: &Fixes) -> Result<Self, Error> {
+        let selection = fixes.selection()?;
+        let held = HeldFiles::default();
+        for (place, content) in &deck.options.overlay {
+            held.hold(place, content);
+        }
+        let name = Path::new(deck.name());
+        let places = deck.files().to_vec();
+        let mut subjects = [Subject { path: name, settings: &deck.settings, places, need: Need::Mending }];
+        let Mended { findings, left, failures } = fixing::mend(&mut subjects, &held, &selection);
+        if let Some(failure) = failures.into_iter().next() {
+            return Err(failure.into());
+        }
+        let changed = held.changed().into_iter();
+        let files = changed.map(|file| FixedFile {
+            name: file.read.name,
+            path: file.read.path,
+            before: file.read.bytes,
+            after: file.now,
+        });
+        Ok(Self { name: name.to_owned(), options: deck.options.clone(), findings, left, files: files.collect(), held })
+    }
+
+    /// How many findings it mends.
+    pub fn findings(&self) -> usize {
+        self.findings
+    }
+
+    /// What was left although it has a fix, and why, as sentences.
+    pub fn left(&self) -> &[String] {
+        &self.left
+    }
+
+    /// The files that change.
+    pub fn files(&self) -> &[FixedFile] {
+        &self.files
+    }
+
+    /// The deck as it is once fixed; nothing is written for it.
+    ///
+    /// # Errors
+    /// As [`Deck::read`].
+    pub fn deck(&self) -> Result<Deck, Error> {
+        let mut options = self.options.clone();
+        for file in &self.files {
+            options.overlay.insert(file.path.clone(), file.after.clone());
+        }
+        Deck::read(&self.name, &options)
+    }
+
+    /// Writes the files that change, all of them or none, on condition that each is what was read, byte for byte.
+    ///
+    /// # Errors
+    /// A file that cannot be written, or that another program changed meanwhile, or whose text came from no file.
+    pub fn write(&self) -> Result<(), Error> {
+        if let Some(unread) = self.held.changed().into_iter().find(|file| !file.read.is_file()) {
+            let message = format!("`{}` was not read from a file, and is not written", unread.read.name.display());
+            return Err(Failure::Usage(message).into());
+        }
+        match transaction::commit(&self.held.changes()) {
+            Ok(()) => Ok(()),
+            Err(failures) => Err(failures.into_iter().next().unwrap_or(Failure::AlreadySaid).into()),
+        }
+    }
+}
+
+impl FixedFile {
+    /// What messages call it.
+    pub fn name(&self) -> &Path {
+        &self.name
+    }
+
+    /// Where it is, links followed.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its bytes as they were read.
+    pub fn before(&self) -> &[u8] {
+        &self.before
+    }
+
+    /// Its bytes once fixed.
+    pub fn after(&self) -> &[u8] {
+        &self.after
+    }
+
+    /// What changes, as a unified difference.
+    pub fn difference(&self) -> String {
+        difference::unified(&self.name.display().to_string(), &self.before, &self.after)
+    }
+}

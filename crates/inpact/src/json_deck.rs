@@ -1,0 +1,47 @@
+//! From JSON, either view, to the files of a deck.
+
+use inpact_parser::grammar::{Dialect, Grammar, Release};
+use inpact_parser::json::{self, View};
+use inpact_parser::model::{self, Model};
+
+/// The files that JSON says.
+pub(crate) struct Files {
+    /// Their names and bytes; the deck itself first.
+    pub(crate) files: Vec<(String, Vec<u8>)>,
+    /// The language that says it, where it is not the newest of Abaqus.
+    pub(crate) language: Option<(Dialect, Release)>,
+}
+
+/// Reads JSON, either view; the model view is one file.
+///
+/// # Errors
+/// What is wrong with the JSON, and at which path.
+pub(crate) fn files(text: &str) -> Result<Files, String> {
+    match json::view_of(text).map_err(|error| error.to_string())? {
+        View::Model => {
+            let model = json::model::read(text).map_err(|error| error.to_string())?;
+            let (deck, language) = print(&model)?;
+            Ok(Files { files: vec![("deck.inp".to_owned(), deck.into_bytes())], language })
+        }
+        View::Syntax => {
+            let files = json::syntax::read(text, Grammar::builtin()).map_err(|error| error.to_string())?;
+            Ok(Files { files, language: None })
+        }
+    }
+}
+
+/// The deck that says this in Abaqus' newest language; where none does, in the one that the JSON was read in.
+///
+/// Before release 2024 integers divide as integers (S-60), and CalculiX has other columns.
+fn print(model: &Model) -> Result<(String, Option<(Dialect, Release)>), String> {
+    let newest = match model::print(model, Grammar::builtin()) {
+        Ok(deck) => return Ok((deck, None)),
+        Err(error) => error.to_string(),
+    };
+    let others = [(Dialect::Abaqus, Release::R2022), (Dialect::Calculix, Release::NEWEST)];
+    let deck = others.into_iter().find_map(|(dialect, release)| {
+        let deck = model::print(model, &Grammar::new(dialect, release)).ok()?;
+        Some((deck, Some((dialect, release))))
+    });
+    deck.ok_or(newest)
+}

@@ -1,0 +1,61 @@
+//! The arguments that say how a deck is read.
+
+use super::{Configuration, DialectName, ReadOptions, RelativeTo, Settings};
+use crate::failure::Failure;
+use clap::Args;
+use inpact_parser::grammar::Release;
+use std::path::{Path, PathBuf};
+
+/// How a deck is read; the same for every command that reads one.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "How the deck is read")]
+pub(crate) struct DeckArguments {
+    /// Whose keyword language the deck is in [default: abaqus].
+    #[arg(long, value_enum)]
+    dialect: Option<DialectName>,
+    /// Which release of Abaqus the deck is for: 6.11, 6.14, 2016, 2017, 2022, 2024 [default: 2024].
+    #[arg(long)]
+    release: Option<Release>,
+    /// Look for included files here as well; may be given several times.
+    #[arg(long, value_name = "FOLDER")]
+    include_dir: Vec<PathBuf>,
+    /// Read no included file outside of this folder [default: the repository, for `--format github` and `--format sarif`].
+    #[arg(long, value_name = "FOLDER")]
+    include_root: Option<PathBuf>,
+    /// What the names of included files are relative to [default: deck].
+    #[arg(long, value_enum)]
+    relative_to: Option<RelativeTo>,
+    /// Read this configuration instead of the `inpact.toml` above the deck.
+    #[arg(long, value_name = "FILE", conflicts_with = "isolated")]
+    config: Option<PathBuf>,
+    /// Read no configuration.
+    #[arg(long)]
+    isolated: bool,
+}
+
+impl DeckArguments {
+    /// The settings for the deck at `path`: the configuration above it, overridden by the arguments.
+    ///
+    /// # Errors
+    /// When the configuration cannot be read, or says what it cannot say.
+    pub(crate) fn settings(&self, path: &Path) -> Result<Settings, Failure> {
+        Settings::of(path, &self.options())
+    }
+
+    /// What the arguments say, for whoever reads decks without them.
+    pub(crate) fn options(&self) -> ReadOptions {
+        ReadOptions {
+            dialect: self.dialect.map(DialectName::dialect),
+            release: self.release,
+            include_dirs: self.include_dir.clone(),
+            include_root: self.include_root.clone(),
+            relative_to: self.relative_to,
+            configuration: match (&self.config, self.isolated) {
+                (_, true) => Configuration::Nothing,
+                (Some(file), false) => Configuration::File(file.clone()),
+                (None, false) => Configuration::Nearest,
+            },
+            ..ReadOptions::default()
+        }
+    }
+}
