@@ -80,7 +80,7 @@ impl Deck {
     /// let options = ReadOptions::new().isolated();
     /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION, NAME=A\n", &options)?;
     /// let again = Deck::from_json(&deck.to_json(), &options)?;
-    /// assert_eq!(again.to_inp()?, "*SURFACE INTERACTION, NAME=A\n1.,\n");
+    /// assert_eq!(again.to_inp()?, "*SURFACE INTERACTION, NAME=A\n");
     /// # Ok::<(), inpact::Error>(())
     /// ```
     ///
@@ -137,7 +137,7 @@ impl Deck {
     ///
     /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION\n", &ReadOptions::new().isolated())?;
     /// let text = deck.render(&deck.check(), Format::Concise);
-    /// assert_eq!(text, "a.inp:1:1: error[K006] *SURFACE INTERACTION requires NAME\n");
+    /// assert_eq!(text, "a.inp:1:1: error[K006] `*SURFACE INTERACTION` lacks its parameter `NAME`\n");
     /// # Ok::<(), inpact::Error>(())
     /// ```
     pub fn render(&self, findings: &[Diagnostic], format: Format) -> String {
@@ -150,10 +150,10 @@ impl Deck {
     /// ```
     /// use inpact::{Deck, Fixes, ReadOptions};
     ///
-    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTON, NAME=A\n", &ReadOptions::new().isolated())?;
+    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION, NAME=A\n  ** bare\n", &ReadOptions::new().isolated())?;
     /// let fixed = deck.fix(&Fixes::safe())?;
     /// assert_eq!(fixed.findings(), 1);
-    /// assert_eq!(fixed.files()[0].after(), b"*SURFACE INTERACTION, NAME=A\n");
+    /// assert_eq!(fixed.files()[0].after(), b"*SURFACE INTERACTION, NAME=A\n** bare\n");
     /// assert!(fixed.deck()?.check().is_empty());
     /// # Ok::<(), inpact::Error>(())
     /// ```
