@@ -11,18 +11,18 @@
 //! Ordinary exponents take a short path of plain arithmetic; all others go through [`Scaled`], a number of 106 bits whose exponent cannot overflow.
 
 mod amount;
+mod double_double;
 mod float;
 mod product;
 mod scaled;
 mod segment;
 mod sum;
-mod wide;
 
 pub use amount::Amount;
+pub use double_double::DoubleDouble;
 pub use float::{exponent_of, scale_by_power, two_difference, two_product, two_sum, ulp};
 pub(crate) use float::{is_moderate, is_ordinary, is_zero_or_ordinary};
 pub use product::{mean, product, ratio, scaled_difference_product};
 pub use scaled::Scaled;
 pub use segment::{KernelSlope, between, interpolate, slope};
 pub use sum::{CompensatedSum, UnboundedSum};
-pub use wide::Wide;

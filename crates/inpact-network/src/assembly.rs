@@ -8,7 +8,7 @@ use crate::problem::FieldNodes;
 use crate::scene::{Field, SceneInterface};
 use inpact_evaluation::compile::InterfaceLaws;
 use inpact_evaluation::law::user::UserFault;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// What the rows of a field say at some state.
 #[derive(Debug, Clone, Default)]
@@ -63,7 +63,7 @@ pub(crate) struct HeatTerm {
 #[derive(Clone, Copy)]
 pub(crate) struct Currents<'a> {
     /// Through links, then rows.
-    pub(crate) flows: &'a [Wide],
+    pub(crate) flows: &'a [DoubleDouble],
     pub(crate) rows: &'a RowTerms,
 }
 
@@ -127,7 +127,7 @@ fn elsewhere(
     let [least, greatest] = range_of_unknown(laws, field, contact.state)?;
     let probes = (0..PROBES).map(|probe| {
         let part = f64::from(probe) / f64::from(PROBES - 1);
-        let value = [Wide::new((1.0 - part) * least + part * greatest); 2];
+        let value = [DoubleDouble::new((1.0 - part) * least + part * greatest); 2];
         match field {
             Field::Potential => match &laws.electrical {
                 Some(source) => {
@@ -210,7 +210,7 @@ pub(crate) fn add_heat(
             continue;
         }
         let flow = potential.links.len() + place;
-        let jump = (currents.flows[flow] / Wide::new(conductance)).to_f64();
+        let jump = (currents.flows[flow] / DoubleDouble::new(conductance)).to_f64();
         let of = knowledge.row(row);
         let conducts = currents.rows.slopes[place];
         let found = interface::heat_of_current(conducts.conductance, jump, knowledge.jump_at_start(row), generation);
@@ -237,7 +237,7 @@ pub(crate) fn add_heat(
         }
         let generation =
             inpact_evaluation::law::heat::HeatGeneration { fraction: of.joule_heat_fraction, slave_weight: 0.5 };
-        let jump = (currents.flows[place] / Wide::new(conductance)).to_f64();
+        let jump = (currents.flows[place] / DoubleDouble::new(conductance)).to_f64();
         let start = knowledge.link_jump_at_start(link, conductance);
         let found = interface::heat_of_current(conductance, jump, start, generation);
         put(place, [(of.nodes[0], 0.5), (of.nodes[1], 0.5)], found.heat.total, found.along_jump, 0.0);
@@ -281,7 +281,7 @@ pub(crate) fn network(
         match (capacities, knowledge.increment) {
             (Capacities::Held, _) => network.held[place as usize] = Some(known[node as usize].to_f64()),
             (Capacities::Stored, Some(increment)) => {
-                let before = increment.before.wide_value(knowledge.problem, field, node).unwrap_or_default();
+                let before = increment.before.exact_value(knowledge.problem, field, node).unwrap_or_default();
                 network.stores.push(Store { node: place, conductance: capacity / increment.duration, before });
             }
             _ => {}

@@ -19,7 +19,7 @@ use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
 use inpact_evaluation::law::pore::{BulkPermeabilities, Flow, Gap, PorePoint};
 use inpact_evaluation::law::thermal::Temperatures;
 use inpact_evaluation::law::user::{UserConductancePoint, UserFault};
-use inpact_evaluation::numbers::{Wide, product};
+use inpact_evaluation::numbers::{DoubleDouble, product};
 
 /// What contact there is in a row at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,9 +33,9 @@ pub(crate) struct Contact {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sides {
     /// θ of slave and master; NaN where neither is known.
-    pub(crate) temperatures: [Wide; 2],
+    pub(crate) temperatures: [DoubleDouble; 2],
     /// Pore pressures of slave and master.
-    pub(crate) pore_pressures: [Wide; 2],
+    pub(crate) pore_pressures: [DoubleDouble; 2],
 }
 
 /// The mean of both sides, and what that number has lost to rounding.
@@ -49,7 +49,7 @@ struct Mean {
 }
 
 impl Mean {
-    fn of([slave, master]: [Wide; 2]) -> Self {
+    fn of([slave, master]: [DoubleDouble; 2]) -> Self {
         let (number, lost) = (slave + master).times_power_of_two(-1).parts();
         Self { number, lost: if lost.is_finite() { lost } else { 0.0 } }
     }
@@ -154,7 +154,7 @@ pub(crate) fn electrical(
             let fields: Vec<[f64; 2]> = row.field_variables.iter().map(|&value| [value; 2]).collect();
             let value = law.conductance(&UserConductancePoint {
                 clearance: contact.clearance.0,
-                temperatures: sides.temperatures.map(Wide::to_f64),
+                temperatures: sides.temperatures.map(DoubleDouble::to_f64),
                 field_variables: &fields,
                 time: [moment.step_time, moment.time],
                 names,
@@ -235,7 +235,7 @@ pub(crate) fn pore(
     (gap, length): (Gap, Option<f64>),
 ) -> (PoreElement, [f64; 2]) {
     let Some(law) = &laws.pore else { return (PoreElement::Finite(Conducts::default()), [0.0; 2]) };
-    let [slave, master] = sides.pore_pressures.map(Wide::to_f64);
+    let [slave, master] = sides.pore_pressures.map(DoubleDouble::to_f64);
     let means = [sides.pore_pressures, sides.temperatures].map(Mean::of);
     let variables = variables(&means.map(|mean| mean.number), &row.field_variables);
     let bulk = match row.bulk_permeabilities {

@@ -7,7 +7,7 @@ use crate::state::State;
 use inpact_evaluation::history::{ClosingHeat, HistoryStart};
 use inpact_evaluation::law::contact::{Clearance, ClearanceRate};
 use inpact_evaluation::law::pore::Gap;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// How far above absolute zero a first guess is put.
 const WARM: f64 = 300.0;
@@ -40,8 +40,8 @@ pub(crate) struct Knowledge<'a> {
     pub(crate) increment: Option<Increment<'a>>,
     pub(crate) number: i32,
     /// By node of the scene; NaN where nothing is known.
-    pub(crate) temperatures: Vec<Wide>,
-    pub(crate) pore_pressures: Vec<Wide>,
+    pub(crate) temperatures: Vec<DoubleDouble>,
+    pub(crate) pore_pressures: Vec<DoubleDouble>,
     /// The heat of currents that are solved already, by place among the nodes of temperature; empty where there is none.
     pub(crate) heat: Vec<f64>,
     pub(crate) guess: Guess,
@@ -56,8 +56,8 @@ impl<'a> Knowledge<'a> {
             time,
             increment: None,
             number: 0,
-            temperatures: vec![Wide::new(f64::NAN); nodes],
-            pore_pressures: vec![Wide::new(f64::NAN); nodes],
+            temperatures: vec![DoubleDouble::new(f64::NAN); nodes],
+            pore_pressures: vec![DoubleDouble::new(f64::NAN); nodes],
             heat: Vec::new(),
             guess: Guess::default(),
         };
@@ -111,7 +111,7 @@ impl<'a> Knowledge<'a> {
         for &node in &nodes.nodes {
             let fixed = conditions.fixed.get(&node).map(|course| course.at(time));
             let value = fixed.or_else(|| conditions.initial.get(&node).copied()).or(of_all).unwrap_or(middle);
-            values[node as usize] = Wide::new(value);
+            values[node as usize] = DoubleDouble::new(value);
         }
     }
 
@@ -140,11 +140,11 @@ impl<'a> Knowledge<'a> {
     pub(crate) fn sides(&self, row: u32) -> Sides {
         let of = self.row(row);
         let nodes = [of.slave as usize, of.master as usize];
-        let known = |value: Wide| (!value.to_f64().is_nan()).then_some(value);
+        let known = |value: DoubleDouble| (!value.to_f64().is_nan()).then_some(value);
         let of_nodes = nodes.map(|node| known(self.temperatures[node]));
-        let temperatures = of.temperatures(of_nodes, self.problem.scene.initial_temperature, Wide::new);
+        let temperatures = of.temperatures(of_nodes, self.problem.scene.initial_temperature, DoubleDouble::new);
         Sides {
-            temperatures: temperatures.map(|temperature| temperature.unwrap_or(Wide::new(f64::NAN))),
+            temperatures: temperatures.map(|temperature| temperature.unwrap_or(DoubleDouble::new(f64::NAN))),
             pore_pressures: nodes.map(|node| self.pore_pressures[node]),
         }
     }

@@ -13,6 +13,7 @@
 mod components;
 mod core;
 mod dead_ends;
+mod display;
 mod edges;
 mod elimination;
 mod factor;
@@ -29,7 +30,6 @@ mod sets;
 mod solve;
 mod spanning_forest;
 mod strength;
-mod words;
 mod work;
 
 pub(crate) use self::core::{Core, NONE, Origins};

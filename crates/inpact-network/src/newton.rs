@@ -25,7 +25,7 @@ use faer::MatMut;
 use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
-use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
+use inpact_evaluation::numbers::{DoubleDouble, exponent_of, scale_by_power};
 use std::cell::LazyCell;
 use system::{Evaluated, System};
 
@@ -51,7 +51,7 @@ const GOING_BACK: f64 = 4.0;
 const AT_REST: f64 = 1e-6;
 
 /// The most steps through a time of its own.
-const MOST_CREEPING_STEPS: usize = 1000;
+const MOST_PSEUDO_STEPS: usize = 1000;
 
 /// A step is cut in halves that often before it is given up.
 const MOST_HALVES: i32 = 12;
@@ -110,7 +110,7 @@ impl<'a> Newton<'a> {
         for taken_up in FIRST_TAKEN_UP {
             if !iterated.has_converged {
                 self.set_jumps(start.clone());
-                let steps = iterated.steps + self.creep(knowledge, taken_up)?;
+                let steps = iterated.steps + self.pseudo_transient(knowledge, taken_up)?;
                 let descended = self.descend(knowledge)?;
                 iterated = Iterated { steps: steps + descended.steps, ..descended };
             }
@@ -157,11 +157,11 @@ impl<'a> Newton<'a> {
     }
 
     /// Follows the scene through a time of its own until it comes to rest; gives the number of steps.
-    fn creep(&mut self, knowledge: &mut Knowledge<'a>, mut taken_up: f64) -> Result<usize, RowFault> {
+    fn pseudo_transient(&mut self, knowledge: &mut Knowledge<'a>, mut taken_up: f64) -> Result<usize, RowFault> {
         let mut states = self.evaluate(knowledge)?;
         let mut worst = self.worst(&states);
         let mut previous: Vec<f64> = Vec::new();
-        for step in 0..MOST_CREEPING_STEPS {
+        for step in 0..MOST_PSEUDO_STEPS {
             if worst <= AT_REST || !worst.is_finite() {
                 return Ok(step);
             }
@@ -178,7 +178,7 @@ impl<'a> Newton<'a> {
             taken_up *= if goes_back { GOING_BACK } else { (worst / before).clamp(0.5, 2.0) };
             previous = direction;
         }
-        Ok(MOST_CREEPING_STEPS)
+        Ok(MOST_PSEUDO_STEPS)
     }
 
     /// Balances the currents of the conductances as they are: they take no time to follow, and from potentials of other conductances any heat may come. `None` where there are none.
@@ -205,17 +205,17 @@ impl<'a> Newton<'a> {
         largest_or_nan(self.fields.iter().zip(states).map(|(of, at)| of.worst(at)))
     }
 
-    fn jumps(&self) -> Vec<Vec<Wide>> {
+    fn jumps(&self) -> Vec<Vec<DoubleDouble>> {
         self.fields.iter().map(|system| system.jumps.clone()).collect()
     }
 
-    fn set_jumps(&mut self, jumps: Vec<Vec<Wide>>) {
+    fn set_jumps(&mut self, jumps: Vec<Vec<DoubleDouble>>) {
         for (system, jumps) in self.fields.iter_mut().zip(jumps) {
             system.jumps = jumps;
         }
     }
 
-    fn go(&mut self, start: &[Vec<Wide>], direction: &[f64], part: f64) {
+    fn go(&mut self, start: &[Vec<DoubleDouble>], direction: &[f64], part: f64) {
         for (system, jumps) in self.fields.iter_mut().zip(start) {
             system.go(jumps, direction, part);
         }
@@ -411,7 +411,7 @@ impl<'a> Newton<'a> {
             }
             let conductance = state.terms.conductances[place];
             let jump = if conductance > 0.0 {
-                (state.flows[flow] / Wide::new(conductance)).to_f64()
+                (state.flows[flow] / DoubleDouble::new(conductance)).to_f64()
             } else {
                 system.jump_of_values(&values, of.slave, of.master)
             };

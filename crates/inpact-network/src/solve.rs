@@ -7,7 +7,7 @@ use crate::newton::{Iterated, Newton};
 use crate::problem::{FieldNodes, Problem, Stage};
 use crate::scene::Field;
 use crate::state::{FieldState, StageReport, State};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// Conductances within this relative distance of those a solution was found with are the same.
 const CONSISTENT: f64 = 1e-14;
@@ -62,7 +62,7 @@ pub enum SolveFailure {
         /// The field.
         field: Field,
         /// The nodes.
-        bodies: Vec<Vec<u32>>,
+        components: Vec<Vec<u32>>,
     },
     /// Nodes that are one are held at different values.
     Contradiction {
@@ -397,7 +397,7 @@ impl<'a> Equations<'a> {
                         size = size.max(found.to_f64().abs());
                         let step = walk.step(way, before.to_f64(), change);
                         largest = largest.max(if way == Relaxation::Parts { change.abs() } else { step.abs() });
-                        *found = *before + Wide::new(step);
+                        *found = *before + DoubleDouble::new(step);
                     }
                 }
             }
@@ -447,7 +447,7 @@ impl<'a> Equations<'a> {
                 largest = largest.max(distance);
                 let (row, slopes) = (nodes.rows[place], &terms.slopes[place]);
                 let sides = knowledge.sides(row);
-                let digit = |slope: f64, sides: [Wide; 2]| {
+                let digit = |slope: f64, sides: [DoubleDouble; 2]| {
                     let size = sides.into_iter().fold(0.0_f64, |size, side| size.max(side.to_f64().abs()));
                     if slope == 0.0 { 0.0 } else { DIGITS * f64::EPSILON * size * slope.abs() }
                 };
@@ -548,9 +548,10 @@ impl Attempt {
 fn failed(field: Field, nodes: &FieldNodes, failure: LinearFailure) -> SolveFailure {
     let node = |place: u32| nodes.nodes[place as usize];
     match failure {
-        LinearFailure::Unsolvable(Unsolvable::Floating(bodies)) => {
-            let bodies = bodies.into_iter().map(|body| body.into_iter().map(node).collect()).collect();
-            SolveFailure::Floating { field, bodies }
+        LinearFailure::Unsolvable(Unsolvable::Floating(components)) => {
+            let components =
+                components.into_iter().map(|component| component.into_iter().map(node).collect()).collect();
+            SolveFailure::Floating { field, components }
         }
         LinearFailure::Unsolvable(Unsolvable::Contradiction { nodes, values }) => {
             SolveFailure::Contradiction { field, nodes: nodes.map(node), values }

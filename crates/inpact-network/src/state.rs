@@ -3,7 +3,7 @@
 use crate::linear::{LinearReport, LinearSolution};
 use crate::problem::Problem;
 use crate::scene::{Field, Scene, SceneInterface};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// The state of a scene at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,10 +56,10 @@ impl State {
 
     /// The value of a field at a node of the scene; `None` where it is not solved for.
     pub fn value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<f64> {
-        self.wide_value(problem, field, node).map(number)
+        self.exact_value(problem, field, node).map(number)
     }
 
-    pub(crate) fn wide_value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<Wide> {
+    pub(crate) fn exact_value(&self, problem: &Problem<'_>, field: Field, node: u32) -> Option<DoubleDouble> {
         let place = problem.field(field)?.place[node as usize];
         self.field(field)?.solution.values.get(place as usize).copied()
     }
@@ -88,7 +88,7 @@ impl State {
         let nodes = problem.field(field)?;
         let state = self.field(field)?;
         let SceneInterface { slave, master, .. } = problem.scene.interfaces[row as usize];
-        let [slave, master] = [slave, master].map(|node| self.wide_value(problem, field, node));
+        let [slave, master] = [slave, master].map(|node| self.exact_value(problem, field, node));
         let values = [slave?, master?];
         let jump = match nodes.rows.binary_search(&row) {
             Ok(place) => state.solution.jump_at(nodes.links.len() + place, state.rows[place]),
@@ -104,10 +104,10 @@ impl State {
     }
 
     /// What leaves each node of a field through links and rows, less what flows in from outside; nothing but what is held or stored makes it other than zero.
-    pub(crate) fn leaving(&self, problem: &Problem<'_>, field: Field) -> Vec<Wide> {
+    pub(crate) fn leaving(&self, problem: &Problem<'_>, field: Field) -> Vec<DoubleDouble> {
         let (Some(nodes), Some(state)) = (problem.field(field), self.field(field)) else { return Vec::new() };
         let scene: &Scene = problem.scene;
-        let mut leaving: Vec<Wide> = state.sources.iter().map(|&source| -Wide::new(source)).collect();
+        let mut leaving: Vec<DoubleDouble> = state.sources.iter().map(|&source| -DoubleDouble::new(source)).collect();
         let place = |node: u32| nodes.place[node as usize] as usize;
         let of_links = nodes.links.iter().map(|&link| scene.links[link as usize].nodes);
         let of_rows = nodes.rows.iter().map(|&row| {
@@ -136,14 +136,16 @@ impl State {
         let fixed = &problem.scene.conditions(field).fixed;
         let leaving = self.leaving(problem, field);
         let held = nodes.nodes.iter().zip(&leaving).filter(|(node, _)| fixed.contains_key(node));
-        let held: Vec<Wide> = held.map(|(_, leaving)| *leaving).collect();
-        let generated: Vec<Wide> = state.sources.iter().map(|&source| Wide::new(source)).collect();
+        let held: Vec<DoubleDouble> = held.map(|(_, leaving)| *leaving).collect();
+        let generated: Vec<DoubleDouble> = state.sources.iter().map(|&source| DoubleDouble::new(source)).collect();
         let stored = &state.solution.stored;
-        let sum = |parts: &[Wide]| parts.iter().copied().sum::<Wide>();
-        let turnover: Wide = [&held, &generated, stored].into_iter().flatten().map(|part| part.abs()).sum();
+        let sum = |parts: &[DoubleDouble]| parts.iter().copied().sum::<DoubleDouble>();
+        let turnover: DoubleDouble = [&held, &generated, stored].into_iter().flatten().map(|part| part.abs()).sum();
         // What is below the rounding of the whole is none.
-        let sizable = |sum: Wide| if sum.to_f64().abs() <= NOTHING * turnover.to_f64() { 0.0 } else { number(sum) };
-        let (supplied, withdrawn): (Vec<Wide>, Vec<Wide>) = held.iter().partition(|part| part.to_f64() > 0.0);
+        let sizable =
+            |sum: DoubleDouble| if sum.to_f64().abs() <= NOTHING * turnover.to_f64() { 0.0 } else { number(sum) };
+        let (supplied, withdrawn): (Vec<DoubleDouble>, Vec<DoubleDouble>) =
+            held.iter().partition(|part| part.to_f64() > 0.0);
         Some(FieldBalance {
             supplied: sizable(sum(&supplied)),
             withdrawn: sizable(-sum(&withdrawn)),
@@ -159,8 +161,8 @@ impl State {
 const NOTHING: f64 = 1e-27;
 
 /// The number nearest to one in 106 bits; none is 0, not −0.
-fn number(wide: Wide) -> f64 {
-    wide.to_f64() + 0.0
+fn number(value: DoubleDouble) -> f64 {
+    value.to_f64() + 0.0
 }
 
 /// The balance of one field over the whole scene, per time.

@@ -213,7 +213,7 @@ impl March<'_, '_> {
             let nodes = self.problem.scene.conditions(field).capacities.keys();
             let rate = |&node: &u32| {
                 let change =
-                    after.wide_value(self.problem, field, node)? - before.wide_value(self.problem, field, node)?;
+                    after.exact_value(self.problem, field, node)? - before.exact_value(self.problem, field, node)?;
                 Some(change.to_f64() / duration)
             };
             nodes.map(|node| rate(node).unwrap_or(0.0)).collect()
@@ -250,8 +250,8 @@ fn initial_rates(problem: &Problem<'_>, start: &State) -> [Vec<f64>; 2] {
 /// How many corners lie inside an increment, further than a distance from both its ends.
 fn inside(corners: &[f64], [start, end]: [f64; 2], distance: f64) -> usize {
     let first = corners.partition_point(|corner| *corner <= start + distance);
-    let behind = corners.partition_point(|corner| *corner < end - distance);
-    behind.saturating_sub(first)
+    let after = corners.partition_point(|corner| *corner < end - distance);
+    after.saturating_sub(first)
 }
 
 /// The times inside a span at which a course of the scene changes its slope, and the end.

@@ -2,7 +2,7 @@
 
 mod linear_support;
 
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use inpact_network::linear::{
     LAST_DIGIT, LinearFailure, LinearNetwork, Link, Method, Shortcoming, Solver, Store, Unsolvable,
 };
@@ -178,16 +178,16 @@ fn nodes_that_are_one_cannot_be_held_at_two_values() {
 #[test]
 fn what_floats_is_named_body_by_body() {
     let links = [(0, 1, 1.0), (2, 3, 1e-300), (3, 6, f64::INFINITY), (1, 2, 0.0), (4, 7, 0.0)];
-    let bodies = |bodies: &[&[u32]]| {
-        LinearFailure::Unsolvable(Unsolvable::Floating(bodies.iter().map(|body| body.to_vec()).collect()))
+    let floating_parts = |parts: &[&[u32]]| {
+        LinearFailure::Unsolvable(Unsolvable::Floating(parts.iter().map(|part| part.to_vec()).collect()))
     };
     let mut floating = network(8, &[(0, 1.0)], &links);
-    assert_eq!(failure(&floating), bodies(&[&[2, 3, 6], &[4], &[5], &[7]]));
+    assert_eq!(failure(&floating), floating_parts(&[&[2, 3, 6], &[4], &[5], &[7]]));
     // A source is no level; a store is one, but not if it takes up nothing.
     floating.sources[4] = 1.0;
-    floating.stores.push(Store { node: 6, conductance: 1e-300, before: Wide::new(3.0) });
-    floating.stores.push(Store { node: 5, conductance: 0.0, before: Wide::new(3.0) });
-    assert_eq!(failure(&floating), bodies(&[&[4], &[5], &[7]]));
+    floating.stores.push(Store { node: 6, conductance: 1e-300, before: DoubleDouble::new(3.0) });
+    floating.stores.push(Store { node: 5, conductance: 0.0, before: DoubleDouble::new(3.0) });
+    assert_eq!(failure(&floating), floating_parts(&[&[4], &[5], &[7]]));
     floating.held[5] = Some(0.0);
     floating.links.extend([Link { nodes: [7, 4], conductance: 1e300 }, Link { nodes: [4, 0], conductance: 2.0 }]);
     for (method, solution) in solutions(&floating) {
@@ -246,7 +246,7 @@ fn blind_squares() {
             assert_eq!(rounded(&solution.values), [9.0, 3.0, 1.0, 3.0, 3.0, 3.0], "{method:?}");
             let flows = rounded(&solution.flows);
             assert_eq!(flows, [12.0, 12.0, 0.0, 0.0, 0.0, 0.0, 0.0], "{method:?}");
-            assert_eq!(solution.report.still, 3, "{method:?}");
+            assert_eq!(solution.report.dead_ends, 3, "{method:?}");
         }
     }
 }
@@ -268,12 +268,12 @@ fn blind_meshes() {
         let mesh: Vec<_> = mesh.map(|(a, b)| (a, b, conductance(a, b))).collect();
         // By two corners on the node of a source, by one between two held nodes, by two on nodes that are held alike.
         let by_two = [(1, number(0, 0), 0.3), (1, number(5, 5), 7.0)];
-        let hangs = [
+        let appendages = [
             ([&[(0, 1, 0.011), (1, 2, 0.5)][..], &by_two].concat(), 5.0, 20.0),
             (vec![(0, 1, 0.7), (1, 2, 3.0), (1, number(0, 0), 1e3)], 0.0, 100.0),
             (vec![(0, number(0, 0), 0.7), (2, number(5, 5), 3.0)], 0.0, 20.0),
         ];
-        for (links, source, held) in hangs {
+        for (links, source, held) in appendages {
             let mut blind = network(3 + 36, &[(0, 20.0), (2, held)], &[&links[..], &mesh].concat());
             blind.sources[1] = source;
             if links.len() == 2 {
@@ -316,7 +316,7 @@ fn a_source_at_a_held_node_changes_nothing() {
 #[test]
 fn a_store_gives_what_flows() {
     let mut room = network(2, &[(1, 0.0)], &[(0, 1, 3.0)]);
-    room.stores.push(Store { node: 0, conductance: 2.0, before: Wide::new(10.0) });
+    room.stores.push(Store { node: 0, conductance: 2.0, before: DoubleDouble::new(10.0) });
     for (method, solution) in solutions(&room) {
         assert_eq!(rounded(&solution.values), [4.0, 0.0], "{method:?}");
         assert_eq!(rounded(&solution.stored), [-12.0], "{method:?}");
@@ -328,10 +328,10 @@ fn a_store_gives_what_flows() {
 #[test]
 fn stores_hold_a_level_of_their_own() {
     for conductance in [1e300, f64::INFINITY] {
-        let mut bodies = network(2, &[], &[(1, 0, conductance)]);
-        bodies.stores.push(Store { node: 0, conductance: 3.0, before: Wide::new(20.0) });
-        bodies.stores.push(Store { node: 1, conductance: 1.0, before: Wide::new(60.0) });
-        for (method, solution) in solutions(&bodies) {
+        let mut stores = network(2, &[], &[(1, 0, conductance)]);
+        stores.stores.push(Store { node: 0, conductance: 3.0, before: DoubleDouble::new(20.0) });
+        stores.stores.push(Store { node: 1, conductance: 1.0, before: DoubleDouble::new(60.0) });
+        for (method, solution) in solutions(&stores) {
             assert_eq!(rounded(&solution.values), [30.0, 30.0], "{conductance} {method:?}");
             assert_eq!(rounded(&solution.stored), [30.0, -30.0], "{conductance} {method:?}");
             assert_eq!(rounded(&solution.flows), [30.0], "{conductance} {method:?}");
@@ -342,11 +342,11 @@ fn stores_hold_a_level_of_their_own() {
 /// A node that has all digits of 106 bits from the increment before gives them on.
 #[test]
 fn what_was_before_counts_with_all_its_digits() {
-    let before = Wide::new(1.0) + Wide::new(1e-20);
+    let before = DoubleDouble::new(1.0) + DoubleDouble::new(1e-20);
     let mut room = network(2, &[(1, 1.0)], &[(0, 1, 1.0)]);
     room.stores.push(Store { node: 0, conductance: 1.0, before });
     for (method, solution) in solutions(&room) {
-        assert_eq!(solution.values[0], Wide::new(1.0) + Wide::new(0.5e-20), "{method:?}");
+        assert_eq!(solution.values[0], DoubleDouble::new(1.0) + DoubleDouble::new(0.5e-20), "{method:?}");
         assert!((solution.flows[0].to_f64() - 0.5e-20).abs() <= 1e-30, "{method:?}: {:?}", solution.flows);
     }
 }
@@ -381,7 +381,7 @@ fn numbers_beyond_the_range_are_refused() {
     (through.sources[1], through.sources[2]) = (1.7e308, 1.7e308);
     overflows(&through);
     let mut stored = network(1, &[(0, 0.0)], &[]);
-    stored.stores.push(Store { node: 0, conductance: 1e200, before: Wide::new(1e200) });
+    stored.stores.push(Store { node: 0, conductance: 1e200, before: DoubleDouble::new(1e200) });
     overflows(&stored);
 }
 
@@ -530,7 +530,7 @@ fn a_solver_that_was_used_before_gives_what_a_new_one_gives() {
 
 /// After a network that has no solution the next one has its own.
 #[test]
-fn a_failure_leaves_nothing_behind() {
+fn a_failure_changes_nothing_kept() {
     let grid = grid([5, 5, 1], 1.0);
     let mut floating = grid.clone();
     floating.held.fill(None);

@@ -2,7 +2,7 @@
 
 mod linear_support;
 
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use inpact_network::linear::{LinearFailure, LinearNetwork, LinearSolution, Link, Method, Store, Unsolvable};
 use linear_support::{Balanced, METHODS, rounded, solve, worst_balance};
 use proptest::prelude::*;
@@ -47,7 +47,7 @@ fn networks(decades: f64) -> impl Strategy<Value = LinearNetwork> {
             }
             network.sources = sources.into_iter().map(Option::unwrap_or_default).collect();
             for (node, (conductance, before)) in (0..).zip(stores) {
-                network.stores.push(Store { node, conductance, before: Wide::new(before) });
+                network.stores.push(Store { node, conductance, before: DoubleDouble::new(before) });
             }
             network
         })
@@ -189,14 +189,14 @@ proptest! {
             network.held[into] = Some(0.0);
             network.held[from] = Some(1.0);
             network.sources.fill(0.0);
-            network.stores.iter_mut().for_each(|store| store.before = Wide::ZERO);
+            network.stores.iter_mut().for_each(|store| store.before = DoubleDouble::ZERO);
             let Some(solution) = solved(&network, method)? else { return Ok(None) };
-            let into_node = |(link, flow): (&Link, &Wide)| match link.nodes.map(|node| node as usize) {
+            let into_node = |(link, flow): (&Link, &DoubleDouble)| match link.nodes.map(|node| node as usize) {
                 [_, second] if second == into => *flow,
                 [first, _] if first == into => -*flow,
-                _ => Wide::ZERO,
+                _ => DoubleDouble::ZERO,
             };
-            Ok(Some(network.links.iter().zip(&solution.flows).map(into_node).sum::<Wide>().to_f64()))
+            Ok(Some(network.links.iter().zip(&solution.flows).map(into_node).sum::<DoubleDouble>().to_f64()))
         };
         for method in SOLVERS {
             let (Some(there), Some(back)) = (sent(0, last, method)?, sent(last, 0, method)?) else { return Ok(()) };
@@ -240,7 +240,7 @@ fn any_network() -> impl Strategy<Value = LinearNetwork> {
                 links: links.into_iter().map(|((a, b), conductance)| Link { nodes: [a, b], conductance }).collect(),
                 stores: stores
                     .into_iter()
-                    .map(|(node, conductance, before)| Store { node, conductance, before: Wide::new(before) })
+                    .map(|(node, conductance, before)| Store { node, conductance, before: DoubleDouble::new(before) })
                     .collect(),
             })
     })

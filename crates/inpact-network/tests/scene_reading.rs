@@ -23,7 +23,7 @@ fn timed(time: &str) -> String {
 }
 
 /// Changes and what is said of each.
-fn told(changes: &[(&str, &str)]) -> String {
+fn findings(changes: &[(&str, &str)]) -> String {
     let mut shown = String::new();
     for (from, to) in changes {
         let plain = |text: &str| text.trim_end().replace('\n', " / ");
@@ -87,8 +87,8 @@ fn every_key_of_the_schema_can_be_read() {
     keys_of(&serde_json::from_str(&schema).expect("a schema is JSON"), &mut keys);
     // The other way to give the length of increments.
     assert!(keys.remove("step") && keys.len() > 30, "{keys:?}");
-    let words: BTreeSet<&str> = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
-    let missing: Vec<&String> = keys.iter().filter(|key| !words.contains(key.as_str())).collect();
+    let names: BTreeSet<&str> = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    let missing: Vec<&String> = keys.iter().filter(|key| !names.contains(key.as_str())).collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
 
@@ -186,7 +186,7 @@ fn a_text_that_is_no_scene() {
 /// D011, D012 and D013 of nodes, links and interfaces.
 #[test]
 fn what_does_not_fit_together() {
-    let shown = told(&[
+    let shown = findings(&[
         ("fixed = 100.0", "fixed = 100.0, source = 1.0"),
         ("fixed = 100.0", "fixed = 100.0, capacity = 1.0"),
         ("fixed = 2.0", "capacity = 2.0"),
@@ -208,7 +208,7 @@ fn what_does_not_fit_together() {
 /// D014.
 #[test]
 fn numbers_that_cannot_be_used() {
-    let shown = told(&[
+    let shown = findings(&[
         ("joule_heat_fraction = 0.25", "joule_heat_fraction = 1.5"),
         ("joule_heat_fraction = 0.25", "joule_heat_fraction = nan"),
         ("temperature = 20.0", "temperature = inf"),
@@ -257,7 +257,7 @@ fn as_many_field_variables_as_a_deck_can_have() {
 /// D015.
 #[test]
 fn times_that_do_not_go_forward() {
-    let mut shown = told(&[
+    let mut shown = findings(&[
         ("joule_heat_fraction = 0.25", "time = { end = 1.0, step = 0.1 }"),
         ("joule_heat_fraction = 0.25", "procedure = \"transient\""),
         ("fixed = 100.0", "fixed = [[0.0, 100.0], [1.0, 50.0]]"),

@@ -94,7 +94,7 @@ fn tables_of_links_define_nodes_only_where_nothing_else_does() {
 
 /// A million names that are not known take no comparison with a million names each.
 #[test]
-fn what_was_meant_is_asked_for_a_few() {
+fn near_names_are_suggested_for_a_few() {
     let names = |letter: char| (0..30_000).map(move |number| format!("{letter}{number}"));
     let nodes: String = "node\n".to_owned() + &names('n').collect::<Vec<_>>().join("\n");
     let links: String = names('m').map(|name| format!("{name},hot,1\n")).collect();

@@ -4,7 +4,7 @@ use super::exact::{self, Exact, relative_error};
 use super::grid::Grid;
 use super::plain;
 use super::random_networks::{Kind, Sources, network};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use inpact_network::linear::{LAST_DIGIT, LinearNetwork, LinearSolution, Link, Method, Solver};
 use std::fmt::Write as _;
 
@@ -160,12 +160,12 @@ fn plain_errors(network: &LinearNetwork, exact: &LinearSolution) -> String {
 
 /// The largest relative differences of values and flows.
 fn difference(a: &LinearSolution, b: &LinearSolution) -> (f64, f64) {
-    let of = |a: &[Wide], b: &[Wide]| largest_difference(a.iter().map(|number| number.to_f64()), b);
+    let of = |a: &[DoubleDouble], b: &[DoubleDouble]| largest_difference(a.iter().map(|number| number.to_f64()), b);
     (of(&a.values, &b.values), of(&a.flows, &b.flows))
 }
 
 /// The largest relative difference of some numbers from those they should be.
-fn largest_difference(numbers: impl Iterator<Item = f64>, exact: &[Wide]) -> f64 {
+fn largest_difference(numbers: impl Iterator<Item = f64>, exact: &[DoubleDouble]) -> f64 {
     let exact = exact.iter().map(|number| number.to_f64());
     let relative = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()) };
     numbers.zip(exact).map(relative).fold(0.0, f64::max)

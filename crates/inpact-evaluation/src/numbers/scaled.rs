@@ -2,16 +2,16 @@
 
 use std::ops::{Add, Div, Mul, Neg};
 
+use super::double_double::DoubleDouble;
 use super::float::{LEAST_NORMAL, SAFE_TO_ADD, exponent_of, scale_by_power};
-use super::wide::Wide;
 
 /// A finite real number mantissa × 2^exponent, with 1 <= |mantissa| < 2 or mantissa = 0.
 ///
-/// Sums, products and quotients are those of [`Wide`], good to about 2⁻¹⁰² of the larger operand; [`Scaled::to_f64`] rounds once, to 0.5 ulp plus that.
+/// Sums, products and quotients are those of [`DoubleDouble`], good to about 2⁻¹⁰² of the larger operand; [`Scaled::to_f64`] rounds once, to 0.5 ulp plus that.
 /// Its operations cost some ten times those of an f64, so it is taken only where exponents are extreme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaled {
-    mantissa: Wide,
+    mantissa: DoubleDouble,
     exponent: i32,
 }
 
@@ -20,19 +20,19 @@ const OUT_OF_SIGHT: i32 = 220;
 
 impl Scaled {
     /// The number zero.
-    pub const ZERO: Self = Self { mantissa: Wide::ZERO, exponent: 0 };
+    pub const ZERO: Self = Self { mantissa: DoubleDouble::ZERO, exponent: 0 };
 
     /// A finite f64 as it is.
     pub fn new(value: f64) -> Self {
-        Self::normalised(Wide::new(value), 0)
+        Self::normalised(DoubleDouble::new(value), 0)
     }
 
     /// The difference `a - b` of two finite numbers, also where it exceeds the range of f64.
     pub fn difference(a: f64, b: f64) -> Self {
         if a.abs().max(b.abs()) <= SAFE_TO_ADD {
-            return Self::normalised(Wide::difference(a, b), 0);
+            return Self::normalised(DoubleDouble::difference(a, b), 0);
         }
-        Self::normalised(Wide::difference(0.25 * a, 0.25 * b), 2)
+        Self::normalised(DoubleDouble::difference(0.25 * a, 0.25 * b), 2)
     }
 
     /// The nearest f64; infinite where the number exceeds its range, subnormal or zero where it falls below.
@@ -60,7 +60,7 @@ impl Scaled {
     }
 
     /// `value` × 2^`exponent` brought into the form the type promises.
-    fn normalised(value: Wide, exponent: i32) -> Self {
+    fn normalised(value: DoubleDouble, exponent: i32) -> Self {
         if value.is_zero() {
             return Self { mantissa: value, exponent: 0 };
         }

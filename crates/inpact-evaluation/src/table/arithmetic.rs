@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Sides;
 use crate::numbers::{
-    KernelSlope, Scaled, Wide, between, interpolate, is_ordinary, is_zero_or_ordinary, slope, two_difference,
+    DoubleDouble, KernelSlope, Scaled, between, interpolate, is_ordinary, is_zero_or_ordinary, slope, two_difference,
     two_product, two_sum,
 };
 
@@ -140,13 +140,19 @@ pub(super) struct Double {
 }
 
 impl Arithmetic for Double {
-    type Number = Wide;
+    type Number = DoubleDouble;
 
-    fn of_row(&self, value: f64) -> Wide {
-        Wide::new(value)
+    fn of_row(&self, value: f64) -> DoubleDouble {
+        DoubleDouble::new(value)
     }
 
-    fn between(&mut self, _: usize, x: f64, (x0, y0): (f64, Wide), (x1, y1): (f64, Wide)) -> Wide {
+    fn between(
+        &mut self,
+        _: usize,
+        x: f64,
+        (x0, y0): (f64, DoubleDouble),
+        (x1, y1): (f64, DoubleDouble),
+    ) -> DoubleDouble {
         let ((near, base), (far, other)) = if x - x0 <= x1 - x { ((x0, y0), (x1, y1)) } else { ((x1, y1), (x0, y0)) };
         let ((base, base_rest), (other, other_rest)) = (base.parts(), other.parts());
         let (offset, offset_error) = two_difference(x, near);
@@ -160,7 +166,7 @@ impl Arithmetic for Double {
         let (step, step_error) = two_product(part, rise);
         let step_error = step_error + (part * rise_error + part_error * rise);
         let (value, value_error) = two_sum(base, step);
-        Wide::of_parts(value, value_error + (step_error + base_rest))
+        DoubleDouble::of_parts(value, value_error + (step_error + base_rest))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::network::{LinearNetwork, Unsolvable};
 use super::sets::{Sets, index};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// Stands where there is no node, element or unknown.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -13,18 +13,18 @@ pub(crate) struct Core {
     /// How many nodes are free: numbers below it are free nodes, numbers from it on known values.
     pub(crate) free: u32,
     /// The known values.
-    pub(crate) known: Vec<Wide>,
+    pub(crate) known: Vec<DoubleDouble>,
     /// The conductances; finite, and above zero but for those that may change.
     pub(crate) elements: Vec<Element>,
     /// What flows into each free node from outside.
-    pub(crate) sources: Vec<Wide>,
+    pub(crate) sources: Vec<DoubleDouble>,
 }
 
 /// A conductance between two numbers of a core.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Element {
     pub(crate) ends: [u32; 2],
-    pub(crate) conductance: Wide,
+    pub(crate) conductance: DoubleDouble,
 }
 
 /// What became of the nodes, links and stores of a network.
@@ -64,13 +64,13 @@ impl Core {
         let number: Vec<u32> = number.into_iter().map(|cluster| places[cluster as usize]).collect();
         let mut core = Self {
             free,
-            known: held.into_iter().flatten().map(Wide::new).collect(),
+            known: held.into_iter().flatten().map(DoubleDouble::new).collect(),
             elements: Vec::with_capacity(network.links.len() + network.stores.len()),
-            sources: vec![Wide::ZERO; free as usize],
+            sources: vec![DoubleDouble::ZERO; free as usize],
         };
         for (node, &source) in network.sources.iter().enumerate() {
             if let Some(sum) = core.sources.get_mut(number[node] as usize) {
-                *sum += Wide::new(source);
+                *sum += DoubleDouble::new(source);
             }
         }
         let mut of_link = vec![NONE; network.links.len()];
@@ -93,7 +93,7 @@ impl Core {
     }
 
     fn push(&mut self, ends: [u32; 2], conductance: f64) -> u32 {
-        self.elements.push(Element { ends, conductance: Wide::new(conductance) });
+        self.elements.push(Element { ends, conductance: DoubleDouble::new(conductance) });
         index(self.elements.len() - 1)
     }
 
@@ -103,7 +103,7 @@ impl Core {
     }
 
     /// The value of a number: of a free node among `values`, otherwise known.
-    pub(crate) fn value(&self, values: &[Wide], number: u32) -> Wide {
+    pub(crate) fn value(&self, values: &[DoubleDouble], number: u32) -> DoubleDouble {
         if self.is_free(number) { values[number as usize] } else { self.known[(number - self.free) as usize] }
     }
 }

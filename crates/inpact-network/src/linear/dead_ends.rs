@@ -9,7 +9,7 @@
 use super::core::{Core, NONE};
 use super::sets::index;
 use super::solve::CoreFound;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// The free nodes in such parts, those nearer to the rest first, each with the number whose value it has.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +44,7 @@ impl DeadEnds {
     }
 
     /// Whether nothing can flow at a number.
-    pub(crate) fn is_still(&self, number: u32) -> bool {
+    pub(crate) fn is_dead_end(&self, number: u32) -> bool {
         self.anchors.get(number as usize).is_some_and(|&anchor| anchor != NONE)
     }
 
@@ -57,8 +57,8 @@ impl DeadEnds {
     pub(super) fn put_back(&self, core: &Core, found: &mut CoreFound) {
         for (node, &anchor) in (0..).zip(&self.anchors).filter(|(_, anchor)| **anchor != NONE) {
             found.values[node as usize] = core.value(&found.values, anchor);
-            if let Some(hanging) = &mut found.hanging {
-                hanging.hang(node, anchor, Wide::ZERO);
+            if let Some(forest) = &mut found.forest {
+                forest.attach(node, anchor, DoubleDouble::ZERO);
             }
         }
     }

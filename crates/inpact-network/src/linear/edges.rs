@@ -8,7 +8,7 @@ use super::largest::largest_or_nan;
 use super::relative::Form;
 use super::sets::index;
 use super::spanning_forest::SpanningForest;
-use inpact_evaluation::numbers::{Wide, exponent_of, scale_by_power};
+use inpact_evaluation::numbers::{DoubleDouble, exponent_of, scale_by_power};
 
 /// The elements of a core in terms of the unknowns; conductances may change, what is there may not.
 #[derive(Clone, Debug)]
@@ -46,9 +46,9 @@ const LEAST: f64 = f64::MIN_POSITIVE / (1_u64 << 46) as f64;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Balance {
     /// What flows from the first to the second end of each element of the core; zero for those that are not there.
-    pub(crate) flows: Vec<Wide>,
+    pub(crate) flows: Vec<DoubleDouble>,
     /// What is missing in the equation of each unknown.
-    pub(crate) residuals: Vec<Wide>,
+    pub(crate) residuals: Vec<DoubleDouble>,
     /// The magnitudes of all flows in the equation of each unknown, added up.
     pub(crate) magnitudes: Vec<f64>,
     /// What rounding may have done to each flow.
@@ -65,9 +65,9 @@ impl Edges {
     }
 
     /// What flows from outside into all nodes that hang on each unknown, itself included.
-    pub(crate) fn sources(&self, core: &Core) -> Vec<Wide> {
+    pub(crate) fn sources(&self, core: &Core) -> Vec<DoubleDouble> {
         let form = &self.form;
-        let mut sources: Vec<Wide> = form.nodes.iter().map(|&node| core.sources[node as usize]).collect();
+        let mut sources: Vec<DoubleDouble> = form.nodes.iter().map(|&node| core.sources[node as usize]).collect();
         for &unknown in form.order.iter().rev() {
             let top = form.tops[unknown as usize];
             if top != NONE {
@@ -79,14 +79,14 @@ impl Edges {
     }
 
     /// The unknowns that belong to jumps along the forest: each the sum of the jumps on its way to its top.
-    fn unknowns(&self, jumps: &[Wide]) -> Vec<Wide> {
+    fn unknowns(&self, jumps: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let form = &self.form;
-        let mut unknowns = vec![Wide::ZERO; form.count()];
+        let mut unknowns = vec![DoubleDouble::ZERO; form.count()];
         for &unknown in &form.order {
             let top = form.tops[unknown as usize];
             let scale = form.scale(unknown);
             let mut sum = jumps[unknown as usize];
-            let mut at = form.hangs_on[unknown as usize];
+            let mut at = form.parents[unknown as usize];
             while at != top {
                 sum += unknowns[at as usize].times_power_of_two(scale - form.scale(at));
                 at = form.tops[at as usize];
@@ -97,27 +97,28 @@ impl Edges {
     }
 
     /// The flows at `jumps` along the forest, and how they balance with `sources`, which are those of [`Self::sources`].
-    pub(crate) fn balance(&self, core: &Core, jumps: &[Wide], sources: &[Wide], balance: &mut Balance) {
+    pub(crate) fn balance(&self, core: &Core, jumps: &[DoubleDouble], sources: &[DoubleDouble], balance: &mut Balance) {
         let form = &self.form;
         let unknowns = if self.ways.is_some() { Vec::new() } else { self.unknowns(jumps) };
         balance.reset(core.elements.len(), sources);
         for (place, &number) in self.elements.iter().enumerate() {
             let element = &core.elements[number as usize];
             let ends = form.ends(core, element);
-            let (flow, rounding) = if let Some(hanging) = self.hanging_by(number, ends) {
+            let (flow, rounding) = if let Some(child) = self.child_of(number, ends) {
                 // Along the forest the jump is kept as it is.
-                let conductance = element.conductance.times_power_of_two(-form.scale(hanging));
-                let flow = jumps[hanging as usize] * conductance;
-                (if hanging == ends[0] { flow } else { -flow }, ROUNDING * flow.to_f64().abs())
+                let conductance = element.conductance.times_power_of_two(-form.scale(child));
+                let flow = jumps[child as usize] * conductance;
+                (if child == ends[0] { flow } else { -flow }, ROUNDING * flow.to_f64().abs())
             } else {
                 let strength = exponent_of(element.conductance.to_f64());
-                let (mut jump, mut parts) = (Wide::ZERO, 0.0);
-                let mut add = |part: Wide, is_opposite: bool| {
+                let (mut jump, mut parts) = (DoubleDouble::ZERO, 0.0);
+                let mut add = |part: DoubleDouble, is_opposite: bool| {
                     jump += if is_opposite { -part } else { part };
                     parts += part.to_f64().abs();
                 };
-                let part =
-                    |of: &[Wide], unknown: u32| of[unknown as usize].times_power_of_two(strength - form.scale(unknown));
+                let part = |of: &[DoubleDouble], unknown: u32| {
+                    of[unknown as usize].times_power_of_two(strength - form.scale(unknown))
+                };
                 match &self.ways {
                     Some(ways) => ways
                         .of_element(place)
@@ -148,8 +149,8 @@ impl Edges {
     }
 
     /// The unknown that hangs by an element with these ends, if one does.
-    fn hanging_by(&self, element: u32, ends: [u32; 2]) -> Option<u32> {
-        ends.into_iter().find(|&end| end != NONE && self.form.hangs_by[end as usize] == element)
+    fn child_of(&self, element: u32, ends: [u32; 2]) -> Option<u32> {
+        ends.into_iter().find(|&end| end != NONE && self.form.branches[end as usize] == element)
     }
 
     /// How much the jump along the forest of each unknown changes when the unknowns change by `changes`.
@@ -158,7 +159,7 @@ impl Edges {
         let change = |unknown: u32| {
             let scale = form.scale(unknown);
             let mut sum = 0.0;
-            form.on_way([unknown, form.hangs_on[unknown as usize]], |on_way, sign| {
+            form.on_way([unknown, form.parents[unknown as usize]], |on_way, sign| {
                 sum += sign * scale_by_power(changes[on_way as usize], scale - form.scale(on_way));
             });
             sum
@@ -203,7 +204,7 @@ impl Edges {
         let Some(ways) = &self.ways else {
             for (flow, &rounding) in balance.flows.iter_mut().zip(&balance.roundings) {
                 if flow.to_f64().abs() <= rounding {
-                    *flow = Wide::ZERO;
+                    *flow = DoubleDouble::ZERO;
                 }
             }
             return 0.0;
@@ -219,7 +220,7 @@ impl Edges {
             let flow = &mut balance.flows[number as usize];
             let magnitude = flow.to_f64().abs();
             if magnitude <= open {
-                *flow = Wide::ZERO;
+                *flow = DoubleDouble::ZERO;
             } else {
                 largest = largest.max(open / magnitude);
             }
@@ -232,44 +233,44 @@ impl Edges {
         let form = &self.form;
         let mut open: Vec<f64> = balance.rounding_of_residuals.iter().map(|rounding| condition * rounding).collect();
         for &unknown in form.order.iter().rev() {
-            let above = form.hangs_on[unknown as usize];
-            if above != NONE {
-                open[above as usize] += open[unknown as usize];
+            let parent = form.parents[unknown as usize];
+            if parent != NONE {
+                open[parent as usize] += open[unknown as usize];
             }
         }
         for (unknown, open) in (0..).zip(&mut open) {
-            let element = &core.elements[form.hangs_by[unknown as usize] as usize];
+            let element = &core.elements[form.branches[unknown as usize] as usize];
             *open /= scale_by_power(element.conductance.to_f64(), -form.scale(unknown));
         }
         open
     }
 
     /// How the nodes of the unknowns hang on known values.
-    pub(super) fn hanging(&self, core: &Core, jumps: &[Wide]) -> SpanningForest {
+    pub(super) fn spanning_forest(&self, core: &Core, jumps: &[DoubleDouble]) -> SpanningForest {
         let form = &self.form;
-        let mut hanging = SpanningForest::new(core);
+        let mut forest = SpanningForest::new(core);
         for &unknown in &form.order {
-            let above = match form.hangs_on[unknown as usize] {
+            let parent = match form.parents[unknown as usize] {
                 NONE => form.bases[unknown as usize],
-                above => form.nodes[above as usize],
+                parent => form.nodes[parent as usize],
             };
             let step = jumps[unknown as usize].times_power_of_two(-form.scale(unknown));
-            hanging.hang(form.nodes[unknown as usize], above, step);
+            forest.attach(form.nodes[unknown as usize], parent, step);
         }
-        hanging
+        forest
     }
 
     /// The values of the nodes, at those that are taken out nothing.
-    pub(crate) fn values(&self, core: &Core, jumps: &[Wide]) -> Vec<Wide> {
+    pub(crate) fn values(&self, core: &Core, jumps: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let form = &self.form;
         // Jumps are added up before the known value, beside which they may be small.
-        let mut sums = vec![Wide::ZERO; form.count()];
-        let mut values = vec![Wide::ZERO; core.free as usize];
+        let mut sums = vec![DoubleDouble::ZERO; form.count()];
+        let mut values = vec![DoubleDouble::ZERO; core.free as usize];
         for &unknown in &form.order {
             let jump = jumps[unknown as usize].times_power_of_two(-form.scale(unknown));
-            let sum = match form.hangs_on[unknown as usize] {
+            let sum = match form.parents[unknown as usize] {
                 NONE => jump,
-                above => sums[above as usize] + jump,
+                parent => sums[parent as usize] + jump,
             };
             sums[unknown as usize] = sum;
             let base = core.known[(form.bases[unknown as usize] - core.free) as usize];
@@ -297,9 +298,9 @@ impl Balance {
         largest_or_nan(shares)
     }
 
-    fn reset(&mut self, elements: usize, sources: &[Wide]) {
+    fn reset(&mut self, elements: usize, sources: &[DoubleDouble]) {
         self.flows.clear();
-        self.flows.resize(elements, Wide::ZERO);
+        self.flows.resize(elements, DoubleDouble::ZERO);
         self.roundings.clear();
         self.roundings.resize(elements, 0.0);
         self.residuals.clear();
@@ -320,8 +321,8 @@ impl Ways {
         let most = (STEPS_OF_AN_ELEMENT * elements.len()).max(LEAST_STEPS);
         let mut depths = vec![0_u32; form.count()];
         for &unknown in &form.order {
-            let above = form.hangs_on[unknown as usize];
-            depths[unknown as usize] = if above == NONE { 1 } else { depths[above as usize] + 1 };
+            let parent = form.parents[unknown as usize];
+            depths[unknown as usize] = if parent == NONE { 1 } else { depths[parent as usize] + 1 };
         }
         let depth = |unknown: u32| if unknown == NONE { 0 } else { depths[unknown as usize] };
         let (mut start, mut steps) = (vec![0], Vec::new());
@@ -331,11 +332,11 @@ impl Ways {
                 let (of_first, of_second) = (depth(first), depth(second));
                 if of_first >= of_second {
                     steps.push((first, false));
-                    first = form.hangs_on[first as usize];
+                    first = form.parents[first as usize];
                 }
                 if of_second >= of_first {
                     steps.push((second, true));
-                    second = form.hangs_on[second as usize];
+                    second = form.parents[second as usize];
                 }
             }
             if steps.len() > most {

@@ -12,7 +12,7 @@
 
 use super::core::{Core, Element};
 use super::sets::index;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use std::collections::HashMap;
 
 /// Above so many different known values the filled network is too dense.
@@ -24,17 +24,17 @@ const MOST_FILLED: usize = 20_000_000;
 /// What an elimination finds: the values of the free nodes, and what flows through each element that is there.
 #[derive(Debug)]
 pub(crate) struct Eliminated {
-    pub(crate) values: Vec<Wide>,
-    pub(crate) flows: Vec<Wide>,
+    pub(crate) values: Vec<DoubleDouble>,
+    pub(crate) flows: Vec<DoubleDouble>,
 }
 
 /// One node that was eliminated.
 struct Step {
     node: u32,
     /// Its neighbours at that time and the conductances to them.
-    star: Vec<(u32, Wide)>,
-    sum: Wide,
-    source: Wide,
+    star: Vec<(u32, DoubleDouble)>,
+    sum: DoubleDouble,
+    source: DoubleDouble,
 }
 
 /// Eliminates every free node that is there; `None` where that would take too much memory.
@@ -44,7 +44,7 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
         return None;
     }
     let number = |end: u32| if core.is_free(end) { end } else { terminal_of[(end - core.free) as usize] };
-    let mut stars: Vec<HashMap<u32, Wide>> = vec![HashMap::new(); core.free as usize];
+    let mut stars: Vec<HashMap<u32, DoubleDouble>> = vec![HashMap::new(); core.free as usize];
     for element in core.elements.iter().zip(is_there).filter_map(|(element, there)| there.then_some(element)) {
         let [a, b] = element.ends.map(number);
         for (here, there) in [(a, b), (b, a)] {
@@ -55,7 +55,7 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
     }
     let steps = forward(core, stars, is_free)?;
     let differences = backward(core, &steps, &terminals);
-    let mut values = vec![Wide::ZERO; core.free as usize];
+    let mut values = vec![DoubleDouble::ZERO; core.free as usize];
     for Step { node, star, .. } in steps.iter().rev() {
         // From the nearest neighbour, so that a small jump is added to a known value.
         let nearest = star.iter().max_by(|a, b| a.1.to_f64().total_cmp(&b.1.to_f64()));
@@ -72,7 +72,7 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
         if *there && a != b {
             difference_of(core, &differences, &terminals, a, b) * element.conductance
         } else {
-            Wide::ZERO
+            DoubleDouble::ZERO
         }
     };
     let flows = core.elements.iter().zip(is_there).map(flow).collect();
@@ -80,10 +80,10 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
 }
 
 /// The number that stands for each known value, from the number of free nodes on, and the values: equal ones are one.
-fn terminals(core: &Core) -> (Vec<u32>, Vec<Wide>) {
-    let mut terminals: Vec<Wide> = Vec::new();
+fn terminals(core: &Core) -> (Vec<u32>, Vec<DoubleDouble>) {
+    let mut terminals: Vec<DoubleDouble> = Vec::new();
     let mut places: HashMap<[u64; 2], u32> = HashMap::new();
-    let place_of = |value: &Wide| {
+    let place_of = |value: &DoubleDouble| {
         let (high, low) = value.parts();
         *places.entry([high + 0.0, low + 0.0].map(f64::to_bits)).or_insert_with(|| {
             terminals.push(*value);
@@ -94,16 +94,16 @@ fn terminals(core: &Core) -> (Vec<u32>, Vec<Wide>) {
 }
 
 /// Eliminates the nodes, each time one with the fewest neighbours.
-fn forward(core: &Core, mut stars: Vec<HashMap<u32, Wide>>, is_free: &[bool]) -> Option<Vec<Step>> {
+fn forward(core: &Core, mut stars: Vec<HashMap<u32, DoubleDouble>>, is_free: &[bool]) -> Option<Vec<Step>> {
     let mut sources = core.sources.clone();
     let mut by_degree: std::collections::BTreeSet<(usize, u32)> =
         (0..core.free).filter(|&node| is_free[node as usize]).map(|node| (stars[node as usize].len(), node)).collect();
     let (mut steps, mut filled) = (Vec::with_capacity(by_degree.len()), 0);
     while let Some((_, node)) = by_degree.pop_first() {
-        let mut star: Vec<(u32, Wide)> = std::mem::take(&mut stars[node as usize]).into_iter().collect();
+        let mut star: Vec<(u32, DoubleDouble)> = std::mem::take(&mut stars[node as usize]).into_iter().collect();
         // Sums must not depend on the order of a hash table.
         star.sort_unstable_by_key(|(neighbour, _)| *neighbour);
-        let sum: Wide = star.iter().map(|(_, conductance)| *conductance).sum();
+        let sum: DoubleDouble = star.iter().map(|(_, conductance)| *conductance).sum();
         filled += star.len() * star.len();
         if filled > MOST_FILLED {
             return None;
@@ -126,7 +126,7 @@ fn forward(core: &Core, mut stars: Vec<HashMap<u32, Wide>>, is_free: &[bool]) ->
 }
 
 /// The differences node − neighbour of the filled network, the last eliminated node first.
-fn backward(core: &Core, steps: &[Step], terminals: &[Wide]) -> HashMap<[u32; 2], Wide> {
+fn backward(core: &Core, steps: &[Step], terminals: &[DoubleDouble]) -> HashMap<[u32; 2], DoubleDouble> {
     let mut differences = HashMap::new();
     for Step { node, star, sum, source } in steps.iter().rev() {
         let rise = *source / *sum;
@@ -134,7 +134,7 @@ fn backward(core: &Core, steps: &[Step], terminals: &[Wide]) -> HashMap<[u32; 2]
             let others = star.iter().filter(|(other, _)| *other != neighbour).map(|&(other, conductance)| {
                 difference_of(core, &differences, terminals, other, neighbour) * (conductance / *sum)
             });
-            let difference = others.sum::<Wide>() + rise;
+            let difference = others.sum::<DoubleDouble>() + rise;
             differences.insert([*node, neighbour], difference);
         }
     }
@@ -142,7 +142,13 @@ fn backward(core: &Core, steps: &[Step], terminals: &[Wide]) -> HashMap<[u32; 2]
 }
 
 /// The difference of two numbers of the filled network that are neighbours, or known both.
-fn difference_of(core: &Core, differences: &HashMap<[u32; 2], Wide>, terminals: &[Wide], a: u32, b: u32) -> Wide {
+fn difference_of(
+    core: &Core,
+    differences: &HashMap<[u32; 2], DoubleDouble>,
+    terminals: &[DoubleDouble],
+    a: u32,
+    b: u32,
+) -> DoubleDouble {
     let value = |number: u32| terminals[(number - core.free) as usize];
     match (core.is_free(a), core.is_free(b)) {
         (false, false) => value(a) - value(b),
@@ -150,7 +156,7 @@ fn difference_of(core: &Core, differences: &HashMap<[u32; 2], Wide>, terminals: 
     }
 }
 
-fn difference(differences: &HashMap<[u32; 2], Wide>, a: u32, b: u32) -> Wide {
+fn difference(differences: &HashMap<[u32; 2], DoubleDouble>, a: u32, b: u32) -> DoubleDouble {
     match differences.get(&[a, b]) {
         Some(difference) => *difference,
         None => -differences.get(&[b, a]).copied().unwrap_or_default(),

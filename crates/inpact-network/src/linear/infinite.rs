@@ -9,7 +9,7 @@ use super::edges::ROUNDING;
 use super::network::LinearNetwork;
 use super::sets::{Sets, index};
 use super::solve::{LAST_DIGIT, LinearFailure, LinearSolution, Method, Solver};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// Finds the flows through the infinite conductances of a network that is solved otherwise.
 pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution) -> Result<(), LinearFailure> {
@@ -29,10 +29,10 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
     // One known value, of the nodes from which all others are counted.
     let number_of = |node: u32| if is_reference[node as usize] { free } else { number[node as usize] };
     let element =
-        |&link: &usize| Element { ends: network.links[link].nodes.map(number_of), conductance: Wide::new(1.0) };
+        |&link: &usize| Element { ends: network.links[link].nodes.map(number_of), conductance: DoubleDouble::new(1.0) };
     let mut core = Core {
         free,
-        known: vec![Wide::ZERO],
+        known: vec![DoubleDouble::ZERO],
         // Between two nodes that are held nothing is known of the flow but that none is needed.
         elements: infinite.iter().map(element).collect(),
         sources,
@@ -46,10 +46,10 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
 }
 
 /// What flows into each node by everything but infinite conductances, nothing where no more than rounding is; and the magnitudes of that added up.
-fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<Wide>, Vec<f64>) {
-    let mut missing: Vec<Wide> = network.sources.iter().map(|&source| Wide::new(source)).collect();
+fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<DoubleDouble>, Vec<f64>) {
+    let mut missing: Vec<DoubleDouble> = network.sources.iter().map(|&source| DoubleDouble::new(source)).collect();
     let mut magnitudes: Vec<f64> = network.sources.iter().map(|source| source.abs()).collect();
-    let mut add = |node: u32, flow: Wide| {
+    let mut add = |node: u32, flow: DoubleDouble| {
         missing[node as usize] += flow;
         magnitudes[node as usize] += flow.to_f64().abs();
     };
@@ -62,7 +62,7 @@ fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<Wide>, Ve
     }
     for (flow, magnitude) in missing.iter_mut().zip(&magnitudes) {
         if flow.to_f64().abs() <= ROUNDING * magnitude {
-            *flow = Wide::ZERO;
+            *flow = DoubleDouble::ZERO;
         }
     }
     (missing, magnitudes)

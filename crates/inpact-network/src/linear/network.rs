@@ -1,6 +1,6 @@
 //! A linear network as it is given: nodes, conductances between them, what is held and what flows in.
 
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// Nodes joined by conductances: what is solved when no conductance depends on the answer.
 ///
@@ -35,7 +35,7 @@ pub struct Store {
     /// Capacity per length of the increment; finite.
     pub conductance: f64,
     /// The node's value at the start of the increment.
-    pub before: Wide,
+    pub before: DoubleDouble,
 }
 
 /// What is wrong with a network, so that it has no solution or more than one.

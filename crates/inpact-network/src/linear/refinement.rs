@@ -12,7 +12,7 @@ use super::core::Core;
 use super::edges::{Balance, Edges, ROUNDING};
 use super::factor::{NoSolution, Solves};
 use super::matrix::{scaled_flows, shift, unscale};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// The most steps of a refinement: a body without any flow comes down from rounding to zero by some sixteen decades a step, through all six hundred of f64 if need be.
 const MOST_STEPS: usize = 100;
@@ -27,7 +27,7 @@ const FALLS: f64 = 1e-3;
 #[derive(Debug)]
 pub(crate) struct Refined {
     /// The jump along the forest of each unknown.
-    pub(crate) jumps: Vec<Wide>,
+    pub(crate) jumps: Vec<DoubleDouble>,
     pub(crate) balance: Balance,
     pub(crate) quality: Quality,
 }
@@ -63,7 +63,7 @@ pub(crate) enum GaveUp {
 pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolerance: f64) -> Result<Refined, GaveUp> {
     let form = &edges.form;
     let sources = edges.sources(core);
-    let mut jumps = vec![Wide::ZERO; form.count()];
+    let mut jumps = vec![DoubleDouble::ZERO; form.count()];
     let mut balance = Balance::default();
     let mut changes: Vec<f64> = Vec::new();
     let mut quality = Quality::default();
@@ -102,7 +102,7 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
         unscale(form, &mut changes, shift);
         quality.solves += 1;
         for (jump, change) in jumps.iter_mut().zip(edges.changes_of_jumps(&changes)) {
-            *jump += Wide::new(change);
+            *jump += DoubleDouble::new(change);
         }
     }
     quality.error = quality.error.max(edges.settle(core, quality.condition.max(1.0), &mut balance));

@@ -32,7 +32,7 @@
 use super::core::{Core, Element, NONE};
 use super::sets::{Sets, index};
 use super::strength::Levels;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// The unknowns of a core: one for each free node that is there.
 #[derive(Clone, Debug)]
@@ -44,9 +44,9 @@ pub(crate) struct Form {
     /// The unknowns, those first that others hang on.
     pub(crate) order: Vec<u32>,
     /// The element of the forest that each unknown hangs by.
-    pub(crate) hangs_by: Vec<u32>,
+    pub(crate) branches: Vec<u32>,
     /// The unknown it hangs on in the forest; `NONE` for a known value.
-    pub(crate) hangs_on: Vec<u32>,
+    pub(crate) parents: Vec<u32>,
     /// The level of that element.
     pub(crate) levels: Vec<u16>,
     /// The unknown at the top of its cluster, from which its jump is counted; `NONE` for a known value.
@@ -78,15 +78,15 @@ impl Form {
             of_node,
             nodes,
             order: Vec::with_capacity(count),
-            hangs_by: vec![NONE; count],
-            hangs_on: vec![NONE; count],
+            branches: vec![NONE; count],
+            parents: vec![NONE; count],
             levels: vec![0; count],
             tops: vec![NONE; count],
             bases: vec![NONE; count],
             scales: levels.scales(),
         };
         let forest = form.forest(core, &by_level);
-        form.hang(core, &levels, &forest);
+        form.orient(core, &levels, &forest);
         form.find_tops();
         form
     }
@@ -115,7 +115,7 @@ impl Form {
 
     /// The known value that a number of the core is relative to; for a known value itself.
     #[inline]
-    pub(crate) fn base_of(&self, core: &Core, number: u32) -> Wide {
+    pub(crate) fn base_of(&self, core: &Core, number: u32) -> DoubleDouble {
         let base = if core.is_free(number) { self.bases[self.of_node[number as usize] as usize] } else { number };
         core.known[(base - core.free) as usize]
     }
@@ -158,7 +158,7 @@ impl Form {
     }
 
     /// Hangs every unknown on the next one towards a known value.
-    fn hang(&mut self, core: &Core, levels: &Levels, forest: &[u32]) {
+    fn orient(&mut self, core: &Core, levels: &Levels, forest: &[u32]) {
         let mut start = vec![0_u32; self.count() + 1];
         let ends: Vec<[u32; 2]> =
             forest.iter().map(|&number| self.ends(core, &core.elements[number as usize])).collect();
@@ -182,7 +182,7 @@ impl Form {
                 [unknown, NONE] => (unknown, 1),
                 _ => continue,
             };
-            self.hangs_by[unknown as usize] = forest[branch];
+            self.branches[unknown as usize] = forest[branch];
             self.bases[unknown as usize] = core.elements[forest[branch] as usize].ends[known_end];
             self.order.push(unknown);
         }
@@ -193,16 +193,16 @@ impl Form {
                 let branch = branches[place as usize] as usize;
                 let [a, b] = ends[branch];
                 let other = if a == unknown { b } else { a };
-                if other == NONE || self.hangs_by[other as usize] != NONE {
+                if other == NONE || self.branches[other as usize] != NONE {
                     continue;
                 }
-                self.hangs_by[other as usize] = forest[branch];
-                self.hangs_on[other as usize] = unknown;
+                self.branches[other as usize] = forest[branch];
+                self.parents[other as usize] = unknown;
                 self.bases[other as usize] = self.bases[unknown as usize];
                 self.order.push(other);
             }
         }
-        for (level, &number) in self.levels.iter_mut().zip(&self.hangs_by) {
+        for (level, &number) in self.levels.iter_mut().zip(&self.branches) {
             *level = levels.of_element(&core.elements[number as usize]);
         }
     }
@@ -211,7 +211,7 @@ impl Form {
     fn find_tops(&mut self) {
         for &unknown in &self.order {
             let level = self.levels[unknown as usize];
-            let mut top = self.hangs_on[unknown as usize];
+            let mut top = self.parents[unknown as usize];
             while top != NONE && self.levels[top as usize] <= level {
                 top = self.tops[top as usize];
             }

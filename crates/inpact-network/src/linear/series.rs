@@ -12,7 +12,7 @@ use super::dead_ends::DeadEnds;
 use super::sets::index;
 use super::solve::{CoreFound, SMALL};
 use super::spanning_forest::SpanningForest;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// What was taken out, in order.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +28,7 @@ pub(crate) struct Series {
 #[derive(Clone, Copy, Debug)]
 struct Step {
     node: u32,
-    source: Wide,
+    source: DoubleDouble,
     /// The conductances it had; the second is `NONE` at the end of a chain.
     elements: [u32; 2],
     /// What was made of them: from the far end of the first to that of the second; `NONE` where both lead to one node.
@@ -38,11 +38,11 @@ struct Step {
 impl Series {
     /// Takes out of a core what is still, and every free node with one or two conductances, but for those that have to stay.
     pub(crate) fn take_out(core: &mut Core, dead_ends: &DeadEnds, stays: &dyn Fn(u32) -> bool) -> Self {
-        let is_still = |&end: &u32| dead_ends.is_still(end);
+        let is_dead_end = |&end: &u32| dead_ends.is_dead_end(end);
         let mut series = Self {
             steps: Vec::new(),
-            is_there: core.elements.iter().map(|element| !element.ends.iter().any(is_still)).collect(),
-            is_free: (0..core.free).map(|node| !dead_ends.is_still(node)).collect(),
+            is_there: core.elements.iter().map(|element| !element.ends.iter().any(is_dead_end)).collect(),
+            is_free: (0..core.free).map(|node| !dead_ends.is_dead_end(node)).collect(),
         };
         let mut degrees = vec![0_u32; core.free as usize];
         let there = core.elements.iter().zip(&series.is_there).filter_map(|(of, is_there)| is_there.then_some(of));
@@ -72,12 +72,12 @@ impl Series {
 
     /// Puts the nodes back: their values, and what flows from the first to the second end of each element.
     pub(super) fn put_back(&self, core: &Core, found: &mut CoreFound) {
-        let CoreFound { values, flows, hanging } = found;
+        let CoreFound { values, flows, forest } = found;
         for step in self.steps.iter().rev() {
             let Step { node, source, elements, made } = *step;
-            let through = if made == NONE { Wide::ZERO } else { flows[made as usize] };
+            let through = if made == NONE { DoubleDouble::ZERO } else { flows[made as usize] };
             let leaving = match elements {
-                [first, NONE] => [(first, source), (NONE, Wide::ZERO)],
+                [first, NONE] => [(first, source), (NONE, DoubleDouble::ZERO)],
                 [first, second] => [(first, -through), (second, through)],
             };
             for (element, leaving) in leaving.into_iter().filter(|(element, _)| *element != NONE) {
@@ -90,27 +90,27 @@ impl Series {
                 [_, second] => second,
             };
             let other = far_end(core, strongest, node);
-            let step = match hanging {
-                Some(hanging) if made != NONE && through.to_f64().abs() <= SMALL => {
-                    step_of_two(core, hanging, elements.map(|element| (element, far_end(core, element, node))))
+            let step = match forest {
+                Some(forest) if made != NONE && through.to_f64().abs() <= SMALL => {
+                    step_of_two(core, forest, elements.map(|element| (element, far_end(core, element, node))))
                 }
                 _ => leaving / core.elements[strongest as usize].conductance,
             };
             values[node as usize] = core.value(values, other) + step;
-            if let Some(hanging) = hanging {
-                hanging.hang(node, other, step);
+            if let Some(forest) = forest {
+                forest.attach(node, other, step);
             }
         }
     }
 }
 
 /// How a node between two elements differs from the far end of the stronger one, of the jump between their far ends: what flows is too small to tell.
-fn step_of_two(core: &Core, hanging: &SpanningForest, [first, second]: [(u32, u32); 2]) -> Wide {
+fn step_of_two(core: &Core, forest: &SpanningForest, [first, second]: [(u32, u32); 2]) -> DoubleDouble {
     let conductance = |element: u32| core.elements[element as usize].conductance;
     let (weaker, stronger) =
         if strength(core, second.0) <= strength(core, first.0) { (second, first) } else { (first, second) };
     let ratio = conductance(weaker.0) / conductance(stronger.0);
-    hanging.jump(core, [weaker.1, stronger.1]) * (ratio / (Wide::new(1.0) + ratio))
+    forest.jump(core, [weaker.1, stronger.1]) * (ratio / (DoubleDouble::new(1.0) + ratio))
 }
 
 fn far_end(core: &Core, element: u32, node: u32) -> u32 {
@@ -123,9 +123,9 @@ fn strength(core: &Core, element: u32) -> f64 {
 }
 
 /// What two conductances in series conduct: of the quotient of the smaller and the larger nothing overflows.
-fn in_series(a: Wide, b: Wide) -> Wide {
+fn in_series(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
     let (smaller, larger) = if a.to_f64() <= b.to_f64() { (a, b) } else { (b, a) };
-    smaller / (Wide::new(1.0) + smaller / larger)
+    smaller / (DoubleDouble::new(1.0) + smaller / larger)
 }
 
 /// The elements at each free node, as they were before any was replaced.
@@ -169,9 +169,9 @@ impl Incident {
     fn now(&mut self, mut element: u32) -> u32 {
         while self.replaced_by[element as usize] != NONE {
             let next = self.replaced_by[element as usize];
-            let behind = self.replaced_by[next as usize];
-            if behind != NONE {
-                self.replaced_by[element as usize] = behind;
+            let after = self.replaced_by[next as usize];
+            if after != NONE {
+                self.replaced_by[element as usize] = after;
             }
             element = next;
         }
@@ -253,7 +253,7 @@ impl Walk<'_> {
         made
     }
 
-    fn add_source(&mut self, end: u32, source: Wide) {
+    fn add_source(&mut self, end: u32, source: DoubleDouble) {
         if let Some(sum) = self.core.sources.get_mut(end as usize) {
             *sum += source;
         }

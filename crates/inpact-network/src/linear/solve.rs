@@ -18,7 +18,7 @@ use super::series::Series;
 use super::sets::index;
 use super::spanning_forest::SpanningForest;
 use super::work::{Phases, Work};
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -71,20 +71,20 @@ struct KeptFactor {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearSolution {
     /// The value of each node.
-    pub values: Vec<Wide>,
+    pub values: Vec<DoubleDouble>,
     /// The flow through each link, from its first to its second node.
-    pub flows: Vec<Wide>,
+    pub flows: Vec<DoubleDouble>,
     /// The flow into each store.
-    pub stored: Vec<Wide>,
+    pub stored: Vec<DoubleDouble>,
     /// The links whose flow does not tell the jump, ascending, and the jump across each.
-    untold: Vec<(u32, Wide)>,
+    undetermined: Vec<(u32, DoubleDouble)>,
     /// How it was found and how good it is.
     pub report: LinearReport,
 }
 
 impl LinearSolution {
     /// The jump across a link of the network that was solved, its first node less its second, with all its digits: no difference of values.
-    pub fn jump(&self, network: &LinearNetwork, link: usize) -> Wide {
+    pub fn jump(&self, network: &LinearNetwork, link: usize) -> DoubleDouble {
         self.jump_at(link, network.links[link].conductance)
     }
 
@@ -95,13 +95,13 @@ impl LinearSolution {
     }
 
     /// The jump across a link of this conductance.
-    pub(crate) fn jump_at(&self, link: usize, conductance: f64) -> Wide {
+    pub(crate) fn jump_at(&self, link: usize, conductance: f64) -> DoubleDouble {
         if conductance == f64::INFINITY {
-            return Wide::ZERO;
+            return DoubleDouble::ZERO;
         }
-        match self.untold.binary_search_by_key(&index(link), |(untold, _)| *untold) {
-            Ok(place) => self.untold[place].1,
-            Err(_) => self.flows[link] / Wide::new(conductance),
+        match self.undetermined.binary_search_by_key(&index(link), |(number, _)| *number) {
+            Ok(place) => self.undetermined[place].1,
+            Err(_) => self.flows[link] / DoubleDouble::new(conductance),
         }
     }
 }
@@ -124,7 +124,7 @@ pub struct LinearReport {
     /// How many nodes were taken out as they only pass on what flows through them.
     pub taken_out: usize,
     /// How many nodes have the value of another as nothing flows between the two.
-    pub still: usize,
+    pub dead_ends: usize,
     /// How many infinite conductances there are beyond those that determine how they share their flow; they share it as equal ones would.
     pub shared: usize,
     /// The order of elimination, where there was a factor.
@@ -165,10 +165,10 @@ pub enum LinearFailure {
 
 /// What is left to solve, solved: values of the core's free nodes, flows of its elements.
 pub(super) struct CoreFound {
-    pub(super) values: Vec<Wide>,
-    pub(super) flows: Vec<Wide>,
+    pub(super) values: Vec<DoubleDouble>,
+    pub(super) flows: Vec<DoubleDouble>,
     /// How nodes hang on known values; an elimination does not tell.
-    pub(super) hanging: Option<SpanningForest>,
+    pub(super) forest: Option<SpanningForest>,
 }
 
 impl Solver {
@@ -243,7 +243,7 @@ impl Solver {
             relative: form.relative(),
             levels: form.scales.len(),
             taken_out: series.count(),
-            still: dead_ends.count(),
+            dead_ends: dead_ends.count(),
             tolerance: self.tolerance,
             ..LinearReport::default()
         };
@@ -296,7 +296,7 @@ impl Solver {
             let residual = worst_share(core, series, &found.flows);
             report.quality = Quality { residual, ..Quality::default() };
             return match residual <= self.tolerance.max(f64::EPSILON) {
-                true => Ok(CoreFound { values: found.values, flows: found.flows, hanging: None }),
+                true => Ok(CoreFound { values: found.values, flows: found.flows, forest: None }),
                 false if residual.is_finite() => Err(Shortcoming::Stalled(report.quality)),
                 false => Err(Shortcoming::Overflow),
             };
@@ -369,7 +369,7 @@ impl Solver {
 }
 
 /// The largest share of its flows that is missing in the balance of a node; not finite where a flow is not.
-fn worst_share(core: &Core, series: &Series, flows: &[Wide]) -> f64 {
+fn worst_share(core: &Core, series: &Series, flows: &[DoubleDouble]) -> f64 {
     let mut missing = core.sources.clone();
     let mut magnitudes: Vec<f64> = core.sources.iter().map(|source| source.to_f64().abs()).collect();
     for (element, flow) in
@@ -397,9 +397,9 @@ fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolut
 }
 
 /// What jumps along the forest say.
-fn found(core: &Core, edges: &Edges, jumps: &[Wide], balance: Balance) -> CoreFound {
-    let hanging = edges.hanging(core, jumps);
-    CoreFound { values: edges.values(core, jumps), flows: balance.flows, hanging: Some(hanging) }
+fn found(core: &Core, edges: &Edges, jumps: &[DoubleDouble], balance: Balance) -> CoreFound {
+    let forest = edges.spanning_forest(core, jumps);
+    CoreFound { values: edges.values(core, jumps), flows: balance.flows, forest: Some(forest) }
 }
 
 /// The solution in terms of the network.
@@ -410,22 +410,23 @@ fn put_together(
     found: CoreFound,
     report: LinearReport,
 ) -> LinearSolution {
-    let CoreFound { values, flows, hanging } = found;
-    let flow_of = |&element: &u32| if element == NONE { Wide::ZERO } else { flows[element as usize] };
-    let flows_of_links: Vec<Wide> = origins.of_link.iter().map(flow_of).collect();
-    let is_told = |link: &Link, flow: &Wide| link.conductance.is_infinite() || SMALL < flow.to_f64().abs();
+    let CoreFound { values, flows, forest } = found;
+    let flow_of = |&element: &u32| if element == NONE { DoubleDouble::ZERO } else { flows[element as usize] };
+    let flows_of_links: Vec<DoubleDouble> = origins.of_link.iter().map(flow_of).collect();
+    let determines_jump =
+        |link: &Link, flow: &DoubleDouble| link.conductance.is_infinite() || SMALL < flow.to_f64().abs();
     let links = network.links.iter().zip(&flows_of_links).zip(0..);
-    let untold: Vec<(u32, &Link)> =
-        links.filter_map(|((link, flow), number)| (!is_told(link, flow)).then_some((number, link))).collect();
+    let undetermined: Vec<(u32, &Link)> =
+        links.filter_map(|((link, flow), number)| (!determines_jump(link, flow)).then_some((number, link))).collect();
     let jump = |nodes: [u32; 2]| {
         let ends = nodes.map(|node| origins.number[node as usize]);
-        match &hanging {
-            Some(hanging) => hanging.jump(core, ends),
+        match &forest {
+            Some(forest) => forest.jump(core, ends),
             None => core.value(&values, ends[0]) - core.value(&values, ends[1]),
         }
     };
     LinearSolution {
-        untold: untold.into_iter().map(|(number, link)| (number, jump(link.nodes))).collect(),
+        undetermined: undetermined.into_iter().map(|(number, link)| (number, jump(link.nodes))).collect(),
         values: origins.number.iter().map(|&number| core.value(&values, number)).collect(),
         flows: flows_of_links,
         stored: origins.of_store.iter().map(flow_of).collect(),

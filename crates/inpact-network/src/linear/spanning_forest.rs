@@ -6,54 +6,54 @@
 
 use super::core::{Core, NONE};
 use super::edges::ROUNDING;
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 
 /// For each free node of a core what it hangs on, and its step from there.
 #[derive(Clone, Debug)]
 pub(super) struct SpanningForest {
     /// The number, of a free node or a known value, that each free node hangs on.
-    above: Vec<u32>,
-    steps: Vec<Wide>,
+    parents: Vec<u32>,
+    steps: Vec<DoubleDouble>,
     /// How many nodes there are on the way up from each node, itself included.
     depths: Vec<u32>,
     /// The next number, on the way up from each node, that is not at the value of what it hangs on.
-    rungs: Vec<u32>,
+    representatives: Vec<u32>,
 }
 
 impl SpanningForest {
     pub(super) fn new(core: &Core) -> Self {
         let nodes = core.free as usize;
         Self {
-            above: vec![NONE; nodes],
-            steps: vec![Wide::ZERO; nodes],
+            parents: vec![NONE; nodes],
+            steps: vec![DoubleDouble::ZERO; nodes],
             depths: vec![0; nodes],
-            rungs: vec![NONE; nodes],
+            representatives: vec![NONE; nodes],
         }
     }
 
     /// Hangs a node on a known value or on a node that hangs already; its value differs from that by `step`.
-    pub(super) fn hang(&mut self, node: u32, above: u32, step: Wide) {
-        self.rungs[node as usize] = if step.is_zero() { self.rung(above) } else { node };
-        self.depths[node as usize] = self.depth(above) + 1;
-        self.above[node as usize] = above;
+    pub(super) fn attach(&mut self, node: u32, parent: u32, step: DoubleDouble) {
+        self.representatives[node as usize] = if step.is_zero() { self.representative(parent) } else { node };
+        self.depths[node as usize] = self.depth(parent) + 1;
+        self.parents[node as usize] = parent;
         self.steps[node as usize] = step;
     }
 
     /// The jump from the second to the first of two numbers; nothing where it is not more than rounding.
-    pub(super) fn jump(&self, core: &Core, ends: [u32; 2]) -> Wide {
-        let [mut first, mut second] = ends.map(|end| self.rung(end));
-        let (mut jump, mut parts) = (Wide::ZERO, 0.0);
-        let mut add = |step: Wide| {
+    pub(super) fn jump(&self, core: &Core, ends: [u32; 2]) -> DoubleDouble {
+        let [mut first, mut second] = ends.map(|end| self.representative(end));
+        let (mut jump, mut parts) = (DoubleDouble::ZERO, 0.0);
+        let mut add = |step: DoubleDouble| {
             jump += step;
             parts += step.to_f64().abs();
         };
         while first != second && (core.is_free(first) || core.is_free(second)) {
             if self.depth(second) <= self.depth(first) {
                 add(self.steps[first as usize]);
-                first = self.rung(self.above[first as usize]);
+                first = self.representative(self.parents[first as usize]);
             } else {
                 add(-self.steps[second as usize]);
-                second = self.rung(self.above[second as usize]);
+                second = self.representative(self.parents[second as usize]);
             }
         }
         if first != second {
@@ -61,7 +61,7 @@ impl SpanningForest {
             add(known(first));
             add(-known(second));
         }
-        if jump.to_f64().abs() <= ROUNDING * parts { Wide::ZERO } else { jump }
+        if jump.to_f64().abs() <= ROUNDING * parts { DoubleDouble::ZERO } else { jump }
     }
 
     /// Nothing for a known value.
@@ -69,7 +69,7 @@ impl SpanningForest {
         self.depths.get(number as usize).copied().unwrap_or(0)
     }
 
-    fn rung(&self, number: u32) -> u32 {
-        self.rungs.get(number as usize).copied().unwrap_or(number)
+    fn representative(&self, number: u32) -> u32 {
+        self.representatives.get(number as usize).copied().unwrap_or(number)
     }
 }

@@ -7,7 +7,7 @@ use crate::linear::{
 };
 use crate::problem::FieldNodes;
 use crate::scene::Field;
-use inpact_evaluation::numbers::{Wide, scale_by_power};
+use inpact_evaluation::numbers::{DoubleDouble, scale_by_power};
 
 /// One field.
 pub(super) struct System<'a> {
@@ -16,7 +16,7 @@ pub(super) struct System<'a> {
     pub(super) core: Core,
     pub(super) origins: Origins,
     pub(super) edges: Edges,
-    pub(super) jumps: Vec<Wide>,
+    pub(super) jumps: Vec<DoubleDouble>,
     /// Where its unknowns begin among those of all fields.
     pub(super) start: u32,
 }
@@ -27,7 +27,7 @@ pub(super) struct Evaluated {
     pub(super) heat: Vec<HeatTerm>,
     pub(super) balance: Balance,
     /// Flows through links, then rows, of the field.
-    pub(super) flows: Vec<Wide>,
+    pub(super) flows: Vec<DoubleDouble>,
 }
 
 impl<'a> System<'a> {
@@ -72,16 +72,21 @@ impl<'a> System<'a> {
     }
 
     /// The jumps along the forest of a solution: of the flows where a conductance tells, otherwise of the values.
-    pub(super) fn jumps_of(&self, solution: &LinearSolution, rows: &[f64], network: &LinearNetwork) -> Vec<Wide> {
+    pub(super) fn jumps_of(
+        &self,
+        solution: &LinearSolution,
+        rows: &[f64],
+        network: &LinearNetwork,
+    ) -> Vec<DoubleDouble> {
         let mut jump_of_element = vec![None; self.core.elements.len()];
         let links = self.nodes.links.len();
         for (link, &element) in self.origins.of_link.iter().enumerate().filter(|(_, element)| **element != NONE) {
             let conductance = link.checked_sub(links).map_or(network.links[link].conductance, |row| rows[row]);
             if conductance > 0.0 {
-                jump_of_element[element as usize] = Some(solution.flows[link] / Wide::new(conductance));
+                jump_of_element[element as usize] = Some(solution.flows[link] / DoubleDouble::new(conductance));
             }
         }
-        let mut value_of_number = vec![Wide::ZERO; self.core.free as usize];
+        let mut value_of_number = vec![DoubleDouble::ZERO; self.core.free as usize];
         for (&number, &value) in self.origins.number.iter().zip(&solution.values) {
             if let Some(place) = value_of_number.get_mut(number as usize) {
                 *place = value;
@@ -90,7 +95,7 @@ impl<'a> System<'a> {
         let value = |number: u32| self.core.value(&value_of_number, number);
         let form = &self.edges.form;
         let jump = |unknown: u32| {
-            let number = form.hangs_by[unknown as usize];
+            let number = form.branches[unknown as usize];
             let element = self.core.elements[number as usize];
             let along =
                 jump_of_element[number as usize].unwrap_or_else(|| value(element.ends[0]) - value(element.ends[1]));
@@ -128,13 +133,13 @@ impl<'a> System<'a> {
         let links = self.nodes.links.len();
         for (&element, &conductance) in self.origins.of_link[links..].iter().zip(rows) {
             if element != NONE {
-                self.core.elements[element as usize].conductance = Wide::new(conductance);
+                self.core.elements[element as usize].conductance = DoubleDouble::new(conductance);
             }
         }
-        self.core.sources.fill(Wide::ZERO);
+        self.core.sources.fill(DoubleDouble::ZERO);
         for (&number, &source) in self.origins.number.iter().zip(sources) {
             if let Some(sum) = self.core.sources.get_mut(number as usize) {
-                *sum += Wide::new(source);
+                *sum += DoubleDouble::new(source);
             }
         }
     }
@@ -147,8 +152,8 @@ impl<'a> System<'a> {
     }
 
     /// The flows of the field's links and rows; zero for links whose nodes are taken out.
-    pub(super) fn flows(&self, balance: &Balance) -> Vec<Wide> {
-        let flow = |&element: &u32| if element == NONE { Wide::ZERO } else { balance.flows[element as usize] };
+    pub(super) fn flows(&self, balance: &Balance) -> Vec<DoubleDouble> {
+        let flow = |&element: &u32| if element == NONE { DoubleDouble::ZERO } else { balance.flows[element as usize] };
         self.origins.of_link.iter().map(flow).collect()
     }
 
@@ -175,7 +180,7 @@ impl<'a> System<'a> {
     fn size(&self) -> f64 {
         let form = &self.edges.form;
         let jumps = (0..).zip(&self.jumps).map(|(unknown, jump)| jump.times_power_of_two(-form.scale(unknown)));
-        let largest = |size: f64, value: Wide| size.max(value.to_f64().abs());
+        let largest = |size: f64, value: DoubleDouble| size.max(value.to_f64().abs());
         let of_jumps = jumps.fold(0.0, largest);
         if self.field == Field::Potential {
             return of_jumps;
@@ -209,7 +214,7 @@ impl<'a> System<'a> {
     }
 
     /// Goes from `jumps` a part of the way along a direction of all fields.
-    pub(super) fn go(&mut self, jumps: &[Wide], direction: &[f64], part: f64) {
+    pub(super) fn go(&mut self, jumps: &[DoubleDouble], direction: &[f64], part: f64) {
         let form = &self.edges.form;
         let changes: Vec<f64> = (0..index(form.count()))
             .map(|unknown| {
@@ -218,16 +223,16 @@ impl<'a> System<'a> {
             })
             .collect();
         let changes = self.edges.changes_of_jumps(&changes);
-        self.jumps = jumps.iter().zip(changes).map(|(jump, change)| *jump + Wide::new(change)).collect();
+        self.jumps = jumps.iter().zip(changes).map(|(jump, change)| *jump + DoubleDouble::new(change)).collect();
     }
 
     /// The values of the nodes of its core.
-    pub(super) fn values(&self) -> Vec<Wide> {
+    pub(super) fn values(&self) -> Vec<DoubleDouble> {
         self.edges.values(&self.core, &self.jumps)
     }
 
     /// The jump of these values between two nodes of the scene.
-    pub(super) fn jump_of_values(&self, values: &[Wide], slave: u32, master: u32) -> f64 {
+    pub(super) fn jump_of_values(&self, values: &[DoubleDouble], slave: u32, master: u32) -> f64 {
         let value = |node: u32| {
             let number = self.origins.number[self.nodes.place[node as usize] as usize];
             self.core.value(values, number)

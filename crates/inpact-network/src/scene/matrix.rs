@@ -55,8 +55,8 @@ struct Entries {
 fn read(bytes: &[u8]) -> Result<Entries, Wrong> {
     let text = std::str::from_utf8(bytes).map_err(|_| wrong(1, "the file is not UTF-8", "save it as plain text"))?;
     let banner = text.lines().next().unwrap_or_default().trim().to_ascii_lowercase();
-    let words: Vec<&str> = banner.split_whitespace().collect();
-    if !matches!(words[..], ["%%matrixmarket", "matrix", "coordinate", "real" | "integer", "symmetric"]) {
+    let fields: Vec<&str> = banner.split_whitespace().collect();
+    if !matches!(fields[..], ["%%matrixmarket", "matrix", "coordinate", "real" | "integer", "symmetric"]) {
         let help = "the first line must be `%%MatrixMarket matrix coordinate real symmetric`";
         return Err(wrong(1, "the file is no symmetric Matrix Market file of real numbers", help));
     }
@@ -110,7 +110,7 @@ fn lines_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Rows and entries.
 fn parse_size(text: &str) -> Result<(u32, u64), (String, &'static str)> {
-    let numbers: Option<Vec<u64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
+    let numbers: Option<Vec<u64>> = text.split_whitespace().map(|field| field.parse().ok()).collect();
     let help = "write rows, columns and entries, such as `4 4 5`";
     let Some(&[rows, columns, count]) = numbers.as_deref() else {
         return Err((format!("`{text}` is no size of a matrix, which is three whole numbers"), help));
@@ -128,10 +128,10 @@ fn parse_size(text: &str) -> Result<(u32, u64), (String, &'static str)> {
 fn parse_entry(text: &str, rows: u32) -> Result<([u32; 2], f64), Refusal> {
     let malformed = |message, help| Refusal::new(&MALFORMED_CELL, message, help);
     let no_entry = || malformed(format!("`{text}` is no entry of a matrix"), "write row, column and value".to_owned());
-    let mut words = text.split_whitespace();
-    let mut next = || words.next().ok_or_else(no_entry);
+    let mut fields = text.split_whitespace();
+    let mut next = || fields.next().ok_or_else(no_entry);
     let (row, column, value) = (next()?, next()?, next()?);
-    if words.next().is_some() {
+    if fields.next().is_some() {
         return Err(no_entry());
     }
     let mut ends = [0; 2];
@@ -168,7 +168,7 @@ fn check_pairs(text: &str, entries: &[([u32; 2], f64)]) -> Result<(), Wrong> {
     // The second entry in the file of any of those pairs.
     let mut seen: HashMap<[u32; 2], usize> = HashMap::new();
     for (line, written) in lines_of(text).skip(1) {
-        let mut ends = written.split_whitespace().map_while(|word| word.parse().ok());
+        let mut ends = written.split_whitespace().map_while(|field| field.parse().ok());
         let (Some(row), Some(column)) = (ends.next(), ends.next()) else { continue };
         let pair = pair_of([row, column]);
         if !twice.contains(&pair) {
@@ -209,7 +209,7 @@ fn check_sums(text: &str, entries: &[([u32; 2], f64)], diagonal: &[(u32, f64)]) 
     let is_off = |sum: f64, diagonal: f64| !sum.is_finite() || sum.abs() > ROW_SUM * diagonal.abs();
     let off = rows.iter().filter(|(_, (sum, diagonal))| is_off(*sum, *diagonal));
     let Some((&row, (sum, _))) = off.min_by_key(|(row, _)| **row) else { return Ok(()) };
-    let names = |line: &str| line.split_whitespace().take(2).any(|word| word.parse() == Ok(row));
+    let names = |line: &str| line.split_whitespace().take(2).any(|field| field.parse() == Ok(row));
     let line = lines_of(text).skip(1).find(|(_, line)| names(line)).map_or(1, |(line, _)| line);
     let message = format!("row {row} adds up to {sum:?} and not to zero: it conducts to something outside the matrix");
     Err(wrong(line, message, "make what is outside a node, and give the conductances to it as links"))

@@ -2,7 +2,7 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use inpact_network::linear::{LAST_DIGIT, LinearFailure, LinearNetwork, LinearSolution, Link, Method, Solver};
 
 /// Every method, the reference included.
@@ -37,7 +37,7 @@ pub fn failure(network: &LinearNetwork) -> LinearFailure {
 }
 
 /// Numbers of 106 bits, rounded.
-pub fn rounded(numbers: &[Wide]) -> Vec<f64> {
+pub fn rounded(numbers: &[DoubleDouble]) -> Vec<f64> {
     numbers.iter().map(|number| number.to_f64()).collect()
 }
 
@@ -60,14 +60,14 @@ pub enum Balanced {
 /// What 106 bits lose of the largest flow of the network counts as nothing.
 pub fn worst_balance(network: &LinearNetwork, solution: &LinearSolution, what: Balanced) -> f64 {
     let cluster = clusters(network, what);
-    let mut missing = vec![Wide::ZERO; network.nodes()];
+    let mut missing = vec![DoubleDouble::ZERO; network.nodes()];
     let mut magnitudes = vec![0.0; network.nodes()];
-    let mut leave = |node: u32, flow: Wide| {
+    let mut leave = |node: u32, flow: DoubleDouble| {
         missing[cluster[node as usize]] -= flow;
         magnitudes[cluster[node as usize]] += flow.to_f64().abs();
     };
     for (node, &source) in (0..).zip(&network.sources) {
-        leave(node, -Wide::new(source));
+        leave(node, -DoubleDouble::new(source));
     }
     for (link, &flow) in network.links.iter().zip(&solution.flows) {
         let [a, b] = link.nodes;

@@ -14,7 +14,7 @@ pub(crate) enum Spread {
     /// Three.
     Moderate,
     /// Seven.
-    Wide,
+    DoubleDouble,
 }
 
 impl Random {
@@ -39,7 +39,7 @@ impl Random {
     pub(crate) fn magnitude(&mut self) -> f64 {
         let exponent = match self.spread {
             Spread::Moderate => self.between(-1.5, 1.5),
-            Spread::Wide => self.between(-3.0, 4.0),
+            Spread::DoubleDouble => self.between(-3.0, 4.0),
         };
         (10_f64.powf(exponent) * 1000.0).round() / 1000.0
     }

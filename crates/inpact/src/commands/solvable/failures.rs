@@ -17,10 +17,10 @@ pub(super) fn findings(failure: &SolveFailure, scene: &Scene, (name, after): (&s
     let place = |node: u32| Place { line: scene.node_lines.get(&node).copied(), ..Place::default() };
     let node = |number: u32| format!("`{}`", scene.nodes[number as usize]);
     match failure {
-        SolveFailure::Floating { field, bodies } => {
-            for body in bodies {
-                let at = body.first().map_or_else(Place::default, |&first| place(first));
-                let message = format!("nothing holds the {field} of {}{when}", names(scene, body));
+        SolveFailure::Floating { field, components } => {
+            for component in components {
+                let at = component.first().map_or_else(Place::default, |&first| place(first));
+                let message = format!("nothing holds the {field} of {}{when}", names(scene, component));
                 findings.report(&FLOATING_BODY, at, message, floating_help(*field, scene));
             }
         }

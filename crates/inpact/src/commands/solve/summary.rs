@@ -134,8 +134,8 @@ fn linear_text(linear: &LinearReport) -> String {
     if linear.taken_out > 0 {
         parts.push(format!("{} taken out", count(linear.taken_out, "node")));
     }
-    if linear.still > 0 {
-        parts.push(format!("{} without flow", count(linear.still, "node")));
+    if linear.dead_ends > 0 {
+        parts.push(format!("{} without flow", count(linear.dead_ends, "node")));
     }
     let method = match (linear.method, linear.ordering) {
         (_, _) if linear.unknowns == 0 => "nothing to factor".to_owned(),
@@ -163,7 +163,7 @@ fn linear_json(field: Field, linear: &LinearReport) -> Value {
         "levels": linear.levels,
         "merged": linear.merged,
         "taken_out": linear.taken_out,
-        "still": linear.still,
+        "still": linear.dead_ends,
         "shared": linear.shared,
         "solver": linear.method.to_string(),
         "ordering": linear.ordering.map(|ordering| match ordering {

@@ -44,7 +44,9 @@ impl fmt::Display for Shortcoming {
 impl fmt::Display for Unsolvable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Floating(bodies) => write!(formatter, "nothing holds the level of {} of its bodies", bodies.len()),
+            Self::Floating(components) => {
+                write!(formatter, "{} of its connected components have no path to a known value", components.len())
+            }
             Self::Contradiction { nodes: [a, b], values: [x, y] } => {
                 write!(formatter, "infinite conductances join node {a}, held at {x:?}, and node {b}, held at {y:?}")
             }

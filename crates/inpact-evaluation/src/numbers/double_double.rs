@@ -10,12 +10,12 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// below 2⁻⁹⁶⁰ the second half runs out of exponents and the number has fewer digits, as a subnormal f64 has.
 /// Some three times as fast as [`Scaled`](super::Scaled), which has no such limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wide {
+pub struct DoubleDouble {
     high: f64,
     low: f64,
 }
 
-impl Wide {
+impl DoubleDouble {
     /// The number zero.
     pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
 
@@ -83,7 +83,7 @@ impl Wide {
     }
 }
 
-impl Add for Wide {
+impl Add for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -95,7 +95,7 @@ impl Add for Wide {
     }
 }
 
-impl Sub for Wide {
+impl Sub for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -104,7 +104,7 @@ impl Sub for Wide {
     }
 }
 
-impl Neg for Wide {
+impl Neg for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -113,7 +113,7 @@ impl Neg for Wide {
     }
 }
 
-impl Mul<f64> for Wide {
+impl Mul<f64> for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -123,7 +123,7 @@ impl Mul<f64> for Wide {
     }
 }
 
-impl Mul for Wide {
+impl Mul for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -133,7 +133,7 @@ impl Mul for Wide {
     }
 }
 
-impl Div for Wide {
+impl Div for DoubleDouble {
     type Output = Self;
 
     /// The quotient; NaN or infinite where the divisor is zero.
@@ -148,21 +148,21 @@ impl Div for Wide {
     }
 }
 
-impl AddAssign for Wide {
+impl AddAssign for DoubleDouble {
     #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Wide {
+impl SubAssign for DoubleDouble {
     #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl Sum for Wide {
+impl Sum for DoubleDouble {
     fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
         terms.fold(Self::ZERO, |sum, term| sum + term)
     }

@@ -1,6 +1,6 @@
 //! The arithmetic of 106 bits that networks are solved with, against exact rationals.
 
-use inpact_evaluation::numbers::Wide;
+use inpact_evaluation::numbers::DoubleDouble;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -10,13 +10,13 @@ fn exact_f64(value: f64) -> BigRational {
     BigRational::from_float(value).expect("finite")
 }
 
-fn exact(wide: Wide) -> BigRational {
-    let (high, low) = wide.parts();
+fn exact(value: DoubleDouble) -> BigRational {
+    let (high, low) = value.parts();
     exact_f64(high) + exact_f64(low)
 }
 
 /// Whether `found` is within 2^-`bits` of `magnitude` from what it should be.
-fn is_within(found: Wide, expected: &BigRational, magnitude: &BigRational, bits: u32) -> bool {
+fn is_within(found: DoubleDouble, expected: &BigRational, magnitude: &BigRational, bits: u32) -> bool {
     (exact(found) - expected).abs() * BigRational::from(BigInt::one() << bits) <= magnitude.abs()
 }
 
@@ -31,35 +31,35 @@ fn number() -> impl Strategy<Value = f64> {
 }
 
 /// A number of 106 bits, often one whose second half is far below the first one.
-fn wide() -> impl Strategy<Value = Wide> {
+fn double_double() -> impl Strategy<Value = DoubleDouble> {
     (number(), number(), 0..60_i32).prop_map(|(high, low, gap)| {
         let low = if low == 0.0 { 0.0 } else { low / low.abs() * high.abs() * 2_f64.powi(-53 - gap) };
-        Wide::new(high) + Wide::new(low)
+        DoubleDouble::new(high) + DoubleDouble::new(low)
     })
 }
 
 /// Two numbers, of which the second is near the first or its negative now and then.
-fn pair() -> impl Strategy<Value = (Wide, Wide)> {
-    let near = (wide(), -60..0_i32, prop::bool::ANY).prop_map(|(a, gap, is_negative)| {
+fn pair() -> impl Strategy<Value = (DoubleDouble, DoubleDouble)> {
+    let near = (double_double(), -60..0_i32, prop::bool::ANY).prop_map(|(a, gap, is_negative)| {
         let (high, _) = a.parts();
-        let b = a + Wide::new(high * 2_f64.powi(gap));
+        let b = a + DoubleDouble::new(high * 2_f64.powi(gap));
         (a, if is_negative { -b } else { b })
     });
-    prop_oneof![(wide(), wide()), near]
+    prop_oneof![(double_double(), double_double()), near]
 }
 
 /// The first half is the number rounded to f64.
-fn is_normal(wide: Wide) -> bool {
-    let (high, low) = wide.parts();
-    high + low == high && wide.to_f64() == high
+fn is_normal(value: DoubleDouble) -> bool {
+    let (high, low) = value.parts();
+    high + low == high && value.to_f64() == high
 }
 
 proptest! {
     #[test]
     fn a_difference_and_a_product_of_f64_are_exact(a in number(), b in number()) {
-        prop_assert_eq!(exact(Wide::difference(a, b)), exact_f64(a) - exact_f64(b));
-        prop_assert_eq!(exact(Wide::product(a, b)), exact_f64(a) * exact_f64(b));
-        prop_assert_eq!(exact(Wide::new(a) + Wide::new(b)), exact_f64(a) + exact_f64(b));
+        prop_assert_eq!(exact(DoubleDouble::difference(a, b)), exact_f64(a) - exact_f64(b));
+        prop_assert_eq!(exact(DoubleDouble::product(a, b)), exact_f64(a) * exact_f64(b));
+        prop_assert_eq!(exact(DoubleDouble::new(a) + DoubleDouble::new(b)), exact_f64(a) + exact_f64(b));
     }
 
     #[test]
@@ -77,7 +77,7 @@ proptest! {
         sum += b;
         difference -= b;
         prop_assert_eq!((sum, difference), (a + b, a - b));
-        prop_assert_eq!([a, b, -a].into_iter().sum::<Wide>(), Wide::ZERO + a + b + -a);
+        prop_assert_eq!([a, b, -a].into_iter().sum::<DoubleDouble>(), DoubleDouble::ZERO + a + b + -a);
     }
 
     #[test]
@@ -97,7 +97,7 @@ proptest! {
     }
 
     #[test]
-    fn signs_and_powers_of_two_are_exact(a in wide(), exponent in -600..600) {
+    fn signs_and_powers_of_two_are_exact(a in double_double(), exponent in -600..600) {
         prop_assert_eq!(exact(-a), -exact(a));
         prop_assert_eq!(exact(a.abs()), exact(a).abs());
         prop_assert_eq!(a.is_zero(), exact(a).is_zero());
@@ -108,29 +108,29 @@ proptest! {
     /// A sum that overflows is infinite, and no infinite number becomes none by its second half; of a product one half may be none.
     #[test]
     fn what_is_beyond_the_range_is_not_finite(a in any::<f64>(), b in any::<f64>()) {
-        let (x, y) = (Wide::new(a), Wide::new(b));
-        for (wide, plain) in [(x + y, a + b), (x - y, a - b)] {
-            prop_assert!(plain.is_finite() || wide.to_f64() == plain || plain.is_nan() && wide.to_f64().is_nan());
+        let (x, y) = (DoubleDouble::new(a), DoubleDouble::new(b));
+        for (sum, plain) in [(x + y, a + b), (x - y, a - b)] {
+            prop_assert!(plain.is_finite() || sum.to_f64() == plain || plain.is_nan() && sum.to_f64().is_nan());
         }
-        for wide in [x * y, x * b] {
-            prop_assert!((a * b).is_finite() || !wide.to_f64().is_finite(), "{} and {}: {:?}", a, b, wide);
+        for product in [x * y, x * b] {
+            prop_assert!((a * b).is_finite() || !product.to_f64().is_finite(), "{} and {}: {:?}", a, b, product);
         }
     }
 }
 
 #[test]
 fn a_quotient_by_zero_is_not_finite() {
-    assert!(!(Wide::new(1.0) / Wide::ZERO).to_f64().is_finite());
-    assert!(!(Wide::ZERO / Wide::ZERO).to_f64().is_finite());
+    assert!(!(DoubleDouble::new(1.0) / DoubleDouble::ZERO).to_f64().is_finite());
+    assert!(!(DoubleDouble::ZERO / DoubleDouble::ZERO).to_f64().is_finite());
 }
 
 /// One third, three times: what is missing is below the last of 106 bits.
 #[test]
 fn a_third_and_what_is_left() {
-    let third = Wide::new(1.0) / Wide::new(3.0);
+    let third = DoubleDouble::new(1.0) / DoubleDouble::new(3.0);
     let (high, low) = third.parts();
     assert_eq!(high, 1.0 / 3.0);
     assert!((low / high - f64::EPSILON / 4.0).abs() <= f64::EPSILON / 1e15, "{low} of {high}");
-    let left = (Wide::new(1.0) - third * 3.0).to_f64();
+    let left = (DoubleDouble::new(1.0) - third * 3.0).to_f64();
     assert!(left.abs() <= 1.0 / (1_u128 << 104) as f64, "{left}");
 }
