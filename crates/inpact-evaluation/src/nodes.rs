@@ -16,6 +16,7 @@ mod csv;
 mod decode;
 mod foreign;
 mod header;
+mod kept;
 mod lines;
 mod node_index;
 mod number;
@@ -24,6 +25,7 @@ mod reader;
 mod rules;
 #[cfg(feature = "columnar")]
 mod soundness;
+mod spill;
 mod wait;
 
 pub use batch::{Batch, LabelColumn, NumberColumn};
@@ -32,6 +34,7 @@ pub use column::{Column, Direction, Part};
 pub use contract::{COLUMN_PAGES, ColumnPage};
 pub use header::{Header, HeaderCell};
 pub use inpact_diagnostics::{Findings, Place};
+pub use kept::{GivenBack, KeptRows, MakeSpillFile, SpillFile};
 pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
 pub use places::locate;
 pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};

@@ -42,7 +42,7 @@ pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
-pub use survey::{ColumnSurvey, InteractionSurvey, Survey, SurveyByNode, survey, survey_by_node};
+pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey, survey_keeping};
 pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
 pub use user::UserPlan;
 

@@ -65,6 +65,25 @@ impl LabelColumn {
         (0..rows).for_each(|_| self.texts.push(text));
     }
 
+    /// A column of texts that stand one after the other and end there.
+    pub(super) fn from_texts(bytes: Vec<u8>, ends: Vec<usize>) -> Self {
+        Self { texts: Texts { bytes, ends }, ..Self::default() }
+    }
+
+    /// The texts one after the other, and where each ends.
+    pub(super) fn texts(&self) -> (&[u8], &[usize]) {
+        (&self.texts.bytes, &self.texts.ends)
+    }
+
+    /// How many bytes of memory it takes.
+    fn size(&self) -> usize {
+        #[cfg(feature = "columnar")]
+        if let Some((array, _)) = &self.array {
+            return array.get_array_memory_size();
+        }
+        self.texts.bytes.capacity() + size_of::<usize>() * self.texts.ends.capacity()
+    }
+
     pub(super) fn clear(&mut self) {
         self.texts.bytes.clear();
         self.texts.ends.clear();
@@ -206,6 +225,11 @@ impl NumberColumn {
         self.present.resize(rows, false);
     }
 
+    /// How many bytes of memory it takes.
+    fn size(&self) -> usize {
+        size_of::<f64>() * self.values.capacity() + self.present.capacity()
+    }
+
     pub(super) fn clear(&mut self) {
         self.values.clear();
         self.present.clear();
@@ -235,6 +259,32 @@ impl Batch {
     pub fn place(&self, row: usize, column: Option<String>) -> Place {
         let line = self.lines.get(row).copied();
         Place { row: Some(self.first_row + row as u64 + 1), line, column, exact: None }
+    }
+
+    /// How many bytes of memory its rows take.
+    pub(super) fn size(&self) -> usize {
+        let labels: usize = self.labels.iter().map(LabelColumn::size).sum();
+        let numbers: usize = self.numbers.iter().map(NumberColumn::size).sum();
+        labels + numbers + size_of::<u64>() * self.lines.capacity()
+    }
+
+    /// The same rows with other columns: those at these places, each at most once; `None` for one that has nothing.
+    pub(super) fn with_selected(mut self, labels: &[Option<usize>], numbers: &[Option<usize>]) -> Self {
+        let label = |place: &Option<usize>| match place {
+            Some(place) => std::mem::take(&mut self.labels[*place]),
+            None => LabelColumn::from_texts(Vec::new(), vec![0; self.rows]),
+        };
+        let labels = labels.iter().map(label).collect();
+        let number = |place: &Option<usize>| match place {
+            Some(place) => std::mem::take(&mut self.numbers[*place]),
+            None => {
+                let mut column = NumberColumn::default();
+                column.reset(self.rows);
+                column
+            }
+        };
+        let numbers = numbers.iter().map(number).collect();
+        Self { labels, numbers, ..self }
     }
 
     /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.

@@ -80,6 +80,14 @@ impl<'a> RowInteractions<'a> {
         }
     }
 
+    /// Where the rows end that have the text of `first` in column `interaction`, and so its interaction.
+    pub(crate) fn end_of_run(&self, batch: &Batch, first: usize) -> usize {
+        let Some(label) = self.label.filter(|_| self.governed_by == GovernedBy::Column) else { return batch.rows };
+        let label = &batch.labels[label];
+        let text = label.get(first);
+        (first + 1..batch.rows).find(|row| label.get(*row) != text).unwrap_or(batch.rows)
+    }
+
     /// What a row has in column `interaction`; empty where there is none.
     pub(super) fn label_of<'b>(&self, batch: &'b Batch, row: usize) -> &'b [u8] {
         self.label.map_or(&[], |label| batch.labels[label].get(row))

@@ -8,7 +8,7 @@ use super::governing::GovernedBy;
 use super::pore::plan_pore;
 use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
-use super::survey::{InteractionSurvey, Survey};
+use super::survey::{InteractionSurvey, Survey, key_columns};
 use super::tables::{BuiltTables, InteractionTables, matters};
 use super::thermal::plan_thermal;
 use super::thermal_tables::ThermalTables;
@@ -249,13 +249,12 @@ pub(crate) fn generation_of(interaction: &Interaction) -> Option<HeatGeneration>
 
 /// The columns an evaluation reads: the texts of the result's key columns, the numbers that some law needs.
 fn selection(survey: &Survey, interactions: &[InteractionPlan]) -> Selection {
-    let keys = [Column::Node, Column::Interaction, Column::Time];
     let mut wanted: BTreeSet<Column> = BTreeSet::new();
     for plan in interactions {
         wanted.extend(plan.columns_read());
     }
     Selection {
-        labels: keys.into_iter().filter(|column| survey.header.has(*column)).collect(),
+        labels: key_columns(&survey.header),
         numbers: survey.columns.iter().copied().filter(|column| wanted.contains(column)).collect(),
     }
 }

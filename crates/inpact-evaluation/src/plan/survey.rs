@@ -2,7 +2,7 @@
 //!
 //! Everything that is wrong with cells is found here (D002 to D006, D008, D009), so that an evaluation begins only when it can end.
 //! Memory: bounds of each column for each interaction, and where there are histories the last time of the node the rows are at;
-//! of every node only where the rows of the nodes do not stand together.
+//! of every node only where the rows of the nodes do not stand together. The rows themselves may be kept, so that the table is read once.
 
 use super::choices::Choices;
 use super::governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
@@ -10,8 +10,8 @@ use super::source::Presence;
 use super::wanted::wanted_columns;
 use crate::law::contact::ContactState;
 use crate::nodes::{
-    Batch, Column, Findings, Header, HistoryOrder, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY, NON_FINITE,
-    NodeIndex, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
+    Batch, Column, Findings, Header, HistoryOrder, KeptRows, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY,
+    NON_FINITE, NodeIndex, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
 };
 use inpact_parser::model::Model;
 use std::io;
@@ -32,15 +32,6 @@ pub struct Survey {
     pub columns: Vec<Column>,
     /// What the rows of each interaction hold, in the order of the model.
     pub interactions: Vec<InteractionSurvey>,
-}
-
-/// What came of a first reading that remembers one node at a time.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SurveyByNode {
-    /// All that [`survey`] gives.
-    Complete(Option<Survey>),
-    /// The rows of the nodes do not stand together, or nobody can say: what was found until then does not count.
-    Interleaved,
 }
 
 /// What the rows of one interaction hold.
@@ -81,15 +72,14 @@ pub struct ColumnSurvey {
 }
 
 impl ColumnSurvey {
+    /// Takes a number; without branches, so that a column of them is taken in vectors.
     #[inline]
     fn take(&mut self, value: f64) {
         self.present += 1;
-        if value.is_finite() {
-            self.least = self.least.min(value);
-            self.greatest = self.greatest.max(value);
-        } else {
-            self.non_finite += 1;
-        }
+        let is_finite = value.is_finite();
+        self.non_finite += u64::from(!is_finite);
+        self.least = if is_finite & (value < self.least) { value } else { self.least };
+        self.greatest = if is_finite & (self.greatest < value) { value } else { self.greatest };
     }
 }
 
@@ -139,53 +129,64 @@ pub fn survey(
     choices: &Choices,
     findings: &mut Findings,
 ) -> io::Result<Option<Survey>> {
-    match survey_in_order(reader, model, choices, findings, HistoryOrder::Interleaved)? {
-        SurveyByNode::Complete(survey) => Ok(survey),
-        SurveyByNode::Interleaved => Ok(None),
-    }
+    survey_rows(reader, model, choices, findings, None)
 }
 
-/// The same in bounded memory, if all rows of a node stand together or nodes have no histories; otherwise it ends as soon as that shows.
+/// The same, with the rows kept so that the table need not be read again; memory grows with the number of nodes only where their rows do not stand together.
 ///
 /// # Errors
-/// Those of reading the table.
-pub fn survey_by_node(
+/// Those of reading the table and of keeping its rows.
+pub fn survey_keeping(
     reader: NodeReader<'_>,
     model: &Model,
     choices: &Choices,
     findings: &mut Findings,
-) -> io::Result<SurveyByNode> {
-    survey_in_order(reader, model, choices, findings, HistoryOrder::ByNode)
+    kept: &mut KeptRows,
+) -> io::Result<Option<Survey>> {
+    survey_rows(reader, model, choices, findings, Some(kept))
 }
 
-fn survey_in_order(
+fn survey_rows(
     mut reader: NodeReader<'_>,
     model: &Model,
     choices: &Choices,
     findings: &mut Findings,
-    order: HistoryOrder,
-) -> io::Result<SurveyByNode> {
+    mut kept: Option<&mut KeptRows>,
+) -> io::Result<Option<Survey>> {
     let header = reader.header().clone();
     let governed_by = GovernedBy::decide(model, &header, choices.interaction.as_ref(), findings);
     header.report_unknown(findings);
-    let Some(governed_by) = governed_by else { return Ok(SurveyByNode::Complete(None)) };
+    let Some(governed_by) = governed_by else { return Ok(None) };
     let columns = wanted_columns(model, governed_by, choices, &header);
     let histories = header.has(Column::Node) && columns.contains(&Column::Time);
     // Without histories nobody looks at the order, and nothing must rely on it.
-    let order = if histories { order } else { HistoryOrder::Interleaved };
-    let selection = Selection { labels: label_columns(governed_by, histories), numbers: columns.clone() };
+    let order = if histories && kept.is_some() { HistoryOrder::ByNode } else { HistoryOrder::Interleaved };
+    let labels = match kept {
+        Some(_) => key_columns(&header),
+        None => label_columns(governed_by, histories),
+    };
+    let selection = Selection { labels, numbers: columns.clone() };
     reader.select(&selection);
+    if let Some(kept) = kept.as_deref_mut() {
+        kept.begin(&selection);
+    }
     let interactions = vec![InteractionSurvey::default(); model.interactions.len()];
     let survey = Survey { header, rows: 0, governed_by, order, columns, interactions };
     let mut surveyor = Surveyor::new(survey, &selection, model, histories);
     let mut batch = Batch::default();
     while reader.read_batch(&mut batch, findings)? {
-        surveyor.take(&batch, findings);
-        if surveyor.runs.as_ref().is_some_and(|runs| runs.order() == HistoryOrder::Interleaved) {
-            return Ok(SurveyByNode::Interleaved);
+        surveyor.take(&batch, kept.as_deref_mut(), findings)?;
+        if let Some(kept) = kept.as_deref_mut() {
+            kept.push(std::mem::take(&mut batch))?;
         }
     }
-    Ok(SurveyByNode::Complete(Some(surveyor.finish(findings))))
+    Ok(Some(surveyor.finish(findings)))
+}
+
+/// The key columns that a table has, in the order of the contract.
+pub(super) fn key_columns(header: &Header) -> Vec<Column> {
+    let keys = [Column::Node, Column::Interaction, Column::Time];
+    keys.into_iter().filter(|column| header.has(*column)).collect()
 }
 
 /// The labels that a first reading needs.
@@ -278,35 +279,60 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    fn take(&mut self, batch: &Batch, findings: &mut Findings) {
-        // Where one interaction governs all rows, columns are looked at as a whole.
-        let only = match self.survey.governed_by {
-            GovernedBy::Chosen(only) | GovernedBy::TheOnlyOne(only) => Some(only),
-            GovernedBy::Column => None,
-        };
-        let is_of_one = only.is_some();
-        for row in 0..batch.rows {
-            self.survey.rows += 1;
-            self.check_cells(batch, row, findings);
-            let Some(interaction) = self.rows.of_row(batch, row) else {
-                self.report_unknown_interaction(batch, row, findings);
-                continue;
-            };
+    fn take(&mut self, batch: &Batch, mut kept: Option<&mut KeptRows>, findings: &mut Findings) -> io::Result<()> {
+        self.survey.rows += batch.rows as u64;
+        let is_suspicious = self.may_hold_what_it_must_not(batch);
+        let mut first = 0;
+        while first < batch.rows {
+            let interaction = self.rows.of_row(batch, first);
+            let rows = first..self.rows.end_of_run(batch, first);
+            first = rows.end;
+            for row in rows.clone() {
+                if is_suspicious {
+                    self.check_cells(batch, row, findings);
+                }
+                match interaction {
+                    Some(interaction) => self.check_time(interaction, batch, row, kept.as_deref_mut(), findings)?,
+                    None => self.report_unknown_interaction(batch, row, findings),
+                }
+            }
+            if let Some(interaction) = interaction {
+                self.take_contact(interaction, batch, rows.clone());
+                self.take_cells(interaction, batch, rows);
+            }
+        }
+        Ok(())
+    }
+
+    /// How many rows are closed and open.
+    fn take_contact(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
+        let of = &mut self.survey.interactions[interaction];
+        of.rows += rows.len() as u64;
+        for row in rows.clone() {
             let state = self.contact.state(batch, row);
-            let of = &mut self.survey.interactions[interaction];
-            of.rows += 1;
             of.closed += u64::from(state == Some(ContactState::Closed));
             of.open += u64::from(state == Some(ContactState::Open));
-            let clearance = self.contact.clearance.and_then(|place| batch.numbers[place].get(row));
-            of.above_zero += u64::from(clearance.is_some_and(|clearance| clearance > 0.0));
-            if !is_of_one {
-                self.take_cells(interaction, batch, row..row + 1);
-            }
-            self.check_time(interaction, batch, row, findings);
         }
-        if let Some(interaction) = only {
-            self.take_cells(interaction, batch, 0..batch.rows);
+        if let Some(place) = self.contact.clearance {
+            // A missing number is NaN, which is not above zero.
+            let above = batch.numbers[place].values()[rows].iter().filter(|clearance| **clearance > 0.0);
+            of.above_zero += above.count() as u64;
         }
+    }
+
+    /// Whether [`Self::check_cells`] may find something: one look at each column.
+    fn may_hold_what_it_must_not(&self, batch: &Batch) -> bool {
+        let values = |place: usize| batch.numbers[place].values().iter();
+        // What is missing is NaN, which no comparison holds for.
+        let odd_state = |value: &f64| (*value < 0.0) | ((0.0 < *value) & (*value < 1.0)) | (1.0 < *value);
+        let has_nan = |place: usize| values(place).fold(false, |any, value| any | value.is_nan());
+        let below_zero = |place: usize| values(place).fold(false, |any, value| any | (*value < 0.0));
+        self.contact
+            .closed
+            .is_some_and(|place| has_nan(place) || values(place).fold(false, |any, value| any | odd_state(value)))
+            || self.area.is_some_and(below_zero)
+            || self.properties.iter().any(|(place, _)| below_zero(*place))
+            || !self.counters.is_empty()
     }
 
     /// What the cells of some rows of one interaction hold, column by column.
@@ -371,13 +397,21 @@ impl<'a> Surveyor<'a> {
     }
 
     /// The times of a node must rise from row to row (D006).
-    fn check_time(&mut self, interaction: usize, batch: &Batch, row: usize, findings: &mut Findings) {
-        let (Some(node), Some(time)) = (self.node, self.time) else { return };
+    fn check_time(
+        &mut self,
+        interaction: usize,
+        batch: &Batch,
+        row: usize,
+        kept: Option<&mut KeptRows>,
+        findings: &mut Findings,
+    ) -> io::Result<()> {
+        let (Some(node), Some(time)) = (self.node, self.time) else { return Ok(()) };
         let label = batch.labels[node].get(row);
-        if let Some(runs) = &mut self.runs {
-            runs.take(interaction, label);
+        let begins = self.runs.as_mut().is_some_and(|runs| runs.take(interaction, label));
+        if begins && self.runs.as_ref().is_some_and(|runs| runs.order() == HistoryOrder::Interleaved) {
+            self.remember_all_nodes(batch, row, kept)?;
         }
-        let Some(time) = batch.numbers[time].get(row) else { return };
+        let Some(time) = batch.numbers[time].get(row) else { return Ok(()) };
         let slot = self.nodes.enter(interaction, label);
         if slot.number == self.last_times.len() {
             self.last_times.push(time);
@@ -385,10 +419,10 @@ impl<'a> Surveyor<'a> {
         let before = std::mem::replace(&mut self.last_times[slot.number], time);
         if slot.is_first {
             self.histories[interaction] += 1;
-            return;
+            return Ok(());
         }
         if time > before {
-            return;
+            return Ok(());
         }
         let label = String::from_utf8_lossy(label.trim_ascii()).into_owned();
         let message = format!(
@@ -399,6 +433,34 @@ impl<'a> Surveyor<'a> {
                     first frame of a step, which repeats the last of the step before";
         let place = batch.place(row, Some(self.survey.header.name_of(Column::Time)));
         findings.report(&TIME_NOT_ASCENDING, place, message, help);
+        Ok(())
+    }
+
+    /// From here on the last time of every node counts, as the rows of a node do not stand together; those of the rows before are found once more.
+    #[cold]
+    fn remember_all_nodes(&mut self, batch: &Batch, row: usize, kept: Option<&mut KeptRows>) -> io::Result<()> {
+        let (Some(node), Some(time)) = (self.node, self.time) else { return Ok(()) };
+        self.runs = None;
+        self.survey.order = HistoryOrder::Interleaved;
+        self.nodes = NodeIndex::default();
+        self.last_times.clear();
+        let mut take = |batch: &Batch, rows: usize| {
+            for row in 0..rows {
+                let Some(interaction) = self.rows.of_row(batch, row) else { continue };
+                let Some(time) = batch.numbers[time].get(row) else { continue };
+                let slot = self.nodes.enter(interaction, batch.labels[node].get(row));
+                if slot.number == self.last_times.len() {
+                    self.last_times.push(time);
+                } else {
+                    self.last_times[slot.number] = time;
+                }
+            }
+        };
+        if let Some(kept) = kept {
+            kept.for_each(|batch| take(batch, batch.rows))?;
+        }
+        take(batch, row);
+        Ok(())
     }
 
     fn report_unknown_interaction(&self, batch: &Batch, row: usize, findings: &mut Findings) {

@@ -3,7 +3,7 @@
 mod summary;
 
 use self::summary::Summary;
-use super::evaluable::{Evaluable, EvaluableArguments, READ_AHEAD};
+use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
 use super::laws::LawArguments;
 use super::table_output::TableOutput;
@@ -13,7 +13,7 @@ use crate::settings::DeckArguments;
 use clap::Args;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, Tally};
-use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
+use inpact_evaluation::nodes::{Findings, GivenBack};
 use inpact_evaluation::plan::{Plan, Reason};
 use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
 use std::io::ErrorKind;
@@ -73,14 +73,12 @@ fn evaluate(
 ) -> Result<(Tally, u64), Failure> {
     let nodes_path = arguments.evaluable.nodes_path();
     let unreadable = |error| Failure::read(nodes_path, error);
-    let Evaluable { settings, model, plan, choices, nodes_name, nodes, .. } = evaluable;
+    let Evaluable { settings, model, plan, choices, nodes_name, rows, .. } = evaluable;
     let laws = compile(model, plan, choices);
-    let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
-    reader.select(&plan.selection);
-    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
+    let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     let mut output = ResultFile::create(arguments.output.target())?;
     let evaluation = Evaluation::new(model, plan, &laws);
-    let written = write(&mut reader, evaluation, plan, (&mut output, arguments.output.format()), findings);
+    let written = write(&mut rows, evaluation, plan, (&mut output, arguments.output.format()));
     let (tally, rows_out) = match written {
         Ok(counts) => counts,
         Err(Stopped::Reading(error)) => return Err(unreadable(error)),
@@ -90,11 +88,6 @@ fn evaluate(
         }
         Err(Stopped::Writing(error)) => return Err(output.failure(error)),
     };
-    if tally.rows != plan.rows || rows_out != plan.rows || findings.has_errors() {
-        let (first, then) = (plan.rows, tally.rows);
-        let message = format!("`{nodes_name}` changed while it was read: {first} rows, then {then}");
-        return Err(Failure::Data(message));
-    }
     tally.report_user_faults(findings);
     if findings.has_errors() {
         return Err(Failure::Data("the user subroutine fails, and no result is written".to_owned()));
@@ -112,16 +105,15 @@ enum Stopped {
 }
 
 fn write(
-    reader: &mut NodeReader<'_>,
+    rows: &mut GivenBack,
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
     (output, format): (&mut ResultFile, TableFormat),
-    findings: &mut Findings,
 ) -> Result<(Tally, u64), Stopped> {
     let writer = ResultWriter::with_format(output, format, plan.keys(), &plan.outputs);
     let mut writer = writer.map_err(Stopped::Writing)?;
-    let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
-    while reader.read_batch(&mut batch, findings).map_err(Stopped::Reading)? {
+    let mut results = ResultBatch::default();
+    while let Some(mut batch) = rows.next_batch().map_err(Stopped::Reading)? {
         plan.name_rows(&mut batch);
         evaluation.evaluate(&batch, &mut results);
         writer.write(&batch, &results).map_err(Stopped::Writing)?;

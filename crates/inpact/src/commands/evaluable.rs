@@ -11,8 +11,8 @@ use clap::{Args, ValueEnum};
 use inpact_diagnostics::{Extent, Findings};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
-use inpact_evaluation::nodes::{COLUMN_PAGES, NodeReader, locate};
-use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, SurveyByNode, make, survey, survey_by_node};
+use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, NodeReader, locate};
+use inpact_evaluation::plan::{Choices, Derivatives, Plan, make, survey_keeping};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
 use inpact_parser::deck::Keep;
 use inpact_parser::grammar::Dialect;
@@ -23,7 +23,10 @@ use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// For each thread, how many pieces of a node table are decoded ahead.
-pub(crate) const READ_AHEAD: usize = 2;
+const READ_AHEAD: usize = 2;
+
+/// How many bytes of the rows of a node table stay in memory; the rest waits in a temporary file.
+const ROOM_FOR_ROWS: usize = 128 << 20;
 
 #[derive(Debug, Args)]
 pub(crate) struct EvaluableArguments {
@@ -98,11 +101,12 @@ pub(crate) struct Evaluable {
     pub(crate) nodes_name: String,
     /// Whether the deck is wrong where the plan needs it.
     pub(crate) deck_has_errors: bool,
-    pub(crate) nodes: NodesInput,
+    /// The rows of the node table.
+    pub(crate) rows: KeptRows,
 }
 
-/// A node table that can be read more than once.
-pub(crate) enum NodesInput {
+/// A node table of which more than the next bytes can be asked for.
+enum NodesInput {
     File(PathBuf),
     /// What came from a stream, in a temporary file.
     Spooled(File),
@@ -136,7 +140,12 @@ impl EvaluableArguments {
         let choices = self.choices(laws, &model, grammar.dialect())?;
         let nodes_name = self.nodes.display().to_string();
         let mut nodes = NodesInput::open(&self.nodes)?;
-        let (surveyed, findings) = self.survey(&mut nodes, &model, &choices)?;
+        let unreadable = |error| Failure::read(&self.nodes, error);
+        let mut findings = Findings::new(&nodes_name);
+        let mut reader = NodeReader::open_any(nodes.reader(&self.nodes)?, &mut findings).map_err(unreadable)?;
+        reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
+        let mut rows = KeptRows::new(ROOM_FOR_ROWS, Box::new(|| Ok(Box::new(tempfile::tempfile()?))));
+        let surveyed = survey_keeping(reader, &model, &choices, &mut findings, &mut rows).map_err(unreadable)?;
         let mut found = findings.into_list();
         // Only a text table has lines, and cells that can be pointed at.
         if found.iter().any(|found| found.primary.extent == Extent::Line) {
@@ -155,34 +164,7 @@ impl EvaluableArguments {
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &names, format);
         let deck_name = self.deck.display().to_string();
-        Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, nodes }))
-    }
-
-    /// Reads the node table for the first time; a second time only if the rows of its nodes do not stand together.
-    fn survey(
-        &self,
-        nodes: &mut NodesInput,
-        model: &Model,
-        choices: &Choices,
-    ) -> Result<(Option<Survey>, Findings), Failure> {
-        let name = self.nodes.display().to_string();
-        let unreadable = |error| Failure::read(&self.nodes, error);
-        let mut open = |findings: &mut Findings| {
-            let mut reader = NodeReader::open_any(nodes.reader(&self.nodes)?, findings).map_err(unreadable)?;
-            reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
-            Ok(reader)
-        };
-        let mut findings = Findings::new(&name);
-        let reader = open(&mut findings)?;
-        match survey_by_node(reader, model, choices, &mut findings).map_err(unreadable)? {
-            SurveyByNode::Complete(surveyed) => Ok((surveyed, findings)),
-            SurveyByNode::Interleaved => {
-                let mut findings = Findings::new(&name);
-                let reader = open(&mut findings)?;
-                let surveyed = survey(reader, model, choices, &mut findings).map_err(unreadable)?;
-                Ok((surveyed, findings))
-            }
-        }
+        Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, rows }))
     }
 
     fn choices(&self, laws: &LawArguments, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
@@ -245,7 +227,7 @@ impl NodesInput {
     }
 
     /// The table from its beginning; `path` is what it was asked for by.
-    pub(crate) fn reader(&mut self, path: &Path) -> Result<Box<File>, Failure> {
+    fn reader(&mut self, path: &Path) -> Result<Box<File>, Failure> {
         match self {
             Self::File(path) => files::open_file(path).map(Box::new),
             Self::Spooled(spooled) => {

@@ -11,11 +11,9 @@ mod subjects;
 
 use super::{Shown, TradeoffArguments, TradeoffFormat};
 use crate::commands::evaluable::EvaluableArguments;
-use crate::commands::findings::say_data_findings;
 use crate::failure::Failure;
 use crate::files;
 use inpact_diagnostics::visible::visible;
-use inpact_evaluation::nodes::Findings;
 
 /// Measures on a deck and its node table; `None` after saying what is wrong with them.
 pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
@@ -23,17 +21,11 @@ pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments
 }
 
 fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
-    let format = arguments.format.of_findings();
-    let prepared = table.prepare(&arguments.laws, &arguments.reading, format)?;
+    let prepared = table.prepare(&arguments.laws, &arguments.reading, arguments.format.of_findings())?;
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
     // What the deck includes is known now.
     files::check_targets(&arguments.targets())?;
-    let mut findings = Findings::new(&scene.nodes_name);
-    let nodes_path = table.nodes_path();
-    let sample = subjects::gather(&mut scene, nodes_path, arguments.sample, &mut findings)?;
-    if say_data_findings(findings.into_list(), &scene.settings, format) {
-        return Ok(None);
-    }
+    let sample = subjects::gather(&mut scene, table.nodes_path(), arguments.sample)?;
     if sample.subjects.is_empty() {
         let message = format!("no table of `{}` varies on these rows: there is nothing to trade", scene.deck_name);
         return Err(Failure::Data(message));

@@ -1,10 +1,9 @@
 //! What is measured: the tables in force and, as columns, the coordinates of the rows that reach them.
 
-use crate::commands::evaluable::{Evaluable, READ_AHEAD};
+use crate::commands::evaluable::Evaluable;
 use crate::failure::Failure;
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Coordinates, TableReads, TabulatedQuantity};
-use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::results::Along;
 use inpact_evaluation::table::PiecewiseTable;
 use inpact_parser::model::Model;
@@ -42,23 +41,15 @@ impl Subject {
     }
 }
 
-/// Reads the node table and keeps, of at most `most` rows, the coordinates that tables in force are read at.
-pub(super) fn gather(
-    evaluable: &mut Evaluable,
-    nodes_path: &Path,
-    most: u64,
-    findings: &mut Findings,
-) -> Result<Sample, Failure> {
-    let Evaluable { model, plan, choices, nodes, .. } = evaluable;
+/// Keeps, of at most `most` rows of the node table, the coordinates that tables in force are read at.
+pub(super) fn gather(evaluable: &mut Evaluable, nodes_path: &Path, most: u64) -> Result<Sample, Failure> {
+    let Evaluable { model, plan, choices, rows, .. } = evaluable;
     let laws = compile(model, plan, choices);
     let mut coordinates = Coordinates::new(model, plan, &laws);
     let one_of = plan.rows.div_ceil(most).max(1);
     let unreadable = |error| Failure::read(nodes_path, error);
-    let mut reader = NodeReader::open_any(nodes.reader(nodes_path)?, findings).map_err(unreadable)?;
-    reader.select(&plan.selection);
-    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
-    let mut batch = Batch::default();
-    while reader.read_batch(&mut batch, findings).map_err(unreadable)? {
+    let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
+    while let Some(batch) = rows.next_batch().map_err(unreadable)? {
         for row in (0..batch.rows).filter(|row| (batch.first_row + *row as u64).is_multiple_of(one_of)) {
             coordinates.take(&batch, row);
         }
