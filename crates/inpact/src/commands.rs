@@ -13,8 +13,8 @@ pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
 pub(crate) mod evaluable;
-mod findings;
+pub(crate) mod findings;
 mod laws;
 mod meshed;
-mod solvable;
+pub(crate) mod solvable;
 mod table_output;

@@ -1,7 +1,7 @@
 //! The one error of this crate.
 
 use crate::failure::Failure;
-use inpact_diagnostics::Diagnostic;
+use inpact_diagnostics::{Diagnostic, Severity};
 use std::error;
 use std::fmt;
 
@@ -30,6 +30,13 @@ impl Error {
     /// Data that cannot be used, with what was found in it.
     #[cfg(feature = "columnar")]
     pub(crate) fn of_findings(message: String, findings: Vec<Diagnostic>) -> Self {
+        Self { failure: Failure::Data(message), findings }
+    }
+
+    /// Data that cannot be used, for the first error of these findings.
+    pub(crate) fn of_first(what: &str, findings: Vec<Diagnostic>) -> Self {
+        let first = findings.iter().find(|found| found.severity == Severity::Error);
+        let message = first.map_or_else(|| what.to_owned(), |first| format!("{what}: {}", first.message));
         Self { failure: Failure::Data(message), findings }
     }
 

@@ -33,6 +33,73 @@ impl FindingFormat {
     }
 }
 
+/// Where findings go: a command prints them, the library collects them.
+pub(crate) trait Reporter {
+    /// Reads nothing outside of the repository where that is wanted.
+    fn confine(&self, settings: &mut Settings, path: &Path);
+
+    /// Takes what is wrong with a node table or a scene; true if there are errors, as the configuration has it.
+    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool;
+
+    /// Takes what the check found in some interactions; true if there are errors.
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), names: &[&Name]) -> bool;
+
+    /// Takes several files that cannot be read; gives what the command or the call fails with.
+    fn failures(&mut self, failures: Vec<Failure>) -> Failure;
+}
+
+impl Reporter for FindingFormat {
+    fn confine(&self, settings: &mut Settings, path: &Path) {
+        FindingFormat::confine(*self, settings, path);
+    }
+
+    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
+        say_data_findings(found, settings, *self)
+    }
+
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), names: &[&Name]) -> bool {
+        say_deck_findings(found, of, names, *self)
+    }
+
+    fn failures(&mut self, failures: Vec<Failure>) -> Failure {
+        failures.iter().for_each(|failure| say(&format!("error: {failure}")));
+        Failure::AlreadySaid
+    }
+}
+
+/// Findings that are kept.
+#[derive(Debug, Default)]
+pub(crate) struct Collected(pub(crate) Vec<Diagnostic>);
+
+impl Reporter for Collected {
+    fn confine(&self, _: &mut Settings, _: &Path) {}
+
+    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
+        let found = settings.apply(found);
+        let has_errors = has_errors(&found);
+        self.0.extend(found);
+        has_errors
+    }
+
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), names: &[&Name]) -> bool {
+        let (deck, grammar, model) = of;
+        let concerning = concerning(found, deck, grammar, model, names);
+        let shown = concerning.into_iter().filter(|found| found.severity != Severity::Note);
+        let before = self.0.len();
+        self.0.extend(shown.cloned());
+        has_errors(&self.0[before..])
+    }
+
+    fn failures(&mut self, failures: Vec<Failure>) -> Failure {
+        match <[Failure; 1]>::try_from(failures) {
+            Ok([failure]) => failure,
+            Err(failures) => {
+                Failure::Usage(failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+            }
+        }
+    }
+}
+
 /// Says what the check found in some interactions, notes left out; true if there are errors.
 pub(crate) fn say_deck_findings(
     found: &[Diagnostic],

@@ -2,18 +2,18 @@
 
 mod failures;
 
-use super::findings::{FindingFormat, say_data_findings, say_deck_findings};
-use super::laws::LawArguments;
-use crate::failure::{Failure, say};
+use super::findings::Reporter;
+use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::reach;
-use crate::settings::{DeckArguments, Settings};
+use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::{Diagnostic, Findings};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
 use inpact_parser::deck::Keep;
+use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::check;
 use std::collections::HashSet;
@@ -30,38 +30,40 @@ pub(crate) struct SolvableScene {
     pub(crate) deck_name: String,
 }
 
+/// What is chosen about the laws of a deck in its regime.
+pub(crate) type LawChoices<'a> = &'a dyn Fn(&Model, Dialect, Option<Regime>) -> Result<Choices, Failure>;
+
 impl SolvableScene {
     /// Reads a scene and its deck; `None` after saying what is wrong with them.
     pub(crate) fn read(
         path: &Path,
-        laws: &LawArguments,
-        reading: &DeckArguments,
-        format: FindingFormat,
+        laws: LawChoices<'_>,
+        reading: &ReadOptions,
+        reporter: &mut impl Reporter,
     ) -> Result<Option<Self>, Failure> {
         let name = path.display().to_string();
         let folder =
             if path.as_os_str() == STANDARD_STREAM { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
         let text = files::read_text(path)?;
-        let mut settings = reading.settings(path)?;
-        format.confine(&mut settings, path);
+        let mut settings = Settings::of(path, reading)?;
+        reporter.confine(&mut settings, path);
         let roots = settings.include_roots.as_slice();
         let mut files = FilesBeside { folder, roots, failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
-        let has_errors = say_data_findings(found, &settings, format);
+        let has_errors = reporter.data(found, &settings);
         let deck_path = scene.as_ref().map(|scene| folder.join(&scene.deck));
         if let (Some(deck), false) = (&deck_path, files.failures.is_empty()) {
             files.failures.extend(refuse_outside(deck, roots).and_then(|()| files::open_file(deck).map(drop)).err());
         }
         if !files.failures.is_empty() {
-            files.failures.iter().for_each(|failure| say(&format!("error: {failure}")));
-            return Err(Failure::AlreadySaid);
+            return Err(reporter.failures(files.failures));
         }
         let Some((scene, deck_path)) = scene.zip(deck_path) else { return Ok(None) };
         refuse_outside(&deck_path, roots)?;
         if has_errors {
             // What the deck has to say of the interfaces is said in the same run, where there is a deck.
-            let read = reading.settings(&deck_path).and_then(|mut settings| {
-                format.confine(&mut settings, &deck_path);
+            let read = Settings::of(&deck_path, reading).and_then(|mut settings| {
+                reporter.confine(&mut settings, &deck_path);
                 let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
                 Ok(model::read(&deck, settings.grammar).0)
             });
@@ -69,11 +71,11 @@ impl SolvableScene {
             if let Ok(model) = read {
                 report_unknown_interactions(&scene, &model, &mut findings);
             }
-            say_data_findings(findings.into_list(), &settings, format);
+            reporter.data(findings.into_list(), &settings);
             return Ok(None);
         }
-        let mut of_deck = reading.settings(&deck_path)?;
-        format.confine(&mut of_deck, &deck_path);
+        let mut of_deck = Settings::of(&deck_path, reading)?;
+        reporter.confine(&mut of_deck, &deck_path);
         let deck = input::read_deck(&deck_path, Keep::Interpreted, &of_deck)?;
         let grammar = of_deck.grammar;
         let (model, problems) = model::read(&deck, grammar);
@@ -84,13 +86,13 @@ impl SolvableScene {
             currents,
             history_start: scene.history_start(),
             closing_heat: scene.closing_heat(),
-            ..laws.choices(&model, grammar.dialect(), Some(regime))?
+            ..laws(&model, grammar.dialect(), Some(regime))?
         };
         let found = of_deck.apply(check(&deck, grammar, &model, &problems));
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
         let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();
-        if say_deck_findings(&found, (&deck, grammar, &model), &names, format) {
+        if reporter.deck(&found, (&deck, grammar, &model), &names) {
             return Ok(None);
         }
         let deck_name = deck_path.display().to_string();
@@ -98,10 +100,10 @@ impl SolvableScene {
     }
 
     /// What is solved; `None` after saying what is missing.
-    pub(crate) fn problem(&self, format: FindingFormat) -> Option<Problem<'_>> {
+    pub(crate) fn problem(&self, reporter: &mut impl Reporter) -> Option<Problem<'_>> {
         let mut findings = Findings::new(&self.name);
         let problem = Problem::new(&self.scene, &self.model, &self.choices, &mut findings);
-        let has_errors = say_data_findings(findings.into_list(), &self.settings, format);
+        let has_errors = reporter.data(findings.into_list(), &self.settings);
         problem.filter(|_| !has_errors)
     }
 

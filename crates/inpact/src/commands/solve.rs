@@ -100,11 +100,13 @@ fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let format = arguments.findings.unwrap_or(arguments.format.of_findings());
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
     files::check_targets(&targets)?;
-    let prepared = SolvableScene::read(&arguments.scene, &arguments.laws, &arguments.reading, format)?;
+    let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
+    let reading = arguments.reading.options();
+    let prepared = SolvableScene::read(&arguments.scene, &laws, &reading, &mut { format })?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
     // The files that the scene is made from are known now.
     files::check_targets(&targets)?;
-    let Some(problem) = prepared.problem(format) else { return Ok(Outcome::HasErrors) };
+    let Some(problem) = prepared.problem(&mut { format }) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.method();
     let histories = if arguments.interfaces.is_some() { Histories::Wanted } else { Histories::NotWanted };
     let tolerance = arguments.solver.tolerance.unwrap_or(LAST_DIGIT);

@@ -25,11 +25,12 @@ pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
 
 fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     let format = arguments.format.of_findings();
-    let prepared = SolvableScene::read(path, &arguments.laws, &arguments.reading, format)?;
+    let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
+    let prepared = SolvableScene::read(path, &laws, &arguments.reading.options(), &mut { format })?;
     let Some(prepared) = prepared else { return Ok(None) };
     // The files that the scene is made from are known now.
     files::check_targets(&arguments.targets())?;
-    let Some(problem) = prepared.problem(format) else { return Ok(None) };
+    let Some(problem) = prepared.problem(&mut { format }) else { return Ok(None) };
     if problem.solved_fields().is_empty() {
         let message = format!("no field of `{}` is solved for: there is nothing to trade", prepared.name);
         return Err(Failure::Data(message));
