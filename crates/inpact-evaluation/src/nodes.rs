@@ -31,6 +31,8 @@ mod wait;
 pub use batch::{Batch, LabelColumn, NumberColumn};
 pub(crate) use column::coordinates;
 pub use column::{Column, Direction, Part};
+#[cfg(feature = "columnar")]
+pub use columnar::RecordBatches;
 pub use contract::{COLUMN_PAGES, ColumnPage};
 pub use header::{Header, HeaderCell};
 pub use inpact_diagnostics::{Findings, Place};

@@ -6,16 +6,15 @@ use crate::failure::Failure;
 use crate::threads::with_threads;
 use arrow::array::RecordBatch;
 use arrow::datatypes::SchemaRef;
+use arrow::error::ArrowError;
 use inpact_diagnostics::{Diagnostic, Findings, Severity};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::Evaluation;
 use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::law::user::{UserConductance, UserLaw};
-use inpact_evaluation::nodes::{Batch, NodeReader};
-use inpact_evaluation::plan::{
-    Choices, Derivatives, Plan, Reason, Survey, SurveyByNode, concerning, make, survey, survey_by_node,
-};
+use inpact_evaluation::nodes::{KeptRows, NodeReader, RecordBatches};
+use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, concerning, make, survey_keeping};
 use inpact_evaluation::results::{Output, ResultBatch, ResultRecords};
 use inpact_parser::model::{Name, Regime};
 use std::ops::ControlFlow;
@@ -26,6 +25,18 @@ pub struct EvaluateOptions {
     outputs: Option<Vec<String>>,
     threads: usize,
     choices: Choices,
+}
+
+/// What an evaluation said beside its rows.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct EvaluatedTo {
+    /// The key columns of the table, then the results.
+    pub schema: SchemaRef,
+    /// Warnings and notes about deck and rows.
+    pub findings: Vec<Diagnostic>,
+    /// What was left out and why, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A result table in memory.
@@ -133,7 +144,8 @@ impl Deck {
     /// Evaluates its interface laws on the rows of a node table, which has the columns that `inpact explain columns` lists.
     ///
     /// Rows out are rows in, in their order.
-    /// A row with a history needs the rows of its node before it, so that a table is evaluated whole.
+    /// The table is read to its end before the first row is evaluated, since a row with a history needs those of its node before it:
+    /// what goes beyond 128 MiB waits in a temporary file.
     ///
     /// ```
     /// use inpact::arrow::array::{AsArray, Float64Array, RecordBatch};
@@ -146,7 +158,8 @@ impl Deck {
     /// let column = |values: [f64; 2]| Arc::new(Float64Array::from(values.to_vec())) as _;
     /// let rows = RecordBatch::try_from_iter([("clearance", column([0.5, 1.0])), ("epot_jump", column([1.0, 2.0]))])?;
     ///
-    /// let result = deck.evaluate(rows.schema(), vec![rows], &EvaluateOptions::new().outputs(["conductance", "ECD"]))?;
+    /// let options = EvaluateOptions::new().outputs(["conductance", "ECD"]);
+    /// let result = deck.evaluate(rows.schema(), [Ok(rows)], &options)?;
     /// let column = |name| result.batches()[0].column_by_name(name).expect("it is there").as_primitive::<Float64Type>();
     /// assert_eq!(column("conductance").values(), &[3000.0, 2000.0]);
     /// assert_eq!(column("ECD").values(), &[3000.0, 4000.0]);
@@ -156,41 +169,54 @@ impl Deck {
     /// # Errors
     /// A deck with errors in the interactions that are used, rows with errors, an output that is asked for and cannot be given:
     /// [`Error::findings`] says what and where.
-    pub fn evaluate(
-        &self,
-        schema: SchemaRef,
-        batches: Vec<RecordBatch>,
-        options: &EvaluateOptions,
-    ) -> Result<Evaluated, Error> {
-        self.evaluate_watched(schema, batches, options, |_| ControlFlow::Continue(()))
+    pub fn evaluate<I>(&self, schema: SchemaRef, batches: I, options: &EvaluateOptions) -> Result<Evaluated, Error>
+    where
+        I: IntoIterator<Item = Result<RecordBatch, ArrowError>, IntoIter: Send + 'static>,
+    {
+        let mut out = Vec::new();
+        let take = |_: u64, batch| {
+            out.push(batch);
+            ControlFlow::Continue(())
+        };
+        let EvaluatedTo { schema, findings, notes } = self.evaluate_to(schema, batches, options, take)?;
+        Ok(Evaluated { schema, batches: out, findings, notes })
     }
 
-    /// The same; `watch` is called with the number of rows that are done, after every batch, and may stop it.
+    /// The same, batch by batch: `take` gets each with the number of rows that are done, and may stop.
+    ///
+    /// What it has taken does not hold if the call ends with an error.
     ///
     /// # Errors
-    /// As [`evaluate`](Self::evaluate), and where `watch` stops it.
-    pub fn evaluate_watched(
+    /// As [`evaluate`](Self::evaluate), and where `take` stops.
+    pub fn evaluate_to<I>(
         &self,
         schema: SchemaRef,
-        batches: Vec<RecordBatch>,
+        batches: I,
         options: &EvaluateOptions,
-        watch: impl FnMut(u64) -> ControlFlow<()> + Send,
-    ) -> Result<Evaluated, Error> {
+        take: impl FnMut(u64, RecordBatch) -> ControlFlow<()> + Send,
+    ) -> Result<EvaluatedTo, Error>
+    where
+        I: IntoIterator<Item = Result<RecordBatch, ArrowError>, IntoIter: Send + 'static>,
+    {
         let choices = options.choices(self)?;
-        let rows = Rows { schema, batches };
-        with_threads(options.threads, || self.evaluate_rows(&rows, &choices, watch))
+        let batches: RecordBatches = Box::new(batches.into_iter());
+        with_threads(options.threads, || self.evaluate_rows((schema, batches), &choices, take))
     }
 
     fn evaluate_rows(
         &self,
-        rows: &Rows,
+        (schema, batches): (SchemaRef, RecordBatches),
         choices: &Choices,
-        mut watch: impl FnMut(u64) -> ControlFlow<()>,
-    ) -> Result<Evaluated, Error> {
+        mut take: impl FnMut(u64, RecordBatch) -> ControlFlow<()>,
+    ) -> Result<EvaluatedTo, Error> {
         if self.model.interactions.is_empty() {
             return Err(Error::data(format!("`{}` defines no *SURFACE INTERACTION", self.name())));
         }
-        let (surveyed, findings) = self.survey(rows, choices)?;
+        let mut findings = Findings::new(TABLE);
+        let reader = NodeReader::of_batches(schema, batches, &mut findings);
+        let mut rows = KeptRows::new(ROOM_FOR_ROWS, Box::new(|| Ok(Box::new(tempfile::tempfile()?))));
+        let surveyed = survey_keeping(reader, &self.model, choices, &mut findings, &mut rows);
+        let surveyed = surveyed.map_err(|error| unreadable(&error))?;
         let mut found = self.judged(findings, "the table has errors")?;
         let Some(surveyed) = surveyed else { return Err(Error::data("the table cannot be evaluated")) };
         let plan = make(&self.model, &surveyed, choices);
@@ -202,22 +228,21 @@ impl Deck {
             return Err(self.nothing_to_evaluate(&plan));
         }
         let laws = compile(&self.model, &plan, choices);
-        let mut findings = Findings::new(TABLE);
-        let mut reader = rows.reader(&mut findings);
-        reader.select(&plan.selection);
+        let mut rows = rows.give_back(&plan.selection).map_err(|error| unreadable(&error))?;
         let mut evaluation = Evaluation::new(&self.model, &plan, &laws);
         let mut records = ResultRecords::new(plan.keys(), &plan.outputs);
-        let (mut batch, mut results, mut out, mut done) = (Batch::default(), ResultBatch::default(), Vec::new(), 0);
-        while reader.read_batch(&mut batch, &mut findings).map_err(|error| unreadable(&error))? {
+        let (mut results, mut done) = (ResultBatch::default(), 0);
+        while let Some(mut batch) = rows.next_batch().map_err(|error| unreadable(&error))? {
             plan.name_rows(&mut batch);
             evaluation.evaluate(&batch, &mut results);
-            out.push(records.record_batch(&batch, &mut results).map_err(|error| unreadable(&error))?);
+            let records = records.record_batch(&batch, &mut results).map_err(|error| unreadable(&error))?;
             done += batch.rows as u64;
-            if watch(done).is_break() {
+            if take(done, records).is_break() {
                 return Err(Failure::Usage(format!("stopped after {done} rows")).into());
             }
         }
         let tally = evaluation.finish();
+        let mut findings = Findings::new(TABLE);
         tally.report_user_faults(&mut findings);
         if !findings.has_errors() {
             tally.report(&plan, &mut findings);
@@ -229,23 +254,7 @@ impl Deck {
             let left_out = left_out.map(move |left| format!("{name}: {} is left out: {}", left.what, left.reason));
             left_out.chain(interaction.notes.iter().map(move |note| format!("{name}: {note}")))
         });
-        Ok(Evaluated { schema: records.schema(), batches: out, findings: found, notes: notes.collect() })
-    }
-
-    /// Looks through the rows once; a second time only if the rows of its nodes do not stand together.
-    fn survey(&self, rows: &Rows, choices: &Choices) -> Result<(Option<Survey>, Findings), Error> {
-        let mut findings = Findings::new(TABLE);
-        let reader = rows.reader(&mut findings);
-        match survey_by_node(reader, &self.model, choices, &mut findings).map_err(|error| unreadable(&error))? {
-            SurveyByNode::Complete(surveyed) => Ok((surveyed, findings)),
-            SurveyByNode::Interleaved => {
-                let mut findings = Findings::new(TABLE);
-                let reader = rows.reader(&mut findings);
-                let surveyed =
-                    survey(reader, &self.model, choices, &mut findings).map_err(|error| unreadable(&error))?;
-                Ok((surveyed, findings))
-            }
-        }
+        Ok(EvaluatedTo { schema: records.schema(), findings: found, notes: notes.collect() })
     }
 
     /// Findings as the configuration has them; an error where one of them is.
@@ -288,20 +297,11 @@ impl Deck {
     }
 }
 
+/// How many bytes of the rows stay in memory; the rest waits in a temporary file.
+const ROOM_FOR_ROWS: usize = 128 << 20;
+
 /// What messages call a table that is in memory.
 const TABLE: &str = "<table>";
-
-/// Rows in memory, which can be read more than once.
-struct Rows {
-    schema: SchemaRef,
-    batches: Vec<RecordBatch>,
-}
-
-impl Rows {
-    fn reader(&self, findings: &mut Findings) -> NodeReader<'static> {
-        NodeReader::of_batches(self.schema.clone(), self.batches.clone(), findings)
-    }
-}
 
 fn unreadable(error: &std::io::Error) -> Error {
     Error::data(format!("the table cannot be evaluated: {error}"))

@@ -54,15 +54,15 @@ pub use arrow;
 pub use deck::Deck;
 pub use error::Error;
 #[cfg(feature = "columnar")]
-pub use evaluation::{EvaluateOptions, Evaluated};
+pub use evaluation::{EvaluateOptions, Evaluated, EvaluatedTo};
 pub use fixes::{Fixed, FixedFile, Fixes};
 pub use inpact_diagnostics::{Diagnostic, Edit, Extent, Fix, FixKind, FixSafety, Label, Rule, Severity, span};
 pub use inpact_evaluation::accuracy::{Accuracy, Tolerance};
 pub use inpact_evaluation::history::HistoryStart;
-pub use inpact_parser::grammar::{Dialect, Release};
-pub use inpact_parser::model::{Model, Regime};
 pub use inpact_network::linear::Method;
 pub use inpact_network::scene::Field;
+pub use inpact_parser::grammar::{Dialect, Release};
+pub use inpact_parser::model::{Model, Regime};
 pub use render::Format;
 pub use scene::{Scene, Solution, SolveOptions, SolvedState};
 pub use settings::{ReadOptions, RelativeTo};

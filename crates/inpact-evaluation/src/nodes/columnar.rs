@@ -61,8 +61,8 @@ enum Rows {
     Parquet(Shared, ArrowReaderMetadata),
     /// Nothing has been read.
     Arrow(Storage, Box<dyn ReadSeek>),
-    /// Rows that are in memory already.
-    Memory(Vec<RecordBatch>),
+    /// Rows that come as record batches; nothing has been read.
+    Batches(RecordBatches),
     Begun(Source),
     /// Another thread reads the next rows.
     UnderWay(Receiver<(Source, Read1)>),
@@ -72,7 +72,8 @@ enum Rows {
 /// What one step of reading gave: rows, the end, or an error.
 type Read1 = io::Result<Option<Columns>>;
 
-type RecordBatches = Box<dyn Iterator<Item = Result<RecordBatch, ArrowError>> + Send>;
+/// Record batches one after the other.
+pub type RecordBatches = Box<dyn Iterator<Item = Result<RecordBatch, ArrowError>> + Send>;
 
 /// Rows of the columns that were asked for.
 struct Source {
@@ -117,9 +118,9 @@ impl ColumnarReader {
         Ok(Self::new(schema, rows, findings))
     }
 
-    /// Reads what is in memory as record batches of this schema.
-    pub(super) fn of_batches(schema: SchemaRef, batches: Vec<RecordBatch>, findings: &mut Findings) -> Self {
-        Self::new(schema, Rows::Memory(batches), findings)
+    /// Reads what comes as record batches of this schema.
+    pub(super) fn of_batches(schema: SchemaRef, batches: RecordBatches, findings: &mut Findings) -> Self {
+        Self::new(schema, Rows::Batches(batches), findings)
     }
 
     fn new(schema: SchemaRef, rows: Rows, findings: &mut Findings) -> Self {
@@ -245,9 +246,9 @@ impl ColumnarReader {
                     Box::new(StreamReader::try_new(input, Some(read.clone())).map_err(invalid)?)
                 }
             }
-            Rows::Memory(batches) => {
+            Rows::Batches(batches) => {
                 let read = read.clone();
-                Box::new(batches.into_iter().map(move |batch| batch.project(&read)))
+                Box::new(batches.map(move |batch| batch?.project(&read)))
             }
             Rows::Begun(_) | Rows::UnderWay(_) | Rows::Ended => Box::new(std::iter::empty()),
         };

@@ -119,11 +119,11 @@ impl<'a> NodeReader<'a> {
         NodeReader::open(Box::new(input), findings)
     }
 
-    /// Opens a node table that is in memory as record batches of one schema; its numbers are not copied until they are read.
+    /// Opens a node table that comes as record batches of one schema; they are asked for one by one.
     #[cfg(feature = "columnar")]
     pub fn of_batches(
         schema: arrow::datatypes::SchemaRef,
-        batches: Vec<arrow::array::RecordBatch>,
+        batches: super::RecordBatches,
         findings: &mut Findings,
     ) -> NodeReader<'static> {
         let table = ColumnarReader::of_batches(schema, batches, findings);

@@ -93,9 +93,7 @@ impl Reporter for Collected {
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
         match <[Failure; 1]>::try_from(failures) {
             Ok([failure]) => failure,
-            Err(failures) => {
-                Failure::Usage(failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
-            }
+            Err(failures) => Failure::Usage(failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")),
         }
     }
 }
