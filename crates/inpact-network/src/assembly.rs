@@ -1,4 +1,4 @@
-//! From a scene at one time to the equations of one field: rows asked for their conductances, sources gathered, and all of it as a linear network.
+//! From a scene at one time to the equations of one field: conductances of rows, sources and their sum as a linear network.
 
 use crate::dependence::range_of_unknown;
 use crate::interface::{self, Conducts, Contact, PoreElement, Sides};
@@ -10,7 +10,7 @@ use inpact_evaluation::compile::InterfaceLaws;
 use inpact_evaluation::law::user::UserFault;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// What the rows of a field say at some state.
+/// The contribution of the rows to the network of a field, at some state.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RowTerms {
     /// The conductance of each row, times its area; infinite where both sides have one value.
@@ -24,16 +24,16 @@ pub(crate) struct RowTerms {
 pub struct RowFault {
     /// The row, in the order of the scene.
     pub row: u32,
-    /// What is wrong.
+    /// The reason.
     pub why: RowFaultReason,
 }
 
-/// Why a row cannot be solved with.
+/// Reasons why a row cannot be solved with.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RowFaultReason {
     /// A routine of the user's gives what is no conductance.
     User(UserFault),
-    /// Whether fluid flows depends on the characteristic element length, which is not known.
+    /// The flow of fluid depends on the characteristic element length, which is not known.
     NeedsLength,
     /// A conductance is negative, NaN or infinite.
     NoConductance(f64),
@@ -49,7 +49,7 @@ pub enum RowFaultReason {
 /// Heat of a current at nodes, with its slopes: what Newton's iteration needs of it.
 #[derive(Debug, Clone)]
 pub(crate) struct HeatTerm {
-    /// The place among the flows of the potential: a link, or behind all links a row.
+    /// The place among the flows of the potential: a link, or after all links a row.
     pub(crate) flow: usize,
     /// Places among the nodes of temperature, with their shares of the heat.
     pub(crate) nodes: Vec<(u32, f64)>,
@@ -59,7 +59,7 @@ pub(crate) struct HeatTerm {
     pub(crate) along_temperatures: f64,
 }
 
-/// What flows, and by what, in the field of potentials: a solution or a step towards it.
+/// Currents and the jumps that drive them in the field of potentials: of a solution or a step towards it.
 #[derive(Clone, Copy)]
 pub(crate) struct Currents<'a> {
     /// Through links, then rows.
@@ -114,10 +114,10 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
     Ok(terms)
 }
 
-/// At how many temperatures or pore pressures a row is asked that conducts nothing at a first guess.
+/// The number of temperatures or pore pressures at which a row that conducts nothing at a first guess is evaluated.
 const PROBES: u32 = 65;
 
-/// What a row that conducts nothing at a first guess conducts at most elsewhere in its table; `None` where that is nothing either.
+/// The largest conductance elsewhere in the table of a row that conducts nothing at a first guess; `None` where it is zero everywhere.
 fn elsewhere(
     knowledge: &Knowledge<'_>,
     field: Field,
@@ -150,7 +150,7 @@ fn elsewhere(
     (0.0 < largest.conductance && largest.conductance.is_finite()).then_some(largest)
 }
 
-/// What flows into the nodes of a field besides what conducts: sources of the scene, friction, gap filling.
+/// Net flow into each node of a field from sources of the scene, friction and gap filling, W, A or L³/T.
 pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNodes) -> Vec<f64> {
     let scene = knowledge.problem.scene;
     let conditions = scene.conditions(field);
@@ -183,7 +183,7 @@ pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNode
     sources
 }
 
-/// The heat of currents, added to the sources of temperature; with its slopes where they are asked for.
+/// The heat of currents, added to the sources of temperature; with its slopes where they are wanted.
 pub(crate) fn add_heat(
     knowledge: &Knowledge<'_>,
     potential: &FieldNodes,
@@ -244,7 +244,7 @@ pub(crate) fn add_heat(
     }
 }
 
-/// How nodes with a capacity enter the equations.
+/// Treatment of nodes with a capacity in the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Capacities {
     /// Not at all: steady state.

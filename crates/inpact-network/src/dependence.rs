@@ -1,4 +1,4 @@
-//! What the laws of a row depend on: which quantities a scene has to tell, and which fields a law couples.
+//! Dependence of the laws of a row: the quantities that a scene has to give, and the fields that a law couples.
 
 use crate::scene::Field;
 use inpact_evaluation::compile::{ElectricalSource, InterfaceLaws};
@@ -8,7 +8,7 @@ use inpact_evaluation::law::pore::Permeability;
 use inpact_evaluation::law::thermal::ThermalConductance;
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable};
 
-/// Which variables of its law a row cannot do without.
+/// The variables without which a row's law has no value.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Dependence {
     pub(crate) clearance: bool,
@@ -20,7 +20,7 @@ pub(crate) struct Dependence {
     pub(crate) fields: Vec<usize>,
 }
 
-/// What the electrical conductance of a row depends on.
+/// The dependence of the electrical conductance of a row.
 pub(crate) fn dependence_of_electrical(source: &ElectricalSource, state: ContactState) -> Dependence {
     match source {
         ElectricalSource::User(..) => Dependence { clearance: true, temperature: true, ..Dependence::default() },
@@ -37,7 +37,7 @@ pub(crate) fn dependence_of_electrical(source: &ElectricalSource, state: Contact
     }
 }
 
-/// What the thermal conductance of a row depends on.
+/// The dependence of the thermal conductance of a row.
 pub(crate) fn dependence_of_thermal(laws: &InterfaceLaws, state: ContactState) -> Dependence {
     let mut dependence = Dependence::default();
     match &laws.thermal {
@@ -62,7 +62,7 @@ pub(crate) fn dependence_of_thermal(laws: &InterfaceLaws, state: ContactState) -
     dependence
 }
 
-/// What the permeability of a row depends on.
+/// The dependence of the permeability of a row.
 pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> Dependence {
     let mut dependence = Dependence { clearance: state != ContactState::Closed, ..Dependence::default() };
     let law = laws.pore.as_ref().map(|law| &law.permeability);
@@ -97,7 +97,7 @@ pub(crate) fn range_of_unknown(laws: &InterfaceLaws, field: Field, state: Contac
 }
 
 impl Dependence {
-    /// What one or the other depends on.
+    /// The union of both dependences.
     pub(crate) fn or(mut self, other: Self) -> Self {
         self.clearance |= other.clearance;
         self.pressure |= other.pressure;

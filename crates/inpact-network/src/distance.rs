@@ -1,4 +1,4 @@
-//! How far two states of one scene are from each other.
+//! The distance between two states of one scene.
 
 use crate::problem::{FieldNodes, Problem};
 use crate::scene::Field;
@@ -7,7 +7,7 @@ use crate::state::{FieldState, State};
 /// Below that part of what flows around it a flow is what refinement in 106 bits leaves of zero.
 const NOTHING: f64 = 1e-20;
 
-/// How far a state is from another, as numbers are printed: those that print alike are alike.
+/// The distance of a state from another, as numbers are printed: those that print alike are alike.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
     /// The largest difference of a node's value, as a part of the range of the other state's values of that field; where that is one value, as a part of its magnitude.
@@ -25,7 +25,7 @@ impl Distance {
 }
 
 impl State {
-    /// How far it is from another state of the same problem.
+    /// The distance from another state of the same problem.
     pub fn distance(&self, problem: &Problem<'_>, other: &Self) -> Distance {
         let of_field = |field: Field| {
             let (nodes, found, wanted) = (problem.field(field)?, self.field(field)?, other.field(field)?);

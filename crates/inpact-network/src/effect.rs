@@ -1,4 +1,4 @@
-//! What a scene says that cannot be, and what it says that has no effect: temperatures below absolute zero, friction that cools, numbers that no law asks for.
+//! Contradictions in a scene, and values in it without effect: temperatures below absolute zero, friction that cools, numbers that no law reads.
 
 use crate::interface::Contact;
 use crate::linear::NONE;
@@ -136,7 +136,7 @@ impl Problem<'_> {
         [row.slave, row.master].iter().all(|&node| nodes.place[node as usize] != NONE)
     }
 
-    /// Whether a row has field variables of which no law that crosses it reads one.
+    /// Whether a row has field variables that no law of a field crossing it reads.
     fn has_unread_fields(&self, row: usize) -> bool {
         let of = &self.scene.interfaces[row];
         let Some(laws) = self.laws_of(row).filter(|_| of.field_variables.iter().any(|value| !value.is_nan())) else {

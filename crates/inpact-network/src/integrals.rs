@@ -14,27 +14,27 @@ const KINDS: usize = 4;
 /// Flows below that part of what their conductance would let through at the values of its sides are rounding.
 const ROUNDING: f64 = 1e-16;
 
-/// What is needed of one state.
+/// Flows through the rows at one state.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RowFlows {
     /// By kind, what flows in each row; of the heat of currents the conductances.
     flows: [Vec<f64>; KINDS],
     /// The jumps of potential.
     jumps: Vec<f64>,
-    /// By kind, what would not be told from rounding.
+    /// By kind, a bound below which a flow is rounding.
     rounding: [f64; KINDS],
 }
 
 /// The integrals so far and their errors, by kind.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Integrals {
-    /// What the largest is, or would be at the next corner.
+    /// The largest flow, or an estimate of it at the next corner.
     reach: [f64; KINDS],
     sum: [f64; KINDS],
     error: [f64; KINDS],
 }
 
-/// What an increment adds.
+/// The integrals and their errors over one increment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Added {
     amount: [f64; KINDS],
@@ -74,7 +74,7 @@ impl RowFlows {
 }
 
 impl Added {
-    /// What an increment of this length adds between two states.
+    /// The integrals over an increment of this length between two states.
     pub(crate) fn between(before: &RowFlows, after: &RowFlows, duration: f64) -> Self {
         let mut added = Self::default();
         for kind in 0..KINDS {

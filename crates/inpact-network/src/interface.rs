@@ -21,7 +21,7 @@ use inpact_evaluation::law::thermal::Temperatures;
 use inpact_evaluation::law::user::{UserConductancePoint, UserFault};
 use inpact_evaluation::numbers::{DoubleDouble, product};
 
-/// What contact there is in a row at one time.
+/// State of contact of a row at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
     pub(crate) clearance: Clearance,
@@ -29,7 +29,7 @@ pub(crate) struct Contact {
     pub(crate) state: ContactState,
 }
 
-/// What is known of both sides of a row where a law is asked.
+/// Values on both sides of a row, at which its laws are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sides {
     /// θ of slave and master; NaN where neither is known.
@@ -40,7 +40,7 @@ pub(crate) struct Sides {
 
 /// The mean of both sides, and what that number has lost to rounding.
 ///
-/// A table that is steep at a large value moves by more than a digit of its own within the last digit of that value: tables are asked at the number,
+/// A table that is steep at a large value moves by more than a digit of its own within the last digit of that value: tables are read at the number,
 /// and what it has lost is added along their slope.
 #[derive(Debug, Clone, Copy)]
 struct Mean {
@@ -63,11 +63,11 @@ pub(crate) struct Conducts {
     pub(crate) along_temperature: f64,
     /// Along the mean pore pressure.
     pub(crate) along_pore_pressure: f64,
-    /// What radiation adds to the slopes along the temperatures of slave and master, beside its part in the conductance.
+    /// The part of radiation in the slopes along the temperatures of slave and master, beside its part in the conductance.
     pub(crate) radiation_slopes: [f64; 2],
 }
 
-/// What a row's law of pore fluid says.
+/// The element of a row in the network of pore fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PoreElement {
     /// Fluid crosses by a finite conductance; zero beyond the cutoff.
@@ -88,7 +88,7 @@ pub(crate) struct HeatOfCurrent {
     pub(crate) along_conductance: f64,
 }
 
-/// When a law is asked, for routines of the user's.
+/// Time and increment at which a law is evaluated, for user subroutines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Moment {
     pub(crate) time: f64,
@@ -97,7 +97,7 @@ pub(crate) struct Moment {
 }
 
 impl Contact {
-    /// The contact of a row at a time; `None` where the scene does not tell.
+    /// The contact of a row at a time; `None` where it is undetermined.
     pub(crate) fn of(row: &SceneInterface, time: f64) -> Option<Self> {
         let number = |course: &Option<crate::scene::Course>| course.as_ref().map(|course| course.at(time));
         let (clearance, pressure) = (number(&row.clearance), number(&row.pressure));
@@ -218,7 +218,7 @@ pub(crate) fn heat_of_current(
     HeatOfCurrent { heat, along_jump: finite(along_jump), along_conductance: finite(per_conductance) }
 }
 
-/// The heat of friction of a row, per area; none where the scene does not tell of it.
+/// The heat of friction of a row, per area; zero where the scene does not give it.
 pub(crate) fn heat_of_friction(laws: &InterfaceLaws, row: &SceneInterface) -> Option<GeneratedHeat> {
     let (source, generation) = (laws.friction?, laws.heat_generation?);
     let (shear, slip_rate) = (row.shear?, source.slip_rate.or(row.slip_rate)?);

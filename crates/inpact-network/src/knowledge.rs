@@ -1,4 +1,4 @@
-//! What interface laws know of a scene while it is being solved: temperatures and pore pressures at the nodes, the jumps at the start of the increment, and when it is.
+//! The values that interface laws read while a scene is being solved: temperatures and pore pressures at the nodes, the jumps at the start of the increment, and the time.
 
 use crate::interface::{Contact, Moment, Sides};
 use crate::problem::Problem;
@@ -9,7 +9,7 @@ use inpact_evaluation::law::contact::{Clearance, ClearanceRate};
 use inpact_evaluation::law::pore::Gap;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// How far above absolute zero a first guess is put.
+/// The least first guess of a temperature, above absolute zero, θ.
 const WARM: f64 = 300.0;
 
 /// An increment of time.
@@ -17,11 +17,11 @@ const WARM: f64 = 300.0;
 pub(crate) struct Increment<'a> {
     /// The state at its start.
     pub(crate) before: &'a State,
-    /// How long it is.
+    /// Length, T.
     pub(crate) duration: f64,
 }
 
-/// What a first guess is good for.
+/// The purpose of a first guess.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Guess {
     /// Rows conduct what their laws say there.
@@ -31,7 +31,7 @@ pub(crate) enum Guess {
     WhereRowsConduct,
 }
 
-/// What is known beside the unknowns of a stage.
+/// The values beside the unknowns of a stage.
 #[derive(Debug, Clone)]
 pub(crate) struct Knowledge<'a> {
     pub(crate) problem: &'a Problem<'a>,
@@ -66,7 +66,7 @@ impl<'a> Knowledge<'a> {
         knowledge
     }
 
-    /// What is known in an increment before it is solved: the state at its start.
+    /// The values in an increment before it is solved: the state at its start.
     pub(crate) fn in_increment(problem: &'a Problem<'a>, increment: Increment<'a>, time: f64) -> Self {
         let mut knowledge = Self::at_start(problem, time);
         knowledge.increment = Some(increment);
@@ -136,7 +136,7 @@ impl<'a> Knowledge<'a> {
         })
     }
 
-    /// What is known of both sides of a row.
+    /// The values on both sides of a row.
     pub(crate) fn sides(&self, row: u32) -> Sides {
         let of = self.row(row);
         let nodes = [of.slave as usize, of.master as usize];
@@ -149,7 +149,7 @@ impl<'a> Knowledge<'a> {
         }
     }
 
-    /// When it is, for routines of the user's.
+    /// Time and increment, for user subroutines.
     pub(crate) fn moment(&self) -> Moment {
         let start = match self.problem.scene.procedure {
             crate::scene::Procedure::Steady => 0.0,

@@ -2,13 +2,13 @@
 //!
 //! The way of a network, each step in the file of its name:
 //!
-//! 1. `components` refuses bodies without a path to a known value and names their nodes.
+//! 1. `components` refuses connected components without a path to a known value and names their nodes.
 //! 2. `core` merges nodes that infinite conductances join, and drops what conducts nothing.
 //! 3. `dead_ends` takes out parts into which nothing can flow, `series` nodes that only pass on what flows through them.
 //! 4. `strength` and `relative` choose the unknowns by the strengths of the conductances: plain where they are alike, jumps where they are not.
 //! 5. `matrix` assembles, `ordering` orders, `factor` factors in f64 or f32, `iterative` does without a factor.
 //! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; what does not get there is tried again by a safer method, at last by `elimination`.
-//! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` put back what was left out: values, the flows through infinite conductances, jumps that no flow tells.
+//! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` put back what was left out: values, the flows through infinite conductances, jumps that no flow determines.
 
 mod components;
 mod core;

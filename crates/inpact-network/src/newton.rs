@@ -1,18 +1,18 @@
-//! Newton's iteration for fields whose conductances depend on what is sought.
+//! Newton's iteration for fields whose conductances depend on the unknowns.
 //!
 //! Unknowns are the relative ones of each field (`linear/relative.rs`), so that the blocks of single fields are the well-scaled matrices of the linear solver;
-//! beside them stand the slopes of section 8 of the semantics, which make the whole unsymmetric (J-2):
+//! beside them are the slopes of section 8 of the semantics, which make the whole unsymmetric (J-2):
 //!
-//! - of a flow q = g Δ the slopes ½ g' Δ along the temperatures of both sides, ∂σ/∂θ̄ among them, and what radiation adds;
+//! - of a flow q = g Δ the slopes ½ g' Δ along the temperatures of both sides, ∂σ/∂θ̄ among them, and those of radiation;
 //! - of the heat of a current ∂q_g/∂Δφ and ∂q_g/∂θ̄.
 //!
-//! A step is taken as far as it lessens what is missing in the balances (line search by halves). Tables are piecewise linear: at a knot the slope is that of the right-hand side,
+//! A step is taken as far as it lessens the residuals of the balances (line search by halves). Tables are piecewise linear: at a knot the slope is that of the right-hand side,
 //! and a step that overshoots a knot is cut short or, where no step lessens anything, replaced by one with the conductances held, which needs no slope.
-//! Where that ends short of a solution the scene is followed through a time of its own: every node takes up some of what is missing, as a capacity would,
-//! less and less of it the better the balances are met (pseudo-transient continuation; Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
-//! That goes where warming up would lead, over hills that a search downwards does not leave. Currents take no time: they are balanced anew after each step.
+//! Where that ends short of a solution, pseudo-transient continuation follows: every equation gets a pseudo-capacity,
+//! which falls as the residuals do (Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
+//! It leads over hills that a descent does not leave. Currents have no pseudo-capacity: they are balanced anew after each step.
 //! In large scenes a step is found without a factor of the whole matrix (`newton/krylov.rs`).
-//! What the iteration ends with is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
+//! The result of the iteration is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
 
 mod krylov;
 mod system;
@@ -41,29 +41,29 @@ const MOST_STEPS: usize = 60;
 /// From so many unknowns on a step is found without a factor of the whole matrix.
 const LARGE: usize = 20_000;
 
-/// What equations take up at first, as a multiple of what their slopes amount to: in a second attempt more.
-const FIRST_TAKEN_UP: [f64; 2] = [1.0, 10.0];
+/// Initial pseudo-capacity of an equation, as a multiple of the size of its slopes: more in a second attempt.
+const FIRST_PSEUDO_CAPACITIES: [f64; 2] = [1.0, 10.0];
 
-/// What is taken up grows by this factor where a step goes back.
+/// Growth of the pseudo-capacity where a step goes back.
 const GOING_BACK: f64 = 4.0;
 
-/// Balances that are met so well are near a solution.
+/// The residual below which pseudo-transient continuation ends and Newton's iteration goes on.
 const AT_REST: f64 = 1e-6;
 
-/// The most steps through a time of its own.
-const MOST_PSEUDO_STEPS: usize = 1000;
+/// The most steps of pseudo-transient continuation.
+const MOST_PSEUDO_TIME_STEPS: usize = 1000;
 
 /// A step is cut in halves that often before it is given up.
 const MOST_HALVES: i32 = 12;
 
-/// What came of an iteration.
+/// Result of an iteration.
 #[derive(Debug, Clone)]
 pub(crate) struct Iterated {
-    /// How many steps were taken.
+    /// The number of steps.
     pub(crate) steps: usize,
     /// Whether the balances are met.
     pub(crate) has_converged: bool,
-    /// For each field where most is missing: the share of the largest flow, and the node of the scene.
+    /// The largest residual of each field, as a share of the largest flow, and its node of the scene.
     pub(crate) missing: Vec<(f64, u32)>,
 }
 
@@ -100,17 +100,17 @@ impl<'a> Newton<'a> {
         Self { fields, method, kept: None, orders }
     }
 
-    /// Iterates; what is known of temperatures and pore pressures follows the state.
+    /// Iterates; the temperatures and pore pressures in `knowledge` follow the state.
     ///
     /// # Errors
     /// A row whose law fails.
     pub(crate) fn iterate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, RowFault> {
         let start = self.jumps();
         let mut iterated = self.descend(knowledge)?;
-        for taken_up in FIRST_TAKEN_UP {
+        for pseudo_capacity in FIRST_PSEUDO_CAPACITIES {
             if !iterated.has_converged {
                 self.set_jumps(start.clone());
-                let steps = iterated.steps + self.pseudo_transient(knowledge, taken_up)?;
+                let steps = iterated.steps + self.pseudo_transient(knowledge, pseudo_capacity)?;
                 let descended = self.descend(knowledge)?;
                 iterated = Iterated { steps: steps + descended.steps, ..descended };
             }
@@ -118,7 +118,7 @@ impl<'a> Newton<'a> {
         Ok(iterated)
     }
 
-    /// Takes steps that lessen what is missing.
+    /// Takes steps that lessen the residuals.
     fn descend(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, RowFault> {
         let mut states = self.evaluate(knowledge)?;
         let mut best = f64::INFINITY;
@@ -156,16 +156,18 @@ impl<'a> Newton<'a> {
         unreachable!("the last pass returns")
     }
 
-    /// Follows the scene through a time of its own until it comes to rest; gives the number of steps.
-    fn pseudo_transient(&mut self, knowledge: &mut Knowledge<'a>, mut taken_up: f64) -> Result<usize, RowFault> {
+    /// Pseudo-transient continuation until the residuals are small; gives the number of steps.
+    fn pseudo_transient(&mut self, knowledge: &mut Knowledge<'a>, mut pseudo_capacity: f64) -> Result<usize, RowFault> {
         let mut states = self.evaluate(knowledge)?;
         let mut worst = self.worst(&states);
         let mut previous: Vec<f64> = Vec::new();
-        for step in 0..MOST_PSEUDO_STEPS {
+        for step in 0..MOST_PSEUDO_TIME_STEPS {
             if worst <= AT_REST || !worst.is_finite() {
                 return Ok(step);
             }
-            let Some(direction) = self.direction(knowledge, &states, Slopes::All, taken_up) else { return Ok(step) };
+            let Some(direction) = self.direction(knowledge, &states, Slopes::All, pseudo_capacity) else {
+                return Ok(step);
+            };
             let start = self.jumps();
             self.go(&start, &direction, 1.0);
             states = self.evaluate(knowledge)?;
@@ -175,10 +177,10 @@ impl<'a> Newton<'a> {
             let before = std::mem::replace(&mut worst, self.worst(&states));
             // A step that goes back where the one before came from has shown that one to be too long.
             let goes_back = direction.iter().zip(&previous).map(|(now, before)| now * before).sum::<f64>() < 0.0;
-            taken_up *= if goes_back { GOING_BACK } else { (worst / before).clamp(0.5, 2.0) };
+            pseudo_capacity *= if goes_back { GOING_BACK } else { (worst / before).clamp(0.5, 2.0) };
             previous = direction;
         }
-        Ok(MOST_PSEUDO_STEPS)
+        Ok(MOST_PSEUDO_TIME_STEPS)
     }
 
     /// Balances the currents of the conductances as they are: they take no time to follow, and from potentials of other conductances any heat may come. `None` where there are none.
@@ -233,7 +235,7 @@ impl<'a> Newton<'a> {
             let mut sources = sources(knowledge, system.field, system.nodes);
             let mut heat = Vec::new();
             if system.field == Field::Temperature {
-                // Potential stands before temperature where both are of one stage.
+                // Potential precedes temperature where both are of one stage.
                 let before = found.first().zip(knowledge.problem.field(Field::Potential));
                 match before {
                     Some((potential, nodes)) => {
@@ -283,20 +285,20 @@ impl<'a> Newton<'a> {
 
     /// The step of Newton's: the change of all unknowns, on the scale of the matrix; `None` where the matrix cannot be factored.
     ///
-    /// Each equation of temperature and pore pressure takes up `taken_up` times what its slopes amount to.
+    /// Each equation of temperature and pore pressure takes up `pseudo_capacity` times what its slopes amount to.
     fn direction(
         &mut self,
         knowledge: &Knowledge<'a>,
         states: &[Evaluated],
         slopes: Slopes,
-        taken_up: f64,
+        pseudo_capacity: f64,
     ) -> Option<Vec<f64>> {
-        let equations = self.equations(knowledge, states, slopes, taken_up);
+        let equations = self.equations(knowledge, states, slopes, pseudo_capacity);
         let scale = equations.scale;
         let mut direction = if LARGE <= equations.right.len() {
-            // The entries are let go as soon as the matrix stands; where that comes to nothing they are put together anew.
+            // The entries are let go as soon as the matrix is made; where it cannot be made they are put together anew.
             let found = self.without_factor(equations);
-            found.or_else(|| self.by_factor(self.equations(knowledge, states, slopes, taken_up)))?
+            found.or_else(|| self.by_factor(self.equations(knowledge, states, slopes, pseudo_capacity)))?
         } else {
             self.by_factor(equations)?
         };
@@ -313,7 +315,7 @@ impl<'a> Newton<'a> {
         knowledge: &Knowledge<'a>,
         states: &[Evaluated],
         slopes: Slopes,
-        taken_up: f64,
+        pseudo_capacity: f64,
     ) -> StepEquations {
         let count = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
         let mut entries: Vec<Triplet<u32, u32, f64>> = Vec::new();
@@ -335,19 +337,20 @@ impl<'a> Newton<'a> {
                 self.slopes_of_heat(system, state, knowledge, &mut entries);
             }
         }
-        let taken_up = if taken_up > 0.0 { self.take_up(taken_up, &mut entries) } else { Vec::new() };
+        let pseudo_capacity =
+            if pseudo_capacity > 0.0 { self.take_up(pseudo_capacity, &mut entries) } else { Vec::new() };
         let scale = balance_fields(&self.fields, &mut entries, &mut right);
-        StepEquations { entries, right, taken_up, scale }
+        StepEquations { entries, right, pseudo_capacity, scale }
     }
 
     /// The step by blocks of single fields.
     fn without_factor(&mut self, equations: StepEquations) -> Option<Vec<f64>> {
-        let StepEquations { entries, right, taken_up, .. } = equations;
+        let StepEquations { entries, right, pseudo_capacity, .. } = equations;
         let matrix = krylov::Columns::of(right.len(), &entries);
         drop(entries);
         let blocks = self.fields.iter().zip(&mut self.orders).map(|(system, order)| {
             let range = system.start as usize..system.start as usize + system.edges.form.count();
-            krylov::Block::of(system, taken_up.get(range).unwrap_or_default(), self.method, order)
+            krylov::Block::of(system, pseudo_capacity.get(range).unwrap_or_default(), self.method, order)
         });
         let mut blocks = blocks.collect::<Option<Vec<krylov::Block>>>()?;
         krylov::solve(&matrix, &mut blocks, &right)
@@ -372,7 +375,7 @@ impl<'a> Newton<'a> {
     /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes; gives how much each does.
     fn take_up(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) -> Vec<f64> {
         let all = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
-        let mut taken_up = vec![0.0; all];
+        let mut pseudo_capacity = vec![0.0; all];
         for system in self.fields.iter().filter(|system| system.field != Field::Potential) {
             let count = index(system.edges.form.count());
             let is_own = |unknown: u32| (system.start..system.start + count).contains(&unknown);
@@ -381,14 +384,14 @@ impl<'a> Newton<'a> {
                 sums[(entry.row - system.start) as usize] += entry.val.abs();
             }
             for (unknown, sum) in (system.start..).zip(sums) {
-                taken_up[unknown as usize] = times * sum;
+                pseudo_capacity[unknown as usize] = times * sum;
                 entries.push(Triplet::new(unknown, unknown, times * sum));
             }
         }
-        taken_up
+        pseudo_capacity
     }
 
-    /// What the dependence of conductances adds to the slopes of flows through rows.
+    /// The part of the slopes of flows through rows that comes from the dependence of conductances.
     fn slopes_of_flows(
         &self,
         system: &System<'a>,
@@ -396,7 +399,7 @@ impl<'a> Newton<'a> {
         knowledge: &Knowledge<'_>,
         entries: &mut Vec<Triplet<u32, u32, f64>>,
     ) {
-        // What no flow tells takes the values of all nodes: they are put together once, where a row asks for them.
+        // Jumps that no flow determines need the values of all nodes: they are put together once, where a row reads them.
         let values = LazyCell::new(|| system.values());
         for (place, &row) in system.nodes.rows.iter().enumerate() {
             let (conducts, of) = (state.terms.slopes[place], knowledge.row(row));
@@ -436,7 +439,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// What the heat of currents adds to the equations of temperature.
+    /// The slopes of the heat of currents in the equations of temperature.
     fn slopes_of_heat(
         &self,
         system: &System<'a>,
@@ -474,13 +477,13 @@ impl<'a> Newton<'a> {
 struct StepEquations {
     entries: Vec<Triplet<u32, u32, f64>>,
     right: Vec<f64>,
-    /// What each equation takes up besides; empty where none does.
-    taken_up: Vec<f64>,
+    /// The pseudo-capacity of each equation; empty where none has one.
+    pseudo_capacity: Vec<f64>,
     /// The factor of each field's unknowns.
     scale: [f64; 3],
 }
 
-/// Which slopes a step takes into account.
+/// The slopes that a step takes into account.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Slopes {
     All,

@@ -1,4 +1,4 @@
-//! What of a scene is solved: the fields that get unknowns, the nodes and interface rows of each, and in which order the fields are solved.
+//! The problem of a scene: the fields that get unknowns, the nodes and interface rows of each, and the order in which the fields are solved.
 //!
 //! Only what a scene requires is modelled:
 //!
@@ -27,15 +27,15 @@ pub struct Problem<'a> {
     pub(crate) laws: Vec<Option<InterfaceLaws>>,
     /// The interaction of each row, by its place in the model.
     pub(crate) interactions: Vec<usize>,
-    /// What is solved of each field, by [`Field`].
+    /// The nodes of each field that is solved, by [`Field`].
     pub(crate) fields: [Option<FieldNodes>; 3],
-    /// The fields in the order in which they are solved; those that depend on each other stand together.
+    /// The fields in the order in which they are solved; those that depend on each other are one group.
     pub(crate) stages: Vec<Stage>,
     /// The characteristic element length of rows that have none of their own.
     pub(crate) characteristic_length: Option<f64>,
-    /// θ of absolute zero, where the deck tells of it.
+    /// θ of absolute zero, where the deck gives it.
     pub(crate) absolute_zero: Option<f64>,
-    /// What is not solved, and why, for a person.
+    /// The parts that are not solved, and why, for users.
     pub left_out: Vec<String>,
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct Stage {
     pub(crate) is_linear: bool,
 }
 
-/// How the laws of a scene depend on its fields.
+/// Dependence of the laws of a scene on its fields.
 #[derive(Debug, Clone, Copy, Default)]
 struct Couplings {
     potential_on_temperature: bool,
@@ -127,7 +127,7 @@ impl<'a> Problem<'a> {
         self.laws[self.interactions[row]].as_ref()
     }
 
-    /// What is solved of a field.
+    /// The nodes of a field; `None` where it is not solved.
     pub(crate) fn field(&self, field: Field) -> Option<&FieldNodes> {
         self.fields[field.index()].as_ref()
     }
@@ -142,7 +142,7 @@ impl<'a> Problem<'a> {
         self.field(field).map_or(&[], |nodes| &nodes.nodes)
     }
 
-    /// When a row first looks at contact.
+    /// The time at which contact is first evaluated, T.
     pub(crate) fn start(&self) -> f64 {
         match self.scene.procedure {
             crate::scene::Procedure::Steady => 0.0,
@@ -217,7 +217,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// What a row's law of a field depends on; in any state of contact it may come to.
+    /// The dependence of a row's law of a field in any state of contact it may come to.
     pub(crate) fn dependence(row: &SceneInterface, laws: &InterfaceLaws, field: Field, time: f64) -> Dependence {
         // Contact that follows time may come to be open or closed.
         let follows_time = |course: &Option<Course>| course.as_ref().is_some_and(|of| of.corners().next().is_some());
@@ -356,13 +356,13 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// What a person calls a row.
+    /// The name of a row in messages.
     pub(crate) fn label(&self, row: &SceneInterface) -> String {
         let [slave, master] = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
         format!("the interface of `{slave}` and `{master}`")
     }
 
-    /// Notes the heat of friction of which rows tell only a part, and slip rates that the deck has the say over.
+    /// Notes the heat of friction of which rows give only a part, and slip rates that the deck determines.
     fn note_friction(&mut self) {
         let (mut without, mut overruled) = ([0; 2], 0);
         for (_, row, laws) in self.rows_of(Field::Temperature) {
@@ -429,13 +429,13 @@ impl<'a> Problem<'a> {
         couplings
     }
 
-    /// Whether one of the nodes of a row carries temperature, so that heat of its current has a place to go.
+    /// Whether one of the nodes of a row carries temperature and so receives the heat of its current.
     fn receives_heat(&self, row: &SceneInterface) -> bool {
         let Some(field) = self.field(Field::Temperature) else { return false };
         [row.slave, row.master].into_iter().any(|node| field.place[node as usize] != NONE)
     }
 
-    /// The heat of friction of a row at a time, into slave and master; zero where nothing tells of it, and where the surfaces are apart.
+    /// The heat of friction of a row at a time, into slave and master; zero where nothing gives it, and where the surfaces are apart.
     pub(crate) fn friction(&self, row: usize, time: f64) -> [f64; 2] {
         let of = &self.scene.interfaces[row];
         if Contact::of(of, time).is_some_and(|contact| contact.state == ContactState::Open) {

@@ -1,6 +1,6 @@
 //! Scenes: nodes, the conductances between them, the interfaces of a deck that couple them, and what is held or flows in.
 //!
-//! A scene file is TOML ([`read`]); large parts of it can stand in tables beside it. No file is opened here: the caller gives bytes.
+//! A scene file is TOML ([`read`]); large parts of it can be in tables beside it. No file is opened here: the caller gives bytes.
 
 mod course;
 mod file;
@@ -41,7 +41,7 @@ pub struct Scene {
     pub nodes: Vec<String>,
     /// The line of the scene file of each node that has one.
     pub node_lines: BTreeMap<u32, u64>,
-    /// What is known of each field at the nodes, by [`Field`].
+    /// Given values of each field at the nodes, by [`Field`].
     pub conditions: [Conditions; 3],
     /// The bulk conductances.
     pub links: Vec<SceneLink>,
@@ -49,7 +49,7 @@ pub struct Scene {
     pub interfaces: Vec<SceneInterface>,
 }
 
-/// What changes with time.
+/// Steady state or transient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Procedure {
     /// Nothing.
@@ -61,19 +61,19 @@ pub enum Procedure {
 /// The time of a transient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeSpan {
-    /// When it starts, T.
+    /// Start time, T.
     pub start: f64,
-    /// When it ends, T.
+    /// End time, T.
     pub end: f64,
-    /// How long increments are.
+    /// Lengths of the increments.
     pub steps: Steps,
-    /// Whether histories start with the state at the start, or at rest (C-25).
+    /// Start of histories: with the state at the start, or at rest (C-25).
     pub start_from: StartFrom,
-    /// What the heat of an increment takes that closes a circuit.
+    /// The jump of potential in the heat of an increment that closes a circuit.
     pub closing_heat: ClosingHeat,
 }
 
-/// What histories start from (C-25).
+/// Start of histories (C-25).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StartFrom {
     /// The state at the start, with its jumps of potential.
@@ -83,7 +83,7 @@ pub enum StartFrom {
     AtRest,
 }
 
-/// How long increments are.
+/// Lengths of increments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Steps {
     /// All of one length, T; the last may be shorter.
@@ -108,14 +108,14 @@ pub enum Field {
     PorePressure,
 }
 
-/// What is known of one field at the nodes.
+/// Given values of one field at the nodes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
     /// The values that nodes are held at.
     pub fixed: BTreeMap<u32, Course>,
-    /// What flows in from outside.
+    /// Sources at the nodes: current, heat or volume of fluid per time.
     pub sources: BTreeMap<u32, Course>,
-    /// What nodes take up per change of the value.
+    /// Capacities of nodes: storage per change of the value.
     pub capacities: BTreeMap<u32, f64>,
     /// The values with which nodes begin.
     pub initial: BTreeMap<u32, f64>,
@@ -126,7 +126,7 @@ pub struct Conditions {
 pub struct SceneLink {
     /// The nodes; flows are positive from the first to the second.
     pub nodes: [u32; 2],
-    /// What it conducts of each field, by [`Field`]; 0 for nothing, infinite where both nodes are one.
+    /// Its conductance for each field, by [`Field`]; 0 for none, infinite where both nodes are one.
     pub conductances: [f64; 3],
     /// The share of the energy its current dissipates that becomes heat.
     pub joule_heat_fraction: f64,
@@ -147,7 +147,7 @@ pub struct SceneInterface {
     pub clearance: Option<Course>,
     /// Contact pressure p, F L⁻².
     pub pressure: Option<Course>,
-    /// Whether it is closed, where that is given.
+    /// State of contact, where it is given.
     pub closed: Option<bool>,
     /// Field variables from number 1 on, averages of both sides.
     pub field_variables: Vec<f64>,
@@ -165,7 +165,7 @@ pub struct SceneInterface {
     pub characteristic_length: Option<f64>,
     /// Bulk permeabilities behind slave and master.
     pub bulk_permeabilities: [Option<f64>; 2],
-    /// Where it stands: the line, and the table unless it is the scene file.
+    /// Line, and table unless it is the scene file.
     pub place: (u64, Option<String>),
 }
 
@@ -185,7 +185,7 @@ impl Field {
         self as usize
     }
 
-    /// What a link calls its conductance.
+    /// The key of a link's conductance.
     pub fn conductance_key(self) -> &'static str {
         match self {
             Self::Potential => "electrical",
@@ -203,7 +203,7 @@ impl Field {
         }
     }
 
-    /// What flows.
+    /// The name of the flow.
     pub fn flow_name(self) -> &'static str {
         match self {
             Self::Potential => "current",
@@ -225,7 +225,7 @@ impl SceneInterface {
         [slave.or(given).or(master), master.or(given).or(slave)]
     }
 
-    /// Where a finding about it points, and its words: lines of a table beside the scene stand in those, since the file of the finding is the scene.
+    /// The place and message of a finding about it: lines of a table beside the scene go into the message, since the file of the finding is the scene.
     pub fn located(&self, message: String) -> (Place, String) {
         let (line, table) = &self.place;
         let message = match table {
@@ -247,7 +247,7 @@ impl fmt::Display for Field {
 }
 
 impl Scene {
-    /// What is known of a field.
+    /// The given values of a field.
     pub fn conditions(&self, field: Field) -> &Conditions {
         &self.conditions[field.index()]
     }
@@ -258,7 +258,7 @@ impl Scene {
             || self.links.iter().any(|link| link.conductances[field.index()] > 0.0)
     }
 
-    /// Where the histories of its interfaces start.
+    /// Start of the histories of its interfaces.
     pub fn history_start(&self) -> HistoryStart {
         match self.procedure {
             Procedure::Transient(TimeSpan { start, start_from: StartFrom::AtRest, .. }) => {
@@ -268,7 +268,7 @@ impl Scene {
         }
     }
 
-    /// What the heat of an increment takes that closes a circuit.
+    /// The jump of potential in the heat of an increment that closes a circuit.
     pub fn closing_heat(&self) -> ClosingHeat {
         match self.procedure {
             Procedure::Transient(span) => span.closing_heat,
@@ -276,7 +276,7 @@ impl Scene {
         }
     }
 
-    /// Whether time goes on.
+    /// Whether it is a transient.
     pub fn is_transient(&self) -> bool {
         matches!(self.procedure, Procedure::Transient(_))
     }

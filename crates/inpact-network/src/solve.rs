@@ -34,7 +34,7 @@ const MOST_RELAXED_NODES: usize = 1_000_000;
 /// From so many nodes on factors are not kept for what may come.
 const LARGE: usize = 10_000;
 
-/// How often a nonlinear stage is solved with the conductances of its own solution before Newton's iteration.
+/// The number of substitutions of a nonlinear stage before Newton's iteration.
 const FIRST_PASSES: usize = 2;
 
 /// Solves a scene, time after time, with what can be kept from one to the next.
@@ -54,7 +54,7 @@ pub enum Histories {
     Wanted,
 }
 
-/// Why a scene was not solved.
+/// Reasons why a scene was not solved.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolveFailure {
     /// Bodies without a path to a fixed value: the field, and the nodes of each body, by their numbers in the scene.
@@ -70,7 +70,7 @@ pub enum SolveFailure {
         field: Field,
         /// The nodes.
         nodes: [u32; 2],
-        /// What they are held at.
+        /// Their held values.
         values: [f64; 2],
     },
     /// A law of a row gives nothing that can be solved with.
@@ -79,7 +79,7 @@ pub enum SolveFailure {
     NotSolved {
         /// The field.
         field: Field,
-        /// What was tried.
+        /// The methods tried, each with the reason of its failure.
         tried: Vec<(Method, Shortcoming)>,
     },
     /// A temperature would be below absolute zero.
@@ -93,11 +93,11 @@ pub enum SolveFailure {
     },
     /// Newton's iteration did not converge.
     NotConverged {
-        /// How many steps it took.
+        /// The number of steps.
         steps: usize,
         /// For each field where most is missing: the share of its largest flow, and the node.
         worst: Vec<(Field, f64, Option<u32>)>,
-        /// How far the conductances are from those of the state, where its balances are met.
+        /// The relative distance of the conductances from those of the state, where its balances are met.
         inconsistency: Option<f64>,
     },
 }
@@ -127,12 +127,12 @@ impl<'a> Equations<'a> {
         self.histories
     }
 
-    /// What is solved.
+    /// The problem.
     pub fn problem(&self) -> &'a Problem<'a> {
         self.problem
     }
 
-    /// What all linear networks that were solved so far took.
+    /// Total work of all linear networks solved so far.
     pub fn work(&self) -> Work {
         let mut work = Work::default();
         self.solvers.iter().for_each(|solver| work += solver.work());
@@ -251,7 +251,7 @@ impl<'a> Equations<'a> {
 
     /// Solves a stage in which fields depend on themselves or on each other.
     ///
-    /// What fails within a tolerance that is larger than need be is tried again to the last digit: conductances that are to agree leave no room for it.
+    /// A failure within a tolerance that is larger than need be is tried again to the last digit: conductances that are to agree leave no room for it.
     fn solve_nonlinear(
         &mut self,
         stage: &Stage,
@@ -314,7 +314,7 @@ impl<'a> Equations<'a> {
                 && let Some(way) = ways.next()
             {
                 let (mut relaxed, mut of_relaxed) = (begin.clone(), state.clone());
-                // What fails on the way of a last resort is no failure of the scene: that Newton's iteration ended short is.
+                // A failure of a last resort is no failure of the scene: that is where Newton's iteration ended short.
                 if let Ok(true) = self.relax(way, stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)
                     && let Ok(again) = self.converge(stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)
                     && !again.is_short()
@@ -360,7 +360,7 @@ impl<'a> Equations<'a> {
             if !iterated.has_converged {
                 return Ok(Attempt { iterated, inconsistency, beyond });
             }
-            // The flows of the conductances that were found, to the last digit: what the conductances are there tells how good they were.
+            // The flows of the conductances that were found, to the last digit; the conductances there measure their error.
             self.solve_fields(stage, knowledge, capacities, state)?;
             let before = inconsistency;
             (inconsistency, beyond) = self.inconsistency(stage, knowledge, state)?;
@@ -427,7 +427,7 @@ impl<'a> Equations<'a> {
         newton.iterate(knowledge).map_err(SolveFailure::Row)
     }
 
-    /// How far the conductances at a state are from those it was found with, the largest relative distance; and the largest of those that the last digits
+    /// The largest relative distance of the conductances at a state from those it was found with; and the largest of those that the last digits
     /// of temperatures and pore pressures do not account for.
     fn inconsistency(
         &self,
@@ -462,12 +462,12 @@ impl<'a> Equations<'a> {
     }
 }
 
-/// How substitution goes a part of the way.
+/// Relaxation of substitution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Relaxation {
     /// By half the part at a node that comes back from where it went, and by more where it goes on.
     Parts,
-    /// Into the middle of the two values between which a node turns, which finds the solution of a scene of one unknown behind any step of its table.
+    /// The middle of the bracket in which a node turns: finds the solution of a scene of one unknown at any step of its table.
     Brackets,
 }
 
@@ -488,7 +488,7 @@ struct Walk {
     last: f64,
     /// The last values from which it went up, and down.
     bracket: [f64; 2],
-    /// How often it went on in one direction.
+    /// The number of steps in one direction.
     run: u32,
 }
 
@@ -499,7 +499,7 @@ impl Default for Walk {
 }
 
 impl Walk {
-    /// How far to go from a value which substitution would change by so much.
+    /// The step from a value which substitution would change by `change`.
     fn step(&mut self, way: Relaxation, value: f64, change: f64) -> f64 {
         let turns = change * self.last < 0.0;
         self.part = if turns { 0.5 * self.part } else { (1.1 * self.part).min(FIRST_PART) };
@@ -527,12 +527,12 @@ impl Walk {
     }
 }
 
-/// What came of an attempt at a nonlinear stage.
+/// Result of an attempt at a nonlinear stage.
 struct Attempt {
     iterated: Iterated,
-    /// How far the conductances are from those of the state.
+    /// Relative distance of the conductances from those of the state.
     inconsistency: f64,
-    /// How far those are whose distance rounding does not account for.
+    /// The largest distance that rounding does not account for.
     beyond: f64,
 }
 

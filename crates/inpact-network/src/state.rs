@@ -10,11 +10,11 @@ use inpact_evaluation::numbers::DoubleDouble;
 pub struct State {
     /// The time; 0 in a steady state.
     pub time: f64,
-    /// How many increments led to it.
+    /// The number of the increment that led to it; 0 for the first state.
     pub increment: i32,
-    /// What is known of each field, by [`Field`].
+    /// The values of each field, by [`Field`].
     pub(crate) fields: [Option<FieldState>; 3],
-    /// How it was found, one report for each group of fields that were solved together.
+    /// The solution of each group of fields that were solved together.
     pub reports: Vec<StageReport>,
 }
 
@@ -25,20 +25,20 @@ pub(crate) struct FieldState {
     pub(crate) solution: LinearSolution,
     /// The conductance times area of each row; infinite where both sides have one value.
     pub(crate) rows: Vec<f64>,
-    /// What flows in at each node besides: sources and heat.
+    /// The source of each node, heat of interfaces included.
     pub(crate) sources: Vec<f64>,
 }
 
-/// How fields were found.
+/// The solution of a group of fields.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageReport {
     /// The fields.
     pub fields: Vec<Field>,
-    /// How many steps Newton's iteration took; 0 for a linear stage.
+    /// The number of Newton steps; 0 for a linear stage.
     pub iterations: usize,
-    /// How far the conductances are from those at the solution, relative.
+    /// The relative distance of the conductances from those at the solution.
     pub inconsistency: f64,
-    /// How the last linear problem of each field was solved.
+    /// The last linear solution of each field.
     pub linear: Vec<LinearReport>,
 }
 
@@ -64,20 +64,20 @@ impl State {
         self.field(field)?.solution.values.get(place as usize).copied()
     }
 
-    /// What flows through a link of the scene, from its first to its second node; `None` where the field is not solved for or the link does not conduct it.
+    /// The flow through a link of the scene, from its first to its second node; `None` where the field is not solved or the link does not conduct it.
     pub fn link_flow(&self, problem: &Problem<'_>, field: Field, link: u32) -> Option<f64> {
         let place = problem.field(field)?.links.binary_search(&link).ok()?;
         Some(number(self.field(field)?.solution.flows[place]))
     }
 
-    /// What flows through an interface row by its conductance, from slave to master; without the heat and fluid that arise there.
+    /// The flow through an interface row by its conductance, from slave to master; without the heat and fluid that arise there.
     pub fn row_flow(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;
         let place = nodes.rows.binary_search(&row).ok()?;
         Some(number(self.field(field)?.solution.flows[nodes.links.len() + place]))
     }
 
-    /// What an interface row conducts of a field, times its area; `None` where the field is not solved for or does not cross it.
+    /// The conductance of an interface row for a field, times its area; `None` where the field is not solved or does not cross it.
     pub(crate) fn conductance(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let place = problem.field(field)?.rows.binary_search(&row).ok()?;
         self.field(field)?.rows.get(place).copied()
@@ -103,7 +103,7 @@ impl State {
         place.zip(self.field(field)).is_some_and(|(place, state)| state.rows[place] == f64::INFINITY)
     }
 
-    /// What leaves each node of a field through links and rows, less what flows in from outside; nothing but what is held or stored makes it other than zero.
+    /// The flow that leaves each node of a field through links and rows, less its sources; zero but at held values and stores.
     pub(crate) fn leaving(&self, problem: &Problem<'_>, field: Field) -> Vec<DoubleDouble> {
         let (Some(nodes), Some(state)) = (problem.field(field), self.field(field)) else { return Vec::new() };
         let scene: &Scene = problem.scene;
@@ -121,7 +121,7 @@ impl State {
         leaving
     }
 
-    /// What each held node of a field supplies: what leaves it, less what flows in otherwise.
+    /// The supply of each held node of a field: the flow that leaves it, less its sources.
     pub fn supplies(&self, problem: &Problem<'_>, field: Field) -> Vec<(u32, f64)> {
         let Some(nodes) = problem.field(field) else { return Vec::new() };
         let fixed = &problem.scene.conditions(field).fixed;
@@ -130,7 +130,7 @@ impl State {
         held.map(|(&node, &leaving)| (node, number(leaving))).collect()
     }
 
-    /// What the fixed values of a field supply and withdraw, what sources and interfaces add, and what is stored: they add up to zero but for rounding.
+    /// The balance of a field: supply and withdrawal at fixed values, sources, and storage; they add up to zero but for rounding.
     pub fn balance(&self, problem: &Problem<'_>, field: Field) -> Option<FieldBalance> {
         let (nodes, state) = (problem.field(field)?, self.field(field)?);
         let fixed = &problem.scene.conditions(field).fixed;
@@ -141,7 +141,7 @@ impl State {
         let stored = &state.solution.stored;
         let sum = |parts: &[DoubleDouble]| parts.iter().copied().sum::<DoubleDouble>();
         let turnover: DoubleDouble = [&held, &generated, stored].into_iter().flatten().map(|part| part.abs()).sum();
-        // What is below the rounding of the whole is none.
+        // A sum below the rounding of the whole is zero.
         let sizable =
             |sum: DoubleDouble| if sum.to_f64().abs() <= NOTHING * turnover.to_f64() { 0.0 } else { number(sum) };
         let (supplied, withdrawn): (Vec<DoubleDouble>, Vec<DoubleDouble>) =
@@ -168,13 +168,13 @@ fn number(value: DoubleDouble) -> f64 {
 /// The balance of one field over the whole scene, per time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldBalance {
-    /// What flows in at fixed values.
+    /// Inflow at fixed values.
     pub supplied: f64,
-    /// What flows out at fixed values.
+    /// Outflow at fixed values.
     pub withdrawn: f64,
-    /// What sources and interfaces add.
+    /// Sources, interfaces included.
     pub generated: f64,
-    /// What is stored.
+    /// Storage.
     pub stored: f64,
     /// Supplied and generated less withdrawn and stored: zero but for rounding.
     pub missing: f64,

@@ -4,7 +4,7 @@
 //! Increments by error are as long as that allows, and end where a course of the scene has a corner; one that errs too much is taken back and cut.
 //! The error is compared with the range that the field's values have had so far. So that nothing is lost in a scene that begins, or has come, to rest,
 //! one increment to the next corner is tried after each corner, and what it does to the range counts: backward Euler overshoots nothing.
-//! Where time integrals of the rows are wanted, what an increment adds to their error counts as well, as a part of the integrals (`integrals.rs`).
+//! Where time integrals of the rows are wanted, their error in an increment counts as well, as a part of the integrals (`integrals.rs`).
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the control of lengths.
 
 use crate::integrals::{Added, Integrals, RowFlows};
@@ -19,16 +19,16 @@ const SHORTEST: f64 = 1e-12;
 /// A remainder below this part of an increment is not an increment of its own.
 const REMAINDER: f64 = 1e-9;
 
-/// How a transient went.
+/// Increments of a transient.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TransientReport {
-    /// How many increments there are.
+    /// The number of increments.
     pub increments: usize,
-    /// How many were taken back.
+    /// The number of increments taken back.
     pub taken_back: usize,
     /// The largest estimated local error of an increment, as a part of the range that its field's values have had.
     pub local_error: f64,
-    /// How many points of courses lie inside increments of given length.
+    /// The number of points of courses inside increments of given length.
     pub passed_over: usize,
     /// The estimated error of the time integrals of the rows, as a part of them; `None` where they are not wanted.
     pub integral_error: Option<f64>,
@@ -139,7 +139,7 @@ impl March<'_, '_> {
         let mut tried = f64::NEG_INFINITY;
         while state.time < span.end {
             let until = corners.iter().copied().find(|&corner| corner > state.time).unwrap_or(span.end);
-            // What is left is shared evenly by the last two increments, so that none is a splinter.
+            // The rest is shared evenly by the last two increments, so that none is a splinter.
             let left = until - state.time;
             if tried < until {
                 tried = until;
@@ -198,7 +198,7 @@ impl March<'_, '_> {
         self.rates = rates;
     }
 
-    /// What an increment adds to the error of time integrals, as a part of them; 0 where they are not wanted.
+    /// The error of time integrals in an increment, as a part of them; 0 where they are not wanted.
     fn integral_share(&self, before: &State, after: &State) -> f64 {
         self.flows.as_ref().map_or(0.0, |(flows, integrals)| {
             let end = RowFlows::of(self.problem, after);
@@ -247,7 +247,7 @@ fn initial_rates(problem: &Problem<'_>, start: &State) -> [Vec<f64>; 2] {
     })
 }
 
-/// How many corners lie inside an increment, further than a distance from both its ends.
+/// The number of corners inside an increment, further than a distance from both its ends.
 fn inside(corners: &[f64], [start, end]: [f64; 2], distance: f64) -> usize {
     let first = corners.partition_point(|corner| *corner <= start + distance);
     let after = corners.partition_point(|corner| *corner < end - distance);

@@ -1,4 +1,4 @@
-//! Random scenes whose conductances depend on what is solved for: their balances, added up from what is told of a state.
+//! Random scenes whose conductances depend on the unknowns: their balances, added up from the printed state.
 
 mod scene_support;
 mod seeded;
@@ -89,7 +89,7 @@ impl Joint {
         deck
     }
 
-    /// What an interface conducts per area of a field, at a mean temperature.
+    /// Conductance of an interface per area for a field, at a mean temperature.
     fn conductance(&self, field: Field, row: &SceneInterface, temperature: f64) -> f64 {
         let [open, closed] = if field == Field::Potential { &self.electrical } else { &self.thermal };
         let at = |course: &Option<Course>| course.as_ref().map_or(0.0, |course| course.at(0.0));
@@ -178,7 +178,7 @@ fn random_scene(random: &mut Random) -> Scene {
     scene
 }
 
-/// What leaves each node of a field, less what flows in, and the magnitudes of all of it: from what is printed, by hand.
+/// The residual at each node of a field, and the sum of magnitudes of its terms: from printed values, by hand.
 fn balance(problem: &Problem<'_>, state: &State, field: Field, joints: &[Joint; 2]) -> Vec<(f64, f64)> {
     let scene = problem.scene();
     let mut nodes = vec![(0.0, 0.0); scene.nodes.len()];
@@ -302,7 +302,7 @@ fn mean_square(before: f64, after: f64) -> f64 {
     (before * before + before * after + after * after) / 3.0
 }
 
-/// What heat is missing at each node over an increment, and the magnitudes of what was added up: flows at its end, heat of currents, what is stored.
+/// The residual of heat at each node over an increment, and the sum of magnitudes of its terms: flows at its end, heat of currents, storage.
 fn heat_of_increment(problem: &Problem<'_>, [before, after]: [&State; 2], joints: &[Joint; 2]) -> Vec<(f64, f64)> {
     let scene = problem.scene();
     let mut nodes = vec![(0.0, 0.0); scene.nodes.len()];

@@ -10,7 +10,7 @@ use linear_support::{Balanced, METHODS, failure, jumps, network, rounded, soluti
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-/// What a few operations in 106 bits lose.
+/// Relative rounding error of a few double-double operations.
 const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// Resistances of a half, a third and a sixth are one.
@@ -80,7 +80,7 @@ fn a_bridge_that_is_off_by_the_last_digit() {
             assert!((found - jump).abs() <= ROUNDING * 3.0, "{across} {method:?}: {found} and {jump}");
             assert_eq!(found * across, solution.flows[4].to_f64(), "{across} {method:?}");
             if method != Method::Elimination {
-                // What rounding has left open is told.
+                // The rounding error is reported.
                 let error = solution.report.quality.error;
                 assert!((found - jump).abs() <= jump * error && error < 1e-10, "{across} {method:?}: {error}");
             }
@@ -103,7 +103,7 @@ fn all_magnitudes_in_one_network() {
         // A short cut, and one that is cut.
         (0, 1, 1e300),
         (0, 1, 0.0),
-        // A blind end behind next to nothing.
+        // A dead end after next to nothing.
         (2, 5, 1e-300),
     ];
     let all = network(6, &[(0, 100.0), (1, 0.0)], &links);
@@ -120,7 +120,7 @@ fn all_magnitudes_in_one_network() {
     }
 }
 
-/// What flows through infinite conductances is not told by Kirchhoff's laws where they form a ring; they share it as equal ones would.
+/// Kirchhoff's laws do not determine the flows of infinite conductances in a ring; they share it as equal ones would.
 #[test]
 fn a_ring_of_infinite_conductances_shares_its_flow() {
     let infinite = f64::INFINITY;
@@ -205,7 +205,7 @@ fn no_nodes_are_solved_and_no_links_too() {
     }
 }
 
-/// What two of the smallest conductances conduct in series is below the range of f64, and still joins what they join.
+/// Two of the smallest conductances in series are below the range of f64, and still join their ends.
 #[test]
 fn the_smallest_conductances_in_series() {
     let least = f64::from_bits(1);
@@ -217,7 +217,7 @@ fn the_smallest_conductances_in_series() {
     }
 }
 
-/// A blind end has the value of what it hangs on, whatever it is made of, and nothing flows into it.
+/// A dead end has the value of its anchor, whatever it is made of, and nothing flows into it.
 #[test]
 fn blind_ends() {
     for conductance in [1e-300, 1.0, 1e300, f64::INFINITY] {
@@ -236,7 +236,7 @@ fn blind_ends() {
     }
 }
 
-/// A square of links behind the node through which all flows is a blind end as well.
+/// A square of links beyond the node through which all flows is a dead end as well.
 #[test]
 fn blind_squares() {
     for [a, b, c, d] in [[1.0, 1.0, 1.0, 1.0], [0.3, 7.0, 0.02, 1.5], [1e-3, 1e3, 2.0, 0.7]] {
@@ -251,7 +251,7 @@ fn blind_squares() {
     }
 }
 
-/// A mesh of conductances over many decades that hangs on one node, or on two that are held alike, is at one value, whatever it hangs on.
+/// A mesh of conductances over many decades that is joined to one node, or to two that are held alike, is at one value.
 #[test]
 fn blind_meshes() {
     let width = 6;
@@ -300,7 +300,7 @@ fn a_small_flow_through_an_infinite_conductance() {
     }
 }
 
-/// What flows into a held node from outside is taken up by what holds it.
+/// The supply of a held node takes up its source.
 #[test]
 fn a_source_at_a_held_node_changes_nothing() {
     let quiet = network(3, &[(0, 4.0), (2, 1.0)], &[(0, 1, 1.0), (1, 2, 2.0)]);
@@ -351,7 +351,7 @@ fn what_was_before_counts_with_all_its_digits() {
     }
 }
 
-/// What no f64 holds is refused, and no method answers otherwise.
+/// Numbers beyond f64 are refused, and no method answers otherwise.
 #[test]
 fn numbers_beyond_the_range_are_refused() {
     let overflows = |network: &LinearNetwork| {
@@ -375,7 +375,7 @@ fn numbers_beyond_the_range_are_refused() {
     let mut one = network(3, &[(0, 0.0)], &[(0, 1, 1.0), (1, 2, f64::INFINITY)]);
     (one.sources[1], one.sources[2]) = (1.7e308, 1.7e308);
     overflows(&one);
-    // What flows through an infinite conductance, and what a store takes up.
+    // The flow through an infinite conductance, and that into a store.
     let ring = [(0, 1, f64::INFINITY), (1, 2, f64::INFINITY)];
     let mut through = network(3, &[(0, 0.0)], &ring);
     (through.sources[1], through.sources[2]) = (1.7e308, 1.7e308);
@@ -497,7 +497,7 @@ fn the_report_counts_levels_and_jumps() {
     assert_eq!((report.unknowns, report.merged, report.levels), (49, 7, 1));
 }
 
-/// What a solver keeps from one network to the next changes nothing: other values, other conductances, other links.
+/// State kept by a solver changes nothing for the next network: other values, other conductances, other links.
 #[test]
 fn a_solver_that_was_used_before_gives_what_a_new_one_gives() {
     let first = grid([9, 6, 1], 1e6);
@@ -548,7 +548,7 @@ fn a_failure_changes_nothing_kept() {
     }
 }
 
-/// A solver that is content with less has balances within what it was asked for.
+/// A solver with a larger tolerance has balances within it.
 #[test]
 fn the_tolerance_is_kept() {
     let grid = grid([10, 10, 1], 1e3);

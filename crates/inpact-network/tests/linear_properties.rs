@@ -1,4 +1,4 @@
-//! What holds for every linear network, whatever is in it.
+//! Properties of every linear network.
 
 mod linear_support;
 
@@ -81,7 +81,7 @@ fn is_balanced(network: &LinearNetwork) -> Result<(), TestCaseError> {
         prop_assert!(missing <= 0.5 * f64::EPSILON, "{:?}: {}", method, missing);
         for (link, flow) in network.links.iter().zip(&solution.flows) {
             let [a, b] = link.nodes.map(|node| solution.values[node as usize].to_f64());
-            // The sign of a flow is that of the jump, where values tell it.
+            // The sign of a flow is that of the jump, where values determine it.
             prop_assert!(
                 link.conductance.is_infinite() || a == b || (a > b) == (flow.to_f64() > 0.0) || flow.is_zero()
             );
@@ -117,7 +117,7 @@ proptest! {
         }
     }
 
-    /// Where the last digit is a tie, iterations may round it either way.
+    /// A last digit that is a tie may be rounded either way by iterations.
     #[test]
     fn the_direction_of_links_is_but_a_sign(
         network in prop_oneof![networks(3.0), networks(100.0)],
@@ -172,7 +172,7 @@ proptest! {
         }
     }
 
-    /// What one node at a value of one sends into another at zero is what it would receive from there.
+    /// Reciprocity: one node at a value of one sends into another at zero the flow that it would receive from there.
     #[test]
     fn a_network_is_the_same_from_both_sides(network in networks(30.0)) {
         if network.nodes() < 3 {
@@ -257,7 +257,7 @@ proptest! {
                 prop_assert_eq!(solution.values.len(), network.nodes());
                 prop_assert_eq!(solution.flows.len(), network.links.len());
                 prop_assert_eq!(solution.stored.len(), network.stores.len());
-                // What is infinite outside may be so within an infinite conductance.
+                // Infinite flows outside may be infinite within an infinite conductance.
                 let finite = network.links.iter().zip(&solution.flows).filter(|(link, _)| link.conductance.is_finite());
                 let mut all = solution.values.iter().chain(finite.map(|(_, flow)| flow));
                 prop_assert!(all.all(|number| number.to_f64().is_finite()), "{:?}: {:?}", method, solution);

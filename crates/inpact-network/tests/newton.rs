@@ -21,7 +21,7 @@ fn solve(deck: &str, text: &str, of: &[(Field, u32)]) -> Vec<f64> {
     of.iter().map(|&(field, node)| state.value(&problem, field, node).expect("a field that is solved")).collect()
 }
 
-/// Where solutions begin: anywhere near, or far away.
+/// First guesses: near, or far away.
 const STARTS: [Option<f64>; 6] = [None, Some(0.0), Some(350.0), Some(-1e4), Some(1e6), Some(1e12)];
 
 fn initial(start: Option<f64>) -> String {
@@ -89,7 +89,7 @@ fn a_voltage_across_a_conductance_that_falls_with_temperature() {
     }
 }
 
-/// Two interfaces one behind the other, both at rows of their tables where slopes change: 20 flow through conductances of 2 and 4 at the mean
+/// Two interfaces in series, both at rows of their tables where slopes change: 20 flow through conductances of 2 and 4 at the mean
 /// temperatures of 80 and 40, from 85 to 75 and from 42.5 to 37.5, with bodies of 20/15, 20/32.5 and 20/17.5 before, between and behind them.
 #[test]
 fn two_interfaces_at_rows_of_their_tables() {

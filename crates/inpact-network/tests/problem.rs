@@ -1,4 +1,4 @@
-//! What of a scene is solved: which fields, at which nodes, in which order, and what is said of the rest.
+//! The problem of a scene: fields, nodes and order, and the messages about the rest.
 
 mod scene_support;
 

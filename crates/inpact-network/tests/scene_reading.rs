@@ -308,7 +308,7 @@ fn the_rules_of_scenes() {
     insta::assert_snapshot!(shown);
 }
 
-/// What is beyond twenty findings of a rule is counted.
+/// More than twenty findings of a rule are counted.
 #[test]
 fn many_findings_of_one_kind_are_counted() {
     let mut text = "deck = \"a.inp\"\n".to_owned();

@@ -60,7 +60,7 @@ fn ends_of(scene: &Scene) -> Vec<String> {
     scene.links.iter().map(names).collect()
 }
 
-/// Where the scene defines no node, tables of links do; where it defines one, a name that it does not is a slip.
+/// Tables of links define nodes only where the scene defines none; otherwise an unknown name is a slip.
 #[test]
 fn tables_of_links_define_nodes_only_where_nothing_else_does() {
     let entries = "[[link_file]]\nfile = \"l\"\n[[link_file]]\nfile = \"m.mtx\"\nconducts = \"thermal\"\n";
@@ -129,7 +129,7 @@ fn a_table_of_interfaces() {
     assert_eq!((&bare.clearance, bare.field_variables.len(), bare.temperature), (&None, 0, None));
 }
 
-/// What is wrong with tables, one after the other.
+/// The findings of tables, one after the other.
 #[test]
 fn tables_that_are_not_right() {
     type Reads = fn(&str) -> (Option<Scene>, Vec<String>);

@@ -1,10 +1,10 @@
-//! Connected components of a network: bodies, nodes that are joined by conductances. A body without a held value and without a store has no level, and is found before anything is factored.
+//! Connected components of a network. One without a held value and without a store floats, and is found before anything is factored.
 
 use super::network::{LinearNetwork, Unsolvable};
 use super::sets::{Sets, index};
 use std::collections::BTreeMap;
 
-/// Refuses a network with bodies that nothing holds.
+/// Refuses a network with floating components.
 ///
 /// # Errors
 /// [`Unsolvable::Floating`] with the nodes of each such body, in ascending order.

@@ -10,13 +10,13 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// Conductances among free nodes and known values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Core {
-    /// How many nodes are free: numbers below it are free nodes, numbers from it on known values.
+    /// The number of free nodes: numbers below it are free nodes, numbers from it on known values.
     pub(crate) free: u32,
     /// The known values.
     pub(crate) known: Vec<DoubleDouble>,
     /// The conductances; finite, and above zero but for those that may change.
     pub(crate) elements: Vec<Element>,
-    /// What flows into each free node from outside.
+    /// Net flow into each free node from sources, W, A or L³/T, one entry a node.
     pub(crate) sources: Vec<DoubleDouble>,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct Element {
     pub(crate) conductance: DoubleDouble,
 }
 
-/// What became of the nodes, links and stores of a network.
+/// The place in the core of each node, link and store of a network.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Origins {
     /// The number in the core of each node: nodes of one value have one number.
@@ -36,7 +36,7 @@ pub(crate) struct Origins {
     pub(crate) of_link: Vec<u32>,
     /// The element of each store; `NONE` where it stores nothing.
     pub(crate) of_store: Vec<u32>,
-    /// How many nodes share the number of another.
+    /// The number of nodes that share the number of another.
     pub(crate) merged: usize,
 }
 
@@ -112,9 +112,9 @@ impl Core {
 struct Clusters {
     /// The cluster of each node.
     number: Vec<u32>,
-    /// What each cluster is held at.
+    /// The held value of each cluster.
     held: Vec<Option<f64>>,
-    /// How many nodes share the cluster of another.
+    /// The number of nodes that share the cluster of another.
     merged: usize,
 }
 

@@ -1,9 +1,9 @@
 //! Parts of a network into which nothing can flow are taken out before anything is factored, and put back exactly.
 //!
-//! A part that hangs on the rest by a single node, or by known values that are all the same, and has no source, has the value of that everywhere and no flow.
+//! A part that is joined to the rest by a single node, or by known values that are all the same, and has no source, has that value everywhere and no flow.
 //! To solve for it would make flows of rounding, which refinement can only make smaller, some sixteen decades a step, until they leave the range of f64.
 //!
-//! Such parts are found by a walk in depth: below a node from which no conductance leads past the node above it, everything hangs on that node above (Tarjan, SIAM J. Comput. 1 (1972) 146–160).
+//! They are found by depth-first search: below a node from which no conductance leads past its parent, all nodes are joined to the rest by the parent alone (Tarjan, SIAM J. Comput. 1 (1972) 146–160).
 //! All known values are one node of that walk, its root.
 
 use super::core::{Core, NONE};
@@ -18,7 +18,7 @@ pub(crate) struct DeadEnds {
     anchors: Vec<u32>,
 }
 
-/// What is below a node in the walk, itself included.
+/// Summary of the part below a node in the walk, the node included.
 #[derive(Clone, Copy)]
 struct Below {
     /// The earliest node of the walk that a conductance leads to.
@@ -48,7 +48,7 @@ impl DeadEnds {
         self.anchors.get(number as usize).is_some_and(|&anchor| anchor != NONE)
     }
 
-    /// How many nodes there are in such parts.
+    /// The number of nodes in dead ends.
     pub(crate) fn count(&self) -> usize {
         self.anchors.iter().filter(|&&anchor| anchor != NONE).count()
     }
@@ -131,7 +131,7 @@ impl<'a> Walk<'a> {
         anchors
     }
 
-    /// What all below a node, itself included, hangs on without a source; `NONE` where something may flow.
+    /// The number whose value all below a node, the node included, takes as there is no source; `NONE` where something may flow.
     fn anchor(&self, node: u32) -> u32 {
         let Below { earliest, has_source, known } = self.below[node as usize];
         let above = self.above[node as usize];

@@ -1,4 +1,4 @@
-//! What a person calls methods, and why something was not solved.
+//! Names of methods and reasons of failure as users read them.
 
 use super::factor::NoSolution;
 use super::network::Unsolvable;

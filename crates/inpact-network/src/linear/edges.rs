@@ -36,24 +36,24 @@ const MOST_ELEMENTS: usize = 1 << 16;
 /// Steps that are kept in any case.
 const LEAST_STEPS: usize = 1 << 16;
 
-/// What a number of 106 bits loses in a handful of operations, as a part of it.
+/// Relative rounding error of a handful of double-double operations.
 pub(crate) const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
 
-/// What the smallest numbers lose, of which the second half has run out of exponents.
+/// Absolute rounding error of the smallest numbers, of which the second half has run out of exponents.
 const LEAST: f64 = f64::MIN_POSITIVE / (1_u64 << 46) as f64;
 
-/// What flows, and how well it balances.
+/// The flows at a state and their residuals.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Balance {
-    /// What flows from the first to the second end of each element of the core; zero for those that are not there.
+    /// The flow from the first to the second end of each element of the core; zero for those taken out.
     pub(crate) flows: Vec<DoubleDouble>,
-    /// What is missing in the equation of each unknown.
+    /// The residual of the equation of each unknown.
     pub(crate) residuals: Vec<DoubleDouble>,
     /// The magnitudes of all flows in the equation of each unknown, added up.
     pub(crate) magnitudes: Vec<f64>,
-    /// What rounding may have done to each flow.
+    /// A bound of the rounding error of each flow.
     pub(crate) roundings: Vec<f64>,
-    /// What rounding may have done to each residual.
+    /// A bound of the rounding error of each residual.
     rounding_of_residuals: Vec<f64>,
 }
 
@@ -64,7 +64,7 @@ impl Edges {
         Self { form, elements, ways }
     }
 
-    /// What flows from outside into all nodes that hang on each unknown, itself included.
+    /// The sum of the sources of all nodes below each unknown in the forest, itself included.
     pub(crate) fn sources(&self, core: &Core) -> Vec<DoubleDouble> {
         let form = &self.form;
         let mut sources: Vec<DoubleDouble> = form.nodes.iter().map(|&node| core.sources[node as usize]).collect();
@@ -148,12 +148,12 @@ impl Edges {
         }
     }
 
-    /// The unknown that hangs by an element with these ends, if one does.
+    /// The unknown whose branch is an element with these ends, if there is one.
     fn child_of(&self, element: u32, ends: [u32; 2]) -> Option<u32> {
         ends.into_iter().find(|&end| end != NONE && self.form.branches[end as usize] == element)
     }
 
-    /// How much the jump along the forest of each unknown changes when the unknowns change by `changes`.
+    /// The change of the jump along the forest of each unknown when the unknowns change by `changes`.
     pub(crate) fn changes_of_jumps(&self, changes: &[f64]) -> Vec<f64> {
         let form = &self.form;
         let change = |unknown: u32| {
@@ -197,7 +197,7 @@ impl Edges {
 
     /// Makes nothing of the flows that rounding hides, and gives the largest part of another that rounding may have done.
     ///
-    /// What flows along the forest is what all below it need, so that it is known as well as the balances there: less well than to 106 bits where large flows nearly cancel in one.
+    /// The flow along the forest is the sum of those below, so that it is known as well as the balances there: less well than to 106 bits where large flows nearly cancel in one.
     /// Other flows are as open as the jumps along the forest that make theirs. Solving has spread what is open by up to the condition of the matrix.
     /// Where ways along the forest are too many to be kept, only the flows' own rounding is looked at, and zeros may come out as some 1e-30 of what flows around them.
     pub(crate) fn settle(&self, core: &Core, condition: f64, balance: &mut Balance) -> f64 {
@@ -228,7 +228,7 @@ impl Edges {
         largest
     }
 
-    /// How far rounding leaves each jump along the forest open.
+    /// A bound of the error of each jump along the forest from rounding.
     fn open_steps(&self, core: &Core, condition: f64, balance: &Balance) -> Vec<f64> {
         let form = &self.form;
         let mut open: Vec<f64> = balance.rounding_of_residuals.iter().map(|rounding| condition * rounding).collect();
@@ -245,7 +245,7 @@ impl Edges {
         open
     }
 
-    /// How the nodes of the unknowns hang on known values.
+    /// The forest by nodes of the core.
     pub(super) fn spanning_forest(&self, core: &Core, jumps: &[DoubleDouble]) -> SpanningForest {
         let form = &self.form;
         let mut forest = SpanningForest::new(core);
@@ -281,7 +281,7 @@ impl Edges {
 }
 
 impl Balance {
-    /// What is missing in each equation; nothing where no more than rounding is.
+    /// The residual of each equation; zero where it is within rounding.
     pub(crate) fn missing(&self) -> impl Iterator<Item = f64> {
         self.residuals.iter().zip(&self.rounding_of_residuals).map(|(residual, &rounding)| {
             let missing = residual.to_f64();

@@ -21,7 +21,7 @@ const MOST_KNOWN: usize = 256;
 /// Above so many conductances of the filled network elimination is given up.
 const MOST_FILLED: usize = 20_000_000;
 
-/// What an elimination finds: the values of the free nodes, and what flows through each element that is there.
+/// Result of an elimination: the values of the free nodes, and the flow through each element that is there.
 #[derive(Debug)]
 pub(crate) struct Eliminated {
     pub(crate) values: Vec<DoubleDouble>,
@@ -79,7 +79,7 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
     Some(Eliminated { values, flows })
 }
 
-/// The number that stands for each known value, from the number of free nodes on, and the values: equal ones are one.
+/// The number of each known value, from the number of free nodes on, and the values: equal ones are one.
 fn terminals(core: &Core) -> (Vec<u32>, Vec<DoubleDouble>) {
     let mut terminals: Vec<DoubleDouble> = Vec::new();
     let mut places: HashMap<[u64; 2], u32> = HashMap::new();

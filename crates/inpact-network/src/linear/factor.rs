@@ -40,7 +40,7 @@ pub(crate) trait Solves {
     fn norm(&self) -> f64;
 }
 
-/// Why a solver has no solution.
+/// Reasons why a factorisation or iteration has no solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoSolution {
     /// A pivot was not above zero: rounding has made the matrix indefinite.
@@ -90,7 +90,7 @@ impl FactorNumber for f32 {
     const EXPONENT: Option<i32> = Some(96);
 
     fn rounded(value: f64) -> Self {
-        // What is lost here refinement gives back.
+        // Refinement makes up for the digits lost here.
         #[expect(clippy::cast_possible_truncation)]
         let single = value as Self;
         single

@@ -1,6 +1,6 @@
-//! What flows through infinite conductances: the multipliers of the condition that both ends have one value.
+//! Flows through infinite conductances: the multipliers of the condition that both ends have one value.
 //!
-//! All flows through finite conductances are known when this is asked. What is missing in the balance of each node must flow through its infinite ones.
+//! All flows through finite conductances are known here. The residual of each node must flow through its infinite ones.
 //! Where they form no ring that determines their flows. In a ring it does not; there they share as equal conductances would, however large,
 //! and the report says how many there are.
 
@@ -45,7 +45,7 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
     Ok(())
 }
 
-/// What flows into each node by everything but infinite conductances, nothing where no more than rounding is; and the magnitudes of that added up.
+/// The net flow into each node by everything but infinite conductances, zero where it is within rounding; and the sum of the magnitudes.
 fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<DoubleDouble>, Vec<f64>) {
     let mut missing: Vec<DoubleDouble> = network.sources.iter().map(|&source| DoubleDouble::new(source)).collect();
     let mut magnitudes: Vec<f64> = network.sources.iter().map(|source| source.abs()).collect();
@@ -68,9 +68,9 @@ fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<DoubleDou
     (missing, magnitudes)
 }
 
-/// Which nodes the others of their cluster are counted from: those that are held, or the one with the largest flows.
+/// The reference node of each cluster: held nodes, or the one with the largest flows.
 ///
-/// What the balance of a cluster has left within its tolerance ends up there, where it is least beside what flows.
+/// The residual of a cluster that is within its tolerance ends up there, where it is least relative to the flows.
 fn references(network: &LinearNetwork, infinite: &[usize], magnitudes: &[f64]) -> Vec<bool> {
     let mut sets = Sets::new(network.nodes());
     for &link in infinite {

@@ -13,13 +13,13 @@ use faer::matrix_free::conjugate_gradient::{CgParams, conjugate_gradient, conjug
 use faer::matrix_free::{InitialGuessStatus, LinOp, Precond};
 use faer::{MatMut, MatRef, Par};
 
-/// How much of what would fill in goes to the diagonal; all of it would be better still on a grid and could break down elsewhere.
+/// The part of dropped fill-in that is added to the diagonal; all of it would be better still on a grid and could break down elsewhere.
 const KEPT: f64 = 0.97;
 
 /// The most iterations for one correction.
 const MOST_ITERATIONS: usize = 5_000;
 
-/// By how much the residual shrinks in one correction, unless less is asked for.
+/// By how much the residual shrinks in one correction, unless less is needed.
 const CORRECTION: f64 = 1e-8;
 
 /// A symmetric matrix with its incomplete factor.
@@ -156,7 +156,7 @@ impl Incomplete {
         let mut factor = Self { starts, rows, values: matrix.values.clone() };
         let diagonal: Vec<f64> =
             (0..factor.count()).map(|column| factor.values[factor.starts[column] as usize]).collect();
-        // Where each row below the diagonal stands in the column that is being updated.
+        // The place of each row below the diagonal in the column that is being updated.
         let mut place_of = vec![u32::MAX; factor.count()];
         for (column, &diagonal) in diagonal.iter().enumerate() {
             factor.finish_column(column, diagonal);

@@ -10,11 +10,11 @@ use inpact_evaluation::numbers::DoubleDouble;
 pub struct LinearNetwork {
     /// The value of a node that is held, `None` for one whose value is sought; as many as there are nodes.
     pub held: Vec<Option<f64>>,
-    /// What flows into each node from outside; at a held node it adds to what holds it.
+    /// The source of each node, W, A or L³/T; at a held node it adds to the supply that holds it.
     pub sources: Vec<f64>,
     /// The conductances.
     pub links: Vec<Link>,
-    /// What nodes store over a time increment.
+    /// Storage of nodes over a time increment.
     pub stores: Vec<Store>,
 }
 
@@ -27,7 +27,7 @@ pub struct Link {
     pub conductance: f64,
 }
 
-/// What a node takes up in a time increment by backward Euler: conductance × (its value − its value before).
+/// Storage of a node in a time increment by backward Euler: conductance × (its value − its value before).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Store {
     /// The node.
@@ -38,7 +38,7 @@ pub struct Store {
     pub before: DoubleDouble,
 }
 
-/// What is wrong with a network, so that it has no solution or more than one.
+/// Reasons why a network has no solution or more than one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsolvable {
     /// Bodies without a path to a held value or a store: the nodes of each. A path needs conductances above zero.
@@ -47,7 +47,7 @@ pub enum Unsolvable {
     Contradiction {
         /// The nodes.
         nodes: [u32; 2],
-        /// What they are held at.
+        /// The held values of the two.
         values: [f64; 2],
     },
 }
@@ -58,7 +58,7 @@ impl LinearNetwork {
         Self { held: vec![None; nodes], sources: vec![0.0; nodes], ..Self::default() }
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn nodes(&self) -> usize {
         self.held.len()
     }

@@ -34,7 +34,7 @@ pub(crate) struct Analysis {
     pub(crate) ordering: Ordering,
 }
 
-/// How unknowns are ordered.
+/// Orders of elimination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ordering {
     /// Approximate minimum degree.
@@ -80,12 +80,12 @@ impl Analysis {
         Some(Self { symbolic, ordering })
     }
 
-    /// How many entries the factor has.
+    /// The number of entries of the factor.
     pub(crate) fn entries(&self) -> usize {
         self.symbolic.len_val()
     }
 
-    /// How many multiplications the factorization takes, about: the squares of the heights of all columns.
+    /// The number of multiplications of the factorisation, about: the squares of the heights of all columns.
     fn operations(&self) -> f64 {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(columns) => {
@@ -105,7 +105,7 @@ impl Analysis {
     }
 }
 
-/// Which unknowns are neighbours.
+/// The adjacency graph of a matrix.
 fn graph_of(pattern: SymbolicSparseColMatRef<'_, u32>) -> Graph {
     let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
     let column = |column: usize| {

@@ -3,7 +3,7 @@
 //! The balance of each unknown is taken in edge form and in 106 bits, the rough solver gives a correction, and so on.
 //! Each step gains as many digits as the solver is good for. The largest relative change of a flow in the last step, times the factor by which the changes shrink,
 //! is an estimate of the error that is left; a solution is taken only when that and the balances are within the tolerance.
-//! After the first step nothing tells by which factor: there the estimate is what is missing in the balances, as a part of the flows, times the condition.
+//! After the first step that factor is unknown: there the estimate is the residual of the balances, as a part of the flows, times the condition.
 //! Conjugate gradients stop when most is corrected, so that small flows may be wrong and not change: there the larger of both estimates counts.
 //! A balance is not better than its rounding: what is left of it below that is no reason to go on. What rounding may have done to a flow counts as its error;
 //! a flow that is no more than that is none.
@@ -23,7 +23,7 @@ const PATIENCE: usize = 24;
 /// A step has gained something where the largest flow that is missing falls by this factor.
 const FALLS: f64 = 1e-3;
 
-/// What came of a refinement.
+/// Result of a refinement.
 #[derive(Debug)]
 pub(crate) struct Refined {
     /// The jump along the forest of each unknown.
@@ -32,10 +32,10 @@ pub(crate) struct Refined {
     pub(crate) quality: Quality,
 }
 
-/// How good a solution is.
+/// Measures of the error of a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Quality {
-    /// How often a correction was solved for.
+    /// The number of solves.
     pub solves: usize,
     /// The largest share of its flows that is missing in a balance, balances that are at their rounding left out.
     pub residual: f64,
@@ -45,7 +45,7 @@ pub struct Quality {
     pub condition: f64,
 }
 
-/// Why a refinement gave up.
+/// Reasons why a refinement gave up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum GaveUp {
     /// The rough solver cannot.
@@ -109,7 +109,7 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
     Ok(Refined { jumps, balance, quality })
 }
 
-/// How the steps get on.
+/// Progress of the steps.
 #[derive(Debug)]
 struct Progress {
     change: f64,

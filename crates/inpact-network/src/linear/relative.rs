@@ -2,12 +2,12 @@
 //!
 //! Where a conductance is far stronger than its surroundings, the two nodes it joins have nearly one value, and an equation for either says almost only that.
 //! In plain assembly the sum of both equations, which is what the surroundings act on, is lost to rounding.
-//! Here the second node's unknown is its *jump* from the first: the strong conductance stands in the equation of the jump alone,
+//! Here the second node's unknown is its *jump* from the first: the strong conductance is in the equation of the jump alone,
 //! and the first node's equation is the balance of both, in which the strong conductance does not occur.
 //!
-//! For any mixture of strengths: conductances fall into levels of strength (`strength.rs`), and a forest of the strongest conductances hangs every free node on a known value,
-//! level by level, so that the way between two nodes uses no weaker level than it must. Nodes that the levels down to some strength join are a cluster; its top node in the forest stands for it.
-//! A node's unknown is its jump from the top of the cluster into which its own conductance in the forest leads, and its equation is the balance of all nodes that hang on it so.
+//! For any mixture of strengths: conductances fall into levels of strength (`strength.rs`), and a spanning forest of the strongest conductances joins every free node to a known value,
+//! level by level, so that the way between two nodes uses no weaker level than it must. Nodes that the levels down to some strength join are a cluster; its top node in the forest represents it.
+//! A node's unknown is its jump from the top of the cluster into which its own conductance in the forest leads, and its equation is the balance of all nodes below it.
 //! With one level every jump is from a known value: that is plain assembly.
 //!
 //! The matrix of the jumps, each scaled by the strength of its level, has entries of at most about one whatever the strengths, and no cancellation in them:
@@ -27,7 +27,7 @@
 //! | 1e8 | 1.5e-7 | 6.7e-3 | 0 | 0 |
 //! | 1e15 and above | no pivot above zero | | 0 | 0 |
 //!
-//! What is *kept* of a solution is the jump along each conductance of the forest, so that a flow of 1e-100 beside one of 1 has all its digits.
+//! The solution is *kept* as the jump along each conductance of the forest, so that a flow of 1e-100 beside one of 1 has all its digits.
 
 use super::core::{Core, Element, NONE};
 use super::sets::{Sets, index};
@@ -41,11 +41,11 @@ pub(crate) struct Form {
     pub(crate) of_node: Vec<u32>,
     /// The node of each unknown.
     pub(crate) nodes: Vec<u32>,
-    /// The unknowns, those first that others hang on.
+    /// The unknowns, parents before children.
     pub(crate) order: Vec<u32>,
-    /// The element of the forest that each unknown hangs by.
+    /// The element of the forest between each unknown and its parent.
     pub(crate) branches: Vec<u32>,
-    /// The unknown it hangs on in the forest; `NONE` for a known value.
+    /// The parent of each unknown in the forest; `NONE` for a known value.
     pub(crate) parents: Vec<u32>,
     /// The level of that element.
     pub(crate) levels: Vec<u16>,
@@ -91,12 +91,12 @@ impl Form {
         form
     }
 
-    /// How many unknowns there are.
+    /// The number of unknowns.
     pub(crate) fn count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// How many unknowns are jumps from another unknown.
+    /// The number of unknowns that are jumps from another unknown.
     pub(crate) fn relative(&self) -> usize {
         self.tops.iter().filter(|top| **top != NONE).count()
     }

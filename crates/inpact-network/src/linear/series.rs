@@ -14,7 +14,7 @@ use super::solve::{CoreFound, SMALL};
 use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// What was taken out, in order.
+/// The nodes taken out, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Series {
     steps: Vec<Step>,
@@ -31,7 +31,7 @@ struct Step {
     source: DoubleDouble,
     /// The conductances it had; the second is `NONE` at the end of a chain.
     elements: [u32; 2],
-    /// What was made of them: from the far end of the first to that of the second; `NONE` where both lead to one node.
+    /// The element that replaces them, from the far end of the first to that of the second; `NONE` where both lead to one node.
     made: u32,
 }
 
@@ -65,7 +65,7 @@ impl Series {
         series
     }
 
-    /// How many nodes were taken out.
+    /// The number of nodes taken out.
     pub(crate) fn count(&self) -> usize {
         self.steps.len()
     }
@@ -104,7 +104,7 @@ impl Series {
     }
 }
 
-/// How a node between two elements differs from the far end of the stronger one, of the jump between their far ends: what flows is too small to tell.
+/// The difference between a node in series and the far end of its stronger element, as a part of the jump between both far ends: for flows so small that their quotient is inexact.
 fn step_of_two(core: &Core, forest: &SpanningForest, [first, second]: [(u32, u32); 2]) -> DoubleDouble {
     let conductance = |element: u32| core.elements[element as usize].conductance;
     let (weaker, stronger) =
@@ -122,7 +122,7 @@ fn strength(core: &Core, element: u32) -> f64 {
     core.elements[element as usize].conductance.to_f64()
 }
 
-/// What two conductances in series conduct: of the quotient of the smaller and the larger nothing overflows.
+/// The conductance of two in series: of the quotient of the smaller and the larger nothing overflows.
 fn in_series(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
     let (smaller, larger) = if a.to_f64() <= b.to_f64() { (a, b) } else { (b, a) };
     smaller / (DoubleDouble::new(1.0) + smaller / larger)
@@ -132,7 +132,7 @@ fn in_series(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
 struct Incident {
     start: Vec<u32>,
     elements: Vec<u32>,
-    /// What an element was replaced by.
+    /// The element that replaced each; `NONE` for those still there.
     replaced_by: Vec<u32>,
 }
 
@@ -165,7 +165,7 @@ impl Incident {
         now.collect::<Vec<u32>>().into_iter().filter(|&element| is_there[element as usize]).collect()
     }
 
-    /// What an element was replaced by in the end.
+    /// The element at the end of a chain of replacements.
     fn now(&mut self, mut element: u32) -> u32 {
         while self.replaced_by[element as usize] != NONE {
             let next = self.replaced_by[element as usize];

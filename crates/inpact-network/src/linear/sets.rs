@@ -11,7 +11,7 @@ impl Sets {
         Self { parent: (0..count).map(index).collect() }
     }
 
-    /// The number that stands for the set of `member`.
+    /// The representative of the set of `member`.
     pub(crate) fn of(&mut self, member: u32) -> u32 {
         let mut at = member;
         while self.parent[at as usize] != at {
@@ -22,12 +22,12 @@ impl Sets {
         at
     }
 
-    /// Makes one set of the sets that `into` and `other` stand for; `into` stands for it.
+    /// Joins the sets of the representatives `into` and `other`; `into` represents the union.
     pub(crate) fn join_roots(&mut self, into: u32, other: u32) {
         self.parent[other as usize] = into;
     }
 
-    /// Makes one set of the sets of two members, for which the smaller number stands.
+    /// Joins the sets of two members; the smaller representative stays.
     pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.of(a), self.of(b));
         self.join_roots(a.min(b), a.max(b));

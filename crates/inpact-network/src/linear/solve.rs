@@ -22,7 +22,7 @@ use inpact_evaluation::numbers::DoubleDouble;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How a network is solved.
+/// Methods of solving a network.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// A Cholesky factor in f64.
@@ -39,7 +39,7 @@ pub enum Method {
 /// Flows up to this have lost digits to the range of f64.
 pub(super) const SMALL: f64 = f64::MIN_POSITIVE / f64::EPSILON / f64::EPSILON;
 
-/// The tolerance that stands for the last digit of f64.
+/// The tolerance of the last digit of f64.
 pub const LAST_DIGIT: f64 = f64::EPSILON / 16.0;
 
 /// Solves networks, and keeps what the next one can use again: the order of elimination as long as the same unknowns are coupled, the factor as long as the matrix is the same.
@@ -51,7 +51,7 @@ pub struct Solver {
     work: Work,
 }
 
-/// What is kept from one network to the next.
+/// State kept from one network to the next.
 #[derive(Debug)]
 struct Kept {
     pattern: Arc<Pattern>,
@@ -76,9 +76,9 @@ pub struct LinearSolution {
     pub flows: Vec<DoubleDouble>,
     /// The flow into each store.
     pub stored: Vec<DoubleDouble>,
-    /// The links whose flow does not tell the jump, ascending, and the jump across each.
+    /// The links whose flow does not determine the jump, ascending, and the jump across each.
     undetermined: Vec<(u32, DoubleDouble)>,
-    /// How it was found and how good it is.
+    /// Method, size and quality of the solution.
     pub report: LinearReport,
 }
 
@@ -106,26 +106,26 @@ impl LinearSolution {
     }
 }
 
-/// How a solution was found and how good it is.
+/// Method, size and quality of a solution.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct LinearReport {
     /// The method that gave it.
     pub method: Method,
-    /// The relative error of a flow that was asked for.
+    /// The relative error of a flow that is permitted.
     pub tolerance: f64,
-    /// How many unknowns were solved for.
+    /// The number of unknowns.
     pub unknowns: usize,
-    /// How many of them are jumps from another node.
+    /// The number of unknowns that are jumps from another node.
     pub relative: usize,
     /// In how many levels the strengths of the conductances fall.
     pub levels: usize,
-    /// How many nodes have the value of another by an infinite conductance.
+    /// The number of nodes that share the value of another by an infinite conductance.
     pub merged: usize,
-    /// How many nodes were taken out as they only pass on what flows through them.
+    /// The number of nodes eliminated in series: they only pass on the flow.
     pub taken_out: usize,
-    /// How many nodes have the value of another as nothing flows between the two.
+    /// The number of nodes in dead ends: no flow reaches them, and they have the value of another.
     pub dead_ends: usize,
-    /// How many infinite conductances there are beyond those that determine how they share their flow; they share it as equal ones would.
+    /// The number of infinite conductances beyond those that determine the shares of their flow; they share it as equal ones would.
     pub shared: usize,
     /// The order of elimination, where there was a factor.
     pub ordering: Option<Ordering>,
@@ -133,15 +133,15 @@ pub struct LinearReport {
     pub factor_entries: usize,
     /// Iterations of conjugate gradients.
     pub iterations: usize,
-    /// How good it is; an elimination has no estimate of its error.
+    /// Residual and estimated error; an elimination has no estimate.
     pub quality: Quality,
     /// The methods that were tried before, and why they were given up.
     pub given_up: Vec<(Method, Shortcoming)>,
-    /// How long its parts took.
+    /// Time of each phase.
     pub phases: Phases,
 }
 
-/// Why a method was given up.
+/// Reasons why a method was given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shortcoming {
     /// It could not begin.
@@ -154,7 +154,7 @@ pub enum Shortcoming {
     TooLarge,
 }
 
-/// Why a network has no solution.
+/// Reasons why a network has no solution.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinearFailure {
     /// It has none, or more than one.
@@ -163,16 +163,16 @@ pub enum LinearFailure {
     NotSolved(Vec<(Method, Shortcoming)>),
 }
 
-/// What is left to solve, solved: values of the core's free nodes, flows of its elements.
+/// The solution of a core: values of its free nodes, flows of its elements.
 pub(super) struct CoreFound {
     pub(super) values: Vec<DoubleDouble>,
     pub(super) flows: Vec<DoubleDouble>,
-    /// How nodes hang on known values; an elimination does not tell.
+    /// The spanning forest with its steps; an elimination has none.
     pub(super) forest: Option<SpanningForest>,
 }
 
 impl Solver {
-    /// A solver that is content with an estimated relative error of `tolerance` in every flow; [`LAST_DIGIT`] is as good as f64 can tell.
+    /// A solver with this method whose estimated relative error of every flow is at most `tolerance`; [`LAST_DIGIT`] is the best that f64 can hold.
     pub fn new(method: Method, tolerance: f64) -> Self {
         Self { method, tolerance, kept: None, work: Work::default() }
     }
@@ -194,12 +194,12 @@ impl Solver {
         }
     }
 
-    /// The method that was asked for.
+    /// The chosen method.
     pub(crate) fn method(&self) -> Method {
         self.method
     }
 
-    /// What all networks that it has solved took.
+    /// Total work of all networks solved so far.
     pub fn work(&self) -> Work {
         self.work
     }
@@ -253,7 +253,7 @@ impl Solver {
         Ok((found, report))
     }
 
-    /// Solves for the unknowns, by the method that was asked for and, where that falls short, by safer ones.
+    /// Solves for the unknowns, by the chosen method and, where that falls short, by safer ones.
     fn solve_form(
         &mut self,
         core: &Core,
@@ -388,7 +388,7 @@ fn worst_share(core: &Core, series: &Series, flows: &[DoubleDouble]) -> f64 {
     largest_or_nan(shares)
 }
 
-/// What is in `place`, made first where there is nothing.
+/// The content of `place`, made first where it is empty.
 fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolution>) -> Result<&mut T, NoSolution> {
     if place.is_none() {
         *place = Some(make()?);
@@ -396,7 +396,7 @@ fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolut
     place.as_mut().ok_or(NoSolution::Memory)
 }
 
-/// What jumps along the forest say.
+/// Values and flows of the jumps along the forest.
 fn found(core: &Core, edges: &Edges, jumps: &[DoubleDouble], balance: Balance) -> CoreFound {
     let forest = edges.spanning_forest(core, jumps);
     CoreFound { values: edges.values(core, jumps), flows: balance.flows, forest: Some(forest) }

@@ -1,6 +1,6 @@
-//! How free nodes hang on known values, step by step: what tells the jump across a link where its flow does not.
+//! The spanning forest from known values to free nodes, with the step along each branch: it determines the jump across a link whose flow does not.
 //!
-//! No flow tells the jump across a link that conducts nothing, or so little that the flow is below the range of f64,
+//! No flow determines the jump across a link that conducts nothing, or so little that the flow is below the range of f64,
 //! and the difference of two values of 100 has lost a jump of 1e-40.
 //! The steps along the forest and along what was taken out have all their digits; the jump is the sum of those on the way from one node to the other.
 
@@ -8,15 +8,15 @@ use super::core::{Core, NONE};
 use super::edges::ROUNDING;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// For each free node of a core what it hangs on, and its step from there.
+/// The parent of each free node of a core, and the step from there.
 #[derive(Clone, Debug)]
 pub(super) struct SpanningForest {
-    /// The number, of a free node or a known value, that each free node hangs on.
+    /// The parent of each free node: the number of a free node or of a known value.
     parents: Vec<u32>,
     steps: Vec<DoubleDouble>,
-    /// How many nodes there are on the way up from each node, itself included.
+    /// The depth of each node: 1 beside a known value.
     depths: Vec<u32>,
-    /// The next number, on the way up from each node, that is not at the value of what it hangs on.
+    /// The nearest number, on the way up from each node, whose value differs from its parent's.
     representatives: Vec<u32>,
 }
 
@@ -31,7 +31,7 @@ impl SpanningForest {
         }
     }
 
-    /// Hangs a node on a known value or on a node that hangs already; its value differs from that by `step`.
+    /// Attaches a node to a known value or to a node attached before; its value differs from that by `step`.
     pub(super) fn attach(&mut self, node: u32, parent: u32, step: DoubleDouble) {
         self.representatives[node as usize] = if step.is_zero() { self.representative(parent) } else { node };
         self.depths[node as usize] = self.depth(parent) + 1;

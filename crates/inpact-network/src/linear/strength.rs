@@ -28,7 +28,7 @@ impl Levels {
         Self { greatest }
     }
 
-    /// How many there are.
+    /// The number of levels.
     pub(crate) fn count(&self) -> usize {
         self.greatest.len()
     }

@@ -1,9 +1,9 @@
-//! What solving took: parts of a solution, and sums over many.
+//! Times and counts of solving, for one solution and summed over many.
 
 use super::solve::LinearReport;
 use std::ops::AddAssign;
 
-/// How long the parts of a solution took, in seconds.
+/// Times of the phases of a solution, seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Phases {
     /// Leaving out what can be left out, choosing unknowns, assembling.
@@ -16,16 +16,16 @@ pub struct Phases {
     pub solve: f64,
 }
 
-/// What the solution of some networks took.
+/// Total work of solving some networks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
-    /// How many networks there were.
+    /// The number of networks.
     pub networks: usize,
     /// Solves of refinements.
     pub solves: usize,
     /// Iterations of conjugate gradients.
     pub iterations: usize,
-    /// How long their parts took.
+    /// Time of each phase.
     pub phases: Phases,
 }
 

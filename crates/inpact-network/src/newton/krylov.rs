@@ -1,6 +1,6 @@
 //! Steps of Newton's in large scenes, without a factor of the whole unsymmetric matrix.
 //!
-//! What couples two fields, or a conductance to its own field, is little beside the symmetric blocks of the single fields, which have the pattern of their networks:
+//! The coupling of two fields, or of a conductance to its own field, is small beside the symmetric blocks of the single fields, which have the pattern of their networks:
 //! minimum degree or nested dissection order them, and one Cholesky factor each, in f32 as it need not be exact, makes a preconditioner;
 //! with `iterative` an incomplete factor does. Between the fields it is block-triangular: what the first field gives is taken from the second.
 //! GMRES then solves for the step, restarted so that its memory is that of a few vectors. A step that is solved to a few digits is a step all the same: the line search judges it.
@@ -13,7 +13,7 @@ use crate::linear::{Analysis, Factor, Incomplete, Method, NoSolution, Pattern, S
 use faer::sparse::Triplet;
 use std::sync::Arc;
 
-/// How many vectors GMRES keeps before it begins anew.
+/// The number of vectors that GMRES keeps before it restarts.
 const RESTART: usize = 24;
 
 /// The most times it begins anew.
@@ -79,8 +79,13 @@ enum Inverse {
 }
 
 impl Block {
-    /// The block of a field, on whose diagonal stands what its equations take up besides; `None` where it cannot be factored.
-    pub(super) fn of(system: &System<'_>, taken_up: &[f64], method: Method, kept: &mut Option<Order>) -> Option<Self> {
+    /// The block of a field, whose diagonal includes the pseudo-capacities; `None` where it cannot be factored.
+    pub(super) fn of(
+        system: &System<'_>,
+        pseudo_capacity: &[f64],
+        method: Method,
+        kept: &mut Option<Order>,
+    ) -> Option<Self> {
         let (start, count) = (system.start as usize, system.edges.form.count());
         let pattern = Pattern::of(&system.core, &system.edges);
         let order = match kept.take() {
@@ -90,7 +95,7 @@ impl Block {
             _ => kept.insert(Order { pattern, analysis: None }),
         };
         let mut matrix = order.pattern.matrix(&system.core, &system.edges);
-        for (column, more) in taken_up.iter().enumerate() {
+        for (column, more) in pseudo_capacity.iter().enumerate() {
             // A column begins with its diagonal.
             let diagonal = matrix.pattern.col_ptr()[column] as usize;
             matrix.values[diagonal] += more;

@@ -17,7 +17,7 @@ pub(super) struct System<'a> {
     pub(super) origins: Origins,
     pub(super) edges: Edges,
     pub(super) jumps: Vec<DoubleDouble>,
-    /// Where its unknowns begin among those of all fields.
+    /// The first of its unknowns among those of all fields.
     pub(super) start: u32,
 }
 
@@ -71,7 +71,7 @@ impl<'a> System<'a> {
         Some(system)
     }
 
-    /// The jumps along the forest of a solution: of the flows where a conductance tells, otherwise of the values.
+    /// The jumps along the forest of a solution: from the flows where a conductance determines them, otherwise from the values.
     pub(super) fn jumps_of(
         &self,
         solution: &LinearSolution,
@@ -188,7 +188,7 @@ impl<'a> System<'a> {
         self.values().into_iter().chain(self.core.known.iter().copied()).fold(of_jumps, largest)
     }
 
-    /// Where most is missing, as a share of the largest flow, and the node of the scene.
+    /// The largest residual, as a share of the largest flow, and its node of the scene.
     pub(super) fn worst_node(&self, state: &Evaluated) -> (f64, u32) {
         let largest = state.balance.magnitudes.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let missing = (0_usize..).zip(state.balance.missing().map(f64::abs));
@@ -206,7 +206,7 @@ impl<'a> System<'a> {
         if unit > 0.0 && unit.is_finite() { unit } else { 1.0 }
     }
 
-    /// What is missing in the balances, as the sum of squares of parts of `unit`.
+    /// The sum of squares of the residuals in parts of `unit`.
     pub(super) fn merit(&self, state: &Evaluated, unit: f64) -> f64 {
         let scaled =
             (0..).zip(state.balance.missing()).map(|(unknown, flow)| scale_by_power(flow, -self.half(unknown)) / unit);

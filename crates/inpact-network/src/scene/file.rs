@@ -69,9 +69,9 @@ pub(crate) enum ProcedureName {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(crate) struct TimeEntry {
-    /// When it starts; 0 unless given.
+    /// Start time, T; 0 unless given.
     pub(crate) start: Option<Number>,
-    /// When it ends.
+    /// End time, T.
     pub(crate) end: Number,
     /// The length of every increment; the last may be shorter.
     pub(crate) step: Option<Number>,
@@ -79,15 +79,15 @@ pub(crate) struct TimeEntry {
     pub(crate) tolerance: Option<Number>,
     /// The length of the first increment with `tolerance`, instead of a thousandth of the whole.
     pub(crate) first_step: Option<Number>,
-    /// What histories start from: the jumps of potential of the state at the start, or none, as Abaqus does.
+    /// Start of histories: with the jumps of potential of the state at the start, or without any, as in Abaqus.
     #[serde(default)]
     pub(crate) start_from: StartFromName,
-    /// What the heat of a current takes at the start of an increment that closes a circuit: the jump at its end, so that power balances, or that of the open circuit, as the manual has it.
+    /// The jump of potential in the heat of a current at the start of an increment that closes a circuit: the jump at its end, so that power balances, or that of the open circuit, as in the manual.
     #[serde(default)]
     pub(crate) closing_heat: ClosingHeatName,
 }
 
-/// What histories start from.
+/// Start of histories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -99,7 +99,7 @@ pub(crate) enum StartFromName {
     AtRest,
 }
 
-/// What the heat of a current takes at the start of an increment that closes a circuit.
+/// The jump of potential in the heat of a current at the start of an increment that closes a circuit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -130,18 +130,18 @@ pub(crate) struct NodeEntry {
     /// Its name.
     #[cfg_attr(test, schemars(with = "String"))]
     pub(crate) name: Spanned<String>,
-    /// What is known of its electric potential.
+    /// Its electric potential.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
     pub(crate) potential: Option<Spanned<Keyed<Condition>>>,
-    /// What is known of its temperature.
+    /// Its temperature.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
     pub(crate) temperature: Option<Spanned<Keyed<Condition>>>,
-    /// What is known of its pore pressure.
+    /// Its pore pressure.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
     pub(crate) pore_pressure: Option<Spanned<Keyed<Condition>>>,
 }
 
-/// What is known of one field at a node.
+/// Given values of one field at a node.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -149,10 +149,10 @@ pub(crate) struct Condition {
     /// The value it is held at.
     #[cfg_attr(test, schemars(with = "Option<Course>"))]
     pub(crate) fixed: Option<Spanned<Course>>,
-    /// What flows in from outside: current, heat, volume of fluid per time.
+    /// Source: current, heat, volume of fluid per time.
     #[cfg_attr(test, schemars(with = "Option<Course>"))]
     pub(crate) source: Option<Spanned<Course>>,
-    /// What it takes up per change of the value: heat capacity, storage of pore fluid.
+    /// Capacity, storage per change of the value: heat capacity, storage of pore fluid.
     pub(crate) capacity: Option<Number>,
     /// Its value at the start of a transient.
     pub(crate) initial: Option<Number>,
@@ -169,10 +169,10 @@ pub(crate) enum Course {
     Points(Vec<[f64; 2]>),
 }
 
-/// What a course is, for a message.
+/// The form of a course, for messages.
 pub(crate) const COURSE: &str = "a number, or points of time and value such as [[0.0, 20.0], [1.0, 80.0]]";
 
-/// What the nodes of a link are, for a message.
+/// The form of the nodes of a link, for messages.
 pub(crate) const TWO_NAMES: &str = "the names of two nodes such as [\"a\", \"b\"]";
 
 /// A lumped bulk conductance between two nodes; `inf` makes them one.
@@ -261,12 +261,12 @@ pub(crate) struct LinkFileEntry {
     pub(crate) file: Spanned<String>,
     /// Of a Matrix Market file, what its numbers conduct.
     pub(crate) conducts: Option<Conducts>,
-    /// Of a Matrix Market file, what stands before the numbers of its rows in the names of the nodes.
+    /// Of a Matrix Market file, the prefix of the names of the nodes, before the numbers of its rows.
     #[serde(default)]
     pub(crate) prefix: String,
 }
 
-/// What a conductance conducts.
+/// The field of a conductance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -279,7 +279,7 @@ pub(crate) enum Conducts {
     Hydraulic,
 }
 
-/// Says how entries are told of.
+/// The names of entries in messages.
 macro_rules! entries {
     ($($entry:ty: $one:literal, $many:literal;)+) => {
         $(impl Entry for $entry {

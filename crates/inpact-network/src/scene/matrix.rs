@@ -3,7 +3,7 @@
 //! The file is `matrix coordinate real symmetric`. Its entries beside the diagonal are conductances between the nodes of row and column, or all of them the negative of those,
 //! as an assembled conductance matrix has them; the rows of such a matrix add up to zero.
 //! Each pair of nodes has one entry, in either triangle: a file with both triangles would conduct twice what its matrix does.
-//! What is held in memory follows the entries that are there, not the size that the file says.
+//! Memory follows the entries that are there, not the size that the file declares.
 
 use super::Field;
 use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
@@ -156,7 +156,7 @@ fn parse_entry(text: &str, rows: u32) -> Result<([u32; 2], f64), Refusal> {
     Ok((ends, value))
 }
 
-/// Whether no pair of row and column has two entries, be they in one triangle or in both.
+/// Refuses pairs of row and column with two entries, be they in one triangle or in both.
 fn check_pairs(text: &str, entries: &[([u32; 2], f64)]) -> Result<(), Wrong> {
     let pair_of = |ends: [u32; 2]| [ends[0].max(ends[1]), ends[0].min(ends[1])];
     let mut pairs: Vec<[u32; 2]> = entries.iter().map(|(ends, _)| pair_of(*ends)).collect();

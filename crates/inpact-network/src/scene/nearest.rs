@@ -20,7 +20,7 @@ pub(crate) fn meant_or<'name>(written: &str, names: impl IntoIterator<Item = &'n
         .map_or_else(|| question.clone(), |first| format!("{question} {}{}", first.to_uppercase(), rest.as_str()))
 }
 
-/// What stands in backticks.
+/// The texts in backticks.
 pub(super) fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }

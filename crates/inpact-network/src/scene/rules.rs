@@ -1,4 +1,4 @@
-//! What may be wrong with a scene: rules D011 to D019, beside those of node tables.
+//! Rules about scenes, D011 to D019, beside those of node tables.
 
 use inpact_diagnostics::data_rules;
 
@@ -15,7 +15,7 @@ data_rules! {
 
     /// Two nodes of a scene have one name.
     ///
-    /// A node is told by its name, in the scene file and in all tables beside it.
+    /// A node is identified by its name, in the scene file and in all tables beside it.
     /// Rename one of the two, or give all that is known of the node in one entry.
     DUPLICATE_NODE = "D012", "duplicate-node", Error, source: "docs/scenes.md";
 
@@ -52,7 +52,7 @@ data_rules! {
 
     /// An interface of a scene lacks what its law depends on.
     ///
-    /// The law of the interaction depends on it, and nothing in the scene tells it.
+    /// The law of the interaction depends on it, and nothing in the scene gives it.
     /// The finding says what to give, and where.
     MISSING_QUANTITY = "D018", "missing-quantity", Error, source: "docs/scenes.md";
 

@@ -1,4 +1,4 @@
-//! The tables beside a scene file: nodes, links and interfaces as values between commas, semicolons or tabs, whichever the header tells.
+//! The tables beside a scene file: nodes, links and interfaces as values between commas, semicolons or tabs, found from the header.
 //!
 //! | table | columns |
 //! |---|---|
@@ -54,7 +54,7 @@ enum NodeColumn {
     Of(Field, Quantity),
 }
 
-/// What a column says of a field.
+/// Quantities of a field in a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Fixed,
@@ -64,7 +64,7 @@ enum Quantity {
 }
 
 impl Quantity {
-    /// What the scene file calls it.
+    /// The key in the scene file.
     fn key(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -188,7 +188,7 @@ pub(super) fn interfaces(
         _ => {
             // As the scene file calls it.
             let column = Column::named(if header == "temperature" { "temp" } else { header })?;
-            // More than a deck can ask for would be room for nothing in every row.
+            // More fields than a deck can have would be room for nothing in every row.
             let is_known = |number: u32| usize::try_from(number).is_ok_and(|number| number <= MOST_FIELD_VARIABLES);
             let is_of_interface = matches!(
                 column,
@@ -282,7 +282,7 @@ fn interface_of(row: &Row<'_, InterfaceColumn>) -> Result<SceneInterface, Refusa
     Ok(interface)
 }
 
-/// What the scene file calls a quantity of which not any finite number will do.
+/// The key in the scene file of a quantity whose range is limited.
 fn key_of(column: Column) -> &'static str {
     match column {
         Column::Area => "area",
@@ -318,7 +318,7 @@ impl<C: Copy + PartialEq> Row<'_, C> {
         Ok(name.to_owned())
     }
 
-    /// What the header calls a column; empty where there is none.
+    /// The header of a column; empty where there is none.
     fn header(&self, column: C) -> &str {
         let place = self.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
         place.and_then(|place| self.headers.get(place)).unwrap_or_default()
@@ -398,7 +398,7 @@ fn each_row<C: Copy + PartialEq>(
     }
 }
 
-/// What stands between the cells: of comma, semicolon and tab that which makes the header give the most columns that are known.
+/// The separator of cells: of comma, semicolon and tab the one that gives the most known columns in the header.
 fn separator(bytes: &[u8], is_known: impl Fn(&str) -> bool) -> u8 {
     let line = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).next().unwrap_or_default();
     let known = |separator: u8| {

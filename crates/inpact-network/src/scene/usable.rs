@@ -1,13 +1,13 @@
-//! What of a scene can be used: the one home of what the scene file and the tables beside it refuse alike.
+//! Limits of the values of scenes: the one home of the refusals that the scene file and the tables beside it share.
 
 use super::Field;
 use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use inpact_diagnostics::Rule;
 
-/// Why something is not taken: the rule, the words, and what to do.
+/// A refusal: the rule, the message and the help.
 pub(super) struct Refusal {
     pub(super) rule: &'static Rule,
-    /// What the header of a table calls the column, where it is about one cell.
+    /// The header of the column, where it is about one cell of a table.
     pub(super) column: Option<String>,
     pub(super) message: String,
     pub(super) help: String,
@@ -28,7 +28,7 @@ impl Refusal {
     }
 }
 
-/// What a number must do.
+/// Limits of a number.
 #[derive(Debug, Clone, Copy)]
 enum Must {
     BeFinite,
@@ -39,7 +39,7 @@ enum Must {
 }
 
 impl Must {
-    /// What the number of a key of the scene file must do; columns of tables mean one of those.
+    /// The limits of a key of the scene file; columns of tables mean one of those.
     fn of(key: &str) -> Self {
         match key {
             "area" => Self::ExceedZero,
@@ -60,7 +60,7 @@ impl Must {
         }
     }
 
-    /// What to give instead.
+    /// The help of a refusal.
     fn help(self) -> &'static str {
         match self {
             Self::BeFinite => "give a finite number",
@@ -72,7 +72,7 @@ impl Must {
     }
 }
 
-/// Whether the number of a key can be used; `written` is how it is written, `what` what a message calls it.
+/// Checks the number of a key; `written` is its text, `what` its name in messages.
 pub(super) fn number(key: &str, value: f64, written: &str, what: impl FnOnce() -> String) -> Result<(), Refusal> {
     let must = Must::of(key);
     if let Some(lost) = lost(value, written) {
@@ -85,7 +85,7 @@ pub(super) fn number(key: &str, value: f64, written: &str, what: impl FnOnce() -
     Err(Refusal::new(&UNUSABLE_NUMBER, format!("{} is {written}", what()), must.help()))
 }
 
-/// What a number has lost on the way from its text to f64: digits that make it infinite are no infinity that was meant, and those that make it zero no zero.
+/// The information lost from text to f64: digits that make a number infinite do not mean infinity, and those that make it zero do not mean zero.
 pub(super) fn lost(value: f64, written: &str) -> Option<&'static str> {
     let mantissa = written.split(['e', 'E']).next().unwrap_or_default();
     let has_digit = mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
@@ -105,7 +105,7 @@ pub(super) fn node_name(name: &str, what: impl FnOnce() -> String) -> Result<(),
     Ok(())
 }
 
-/// What a condition says, be it what it may.
+/// The given keys of a condition.
 #[derive(Clone, Copy)]
 pub(super) struct Given {
     pub(super) fixed: bool,
@@ -114,7 +114,7 @@ pub(super) struct Given {
     pub(super) initial: bool,
 }
 
-/// Whether what is said of a field at a node fits together.
+/// Checks that the given keys of a field at a node agree.
 pub(super) fn condition(field: Field, given: Given, node: &str) -> Result<(), Refusal> {
     if given.fixed && (given.source || given.capacity) {
         let other = if given.source { "source" } else { "capacity" };
@@ -139,7 +139,7 @@ pub(super) fn joined(nodes: [&str; 2], what: &str) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Whether a link has a conductance, be it zero.
+/// Checks that a link has a conductance, zero included.
 pub(super) fn conducting(has_conductance: bool, what: &str) -> Result<(), Refusal> {
     if !has_conductance {
         let help = "give `electrical`, `thermal` or `hydraulic`";

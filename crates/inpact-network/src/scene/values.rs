@@ -1,4 +1,4 @@
-//! The values of a scene file: what serde takes, but with the place of each number, and refused in words where they are something else.
+//! The values of a scene file: read by serde with the place of each number; a value of another type gives a finding.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -70,7 +70,7 @@ impl<'de> Visitor<'de> for PairVisitor {
     }
 }
 
-/// What is written as a table of keys.
+/// A value written as a table of keys.
 pub(crate) trait Entry {
     /// One of them, for a message.
     const ONE: &'static str;
@@ -102,7 +102,7 @@ impl<'de, T: Deserialize<'de> + Entry> Visitor<'de> for KeyedVisitor<T> {
     }
 }
 
-/// What stands in lists.
+/// An element of a list.
 pub(crate) trait Listed {
     /// A list of them, for a message.
     const LIST: &'static str;

@@ -1,4 +1,4 @@
-//! What the tests of linear networks share: networks in short, and answers as f64.
+//! Common helpers of the tests of linear networks: networks in short, and answers as f64.
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
@@ -46,7 +46,7 @@ pub fn jumps(network: &LinearNetwork, solution: &LinearSolution) -> Vec<f64> {
     (0..network.links.len()).map(|link| solution.jump(network, link).to_f64()).collect()
 }
 
-/// What has to balance.
+/// The balances to check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Balanced {
     /// Every node.
@@ -57,7 +57,7 @@ pub enum Balanced {
 
 /// The largest share of its flows that is missing in a balance without a held node, in 106 bits.
 ///
-/// What 106 bits lose of the largest flow of the network counts as nothing.
+/// The rounding error of the largest flow of the network counts as nothing.
 pub fn worst_balance(network: &LinearNetwork, solution: &LinearSolution, what: Balanced) -> f64 {
     let cluster = clusters(network, what);
     let mut missing = vec![DoubleDouble::ZERO; network.nodes()];

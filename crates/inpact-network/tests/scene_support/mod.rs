@@ -1,4 +1,4 @@
-//! What the tests of scenes share: scenes read from text, without files, and their problems put together.
+//! Common helpers of the tests of scenes: scenes read from text, without files, and their problems.
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
@@ -78,7 +78,7 @@ pub fn scene(text: &str) -> Scene {
     scene.unwrap_or_else(|| panic!("{findings:#?}"))
 }
 
-/// What is wrong with a scene.
+/// The findings of a scene.
 pub fn refused(text: &str) -> Vec<String> {
     let (scene, findings) = read_with(text, &[]);
     assert!(scene.is_none() && !findings.is_empty(), "{text}: {findings:?}");
