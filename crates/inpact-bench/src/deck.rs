@@ -71,29 +71,29 @@ fn write_tables<W: Write>(request: &DeckRequest, out: &mut Counted<W>) -> io::Re
 
 fn write_meshed<W: Write>(request: &DeckRequest, bytes: u64, out: &mut Counted<W>) -> io::Result<()> {
     let count = request.interactions + 1;
-    let behind_parts = measure(|out| write_behind_parts(request, &vec![Plate::UNIT; count], out))?;
+    let tail = measure(|out| write_tail(request, &vec![Plate::UNIT; count], out))?;
     let mut plates = Vec::with_capacity(count);
     write_heading(out, request)?;
     writeln!(out, "** PARTS\n**")?;
     for number in 0..count {
-        let left = bytes.saturating_sub(out.bytes() + behind_parts) / (count - number) as u64;
+        let left = bytes.saturating_sub(out.bytes() + tail) / (count - number) as u64;
         // The lines of a part that do not depend on its plate take about 250 bytes.
         let plate = Plate::fitting(left.saturating_sub(250));
         plate::write_part(out, plate, number, request.seed)?;
         plates.push(plate);
-        if out.bytes() + behind_parts > bytes + bytes / 50 {
-            let needed = (out.bytes() + behind_parts).div_ceil(1000);
+        if out.bytes() + tail > bytes + bytes / 50 {
+            let needed = (out.bytes() + tail).div_ceil(1000);
             return Err(io::Error::new(
                 io::ErrorKind::InvalidInput,
                 format!(
-                    "{} interactions need more than {needed} kB, {} kB were asked for",
+                    "{} interactions need more than {needed} kB, {} kB were requested",
                     request.interactions,
                     bytes / 1000
                 ),
             ));
         }
     }
-    write_behind_parts(request, &plates, out)
+    write_tail(request, &plates, out)
 }
 
 fn write_heading(out: &mut impl Write, request: &DeckRequest) -> io::Result<()> {
@@ -102,7 +102,7 @@ fn write_heading(out: &mut impl Write, request: &DeckRequest) -> io::Result<()> 
     writeln!(out, "** Written by inpact-bench for measurements; SI units, temperatures in K\n**")
 }
 
-fn write_behind_parts(request: &DeckRequest, plates: &[Plate], out: &mut impl Write) -> io::Result<()> {
+fn write_tail(request: &DeckRequest, plates: &[Plate], out: &mut impl Write) -> io::Result<()> {
     write_assembly(out, plates)?;
     out.write_all(MATERIAL.as_bytes())?;
     writeln!(out, "** INTERACTION PROPERTIES\n** ")?;
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_meshed_deck_has_the_size_asked_for() {
+    fn a_meshed_deck_has_the_requested_size() {
         for (bytes, interactions) in [(100_000, 0), (200_000, 2), (1_000_000, 50), (1_500_000, 1)] {
             let request = DeckRequest { interactions, ..request(Content::Mesh { bytes }) };
             let deviation = size(&request) as f64 / bytes as f64 - 1.0;

@@ -14,8 +14,8 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The word of the output formats: `error`, `warning` or `note`.
-    pub fn word(self) -> &'static str {
+    /// The name in the output formats: `error`, `warning` or `note`.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Error => "error",
             Self::Warning => "warning",
@@ -26,6 +26,6 @@ impl Severity {
 
 impl fmt::Display for Severity {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.word())
+        formatter.write_str(self.name())
     }
 }

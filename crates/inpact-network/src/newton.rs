@@ -285,7 +285,7 @@ impl<'a> Newton<'a> {
 
     /// The step of Newton's: the change of all unknowns, on the scale of the matrix; `None` where the matrix cannot be factored.
     ///
-    /// Each equation of temperature and pore pressure takes up `pseudo_capacity` times what its slopes amount to.
+    /// Each equation of temperature and pore pressure takes up `pseudo_capacity` times the size of its slopes.
     fn direction(
         &mut self,
         knowledge: &Knowledge<'a>,
@@ -338,7 +338,7 @@ impl<'a> Newton<'a> {
             }
         }
         let pseudo_capacity =
-            if pseudo_capacity > 0.0 { self.take_up(pseudo_capacity, &mut entries) } else { Vec::new() };
+            if pseudo_capacity > 0.0 { self.add_pseudo_capacities(pseudo_capacity, &mut entries) } else { Vec::new() };
         let scale = balance_fields(&self.fields, &mut entries, &mut right);
         StepEquations { entries, right, pseudo_capacity, scale }
     }
@@ -373,7 +373,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes; gives how much each does.
-    fn take_up(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) -> Vec<f64> {
+    fn add_pseudo_capacities(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) -> Vec<f64> {
         let all = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
         let mut pseudo_capacity = vec![0.0; all];
         for system in self.fields.iter().filter(|system| system.field != Field::Potential) {

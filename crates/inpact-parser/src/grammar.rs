@@ -229,7 +229,7 @@ impl Keyword {
                 definition.loosen();
             }
             if self.dialect == Dialect::Calculix {
-                definition.ask_for_words_in_full();
+                definition.match_in_full();
             }
             Some(Box::new(definition))
         };

@@ -69,14 +69,14 @@ fn parse<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let document = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let path = error.path().to_string();
-        JsonError::new(if path == "." { String::new() } else { path }, in_words_of_json(&error.inner().to_string()))
+        JsonError::new(if path == "." { String::new() } else { path }, json_message(&error.inner().to_string()))
     })?;
-    deserializer.end().map_err(|error| JsonError::new("", in_words_of_json(&error.to_string())))?;
+    deserializer.end().map_err(|error| JsonError::new("", json_message(&error.to_string())))?;
     Ok(document)
 }
 
 /// The message of a wrong type, in words of JSON where serde names a type of Rust.
-fn in_words_of_json(message: &str) -> String {
+fn json_message(message: &str) -> String {
     let Some((found, (expected, place))) =
         message.rsplit_once(", expected ").and_then(|(found, rest)| Some((found, rest.split_once(" at line ")?)))
     else {
@@ -107,12 +107,12 @@ pub(crate) fn required<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deseriali
 
 #[cfg(test)]
 mod tests {
-    use super::{JsonError, in_words_of_json, model, syntax};
+    use super::{JsonError, json_message, model, syntax};
     use crate::grammar::Grammar;
     use serde_json::{Value, json};
 
     #[test]
-    fn a_wrong_type_is_said_in_words_of_json() {
+    fn a_wrong_type_is_said_json_message() {
         let cases = [
             (
                 "invalid type: string \"1\", expected f64 at line 1 column 2",
@@ -126,7 +126,7 @@ mod tests {
             ("no place, expected f64", "no place, expected f64"),
         ];
         for (message, expected) in cases {
-            assert_eq!(in_words_of_json(message), expected);
+            assert_eq!(json_message(message), expected);
         }
     }
 

@@ -343,7 +343,7 @@ fn texts_that_are_none() {
 }
 
 #[test]
-fn long_words_are_cut_in_messages() {
+fn long_names_are_cut_in_messages() {
     let (place, message, _) = only_problem(&format!("a = {}", "x".repeat(1000)));
     assert_eq!(place.len(), 1000);
     assert_eq!(message, format!("`{}…` is used before it is defined", "x".repeat(40)));

@@ -173,7 +173,7 @@ fn evaluate(expression: &str) -> Option<Number> {
 
 /// Bytes that look like statements often enough to reach every branch.
 fn statement_bytes() -> impl Strategy<Value = Vec<u8>> {
-    let words = [
+    let tokens = [
         "a",
         "b",
         "pi",
@@ -213,8 +213,8 @@ fn statement_bytes() -> impl Strategy<Value = Vec<u8>> {
         "a = ",
         "\na = ",
     ];
-    let word = prop::sample::select(words.to_vec()).prop_map(|word| word.as_bytes().to_vec());
-    let piece = prop_oneof![12 => word, 1 => prop::collection::vec(any::<u8>(), 0..4)];
+    let token = prop::sample::select(tokens.to_vec()).prop_map(|token| token.as_bytes().to_vec());
+    let piece = prop_oneof![12 => token, 1 => prop::collection::vec(any::<u8>(), 0..4)];
     prop::collection::vec(piece, 0..60).prop_map(|pieces| pieces.concat())
 }
 
@@ -268,7 +268,7 @@ proptest! {
     }
 
     #[test]
-    fn references_are_found_whatever_stands_around(text in "[<>ab_1 ,é]{0,40}") {
+    fn references_are_found_in_any_text(text in "[<>ab_1 ,é]{0,40}") {
         let found: Vec<_> = references(text.as_bytes()).collect();
         for reference in &found {
             let written = &text[reference.range.clone()];

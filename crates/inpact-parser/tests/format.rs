@@ -199,7 +199,7 @@ fn keyword_lines_that_stay() {
 }
 
 #[test]
-fn numbers_stand_below_one_another() {
+fn numbers_are_aligned() {
     let head = "*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE, DEPENDENCIES=5\n";
     let rows = "1,2.5,3e4,,5\n8,9\n1000.25,,.5,<t>,1d5,,,,\n,\n\n1.\n";
     let aligned = "   1,    2.5, 3e4,    , 5\n8, 9\n1000.25,  ,    .5, <t>, 1d5\n ,\n\n   1.\n";
@@ -336,7 +336,7 @@ fn row() -> impl Strategy<Value = String> {
         1 => "[0-9]{30,90}".prop_map(|digits| digits),
     ];
     let blanks = || prop::sample::select(vec!["", "", " ", "\t", "   "]);
-    let padded = (blanks(), item, blanks()).prop_map(|(before, item, behind)| format!("{before}{item}{behind}"));
+    let padded = (blanks(), item, blanks()).prop_map(|(before, item, after)| format!("{before}{item}{after}"));
     prop::collection::vec(padded, 1..10).prop_map(|items| items.join(","))
 }
 
@@ -374,7 +374,7 @@ proptest! {
     }
 
     #[test]
-    fn a_formatted_row_has_its_comma_right_behind_the_item(rows in prop::collection::vec(prop::collection::vec(0..1_000_000_u32, 3), 1..20)) {
+    fn a_formatted_row_has_its_comma_right_after_the_item(rows in prop::collection::vec(prop::collection::vec(0..1_000_000_u32, 3), 1..20)) {
         let text: String = rows.iter().map(|row| format!("{}.,{},{}.5\n", row[0], row[1], row[2])).collect();
         let deck = format!("*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n{text}");
         let result = formatted(&deck);

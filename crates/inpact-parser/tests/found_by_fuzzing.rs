@@ -25,7 +25,7 @@ impl IncludedFiles for OneRow {
 
 /// The rows behind an *INCLUDE were a block of their own in JSON, which the lines then did not form.
 #[test]
-fn rows_behind_an_include_come_back_from_the_lossless_json() {
+fn rows_after_an_include_come_back_from_the_lossless_json() {
     let text = b"*SURFACE INTERACTION, NAME=A\n*INCLUDE, INPUT=rows\n1., 2.\n*FRICTION\n";
     let grammar = Grammar::builtin();
     let options = ScanOptions { grammar, keep: Keep::Everything };

@@ -231,7 +231,7 @@ fn s_13_choices_are_abbreviated_too() {
 }
 
 #[test]
-fn words_that_are_none_are_unknown() {
+fn unknown_names_are_unknown() {
     let grammar = Grammar::builtin();
     for written in [&b""[..], b"  \t", b"5e8", b"\xff\xfe", b"END", b"NO ANALYSIS", b"GAP=", &[b'S'; 1000]] {
         let unknown = Lookup::Unknown;

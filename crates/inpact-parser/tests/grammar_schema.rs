@@ -72,9 +72,9 @@ fn check_struct<'de, T: Deserialize<'de>>(pointer: &str) {
 /// The words that the schema allows at `pointer` are the variants of `T`.
 fn check_enum<'de, T: Deserialize<'de>>(pointer: &str) {
     let schema: Value = serde_json::from_str(SCHEMA).unwrap();
-    let words = schema.pointer(pointer).unwrap()["enum"].as_array().unwrap();
-    let words: BTreeSet<String> = words.iter().map(|word| word.as_str().unwrap().to_owned()).collect();
-    assert_eq!(words, names_of::<T>(), "{pointer}");
+    let names = schema.pointer(pointer).unwrap()["enum"].as_array().unwrap();
+    let names: BTreeSet<String> = names.iter().map(|name| name.as_str().unwrap().to_owned()).collect();
+    assert_eq!(names, names_of::<T>(), "{pointer}");
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn the_schema_names_the_fields_that_are_read() {
 }
 
 #[test]
-fn the_schema_names_the_words_that_are_read() {
+fn the_schema_has_the_names_that_are_read() {
     check_enum::<Level>("/properties/levels/items");
     check_enum::<Product>("/properties/products/items");
     check_enum::<ParameterKind>("/$defs/parameter/properties/kind");

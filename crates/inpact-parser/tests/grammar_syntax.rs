@@ -31,7 +31,7 @@ fn productions() -> BTreeMap<&'static str, Examples> {
             productions.insert(name, std::mem::take(&mut examples));
         }
     }
-    assert!(examples.accepted.is_empty(), "examples behind the last production");
+    assert!(examples.accepted.is_empty(), "examples after the last production");
     productions
 }
 
@@ -211,6 +211,6 @@ fn names_in(right: &str) -> Vec<String> {
             None => plain.push(character),
         }
     }
-    let words = plain.split(|character: char| !character.is_alphabetic() && character != ' ');
-    words.map(str::trim).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    let names = plain.split(|character: char| !character.is_alphabetic() && character != ' ');
+    names.map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect()
 }

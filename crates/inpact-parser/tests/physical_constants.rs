@@ -9,7 +9,7 @@ fn model_of(deck: &str, grammar: &Grammar) -> Model {
 }
 
 #[test]
-fn the_constants_of_the_deck_wherever_they_stand() {
+fn the_constants_of_the_deck_at_any_place() {
     let constants = |deck: &str| model_of(deck, Grammar::builtin()).constants;
     let given = |absolute_zero, stefan_boltzmann| PhysicalConstants { absolute_zero, stefan_boltzmann };
     assert_eq!(constants("*SURFACE INTERACTION, NAME=A\n"), given(None, None));

@@ -3,7 +3,7 @@
 use crate::parameter::given_as;
 use crate::references::{Definitions, components};
 use crate::rule::{Context, DefinedBlock};
-use crate::words::did_you_mean;
+use crate::suggestion::did_you_mean;
 use inpact_parser::grammar::nearest_names;
 use inpact_parser::model::Name;
 use std::collections::{HashMap, HashSet};

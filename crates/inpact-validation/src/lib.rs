@@ -33,7 +33,7 @@ mod tables;
 
 mod trend;
 
-mod words;
+mod suggestion;
 
 mod directives;
 

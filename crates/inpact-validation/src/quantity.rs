@@ -10,7 +10,7 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 /// What a column of a table is called in a sentence.
-pub(crate) fn column_words(column: &str) -> Cow<'_, str> {
+pub(crate) fn column_name(column: &str) -> Cow<'_, str> {
     match column {
         "temp" => "temperature".into(),
         "pressure" => "contact pressure".into(),
@@ -27,19 +27,19 @@ pub(crate) fn column_words(column: &str) -> Cow<'_, str> {
 /// Which group of the table a row belongs to, as the end of a sentence: ` at temperature 300, field variable 1 = 2`.
 ///
 /// Outer variables that are 0 are left out: mostly nothing stands in their columns.
-pub(crate) fn group_words(table: &Table, row: &[f64]) -> String {
+pub(crate) fn group_label(table: &Table, row: &[f64]) -> String {
     let outer = table.columns.iter().zip(row).skip(2).filter(|(_, value)| **value != 0.0);
-    let words: Vec<String> = outer
+    let values: Vec<String> = outer
         .map(|(column, value)| {
             let equals = if column.starts_with("fv") { " =" } else { "" };
-            format!("{}{equals} {}", column_words(column), number(*value))
+            format!("{}{equals} {}", column_name(column), number(*value))
         })
         .collect();
-    if words.is_empty() { String::new() } else { format!(" at {}", words.join(", ")) }
+    if values.is_empty() { String::new() } else { format!(" at {}", values.join(", ")) }
 }
 
 /// What the dependent value of a table is called.
-pub(crate) fn value_words(kind: TableKind) -> &'static str {
+pub(crate) fn value_name(kind: TableKind) -> &'static str {
     match kind {
         TableKind::ElectricalClearance | TableKind::ElectricalPressure => "electrical conductance",
         TableKind::ThermalClearance | TableKind::ThermalPressure => "thermal conductance",
@@ -79,7 +79,7 @@ mod tests {
     fn groups_are_named_by_what_is_not_zero() {
         let columns = ["conductance", "clearance", "temp", "fv1", "fv2"].map(str::to_owned).to_vec();
         let table = Table { columns: columns.into(), ..Table::default() };
-        assert_eq!(group_words(&table, &[1.0, 0.0, 300.0, 0.0, 2.0]), " at temperature 300, field variable 2 = 2");
-        assert_eq!(group_words(&table, &[1.0, 0.5, 0.0, 0.0, 0.0]), "");
+        assert_eq!(group_label(&table, &[1.0, 0.0, 300.0, 0.0, 2.0]), " at temperature 300, field variable 2 = 2");
+        assert_eq!(group_label(&table, &[1.0, 0.5, 0.0, 0.0, 0.0]), "");
     }
 }

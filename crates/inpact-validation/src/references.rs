@@ -2,7 +2,7 @@
 
 use crate::parameter::given_as;
 use crate::rule::Context;
-use crate::words::did_you_mean;
+use crate::suggestion::did_you_mean;
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::nearest_names;
 use inpact_parser::model::{Name, Reference};

@@ -113,9 +113,9 @@ impl<'a> Context<'a> {
         let found = match (column.checked_sub(first_line), second) {
             // A row that stands on one line although it should go over several (K-53) has all its items there.
             (None, _) | (_, None) => first.items().nth(column),
-            (Some(behind), Some(second)) => {
+            (Some(offset), Some(second)) => {
                 let mut further = std::iter::once(second).chain(lines);
-                further.nth(behind / following).and_then(|line| line.items().nth(behind % following))
+                further.nth(offset / following).and_then(|line| line.items().nth(offset % following))
             }
         };
         found.unwrap_or(row_span)

@@ -15,7 +15,7 @@ fn errors(text: &str) -> Vec<&'static str> {
 }
 
 #[test]
-fn a_40_where_a_sub_option_may_stand() {
+fn a_40_allowed_places_of_a_sub_option() {
     let electrical = "*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n1., 0.\n";
     let interaction = "*SURFACE INTERACTION, NAME=A\n";
     assert_eq!(errors(&format!("{interaction}*STEP\n{electrical}*STATIC\n*END STEP\n")), ["K013"]);

@@ -51,7 +51,7 @@ fn only(bytes: &[u8], code: &str) -> Diagnostic {
 }
 
 #[test]
-fn s001_points_behind_character_256() {
+fn s001_points_after_character_256() {
     let found = only(format!("*SURFACE INTERACTION, NAME=A{}, UNSYMM, USER\n", " ".repeat(250)).as_bytes(), "S001");
     assert_eq!((found.primary.position.line, found.primary.position.column), (1, 257));
     // Trailing blanks do not count, and a character of two bytes is not cut.
@@ -152,7 +152,7 @@ fn s007_s008_and_k010_share_the_integers() {
 }
 
 #[test]
-fn s008_stands_once_for_a_block() {
+fn s008_is_reported_once_for_a_block() {
     let rows = "1.00000000000000000000, 0.00000000000000000000\n".repeat(2);
     let deck = format!("*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE, PRESSURE\n{rows}");
     assert!(only(deck.as_bytes(), "S008").note.is_some_and(|note| note.starts_with("4 numbers")));

@@ -174,12 +174,12 @@ impl<'a> FilesOnDisk<'a> {
 fn expand(name: &str, value_of: impl Fn(&str) -> Option<String>) -> Result<String, String> {
     let mut expanded = String::new();
     let mut rest = name;
-    while let Some((before, behind)) = rest.split_once('$') {
+    while let Some((before, name)) = rest.split_once('$') {
         expanded += before;
         let is_part = |character: char| character.is_ascii_alphanumeric() || character == '_';
-        let (variable, after) = match behind.strip_prefix('{').and_then(|inner| inner.split_once('}')) {
+        let (variable, after) = match name.strip_prefix('{').and_then(|inner| inner.split_once('}')) {
             Some((variable, after)) => (variable, after),
-            None => behind.split_at(behind.find(|character| !is_part(character)).unwrap_or(behind.len())),
+            None => name.split_at(name.find(|character| !is_part(character)).unwrap_or(name.len())),
         };
         if variable.is_empty() {
             // A dollar by itself is a character like any other.

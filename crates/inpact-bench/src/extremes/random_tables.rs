@@ -69,14 +69,14 @@ struct Measured {
 fn largest_errors(axes: usize, queries: usize, range: Range) -> Vec<Measured> {
     let mut random = Random::new(0xe7_7e3e + axes as u64);
     let mut measured = vec![Measured::default(); EVALUATORS.len()];
-    let mut asked = 0;
-    while asked < queries {
+    let mut queried = 0;
+    while queried < queries {
         let rows = random_rows(&mut random, axes, range);
         let ending = random_ending(&mut random);
         let built = compile(&rows, ending);
         let points: Vec<Vec<f64>> = (0..8).map(|_| random_point(&mut random, &rows)).collect();
         let exact: Vec<_> = points.iter().map(|point| table_value(&rows, point, ending)).collect();
-        asked += points.len();
+        queried += points.len();
         for (evaluator, measured) in EVALUATORS.iter().zip(&mut measured) {
             measured.tables += 1;
             let Ok(ready) = (evaluator.of)(&built) else { continue };

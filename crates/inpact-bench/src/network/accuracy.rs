@@ -56,8 +56,8 @@ impl Worst {
             self.value = self.value.max(relative_error(value.to_f64(), exact));
         }
         for (link, jump) in exact.jumps.iter().enumerate() {
-            let is_flow_told = exact.flows[link].as_ref().is_none_or(|flow| !flow.is_below_range());
-            if !is_flow_told && network.links[link].conductance > 0.0 {
+            let is_in_range = exact.flows[link].as_ref().is_none_or(|flow| !flow.is_below_range());
+            if !is_in_range && network.links[link].conductance > 0.0 {
                 continue;
             }
             self.jump = self.jump.max(relative_error(solution.jump(network, link).to_f64(), jump));

@@ -20,8 +20,8 @@ pub fn items(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
     let mut rest = Some(content);
     std::iter::from_fn(move || {
         let input = rest?;
-        let (behind, found) = item(input).unwrap_or((&[], input));
-        rest = behind.strip_prefix(b",");
+        let (after, found) = item(input).unwrap_or((&[], input));
+        rest = after.strip_prefix(b",");
         let start = content.len() - input.len();
         Some(trimmed(content, start..start + found.len()))
     })

@@ -60,21 +60,21 @@ impl EditedText {
             first = before;
             first_start -= self.pieces[before].bytes.len() as u64;
         }
-        let (mut behind, mut behind_start) = (first, first_start);
+        let (mut after, mut after_start) = (first, first_start);
         let mut joined = Vec::new();
-        while behind < self.pieces.len() && behind_start <= end {
-            joined.extend_from_slice(&self.pieces[behind].bytes);
-            behind_start += self.pieces[behind].bytes.len() as u64;
-            behind += 1;
+        while after < self.pieces.len() && after_start <= end {
+            joined.extend_from_slice(&self.pieces[after].bytes);
+            after_start += self.pieces[after].bytes.len() as u64;
+            after += 1;
         }
         let index = |offset: u64| usize::try_from(offset - first_start).unwrap_or(usize::MAX).min(joined.len());
         joined.splice(index(start)..index(end), with.iter().copied());
         // Pieces that follow begin with a line of their own, and a CR here is not parted from an LF there.
-        while behind < self.pieces.len() && !matches!(joined.last(), None | Some(b'\n')) {
-            joined.extend_from_slice(&self.pieces[behind].bytes);
-            behind += 1;
+        while after < self.pieces.len() && !matches!(joined.last(), None | Some(b'\n')) {
+            joined.extend_from_slice(&self.pieces[after].bytes);
+            after += 1;
         }
-        self.pieces.splice(first..behind, cut(&joined, piece_length));
+        self.pieces.splice(first..after, cut(&joined, piece_length));
         self.length = self.length - (end - start) + with.len() as u64;
     }
 
@@ -157,8 +157,8 @@ impl EditedText {
         let length = |(piece, _): (&Arc<Piece>, &Arc<Piece>)| piece.bytes.len() as u64;
         let before = self.pieces.iter().zip(&other.pieces).take_while(same).count();
         let (rest, rest_of_other) = (&self.pieces[before..], &other.pieces[before..]);
-        let behind = rest.iter().rev().zip(rest_of_other.iter().rev()).take_while(same).map(length).sum();
-        (self.pieces[..before].iter().map(|piece| piece.bytes.len() as u64).sum(), behind)
+        let after = rest.iter().rev().zip(rest_of_other.iter().rev()).take_while(same).map(length).sum();
+        (self.pieces[..before].iter().map(|piece| piece.bytes.len() as u64).sum(), after)
     }
 
     /// The piece that a byte lies in and where that begins; behind the last byte the last piece, where it does not end a line.
@@ -184,13 +184,13 @@ fn cut(bytes: &[u8], length: usize) -> Vec<Arc<Piece>> {
         while end < rest.len() && (rest[end - 1] != b'\n' && (rest[end - 1] != b'\r' || rest[end] == b'\n')) {
             end += memchr::memchr2(b'\n', b'\r', &rest[end..]).map_or(rest.len() - end, |found| found + 1);
         }
-        let (piece, behind) = rest.split_at(end);
+        let (piece, after) = rest.split_at(end);
         pieces.push(Arc::new(Piece {
             bytes: piece.into(),
             line_ends: count_line_ends(piece),
             survey: Survey::of(piece),
         }));
-        rest = behind;
+        rest = after;
     }
     pieces
 }

@@ -39,25 +39,25 @@ pub(super) struct ParameterPieces {
 ///
 /// Never fails: what cannot be read stays inside a name or a value.
 pub(super) fn parse(text: &[u8]) -> KeywordPieces {
-    parse_words(text, word)
+    parse_items(text, word)
 }
 
 /// Parses a keyword line of CalculiX, in which every comma separates (CX-02).
 pub(super) fn parse_unprotected(text: &[u8]) -> KeywordPieces {
-    parse_words(text, |input| take_till(|byte| byte == b',').parse(input))
+    parse_items(text, |input| take_till(|byte| byte == b',').parse(input))
 }
 
 /// What takes one item of a line.
 type TakeItem = fn(&[u8]) -> IResult<&[u8], &[u8]>;
 
-fn parse_words(text: &[u8], word: TakeItem) -> KeywordPieces {
+fn parse_items(text: &[u8], word: TakeItem) -> KeywordPieces {
     let joined = join_physical_lines(text);
     let mut pieces = KeywordPieces::default();
     let start = joined.iter().position(|byte| *byte == b'*').map_or(0, |star| star + 1);
     let (rest, name) = word(&joined[start..]).unwrap_or((&[], &joined[start..]));
     pieces.name = trimmed(&joined, range_of(&joined, name));
     let mut rest = rest;
-    while let Ok((behind, item)) = preceded(tag(","), word).parse(rest) as IResult<&[u8], &[u8]> {
+    while let Ok((after, item)) = preceded(tag(","), word).parse(rest) as IResult<&[u8], &[u8]> {
         let range = range_of(&joined, item);
         pieces.final_comma = Some(range.start - 1);
         if !joined[range.clone()].trim_ascii().is_empty() {
@@ -65,7 +65,7 @@ fn parse_words(text: &[u8], word: TakeItem) -> KeywordPieces {
             note_unterminated_quote(&joined, &range, &mut pieces);
             pieces.parameters.push(split_at_equals(&joined, range));
         }
-        rest = behind;
+        rest = after;
     }
     pieces
 }

@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn keyword_lines_are_found_behind_rows_and_comments() {
+    fn keyword_lines_are_found_after_rows_and_comments() {
         let bytes = b"1, 2*3\n** *NODE\n  ** x\n\t *STEP\n";
         assert_eq!(find_keyword_line(bytes, 0, |_, _| {}), Some(23));
         assert_eq!(find_keyword_line(b"1,2\n3,4\n", 0, |_, _| {}), None);

@@ -322,9 +322,9 @@ impl<'grammar> Scanner<'grammar> {
         let line = &bytes[at..end];
         let Some(open) = &mut self.open_keyword else { return at };
         let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
-        let behind = if is_comment { None } else { Some(behind_comma(open.id, line, self.options.grammar)) };
-        if let Some(Behind::PerhapsFlags | Behind::NoParameters) = behind {
-            open.is_answered = behind == Some(Behind::PerhapsFlags);
+        let next = if is_comment { None } else { Some(after_comma(open.id, line, self.options.grammar)) };
+        if let Some(NextLine::PerhapsFlags | NextLine::NoParameters) = next {
+            open.is_answered = next == Some(NextLine::PerhapsFlags);
             self.close_keyword();
             return at;
         }
@@ -421,7 +421,7 @@ fn end_of_last_line(bytes: &[u8]) -> usize {
 
 /// How a line reads behind a keyword line that ends in a comma (S-19).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Behind {
+enum NextLine {
     /// As parameters of the keyword: it goes on with them.
     Parameters,
     /// As words that may be flags of a keyword whose parameters are not all known here.
@@ -433,14 +433,14 @@ enum Behind {
 }
 
 /// How `line` reads behind a keyword line: as its parameters if it has `=`, or if its words are flags the keyword knows (S-19).
-fn behind_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> Behind {
+fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> NextLine {
     let definition = keyword.and_then(|id| grammar.keyword(id).definition());
     let knows_all = definition.is_some_and(|definition| definition.parameters_complete);
     match line_kind(line) {
         // What a blank line means here is said nowhere.
-        LineKind::Blank if !knows_all => return Behind::PerhapsFlags,
+        LineKind::Blank if !knows_all => return NextLine::PerhapsFlags,
         LineKind::Data => {}
-        _ => return Behind::NoParameters,
+        _ => return NextLine::NoParameters,
     }
     let is_parameter = |item: &[u8]| {
         let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
@@ -456,22 +456,22 @@ fn behind_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> B
         }
     };
     let has_value = line.contains(&b'=');
-    let mut words = items(line).map(|range| &line[range]).filter(|item| !item.is_empty()).peekable();
-    let is_empty = words.peek().is_none();
+    let mut fields = items(line).map(|range| &line[range]).filter(|item| !item.is_empty()).peekable();
+    let is_empty = fields.peek().is_none();
     let mut perhaps = !knows_all && !is_empty;
     let continues = if has_value {
-        words.any(is_parameter)
+        fields.any(is_parameter)
     } else {
         !is_empty
-            && words.fold(true, |all, word| {
+            && fields.fold(true, |all, word| {
                 perhaps &= is_like_a_flag(word);
                 all && is_parameter(word)
             })
     };
     match (continues, perhaps) {
-        (true, _) => Behind::Parameters,
-        (false, true) => Behind::PerhapsFlags,
-        (false, false) => Behind::NoParameters,
+        (true, _) => NextLine::Parameters,
+        (false, true) => NextLine::PerhapsFlags,
+        (false, false) => NextLine::NoParameters,
     }
 }
 

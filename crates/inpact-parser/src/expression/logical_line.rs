@@ -119,8 +119,8 @@ impl LogicalLine<'_> {
 
     /// The physical line that holds an offset of the text.
     fn piece(&self, offset: usize) -> (usize, Span) {
-        let behind = self.pieces.partition_point(|(start, _)| *start <= offset);
-        self.pieces[behind.saturating_sub(1)]
+        let after = self.pieces.partition_point(|(start, _)| *start <= offset);
+        self.pieces[after.saturating_sub(1)]
     }
 
     fn offset(&self, offset: usize) -> Span {

@@ -11,7 +11,7 @@ pub(super) struct Cell {
     /// The characters before the decimal point, or before the exponent where there is no point.
     before: usize,
     /// The other characters.
-    behind: usize,
+    after: usize,
 }
 
 impl Cell {
@@ -22,7 +22,7 @@ impl Cell {
         let is_symbol = item.contains(&b'<');
         let point = memchr::memchr(b'.', item).or_else(|| item.iter().position(u8::is_ascii_alphabetic));
         let split = if is_symbol { item.len() } else { point.unwrap_or(item.len()) };
-        Self { range, is_number, before: characters(&item[..split]), behind: characters(&item[split..]) }
+        Self { range, is_number, before: characters(&item[..split]), after: characters(&item[split..]) }
     }
 
     /// The item.
@@ -35,7 +35,7 @@ impl Cell {
     }
 
     fn width(&self) -> usize {
-        self.before + self.behind
+        self.before + self.after
     }
 }
 
@@ -52,7 +52,7 @@ struct Column {
     has_text: bool,
     width: usize,
     before: usize,
-    behind: usize,
+    after: usize,
 }
 
 impl Columns {
@@ -65,7 +65,7 @@ impl Columns {
             column.has_text |= !cell.is_number;
             column.width = column.width.max(cell.width());
             column.before = column.before.max(cell.before);
-            column.behind = column.behind.max(cell.behind);
+            column.after = column.after.max(cell.after);
         }
     }
 
@@ -73,7 +73,7 @@ impl Columns {
     pub(super) fn write(&self, cells: &[Cell], text: &[u8], line: &mut Vec<u8>) {
         let mut due = 0;
         for (index, (column, cell)) in self.columns.iter().zip(cells).enumerate() {
-            let (before, behind) = column.blanks_around(cell);
+            let (before, after) = column.blanks_around(cell);
             let is_last = index + 1 == cells.len();
             // Nothing is written behind the last comma of `1.,`.
             if !(is_last && cell.is_empty()) {
@@ -83,7 +83,7 @@ impl Columns {
             if !is_last {
                 line.push(b',');
             }
-            due = behind + 1;
+            due = after + 1;
         }
     }
 }
@@ -94,7 +94,7 @@ impl Column {
         if self.has_text {
             (0, self.width - cell.width())
         } else {
-            (self.before - cell.before, self.behind - cell.behind)
+            (self.before - cell.before, self.after - cell.after)
         }
     }
 }

@@ -22,10 +22,10 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
     let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start, formatted: b"*".to_vec() };
     let name = line.piece(keyword.name)?;
     line.formatted.extend_from_slice(definition.name.as_bytes());
-    let mut behind = keyword.name.start + name.len() as u64;
+    let mut after = keyword.name.start + name.len() as u64;
     for parameter in &keyword.parameters {
         let piece = line.piece(parameter.span())?;
-        line.take_comma(line.at(behind, parameter.name.start))?;
+        line.take_comma(line.at(after, parameter.name.start))?;
         match known_name(parameter, definition, dialect) {
             None => line.formatted.extend_from_slice(piece),
             Some(known) => {
@@ -36,9 +36,9 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
                 }
             }
         }
-        behind = parameter.name.start + piece.len() as u64;
+        after = parameter.name.start + piece.len() as u64;
     }
-    line.take_end(line.at(behind, keyword.span.end))?;
+    line.take_end(line.at(after, keyword.span.end))?;
     let formatted = line.formatted;
     let fits = lines(&formatted).all(|range| {
         let physical = &formatted[range];

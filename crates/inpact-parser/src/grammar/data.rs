@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn k_02_properties_stand_on_lines_of_their_own() {
+    fn k_02_properties_have_lines_of_their_own() {
         let grammar = Grammar::builtin();
         let definition = grammar.keyword(grammar.id_of("SURFACE INTERACTION").unwrap()).definition().unwrap();
         let layout = definition.layout(|name| name == "USER", 9).unwrap();

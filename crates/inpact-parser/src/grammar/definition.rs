@@ -43,12 +43,12 @@ pub struct Definition {
     pub data: Data,
     /// How parameters are recognised.
     #[serde(skip)]
-    words: Words,
+    matching: Matching,
 }
 
 /// How much of a name must be written (S-13, CX-03).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Words {
+enum Matching {
     /// As much as tells it from all others, as Abaqus has it.
     #[default]
     Abbreviated,
@@ -105,7 +105,7 @@ pub struct ParameterDefinition {
     pub source: String,
     /// How choices are recognised.
     #[serde(skip)]
-    words: Words,
+    matching: Matching,
 }
 
 /// What the value of a parameter is.
@@ -205,7 +205,7 @@ impl Definition {
     /// The parameter that is written so in a deck for `release`, as its place in the list (S-13, S-16).
     pub fn parameter_named_in(&self, written: &[u8], release: Release) -> Lookup<usize> {
         let parameters = self.parameters.iter().enumerate();
-        if self.words == Words::InFull {
+        if self.matching == Matching::InFull {
             return self.parameter_in_full(written);
         }
         let there = parameters.filter(|(_, parameter)| release.is_within(parameter.since, parameter.until));
@@ -222,9 +222,9 @@ impl Definition {
     }
 
     /// Has parameters and choices recognised as CalculiX does it (CX-03).
-    pub(super) fn ask_for_words_in_full(&mut self) {
-        self.words = Words::InFull;
-        self.parameters.iter_mut().for_each(|parameter| parameter.words = Words::InFull);
+    pub(super) fn match_in_full(&mut self) {
+        self.matching = Matching::InFull;
+        self.parameters.iter_mut().for_each(|parameter| parameter.matching = Matching::InFull);
     }
 
     /// Names of parameters that somebody who wrote this may have meant, the nearest first.
@@ -293,7 +293,7 @@ impl ParameterDefinition {
 
     /// The choice that is written so (S-13); `None` when there is none, or more than one.
     pub fn choice_named(&self, written: &[u8]) -> Option<&str> {
-        if self.words == Words::InFull {
+        if self.matching == Matching::InFull {
             return self.choices.iter().map(String::as_str).find(|choice| begins_with_name(written, choice));
         }
         let index = lookup_name(written, self.choices.iter().map(String::as_str)).found()?;

@@ -8,12 +8,12 @@ use crate::span::Span;
 use inpact_geometry::{ElementShape, ElementSpace, ElementType, FaceLabel, FaceShape, FreeFaces, MAX_NODES, NodeId};
 use std::io;
 
-/// Which faces a row of *SURFACE picks in one body.
+/// Which faces a row of *SURFACE picks in one instance.
 #[derive(Debug, Clone)]
 pub(super) struct Pick {
     /// Which surface it belongs to.
     pub(super) surface: usize,
-    pub(super) body: usize,
+    pub(super) instance: usize,
     pub(super) elements: Selection,
     /// The face; `None` for the free ones.
     pub(super) face: Option<FaceLabel>,
@@ -25,7 +25,7 @@ pub(super) struct Pick {
 #[derive(Debug, Clone)]
 pub(super) struct RawFace {
     pub(super) surface: usize,
-    pub(super) body: usize,
+    pub(super) instance: usize,
     pub(super) element: u32,
     pub(super) label: FaceLabel,
     pub(super) kind: ElementType,
@@ -53,8 +53,8 @@ impl Reader<'_, '_> {
         if !free.is_empty() {
             faces.extend(self.sweep(&free)?.0);
         }
-        faces.sort_by_key(|face| (face.surface, face.body, face.element, face.label));
-        faces.dedup_by_key(|face| (face.surface, face.body, face.element, face.label));
+        faces.sort_by_key(|face| (face.surface, face.instance, face.element, face.label));
+        faces.dedup_by_key(|face| (face.surface, face.instance, face.element, face.label));
         Ok(faces)
     }
 
@@ -62,15 +62,15 @@ impl Reader<'_, '_> {
     fn sweep(&mut self, picks: &[Pick]) -> io::Result<(Vec<RawFace>, Vec<Pick>)> {
         let mut faces = Vec::new();
         let mut named = Vec::new();
-        for body in 0..self.bodies.len() {
-            let here: Vec<&Pick> = picks.iter().filter(|pick| pick.body == body).collect();
+        for instance in 0..self.instances.len() {
+            let here: Vec<&Pick> = picks.iter().filter(|pick| pick.instance == instance).collect();
             if here.is_empty() {
                 continue;
             }
             let mut free: Vec<(&Pick, FreeFaces)> = Vec::new();
             free.extend(here.iter().filter(|pick| pick.face.is_none()).map(|pick| (*pick, FreeFaces::new())));
             let options: Vec<Entry<'_>> =
-                self.chain(Context::Body(body)).flat_map(|definitions| definitions.elements.clone()).collect();
+                self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.elements.clone()).collect();
             for option in options {
                 self.rows_of(option, &here, &mut free, &mut faces)?;
             }
@@ -143,10 +143,10 @@ impl Reader<'_, '_> {
                         for (node, local) in of_face.iter_mut().zip(face.nodes) {
                             *node = nodes[usize::from(*local)];
                         }
-                        let (surface, body) = (pick.surface, pick.body);
+                        let (surface, instance) = (pick.surface, pick.instance);
                         faces.push(RawFace {
                             surface,
-                            body,
+                            instance,
                             element,
                             label,
                             kind,

@@ -141,14 +141,14 @@ impl Reader<'_, '_> {
                 Some((name, selected)) if *name == target => Rc::clone(selected),
                 _ => Rc::new(self.select(Kind::Nodes, Context::Top, &target, span)?),
             };
-            for (body, selection) in selected.iter() {
+            for (instance, selection) in selected.iter() {
                 if let Some(label) = selection.single() {
-                    if let Some(node) = located.id(*body, label) {
+                    if let Some(node) = located.id(*instance, label) {
                         field.values[node.index()] = Some(value);
                     }
                     continue;
                 }
-                for node in located.of_bodies[*body].clone() {
+                for node in located.of_instances[*instance].clone() {
                     if selection.contains(located.label(node), located.options[node]) {
                         field.values[node] = Some(value);
                     }

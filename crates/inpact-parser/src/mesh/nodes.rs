@@ -10,7 +10,7 @@ use crate::span::Span;
 use inpact_geometry::Point;
 use std::io;
 
-/// The nodes that are wanted of one body, and what was found.
+/// The nodes that are wanted of one instance, and what was found.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Wanted {
     /// Ascending, each once.
@@ -101,10 +101,10 @@ impl Reader<'_, '_> {
         Ok(placement)
     }
 
-    /// Finds the wanted nodes of a body. Gives, for each selection, the numbers of the nodes that are in it.
+    /// Finds the wanted nodes of a instance. Gives, for each selection, the numbers of the nodes that are in it.
     pub(super) fn read_nodes(
         &mut self,
-        body: usize,
+        instance: usize,
         wanted: &mut Wanted,
         selections: &[&Selection],
     ) -> io::Result<Vec<Vec<u32>>> {
@@ -114,8 +114,8 @@ impl Reader<'_, '_> {
             return Ok(selected);
         }
         let options: Vec<Entry<'_>> =
-            self.chain(Context::Body(body)).flat_map(|definitions| definitions.nodes.clone()).collect();
-        let placement = self.bodies[body].placement;
+            self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.nodes.clone()).collect();
+        let placement = self.instances[instance].placement;
         for option in options {
             let key = option.keyword.span;
             if option.parameter("INPUT").is_some() {

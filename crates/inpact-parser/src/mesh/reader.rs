@@ -23,21 +23,21 @@ pub(super) enum Context {
     /// In the model and the assembly.
     Top,
     /// In an instance and its part, or in a model without instances.
-    Body(usize),
+    Instance(usize),
 }
 
 impl Context {
     /// The body that a number without an instance belongs to.
-    pub(super) fn body(self) -> usize {
+    pub(super) fn instance(self) -> usize {
         match self {
             Self::Top => 0,
-            Self::Body(body) => body,
+            Self::Instance(instance) => instance,
         }
     }
 }
 
 /// What has nodes and elements of its own: the model (always the first), or an instance.
-pub(super) struct Body<'deck> {
+pub(super) struct Instance<'deck> {
     pub(super) name: Option<Name>,
     /// The instance's own options, then those of its part.
     chain: Vec<Definitions<'deck>>,
@@ -48,7 +48,7 @@ pub(super) struct Body<'deck> {
 /// Reads a mesh.
 pub(super) struct Reader<'deck, 'rows> {
     pub(super) rows: &'rows mut dyn RowBytes,
-    pub(super) bodies: Vec<Body<'deck>>,
+    pub(super) instances: Vec<Instance<'deck>>,
     pub(super) sets: HashMap<(Kind, Context, String), Selected>,
     pub(super) clearances: Vec<Entry<'deck>>,
     pub(super) initial_conditions: Vec<Entry<'deck>>,
@@ -62,11 +62,12 @@ pub(super) struct Reader<'deck, 'rows> {
 impl<'deck, 'rows> Reader<'deck, 'rows> {
     pub(super) fn new(deck: &'deck Deck, grammar: &Grammar, rows: &'rows mut dyn RowBytes) -> Self {
         let layout = Layout::of(deck, grammar);
-        let mut bodies = vec![Body { name: None, chain: vec![layout.model], placement: Placement::NONE, entry: None }];
+        let mut instances =
+            vec![Instance { name: None, chain: vec![layout.model], placement: Placement::NONE, entry: None }];
         for instance in layout.instances {
             let part = instance.part.map(|part| layout.parts[part].1.clone());
             let chain = std::iter::once(instance.own).chain(part).collect();
-            bodies.push(Body {
+            instances.push(Instance {
                 name: Some(instance.name),
                 chain,
                 placement: Placement::NONE,
@@ -75,7 +76,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         }
         Self {
             rows,
-            bodies,
+            instances,
             sets: HashMap::new(),
             clearances: layout.clearances,
             initial_conditions: layout.initial_conditions,
@@ -97,9 +98,9 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             pick.elements.labels.sort();
         }
         let faces = self.faces(&picks.faces)?;
-        for body in 1..self.bodies.len() {
-            if let Some(entry) = self.bodies[body].entry {
-                self.bodies[body].placement = self.placement(entry)?;
+        for instance in 1..self.instances.len() {
+            if let Some(entry) = self.instances[instance].entry {
+                self.instances[instance].placement = self.placement(entry)?;
             }
         }
         let located = self.locate(&faces, &picks.nodes)?;
@@ -146,11 +147,11 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
     /// The options that names are looked up in.
     pub(super) fn chain(&self, context: Context) -> impl Iterator<Item = &Definitions<'deck>> {
         let assembly = matches!(context, Context::Top).then_some(&self.assembly);
-        self.bodies[context.body()].chain.iter().chain(assembly)
+        self.instances[context.instance()].chain.iter().chain(assembly)
     }
 
-    pub(super) fn body_named(&self, name: &Name) -> Option<usize> {
-        self.bodies.iter().position(|body| body.name.as_ref() == Some(name))
+    pub(super) fn instance_named(&self, name: &Name) -> Option<usize> {
+        self.instances.iter().position(|instance| instance.name.as_ref() == Some(name))
     }
 
     /// Takes the name of an instance or of the assembly from the front of a dotted name (S-44).
@@ -164,9 +165,10 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         if let Some(name) = self.assembly_name.as_ref().and_then(rest) {
             return self.without_prefix(Context::Top, name);
         }
-        let body = self.bodies.iter().enumerate().find_map(|(i, body)| Some((i, rest(body.name.as_ref()?)?)));
-        match body {
-            Some((body, name)) => (Context::Body(body), name),
+        let instance =
+            self.instances.iter().enumerate().find_map(|(i, instance)| Some((i, rest(instance.name.as_ref()?)?)));
+        match instance {
+            Some((instance, name)) => (Context::Instance(instance), name),
             None => (context, name),
         }
     }
@@ -174,11 +176,11 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
     /// Finds the nodes of all faces and node surfaces.
     fn locate(&mut self, faces: &[RawFace], node_picks: &[NodePick]) -> io::Result<Located> {
         let mut located = Located { of_picks: vec![Vec::new(); node_picks.len()], ..Located::default() };
-        for body in 0..self.bodies.len() {
-            let of_faces = faces.iter().filter(|face| face.body == body);
+        for instance in 0..self.instances.len() {
+            let of_faces = faces.iter().filter(|face| face.instance == instance);
             let mut wanted: Vec<u32> = of_faces.flat_map(|face| face.nodes().iter().copied()).collect();
             let mut here = Vec::new();
-            for (i, pick) in node_picks.iter().enumerate().filter(|(_, pick)| pick.body == body) {
+            for (i, pick) in node_picks.iter().enumerate().filter(|(_, pick)| pick.instance == instance) {
                 match pick.number {
                     Some(number) => {
                         wanted.push(number);
@@ -189,31 +191,32 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             }
             let mut wanted = Wanted::new(wanted);
             let selections: Vec<&Selection> = here.iter().map(|i| &node_picks[*i].nodes).collect();
-            let selected =
-                if let Some(maker) = self.mover(body).filter(|_| !wanted.labels.is_empty() || !selections.is_empty()) {
-                    self.note(maker, "nodes of which some stand behind *SYSTEM are not read".to_owned());
-                    vec![Vec::new(); selections.len()]
-                } else {
-                    self.read_nodes(body, &mut wanted, &selections)?
-                };
+            let selected = if let Some(maker) =
+                self.mover(instance).filter(|_| !wanted.labels.is_empty() || !selections.is_empty())
+            {
+                self.note(maker, "nodes of which some stand behind *SYSTEM are not read".to_owned());
+                vec![Vec::new(); selections.len()]
+            } else {
+                self.read_nodes(instance, &mut wanted, &selections)?
+            };
             for (i, labels) in here.into_iter().zip(selected) {
                 located.of_picks[i] = labels;
             }
-            located.add(body, self.bodies[body].name.as_ref(), wanted);
+            located.add(instance, self.instances[instance].name.as_ref(), wanted);
         }
         Ok(located)
     }
 
     /// An option that moves nodes in a way that is not read.
-    fn mover(&self, body: usize) -> Option<Span> {
-        let mut makers = self.chain(Context::Body(body)).flat_map(|definitions| &definitions.makers);
+    fn mover(&self, instance: usize) -> Option<Span> {
+        let mut makers = self.chain(Context::Instance(instance)).flat_map(|definitions| &definitions.makers);
         makers.find(|(name, _)| name == "SYSTEM").map(|(_, span)| *span)
     }
 
-    /// The options of a body that make nodes or elements and are not read, as text.
-    pub(super) fn makers(&self, body: usize) -> String {
+    /// The options of a instance that make nodes or elements and are not read, as text.
+    pub(super) fn makers(&self, instance: usize) -> String {
         let mut names: Vec<&str> = self
-            .chain(Context::Body(body))
+            .chain(Context::Instance(instance))
             .flat_map(|definitions| &definitions.makers)
             .map(|(name, _)| name.as_str())
             .collect();
@@ -231,24 +234,24 @@ pub(super) struct Located {
     ids: HashMap<(usize, u32), NodeId>,
     /// The keyword line of the *NODE option that each stands in.
     pub(super) options: Vec<Span>,
-    /// The nodes of each body.
-    pub(super) of_bodies: Vec<Range<usize>>,
+    /// The nodes of each instance.
+    pub(super) of_instances: Vec<Range<usize>>,
     /// The numbers of the nodes of each pick.
     pub(super) of_picks: Vec<Vec<u32>>,
 }
 
 impl Located {
-    fn add(&mut self, body: usize, instance: Option<&Name>, wanted: Wanted) {
+    fn add(&mut self, instance: usize, name: Option<&Name>, wanted: Wanted) {
         let first = self.points.len();
         for (label, point) in wanted.labels.into_iter().zip(wanted.points) {
             let Some((point, option)) = point else { continue };
             let Ok(id) = u32::try_from(self.points.len()) else { continue };
-            self.ids.insert((body, label), NodeId(id));
+            self.ids.insert((instance, label), NodeId(id));
             self.points.push(point);
             self.options.push(option);
-            self.nodes.push(MeshNode { instance: instance.cloned(), label });
+            self.nodes.push(MeshNode { instance: name.cloned(), label });
         }
-        self.of_bodies.push(first..self.points.len());
+        self.of_instances.push(first..self.points.len());
     }
 
     /// How many nodes there are.
@@ -256,12 +259,12 @@ impl Located {
         self.nodes.len()
     }
 
-    /// The number of a node in its body.
+    /// The number of a node in its instance.
     pub(super) fn label(&self, node: usize) -> u32 {
         self.nodes[node].label
     }
 
-    pub(super) fn id(&self, body: usize, label: u32) -> Option<NodeId> {
-        self.ids.get(&(body, label)).copied()
+    pub(super) fn id(&self, instance: usize, label: u32) -> Option<NodeId> {
+        self.ids.get(&(instance, label)).copied()
     }
 }

@@ -25,15 +25,15 @@ impl Section {
 }
 
 impl Reader<'_, '_> {
-    /// The sections of a body.
-    pub(super) fn sections(&mut self, body: usize) -> io::Result<Vec<Section>> {
+    /// The sections of a instance.
+    pub(super) fn sections(&mut self, instance: usize) -> io::Result<Vec<Section>> {
         let entries: Vec<Entry<'_>> =
-            self.chain(Context::Body(body)).flat_map(|definitions| definitions.sections.clone()).collect();
+            self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.sections.clone()).collect();
         let mut sections = Vec::new();
         for entry in entries {
             let Some(set) = entry.parameter("ELSET") else { continue };
-            let selected = self.select(Kind::Elements, Context::Body(body), set, entry.span())?;
-            let Some(elements) = selected.get(&body).cloned() else { continue };
+            let selected = self.select(Kind::Elements, Context::Instance(instance), set, entry.span())?;
+            let Some(elements) = selected.get(&instance).cloned() else { continue };
             let thickness = self.thickness(entry)?;
             let offset = self.offset(entry);
             sections.push(Section { elements, thickness, offset });

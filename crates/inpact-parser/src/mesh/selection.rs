@@ -1,4 +1,4 @@
-//! Which nodes or elements a set names (*NSET, *ELSET with GENERATE and INSTANCE, NSET on *NODE, ELSET on *ELEMENT), in each body.
+//! Which nodes or elements a set names (*NSET, *ELSET with GENERATE and INSTANCE, NSET on *NODE, ELSET on *ELEMENT), in each instance.
 
 use super::labels::Labels;
 use super::layout::{Entry, canonical};
@@ -47,7 +47,7 @@ impl Selection {
     }
 }
 
-/// What a set selects in each body.
+/// What a set selects in each instance.
 pub(super) type Selected = BTreeMap<usize, Selection>;
 
 impl<'deck> Reader<'deck, '_> {
@@ -59,7 +59,7 @@ impl<'deck> Reader<'deck, '_> {
             let mut selection = Selection::default();
             selection.labels.add(label);
             selection.labels.sort();
-            return Ok(BTreeMap::from([(context.body(), selection)]));
+            return Ok(BTreeMap::from([(context.instance(), selection)]));
         }
         let key = (kind, context, name.canonical().to_owned());
         if let Some(known) = self.sets.get(&key) {
@@ -74,7 +74,7 @@ impl<'deck> Reader<'deck, '_> {
         }
         let mut selected = Selected::new();
         for option in options {
-            selected.entry(context.body()).or_default().options.push(option);
+            selected.entry(context.instance()).or_default().options.push(option);
         }
         for set in sets {
             self.read_set(kind, context, set, &mut selected)?;
@@ -107,8 +107,8 @@ impl<'deck> Reader<'deck, '_> {
     fn read_set(&mut self, kind: Kind, context: Context, set: Entry<'_>, selected: &mut Selected) -> io::Result<()> {
         let context = match set.named("INSTANCE") {
             None => context,
-            Some(instance) => match self.body_named(&instance) {
-                Some(body) => Context::Body(body),
+            Some(instance) => match self.instance_named(&instance) {
+                Some(instance) => Context::Instance(instance),
                 None => {
                     self.note(
                         set.span(),
@@ -125,7 +125,7 @@ impl<'deck> Reader<'deck, '_> {
             return Ok(());
         }
         let generated = set.parameter("GENERATE").is_some();
-        let own = selected.entry(context.body()).or_default();
+        let own = selected.entry(context.instance()).or_default();
         let mut others: Vec<(String, Span)> = Vec::new();
         data_lines(&mut *self.rows, set.block, &mut |line, span| {
             if generated {
@@ -152,8 +152,8 @@ impl<'deck> Reader<'deck, '_> {
                 );
                 continue;
             }
-            for (body, selection) in self.select(kind, context, &item, span)? {
-                selected.entry(body).or_default().add_all(&selection);
+            for (instance, selection) in self.select(kind, context, &item, span)? {
+                selected.entry(instance).or_default().add_all(&selection);
             }
         }
         Ok(())

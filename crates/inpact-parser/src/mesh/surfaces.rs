@@ -22,11 +22,11 @@ pub(super) struct Picks {
     pub(super) nodes: Vec<NodePick>,
 }
 
-/// The nodes that a row of *SURFACE, TYPE=NODE picks in one body.
+/// The nodes that a row of *SURFACE, TYPE=NODE picks in one instance.
 #[derive(Debug)]
 pub(super) struct NodePick {
     surface: usize,
-    pub(super) body: usize,
+    pub(super) instance: usize,
     pub(super) nodes: Selection,
     /// The number, where it is but one.
     pub(super) number: Option<u32>,
@@ -120,12 +120,12 @@ impl<'deck> Reader<'deck, '_> {
                 return Ok(());
             }
         };
-        for (body, elements) in self.select(Kind::Elements, context, first, span)? {
+        for (instance, elements) in self.select(Kind::Elements, context, first, span)? {
             // Rows of one surface that pick the same face are one pick, of however many elements.
             let of_surface = picks.faces.iter_mut().rev().take_while(|pick| pick.surface == surface);
-            match of_surface.into_iter().find(|pick| pick.body == body && pick.face == face) {
+            match of_surface.into_iter().find(|pick| pick.instance == instance && pick.face == face) {
                 Some(pick) => pick.elements.add_all(&elements),
-                None => picks.faces.push(Pick { surface, body, elements, face, span }),
+                None => picks.faces.push(Pick { surface, instance, elements, face, span }),
             }
         }
         Ok(())
@@ -144,8 +144,8 @@ impl<'deck> Reader<'deck, '_> {
             self.note(span, format!("expected an area, found `{}`, which was not read", second.unwrap_or("")));
         }
         let area = area.and_then(Result::ok);
-        for (body, nodes) in self.select(Kind::Nodes, context, first, span)? {
-            picks.nodes.push(NodePick { surface, body, number: nodes.single(), nodes, area, span });
+        for (instance, nodes) in self.select(Kind::Nodes, context, first, span)? {
+            picks.nodes.push(NodePick { surface, instance, number: nodes.single(), nodes, area, span });
         }
         Ok(())
     }
@@ -172,7 +172,7 @@ impl<'deck> Reader<'deck, '_> {
     fn node_surface(&mut self, surface: usize, picks: &[NodePick], located: &Located) -> NodeSurface {
         let mut areas: BTreeMap<NodeId, Option<f64>> = BTreeMap::new();
         for (pick, labels) in picks.iter().zip(&located.of_picks).filter(|(pick, _)| pick.surface == surface) {
-            let known: Vec<NodeId> = labels.iter().filter_map(|label| located.id(pick.body, *label)).collect();
+            let known: Vec<NodeId> = labels.iter().filter_map(|label| located.id(pick.instance, *label)).collect();
             if known.is_empty() {
                 self.note(pick.span, "no node of this row was found".to_owned());
             }
@@ -192,7 +192,7 @@ impl<'deck> Reader<'deck, '_> {
         let mut without_node: Vec<(Span, String)> = Vec::new();
         let mut of_another_space: Vec<(Span, String)> = Vec::new();
         for face in faces {
-            let nodes: Option<Vec<NodeId>> = face.nodes().iter().map(|node| located.id(face.body, *node)).collect();
+            let nodes: Option<Vec<NodeId>> = face.nodes().iter().map(|node| located.id(face.instance, *node)).collect();
             match nodes {
                 None => without_node.push((
                     span,
@@ -200,7 +200,7 @@ impl<'deck> Reader<'deck, '_> {
                         "face {} of element {} has a node that was not found{}",
                         face.label,
                         face.element,
-                        self.makers(face.body)
+                        self.makers(face.instance)
                     ),
                 )),
                 Some(_) if face.kind.space != space => {
@@ -226,14 +226,14 @@ impl<'deck> Reader<'deck, '_> {
             }
         };
         let mut sections: BTreeMap<usize, Vec<Section>> = BTreeMap::new();
-        let bodies: BTreeSet<usize> =
-            kept.iter().filter(|(face, _)| face.needs_section()).map(|(face, _)| face.body).collect();
-        for body in bodies {
-            let of_body = self.sections(body)?;
-            sections.insert(body, of_body);
+        let instances: BTreeSet<usize> =
+            kept.iter().filter(|(face, _)| face.needs_section()).map(|(face, _)| face.instance).collect();
+        for instance in instances {
+            let of_body = self.sections(instance)?;
+            sections.insert(instance, of_body);
         }
         let section = |face: &RawFace| {
-            sections.get(&face.body).and_then(|of_body| of_body.iter().rev().find(|section| section.holds(face)))
+            sections.get(&face.instance).and_then(|of_body| of_body.iter().rev().find(|section| section.holds(face)))
         };
         let thickness: Vec<Option<f64>> =
             kept.iter().map(|(face, _)| section(face).and_then(|section| section.thickness)).collect();
@@ -251,7 +251,7 @@ impl<'deck> Reader<'deck, '_> {
             self.note(span, format!("no section gives a thickness to {without_thickness} faces of this surface"));
         }
         let element = |face: &RawFace| {
-            (MeshNode { instance: self.bodies[face.body].name.clone(), label: face.element }, face.label)
+            (MeshNode { instance: self.instances[face.instance].name.clone(), label: face.element }, face.label)
         };
         let elements = kept.iter().map(|(face, _)| element(face)).collect();
         Ok(Some(FaceSurface { surface, elements, space, thickness, shifts }))

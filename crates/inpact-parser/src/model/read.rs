@@ -163,8 +163,8 @@ impl<'a> Reader<'a> {
 }
 
 /// Whether unknown words were likely meant to begin the next *SURFACE INTERACTION, whose sub-options are not the last one's.
-fn is_likely_interaction(words: &[u8]) -> bool {
-    let letters = words.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase);
+fn is_likely_interaction(text: &[u8]) -> bool {
+    let letters = text.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase);
     let letters: Vec<u8> = letters.take(40).collect();
     letters.starts_with(b"SURF") && letters.windows(3).any(|piece| piece == b"INT")
 }

@@ -4,7 +4,7 @@ use super::k015_not_in_release::keyword_of_other_release;
 use inpact_diagnostics::{Diagnostic, Edit, FixSafety, Severity};
 use crate::invisible;
 use crate::rule::{Context, Report, declare_rule};
-use crate::words::did_you_mean;
+use crate::suggestion::did_you_mean;
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::{Dialect, Grammar, Lookup};
 use inpact_parser::span::Span;
@@ -139,7 +139,7 @@ fn help(context: &Context<'_>, keyword: &KeywordLine, name: &str) -> String {
     if !name.starts_with(|first: char| first.is_ascii_alphabetic()) {
         return COMMENT.to_owned();
     }
-    if let Some((known, rest)) = split_behind_keyword(grammar, name) {
+    if let Some((known, rest)) = split_after_keyword(grammar, name) {
         return format!("put a comma behind the keyword: `*{known}, {rest}`");
     }
     let near = grammar.nearest_keywords(&context.deck.shown(keyword.name), 8);
@@ -149,10 +149,10 @@ fn help(context: &Context<'_>, keyword: &KeywordLine, name: &str) -> String {
 }
 
 /// Cuts `STEP NLGEOM=YES` behind the words that are a keyword in full, where parameters seem to follow.
-fn split_behind_keyword<'name>(grammar: &Grammar, name: &'name str) -> Option<(&'name str, &'name str)> {
+fn split_after_keyword<'name>(grammar: &Grammar, name: &'name str) -> Option<(&'name str, &'name str)> {
     let parameters = name.find('=')?;
     let blanks = name[..parameters].match_indices(' ').map(|(at, _)| at);
     let mut cuts = blanks.map(|at| (name[..at].trim_end(), name[at..].trim_start())).collect::<Vec<_>>();
     cuts.reverse();
-    cuts.into_iter().find(|(words, _)| matches!(grammar.keyword_named(words.as_bytes()), Lookup::Exact(_)))
+    cuts.into_iter().find(|(name, _)| matches!(grammar.keyword_named(name.as_bytes()), Lookup::Exact(_)))
 }

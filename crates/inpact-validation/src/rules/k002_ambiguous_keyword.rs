@@ -1,7 +1,7 @@
 //! K002: abbreviated keywords that may mean several.
 
 use crate::rule::{Context, Report, declare_rule};
-use crate::words::alternatives;
+use crate::suggestion::alternatives;
 use inpact_parser::grammar::Lookup;
 use inpact_parser::number::read_float;
 

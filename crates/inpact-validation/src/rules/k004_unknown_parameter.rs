@@ -6,7 +6,7 @@ use inpact_diagnostics::{Diagnostic, Edit, FixSafety, Severity};
 use crate::invisible;
 use crate::parameter::{self, GivenParameter, given_as};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
-use crate::words::{alternatives, did_you_mean};
+use crate::suggestion::{alternatives, did_you_mean};
 use inpact_parser::deck::Parameter;
 use inpact_parser::grammar::{Lookup, ParameterDefinition, ValueUse};
 use inpact_parser::span::Span;

@@ -1,7 +1,7 @@
 //! K005: abbreviated parameters that may mean several.
 
 use crate::rule::{Context, Report, declare_rule};
-use crate::words::alternatives;
+use crate::suggestion::alternatives;
 use inpact_parser::grammar::Lookup;
 
 declare_rule! {

@@ -29,8 +29,8 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks() {
         for required in block.definition.parameters.iter().filter(|parameter| parameter.required) {
-            let stands_for = |other: &&ParameterDefinition| other.stands_for.as_ref() == Some(&required.name);
-            let mut other_names = block.definition.parameters.iter().filter(stands_for);
+            let is_alias = |other: &&ParameterDefinition| other.stands_for.as_ref() == Some(&required.name);
+            let mut other_names = block.definition.parameters.iter().filter(is_alias);
             if may_be_given(context, block, &required.name)
                 || other_names.any(|other| may_be_given(context, block, &other.name))
             {

@@ -2,7 +2,7 @@
 
 use crate::parameter::{GivenParameter, all_given, is_borrowed};
 use crate::rule::{Context, Report, declare_rule};
-use crate::words::alternatives;
+use crate::suggestion::alternatives;
 use inpact_parser::grammar::ParameterKind;
 
 declare_rule! {

@@ -2,7 +2,7 @@
 
 use crate::placement::{runs, visible};
 use crate::rule::{Context, Report, declare_rule};
-use crate::words::alternatives;
+use crate::suggestion::alternatives;
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::Lookup;
 use inpact_parser::problem::ProblemKind;

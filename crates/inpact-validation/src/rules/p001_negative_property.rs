@@ -1,6 +1,6 @@
 //! P001: conductances, permeabilities and radiation factors below zero.
 
-use crate::quantity::{and_more, column_words, number, value_words};
+use crate::quantity::{and_more, column_name, number, value_name};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{RADIATION, number_in, sound_tables};
 use inpact_parser::deck::DataLine;
@@ -60,7 +60,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 }
 
 fn name<'a>(of: &'a TableOf<'_>) -> std::borrow::Cow<'a, str> {
-    if of.keyword == RADIATION { column_words(&of.table.columns[0]) } else { value_words(of.kind).into() }
+    if of.keyword == RADIATION { column_name(&of.table.columns[0]) } else { value_name(of.kind).into() }
 }
 
 fn say(report: &mut Report<'_>, span: Span, name: &str, value: f64, more: &str) {

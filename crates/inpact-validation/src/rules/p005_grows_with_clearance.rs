@@ -1,6 +1,6 @@
 //! P005: conductances that grow as the gap opens.
 
-use crate::quantity::{and_more, number, value_words};
+use crate::quantity::{and_more, number, value_name};
 use crate::rule::{Context, Report, declare_rule};
 use crate::trend::{Trend, against};
 use inpact_parser::model::TableKind;
@@ -40,7 +40,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let (lower, upper) = (of.table.row(before), of.table.row(row));
         let message = format!(
             "{} rises from {} to {} as the clearance grows from {} to {}",
-            value_words(of.kind),
+            value_name(of.kind),
             number(lower[0]),
             number(upper[0]),
             number(lower[1]),

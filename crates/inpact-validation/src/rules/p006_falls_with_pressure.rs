@@ -1,6 +1,6 @@
 //! P006: conductances that fall as contact pressure rises.
 
-use crate::quantity::{and_more, number, value_words};
+use crate::quantity::{and_more, number, value_name};
 use crate::rule::{Context, Report, declare_rule};
 use crate::trend::{Trend, against};
 use inpact_parser::model::TableKind;
@@ -45,7 +45,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let (lower, upper) = (of.table.row(before), of.table.row(row));
         let message = format!(
             "{} falls from {} to {} as the contact pressure rises from {} to {}",
-            value_words(of.kind),
+            value_name(of.kind),
             number(lower[0]),
             number(upper[0]),
             number(lower[1]),

@@ -1,7 +1,7 @@
 //! P007: clearance and pressure tables that are far apart at the moment of contact.
 
 use crate::order::{curves, step};
-use crate::quantity::{group_words, number, value_words};
+use crate::quantity::{group_label, number, value_name};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
 use inpact_parser::model::{Interaction, Table, TableKind, TableOf};
@@ -77,8 +77,8 @@ fn check_branches(context: &Context<'_>, report: &mut Report<'_>, clearance: &Ta
         is_jump.then_some((open_rows.start, at_zero[0], row, on_closing))
     });
     let Some((open_row, before, closed_row, after)) = jump else { return };
-    let name = value_words(clearance.kind);
-    let group = group_words(open, open.row(open_row));
+    let name = value_name(clearance.kind);
+    let group = group_label(open, open.row(open_row));
     report
         .at(
             context.cell(pressure, closed_row, 0),
@@ -121,17 +121,17 @@ fn groups_in_both<'a>(open: &'a Table, closed: &'a Table) -> impl Iterator<Item 
 ///
 /// `None` where the table starts above zero (T005).
 fn value_at_zero_pressure(closed: &Table, rows: Range<usize>) -> Option<(usize, f64)> {
-    let Some(behind) = rows.clone().find(|row| closed.row(*row)[1] >= 0.0) else {
+    let Some(row) = rows.clone().find(|row| closed.row(*row)[1] >= 0.0) else {
         return Some((rows.end - 1, closed.row(rows.end - 1)[0]));
     };
-    let after = closed.row(behind);
-    if after[1] == 0.0 {
-        return Some((behind, after[0]));
+    let above = closed.row(row);
+    if above[1] == 0.0 {
+        return Some((row, above[0]));
     }
-    if behind == rows.start {
+    if row == rows.start {
         return None;
     }
-    let before = closed.row(behind - 1);
-    let share = -before[1] / (after[1] - before[1]);
-    Some((behind, before[0] + share * (after[0] - before[0])))
+    let below = closed.row(row - 1);
+    let share = -below[1] / (above[1] - below[1]);
+    Some((row, below[0] + share * (above[0] - below[0])))
 }

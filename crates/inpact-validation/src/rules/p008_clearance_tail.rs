@@ -1,7 +1,7 @@
 //! P008: clearance tables that do not end at zero.
 
 use crate::order::curves;
-use crate::quantity::{and_more, group_words, number};
+use crate::quantity::{and_more, group_label, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{sound_tables, starts_as_it_must};
 use inpact_parser::model::TableKind;
@@ -50,7 +50,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let mut tails = tails.filter(|row| table.row(*row)[0] > 0.0);
         let Some(index) = tails.next() else { continue };
         let row = table.row(index);
-        let group = group_words(table, row);
+        let group = group_label(table, row);
         let message =
             format!("conductance is {} at the last clearance {}{group}, not 0", number(row[0]), number(row[1]));
         let more = and_more(tails.count(), "group does not end at 0", "groups do not end at 0");

@@ -134,14 +134,14 @@ fn has_comment(text: &[u8]) -> bool {
     let Some(end) = text.iter().position(|byte| byte.is_ascii_whitespace() || b"*!#/$;".contains(byte)) else {
         return false;
     };
-    let behind = text[end..].trim_ascii_start();
-    read_float(&text[..end]).is_ok() && MARKS.iter().any(|mark| behind.starts_with(mark))
+    let after = text[end..].trim_ascii_start();
+    read_float(&text[..end]).is_ok() && MARKS.iter().any(|mark| after.starts_with(mark))
 }
 
 /// What may be meant by something that is no number.
 fn help(text: &[u8]) -> &'static str {
     let unsigned = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
-    let is_one_of = |words: &[&[u8]]| words.iter().any(|word| unsigned.eq_ignore_ascii_case(word));
+    let is_one_of = |names: &[&[u8]]| names.iter().any(|name| unsigned.eq_ignore_ascii_case(name));
     if is_one_of(&[b"nan", b"inf", b"infinity"]) {
         "write a finite number"
     } else if unsigned.first_chunk().is_some_and(|start: &[u8; 2]| start.eq_ignore_ascii_case(b"0x")) {

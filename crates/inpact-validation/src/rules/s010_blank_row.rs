@@ -49,8 +49,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for problem in context.problems.iter().filter(|problem| problem.kind == ProblemKind::BlankRow) {
         let line = problem.span;
         // The line end stands behind the span of the line; the longest is CR LF.
-        let behind = context.deck.text(Span::new(line.source, line.end, line.end + 2));
-        let whole = Span::new(line.source, line.start, line.end + next_line(behind, 0) as u64);
+        let after = context.deck.text(Span::new(line.source, line.end, line.end + 2));
+        let whole = Span::new(line.source, line.start, line.end + next_line(after, 0) as u64);
         let found = report.at(line, "empty line among the rows of a table");
         found
             .label("skipped")

@@ -120,6 +120,6 @@ fn is_binary(line: &[u8]) -> bool {
 
 /// Whether a line holds several numbers with blanks between them.
 fn is_blank_separated(line: &[u8]) -> bool {
-    let words = || line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-    words().count() > 1 && words().all(|word| read_float(word).is_ok())
+    let fields = || line.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty());
+    fields().count() > 1 && fields().all(|field| read_float(field).is_ok())
 }

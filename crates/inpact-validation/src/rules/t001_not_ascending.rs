@@ -2,7 +2,7 @@
 
 use inpact_diagnostics::FixSafety;
 use crate::order::{falls, sort_edits};
-use crate::quantity::{and_more, column_words, number};
+use crate::quantity::{and_more, column_name, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
 
@@ -82,7 +82,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let table = of.table;
         let Some(fall) = falls(table, |column| column == 1) else { continue };
         let (value, before) = (table.row(fall.row)[1], table.row(fall.before)[1]);
-        let name = column_words(&table.columns[1]);
+        let name = column_name(&table.columns[1]);
         let message = format!("{name} {} falls below {} of the row before", number(value), number(before));
         let found = report
             .at(context.cell(of, fall.row, 1), message)

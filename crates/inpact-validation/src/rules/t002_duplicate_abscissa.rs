@@ -1,7 +1,7 @@
 //! T002: rows that agree in all independent variables.
 
 use crate::order::steps;
-use crate::quantity::{column_words, group_words, number};
+use crate::quantity::{column_name, group_label, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
 
@@ -43,8 +43,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         for (before, row, ordering, _) in steps(table).filter(|(_, _, ordering, _)| ordering.is_eq()) {
             debug_assert!(ordering.is_eq());
             let values = table.row(row);
-            let name = column_words(&table.columns[1]);
-            let message = format!("{name} {} stands twice{}", number(values[1]), group_words(table, values));
+            let name = column_name(&table.columns[1]);
+            let message = format!("{name} {} stands twice{}", number(values[1]), group_label(table, values));
             let found = report.at(context.cell(of, row, 1), message);
             found
                 .label("the same value again")

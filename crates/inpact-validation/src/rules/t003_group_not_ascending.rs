@@ -2,7 +2,7 @@
 
 use inpact_diagnostics::FixSafety;
 use crate::order::{falls, sort_edits};
-use crate::quantity::{and_more, column_words, number};
+use crate::quantity::{and_more, column_name, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{is_written, sound_tables};
 
@@ -57,7 +57,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let table = of.table;
         let Some(fall) = falls(table, |column| column > 1) else { continue };
         let (value, before) = (table.row(fall.row)[fall.column], table.row(fall.before)[fall.column]);
-        let name = column_words(&table.columns[fall.column]);
+        let name = column_name(&table.columns[fall.column]);
         let empty = !is_written(context, of, fall.row, fall.column);
         let reads_as = if empty { " (an empty item)" } else { "" };
         let message = format!("{name} {}{reads_as} falls below {} of the row before", number(value), number(before));

@@ -1,7 +1,7 @@
 //! T004: clearance tables that do not start at zero.
 
 use crate::order::starts;
-use crate::quantity::{group_words, number};
+use crate::quantity::{group_label, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{RADIATION, is_against_clearance, sound_tables, starts_as_it_must};
 
@@ -45,7 +45,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             if starts_as_it_must(of, row[1]) {
                 continue;
             }
-            let group = group_words(of.table, row);
+            let group = group_label(of.table, row);
             let message = format!("clearance table starts at {} instead of 0{group}", number(row[1]));
             let found = report.at(context.cell(of, index, 1), message);
             found

@@ -1,7 +1,7 @@
 //! T005: pressure tables that start above zero.
 
 use crate::order::starts;
-use crate::quantity::{group_words, number};
+use crate::quantity::{group_label, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{sound_tables, starts_as_it_must};
 use inpact_parser::grammar::Dialect;
@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             if starts_as_it_must(of, row[1]) {
                 continue;
             }
-            let group = group_words(of.table, row);
+            let group = group_label(of.table, row);
             let message = format!("pressure table starts at {}, above 0{group}", number(row[1]));
             report
                 .at(context.cell(of, index, 1), message)

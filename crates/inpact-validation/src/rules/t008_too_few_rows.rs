@@ -2,7 +2,7 @@
 
 use inpact_diagnostics::Severity;
 use crate::order::falls;
-use crate::quantity::{and_more, column_words, number};
+use crate::quantity::{and_more, column_name, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
 use inpact_parser::model::{Table, TableKind, TableOf};
@@ -61,7 +61,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             _ if of.kind == TableKind::ElectricalClearance => Severity::Warning,
             _ => continue,
         };
-        let axis = column_words(&of.table.columns[1]);
+        let axis = column_name(&of.table.columns[1]);
         let found = report.at(of.table.row_span(0), format!("`*{}` has one row against {axis}", of.keyword));
         found.severity(severity).label("the only row").also(context.trimmed(of.table.keyword), "the option");
         if severity == Severity::Error {
@@ -97,6 +97,6 @@ pub(crate) fn is_thermal_clearance(of: &TableOf<'_>) -> bool {
 fn group_of(table: &Table, row: usize) -> String {
     let values = table.columns.iter().zip(table.row(row)).skip(2);
     let values: Vec<String> =
-        values.map(|(column, value)| format!("{} = {}", column_words(column), number(*value))).collect();
+        values.map(|(column, value)| format!("{} = {}", column_name(column), number(*value))).collect();
     values.join(", ")
 }

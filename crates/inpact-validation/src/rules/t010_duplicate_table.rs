@@ -60,8 +60,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     let doubtful = doubtful_lines(context);
     let is_doubtful = |later: Span, earlier: Span| {
-        let behind = doubtful.partition_point(|line| *line < (earlier.source, earlier.start));
-        doubtful.get(behind).is_some_and(|line| *line <= (later.source, later.start))
+        let after = doubtful.partition_point(|line| *line < (earlier.source, earlier.start));
+        doubtful.get(after).is_some_and(|line| *line <= (later.source, later.start))
     };
     for (keyword, later, earlier) in duplicates {
         if !is_doubtful(later, earlier) {

@@ -2,7 +2,7 @@
 
 use super::t008_too_few_rows::is_thermal_clearance;
 use crate::order::{falls, is_alone};
-use crate::quantity::{and_more, column_words, number};
+use crate::quantity::{and_more, column_name, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
 use inpact_parser::model::Table;
@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let fields = table.width() - table.dependencies();
         let values = table.columns[fields..].iter().zip(&table.row(row)[fields..]);
         let values: Vec<String> =
-            values.map(|(column, value)| format!("{} = {}", column_words(column), number(*value))).collect();
+            values.map(|(column, value)| format!("{} = {}", column_name(column), number(*value))).collect();
         let more = and_more(alone.count(), "value has one row", "values have one row");
         report
             .at(table.row_span(row), format!("one row for {}", values.join(", ")))

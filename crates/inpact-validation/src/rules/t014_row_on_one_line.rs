@@ -79,10 +79,10 @@ fn breaks(context: &Context<'_>, problem: &Problem) -> Option<Vec<Edit>> {
 fn line_end_and_indentation(context: &Context<'_>, row: Span) -> Vec<u8> {
     let (start, text) = context.deck.surroundings(row);
     let offset = |position: u64| usize::try_from(position.saturating_sub(start)).unwrap_or(text.len()).min(text.len());
-    let (before, behind) = (&text[..offset(row.start)], &text[offset(row.end)..]);
-    let mut line_end = match behind.iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
-        Some(at) if behind[at..].starts_with(b"\r\n") => b"\r\n".to_vec(),
-        Some(at) => vec![behind[at]],
+    let (before, after) = (&text[..offset(row.start)], &text[offset(row.end)..]);
+    let mut line_end = match after.iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
+        Some(at) if after[at..].starts_with(b"\r\n") => b"\r\n".to_vec(),
+        Some(at) => vec![after[at]],
         None => b"\n".to_vec(),
     };
     let indentation = before.iter().rposition(|byte| !matches!(byte, b' ' | b'\t')).map_or(0, |last| last + 1);

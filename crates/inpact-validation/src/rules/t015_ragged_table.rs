@@ -1,7 +1,7 @@
 //! T015: groups that have their own abscissae.
 
 use crate::order::{curves, is_alone};
-use crate::quantity::{and_more, column_words, group_words};
+use crate::quantity::{and_more, column_name, group_label};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{sound_tables, starts_as_it_must};
 use inpact_parser::model::Table;
@@ -50,8 +50,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let Some(first) = groups.next() else { continue };
         let mut others = groups.filter(|other| !abscissae(table, other).eq(abscissae(table, &first)));
         let Some(other) = others.next() else { continue };
-        let name = column_words(&table.columns[1]);
-        let group = group_words(table, table.row(other.start));
+        let name = column_name(&table.columns[1]);
+        let group = group_label(table, table.row(other.start));
         let more = and_more(others.count(), "group differs from the first", "groups differ from the first");
         report
             .at(table.row_span(other.start), format!("the group{group} has its own values of the {name}"))

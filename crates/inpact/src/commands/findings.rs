@@ -183,7 +183,7 @@ fn json(found: &Diagnostic) -> String {
     let record = Record {
         code: found.code,
         name: found.name,
-        severity: found.severity.word(),
+        severity: found.severity.name(),
         file: &found.primary.file,
         line: found.primary.line(),
         column: found.primary.column(),

@@ -82,7 +82,7 @@ impl Snapshot {
     /// Whether the file at `path` is the one that was read, with the same content.
     ///
     /// Where only its path tells a file, that is the one it was read at, wherever the file is at the moment.
-    fn is_still_at(&self, path: &Path) -> io::Result<bool> {
+    fn is_unchanged_at(&self, path: &Path) -> io::Result<bool> {
         let mut file = File::open(path)?;
         let metadata = file.metadata()?;
         if self.identity.as_ref() != Some(&Identity::of(&metadata, &self.path)) {
@@ -134,7 +134,7 @@ impl Change {
     fn verify(&self, path: &Path) -> io::Result<()> {
         match &self.expected {
             Expected::AsRead(snapshot) => {
-                if snapshot.is_still_at(path)? {
+                if snapshot.is_unchanged_at(path)? {
                     Ok(())
                 } else {
                     Err(io::Error::other("another program changed it after it was read"))

@@ -134,8 +134,8 @@ mod tests {
     #[test]
     fn a_line_without_an_end_is_given_up_with_its_number() {
         for head in ["a\nb\n", "a\r\nb\r\n", "a\rb\r", "a\r\n\r"] {
-            let told = message(lines_of(&mut head.as_bytes().chain(io::repeat(b'x'))));
-            assert!(told.starts_with("line 3 is longer than 16777216 bytes"), "{head:?}: {told}");
+            let refusal = message(lines_of(&mut head.as_bytes().chain(io::repeat(b'x'))));
+            assert!(refusal.starts_with("line 3 is longer than 16777216 bytes"), "{head:?}: {refusal}");
         }
         let longest = [vec![b'x'; LONGEST_LINE], b"\n".to_vec()].concat().repeat(2);
         assert_eq!(lines_of(&mut longest.as_slice()).expect("as long as a line may be"), longest);
@@ -148,12 +148,12 @@ mod tests {
             assert_eq!(text_of(&mut text.as_bytes()).expect("a text"), text);
             let bytes = text.as_bytes();
             let cut = &bytes[..bytes.len() - 1];
-            let told = message(text_of(&mut &*cut));
-            assert_eq!(told, format!("it is not UTF-8: byte {} belongs to no character", bytes.len() - 1));
+            let refusal = message(text_of(&mut &*cut));
+            assert_eq!(refusal, format!("it is not UTF-8: byte {} belongs to no character", bytes.len() - 1));
         }
-        let told = message(text_of(&mut b"{}\0".chain(io::repeat(0))));
-        assert_eq!(told, "it is no text: byte 3 is zero");
-        let told = message(text_of(&mut b"{}".chain(io::repeat(0xFF))));
-        assert_eq!(told, "it is not UTF-8: byte 3 belongs to no character");
+        let refusal = message(text_of(&mut b"{}\0".chain(io::repeat(0))));
+        assert_eq!(refusal, "it is no text: byte 3 is zero");
+        let refusal = message(text_of(&mut b"{}".chain(io::repeat(0xFF))));
+        assert_eq!(refusal, "it is not UTF-8: byte 3 belongs to no character");
     }
 }

@@ -92,10 +92,10 @@ pub(super) fn choose(
 fn is_free(taken: &Taken, edit: &Edit) -> bool {
     let (start, end) = (edit.span.start, edit.span.end);
     let before = taken.range(..=(start, u64::MAX)).next_back().copied();
-    let behind = taken.range((start, 0)..).next().map(|(start, _)| *start);
+    let after = taken.range((start, 0)..).next().map(|(start, _)| *start);
     let is_before = before.is_none_or(|(other, other_end)| other < start && other_end <= start);
-    let is_behind = behind.is_none_or(|other| start < other && end <= other);
-    is_before && is_behind
+    let is_after = after.is_none_or(|other| start < other && end <= other);
+    is_before && is_after
 }
 
 #[cfg(test)]
@@ -105,7 +105,7 @@ mod tests {
     use inpact_validation::Edit;
 
     #[test]
-    fn edits_that_touch_the_same_bytes_are_told() {
+    fn edits_that_touch_the_same_bytes_are_refused() {
         let taken: Taken = [(10, 20), (30, 30)].into();
         let free = |start, end| is_free(&taken, &Edit::delete(Span::new(SourceId::ROOT, start, end)));
         for (start, end) in [(0, 5), (0, 10), (20, 30), (20, 25), (31, 40), (5, 5), (25, 25)] {

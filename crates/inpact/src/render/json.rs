@@ -26,7 +26,7 @@ pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
     let record = Record {
         code: found.code,
         name: found.name,
-        severity: found.severity.word(),
+        severity: found.severity.name(),
         file: deck.source(primary.span.source).name(),
         line: primary.position.line,
         column: primary.position.column,

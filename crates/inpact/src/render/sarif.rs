@@ -47,7 +47,7 @@ fn first_line(documentation: &str) -> &str {
 }
 
 fn level(severity: Severity) -> &'static str {
-    severity.word()
+    severity.name()
 }
 
 /// The results of a deck, separated by commas.

@@ -38,7 +38,7 @@ impl Tally {
         if self.codes.is_empty() {
             return format!("{}: nothing to report", count(decks, "deck"));
         }
-        let of = |severity: Severity| count(self.of(severity), severity.word());
+        let of = |severity: Severity| count(self.of(severity), severity.name());
         format!("{}: {}, {}, {}", count(decks, "deck"), of(Severity::Error), of(Severity::Warning), of(Severity::Note))
     }
 

@@ -99,13 +99,13 @@ mod tests {
         for row in [None, Some(3), Some(4)] {
             findings.report(&NON_FINITE, Place { row, line: row, ..Place::default() }, "wrong", "");
         }
-        let told: Vec<_> = of_scene(findings, &scene.expect("a scene"))
+        let found: Vec<_> = of_scene(findings, &scene.expect("a scene"))
             .into_iter()
-            .map(|found| (found.primary.line(), found.cell.and_then(|cell| cell.row), found.message))
+            .map(|finding| (finding.primary.line(), finding.cell.and_then(|cell| cell.row), finding.message))
             .collect();
         let in_table = "wrong (line 2 of `rows.csv`)".to_owned();
         assert_eq!(
-            told,
+            found,
             [(None, None, "wrong".to_owned()), (Some(6), None, "wrong".to_owned()), (None, None, in_table)]
         );
     }

@@ -43,8 +43,8 @@ pub(super) struct Outputs<'a> {
     format: StateFormat,
     times: Times,
     states: ResultFile,
-    /// The flows of links that go behind the states.
-    links_behind: Option<Vec<u8>>,
+    /// The flows of links that are written after the states.
+    appended_links: Option<Vec<u8>>,
     /// The flows of links that have a file of their own.
     link_file: Option<ResultFile>,
     interfaces: Option<Interfaces>,
@@ -70,15 +70,15 @@ impl<'a> Outputs<'a> {
     ) -> Result<Self, Failure> {
         let times = Times::of(problem);
         let links = arguments.links.as_deref();
-        let is_behind = |links: &Path| links.as_os_str() == STANDARD_STREAM;
+        let is_appended = |links: &Path| links.as_os_str() == STANDARD_STREAM;
         Ok(Self {
             prepared,
             problem,
             format: arguments.format,
             times,
             states: ResultFile::create(arguments.output.as_deref())?,
-            links_behind: links.filter(|links| is_behind(links)).map(|_| Vec::new()),
-            link_file: match links.filter(|links| !is_behind(links)) {
+            appended_links: links.filter(|links| is_appended(links)).map(|_| Vec::new()),
+            link_file: match links.filter(|links| !is_appended(links)) {
                 Some(target) => Some(ResultFile::create(Some(target))?),
                 None => None,
             },
@@ -115,9 +115,9 @@ impl<'a> Outputs<'a> {
                 state_rows(problem, state, times, &mut text);
                 write(&mut self.states, &text)?;
             }
-            StateFormat::Json => self.documents.push(document(problem, state, self.links_behind.is_some())),
+            StateFormat::Json => self.documents.push(document(problem, state, self.appended_links.is_some())),
         }
-        if let (Some(links), StateFormat::Csv) = (&mut self.links_behind, self.format) {
+        if let (Some(links), StateFormat::Csv) = (&mut self.appended_links, self.format) {
             link_rows(problem, state, times, links);
         }
         if let Some(file) = &mut self.link_file {
@@ -135,7 +135,7 @@ impl<'a> Outputs<'a> {
     pub(super) fn finish(mut self, last: &State, findings: FindingFormat) -> Result<(), Failure> {
         match self.format {
             StateFormat::Csv => {
-                if let Some(links) = &self.links_behind {
+                if let Some(links) = &self.appended_links {
                     write(&mut self.states, format!("\n{}", link_header(self.times)).as_bytes())?;
                     write(&mut self.states, links)?;
                 }

@@ -127,8 +127,8 @@ impl Entry {
 }
 
 impl Found {
-    fn new(asked: Method, solved: &Solved) -> Self {
-        let mut found = Self { methods: vec![asked], work: solved.work, ..Self::default() };
+    fn new(method: Method, solved: &Solved) -> Self {
+        let mut found = Self { methods: vec![method], work: solved.work, ..Self::default() };
         let mut has_estimates = true;
         for state in &solved.states {
             let (mut unknowns, mut entries, mut bytes) = (0, 0, 0);
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_given_up_is_told_in_its_order() {
+    fn methods_that_gave_up_are_listed_in_order() {
         let mut found = Found { methods: vec![Method::Iterative], ..Found::default() };
         found.take(Field::Potential, &report(Method::Iterative, &[]));
         assert_eq!(found.methods_text(), "iterative");
