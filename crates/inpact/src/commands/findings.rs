@@ -62,7 +62,9 @@ impl Reporter for FindingFormat {
     }
 
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
-        failures.iter().for_each(|failure| say(&format!("error: {failure}")));
+        for failure in &failures {
+            say(&format!("error: {failure}"));
+        }
         Failure::AlreadySaid
     }
 }
