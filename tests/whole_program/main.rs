@@ -23,6 +23,7 @@ mod growth;
 mod includes;
 mod json;
 mod nodes;
+mod nodes_results;
 mod plan;
 mod program;
 mod solve;

@@ -1,39 +1,198 @@
 //! What is known of the nodes of a mesh at one time.
 
-use inpact_geometry::Vector;
+use inpact_evaluation::nodes::{Column, Part};
+use inpact_evaluation::results::Output;
+use inpact_geometry::{NodeId, Vector};
 use inpact_parser::mesh::{InitialQuantity, Mesh};
+use std::sync::Arc;
 
-/// What is known of the nodes at one time; every column is in the order of [`Mesh::nodes`].
+/// What is known of the nodes at one time; every column of values is in the order of [`Mesh::nodes`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct State {
-    /// The total time (T); `None` for the beginning, which is a table without times.
-    pub time: Option<f64>,
-    /// How far the nodes have moved since the beginning (L); `None` where they have not, or nothing says so.
-    pub displacements: Option<Vec<Vector>>,
-    /// Contact pressure of slave nodes (F L⁻²).
-    pub pressure: Option<Pressure>,
-    /// What else is known, each quantity once.
+    /// When.
+    pub moment: Moment,
+    /// How far the nodes have moved since the beginning; `None` where they have not, or nothing says so.
+    pub displacements: Option<Displacements>,
+    /// What is known of slave nodes as such.
+    pub contact: Vec<ContactField>,
+    /// What is known of all nodes, each quantity once.
     pub fields: Vec<NodeField>,
+    /// What a solver says of the interface itself: the outputs that are computed here too.
+    pub outputs: Vec<OutputField>,
 }
 
-/// Contact pressure.
+/// When a state is.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Moment {
+    /// The total time (T); `None` for the beginning, which is a table without times, and where nothing says it.
+    pub time: Option<f64>,
+    /// The step, from 1.
+    pub step: Option<i64>,
+    /// The increment within its step.
+    pub increment: Option<i64>,
+    /// The time since the step began (T).
+    pub step_time: Option<f64>,
+}
+
+/// How far the nodes have moved.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pressure {
+pub struct Displacements {
+    /// A vector a node (L).
+    pub vectors: Vec<Vector>,
+    /// Where they come from.
+    pub source: Source,
+}
+
+/// A quantity of slave nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactField {
+    /// Which.
+    pub quantity: ContactQuantity,
+    /// The pair it is of, a position in [`Mesh::pairs`]; `None` where it is of whatever pair a node is a slave in.
+    pub pair: Option<usize>,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
-    /// Where it comes from, for a person.
-    pub source: String,
+    /// Where it comes from.
+    pub source: Source,
 }
 
-/// A quantity of the nodes.
+/// What a solver knows of slave nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ContactQuantity {
+    /// The clearance, open > 0 (L).
+    Clearance,
+    /// The contact pressure (F L⁻²).
+    Pressure,
+    /// The area of the node (L²).
+    Area,
+    /// The frictional shear stress (F L⁻²).
+    Shear,
+    /// The rate of relative slip (L T⁻¹).
+    SlipRate,
+}
+
+/// A quantity of the nodes of either side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodeField {
     /// Which.
-    pub quantity: InitialQuantity,
+    pub quantity: NodeQuantity,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
-    /// Where it comes from, for a person: `*INITIAL CONDITIONS`, or the name of a file.
-    pub source: String,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// What nodes of both sides have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum NodeQuantity {
+    /// Temperature (θ).
+    Temperature,
+    /// Electric potential (φ).
+    Potential,
+    /// Pore pressure (F L⁻²).
+    PorePressure,
+    /// Field variable, from 1.
+    FieldVariable(u32),
+}
+
+/// An output of the interface, as a solver computed it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputField {
+    /// Which.
+    pub output: Output,
+    /// The pair it is of, as in [`ContactField::pair`].
+    pub pair: Option<usize>,
+    /// A value a node; `None` where it is not known.
+    pub values: Vec<Option<f64>>,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// Where values come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// *INITIAL CONDITIONS.
+    InitialConditions,
+    /// A result file: the name of the quantity there, and that of the file.
+    File {
+        /// The quantity, such as `COPEN`.
+        quantity: Arc<str>,
+        /// The file.
+        file: Arc<str>,
+    },
+}
+
+impl Source {
+    /// In a word, for a cell of a table: `COPEN`, `initial`.
+    pub fn word(&self) -> &str {
+        match self {
+            Self::InitialConditions => "initial",
+            Self::File { quantity, .. } => quantity,
+        }
+    }
+}
+
+impl std::fmt::Display for Source {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::InitialConditions => formatter.write_str("*INITIAL CONDITIONS"),
+            Self::File { quantity, file } => write!(formatter, "{quantity} of {file}"),
+        }
+    }
+}
+
+impl ContactQuantity {
+    /// All of them, in the order of columns.
+    pub const ALL: [Self; 5] = [Self::Clearance, Self::Pressure, Self::Area, Self::Shear, Self::SlipRate];
+
+    /// Its column of node tables.
+    pub fn column(self) -> Column {
+        match self {
+            Self::Clearance => Column::Clearance,
+            Self::Pressure => Column::Pressure,
+            Self::Area => Column::Area,
+            Self::Shear => Column::Shear,
+            Self::SlipRate => Column::SlipRate,
+        }
+    }
+
+    /// The quantity of a column of node tables, where it is one.
+    pub fn of(column: Column) -> Option<Self> {
+        Self::ALL.into_iter().find(|quantity| quantity.column() == column)
+    }
+}
+
+impl NodeQuantity {
+    /// Its column of node tables on one side.
+    pub fn column(self, part: Part) -> Column {
+        match self {
+            Self::Temperature => Column::Temperature(part),
+            Self::Potential => Column::Potential(part),
+            Self::PorePressure => Column::PorePressure(part),
+            Self::FieldVariable(number) => Column::FieldVariable(number, part),
+        }
+    }
+
+    /// The quantity and the side of a column of node tables, where it is one.
+    pub fn of(column: Column) -> Option<(Self, Part)> {
+        match column {
+            Column::Temperature(part) => Some((Self::Temperature, part)),
+            Column::Potential(part) => Some((Self::Potential, part)),
+            Column::PorePressure(part) => Some((Self::PorePressure, part)),
+            Column::FieldVariable(number, part) => Some((Self::FieldVariable(number), part)),
+            _ => None,
+        }
+    }
+}
+
+impl From<InitialQuantity> for NodeQuantity {
+    fn from(quantity: InitialQuantity) -> Self {
+        match quantity {
+            InitialQuantity::Temperature => Self::Temperature,
+            InitialQuantity::PorePressure => Self::PorePressure,
+            InitialQuantity::FieldVariable(number) => Self::FieldVariable(number),
+        }
+    }
 }
 
 impl State {
@@ -47,19 +206,39 @@ impl State {
     /// Adds from *INITIAL CONDITIONS the quantities that nothing else says.
     pub fn complete(&mut self, mesh: &Mesh) {
         for field in &mesh.initial {
-            if self.field(field.quantity).is_none() {
-                self.fields.push(NodeField {
-                    quantity: field.quantity,
-                    values: field.values.clone(),
-                    source: "*INITIAL CONDITIONS".to_owned(),
-                });
+            let quantity = field.quantity.into();
+            if self.field(quantity).is_none() {
+                let (values, source) = (field.values.clone(), Source::InitialConditions);
+                self.fields.push(NodeField { quantity, values, source });
             }
         }
         self.fields.sort_by_key(|field| field.quantity);
     }
 
-    /// A quantity, where it is known.
-    pub fn field(&self, quantity: InitialQuantity) -> Option<&NodeField> {
+    /// A quantity of all nodes, where it is known.
+    pub fn field(&self, quantity: NodeQuantity) -> Option<&NodeField> {
         self.fields.iter().find(|field| field.quantity == quantity)
     }
+
+    /// A quantity of a slave node of a pair with where it comes from: what was said first.
+    pub fn contact(&self, quantity: ContactQuantity, pair: usize, node: NodeId) -> Option<(f64, &Source)> {
+        let fields = self.contact.iter().filter(|field| field.quantity == quantity);
+        first_of(fields.map(|field| (field.pair, &field.values, &field.source)), pair, node)
+    }
+
+    /// An output that a solver says of a slave node of a pair, with where it comes from.
+    pub fn output(&self, output: Output, pair: usize, node: NodeId) -> Option<(f64, &Source)> {
+        let fields = self.outputs.iter().filter(|field| field.output == output);
+        first_of(fields.map(|field| (field.pair, &field.values, &field.source)), pair, node)
+    }
+}
+
+type Said<'a> = (Option<usize>, &'a Vec<Option<f64>>, &'a Source);
+
+/// The first value that is said of the pair, or of the node whatever its pair.
+fn first_of<'a>(mut fields: impl Iterator<Item = Said<'a>>, pair: usize, node: NodeId) -> Option<(f64, &'a Source)> {
+    fields.find_map(|(of, values, source)| {
+        let of_pair = of.is_none_or(|of| of == pair);
+        Some((values[node.index()].filter(|_| of_pair)?, source))
+    })
 }

@@ -1,9 +1,11 @@
 //! What was made of a pair: counts, and where its quantities come from.
 
-use crate::state::State;
+use crate::state::Source;
+use crate::values::Origin;
+use inpact_evaluation::law::contact::ContactState;
 use inpact_evaluation::nodes::Column;
 use inpact_geometry::Shares;
-use inpact_parser::mesh::{InitialQuantity, Mesh, MeshPair, Sliding, SurfaceKind};
+use inpact_parser::mesh::{Mesh, MeshPair, Sliding, SurfaceKind};
 use inpact_parser::model::Name;
 use std::fmt;
 
@@ -36,11 +38,11 @@ pub struct PairSummary {
     pub nodes: usize,
     /// The sum of their areas (L²).
     pub area: f64,
-    /// Rows with a clearance of 0 or less.
+    /// Rows in contact: with a clearance of 0 or less, or a pressure.
     pub closed: u64,
-    /// Rows with a clearance above 0.
+    /// Rows with a clearance above 0 and no pressure.
     pub open: u64,
-    /// Rows of slave nodes that have no master face across.
+    /// Rows whose clearance nothing says, since they have no master face across.
     pub without_master: u64,
     /// Where areas come from.
     pub area_source: AreaSource,
@@ -53,29 +55,75 @@ pub struct PairSummary {
 pub struct ColumnSummary {
     /// The column.
     pub column: Column,
-    /// Where its numbers come from, for a person; `None` for the geometry, of which [`PairSummary`] says it.
-    pub source: Option<String>,
     /// In how many rows so far it is empty.
     pub empty: u64,
+    /// Where its numbers come from, and how many of them.
+    origins: Vec<(Place, u64)>,
+}
+
+/// Where a number comes from, to be kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Place {
+    Mesh,
+    Moved(Source),
+    Said(Source),
+}
+
+impl Place {
+    fn is(&self, origin: Origin<'_>) -> bool {
+        match (self, origin) {
+            (Self::Mesh, Origin::Mesh) => true,
+            (Self::Moved(source), Origin::Moved(other)) | (Self::Said(source), Origin::Said(other)) => source == other,
+            _ => false,
+        }
+    }
+
+    fn of(origin: Origin<'_>) -> Self {
+        match origin {
+            Origin::Mesh => Self::Mesh,
+            Origin::Moved(source) => Self::Moved(source.clone()),
+            Origin::Said(source) => Self::Said(source.clone()),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mesh => formatter.write_str("mesh"),
+            Self::Moved(source) => write!(formatter, "mesh moved by {source}"),
+            Self::Said(source) => source.fmt(formatter),
+        }
+    }
 }
 
 impl ColumnSummary {
-    pub(crate) fn of(column: Column, states: &[State]) -> Self {
-        let quantity = match column {
-            Column::Temperature(_) => Some(InitialQuantity::Temperature),
-            Column::PorePressure(_) => Some(InitialQuantity::PorePressure),
-            Column::FieldVariable(number, _) => Some(InitialQuantity::FieldVariable(number)),
-            _ => None,
+    pub(crate) fn new(column: Column) -> Self {
+        Self { column, empty: 0, origins: Vec::new() }
+    }
+
+    /// Where its numbers come from, for a person; `None` where all are of the mesh, of which [`PairSummary`] says it.
+    pub fn source(&self) -> Option<String> {
+        match self.origins.as_slice() {
+            [] | [(Place::Mesh, _)] => None,
+            [(place, _)] => Some(place.to_string()),
+            several => {
+                let counted = several.iter().map(|(place, rows)| format!("{place} in {rows}"));
+                Some(counted.collect::<Vec<_>>().join(", ") + " rows")
+            }
+        }
+    }
+
+    pub(crate) fn count(&mut self, found: Option<(f64, Option<Origin<'_>>)>) {
+        let Some((_, origin)) = found else {
+            self.empty += 1;
+            return;
         };
-        let of_field =
-            |state: &State| quantity.and_then(|quantity| state.field(quantity)).map(|field| field.source.clone());
-        let of_pressure = |state: &State| state.pressure.as_ref().map(|pressure| pressure.source.clone());
-        let mut sources: Vec<String> = match column {
-            Column::Pressure => states.iter().filter_map(of_pressure).collect(),
-            _ => states.iter().filter_map(of_field).collect(),
-        };
-        sources.dedup();
-        Self { column, source: (!sources.is_empty()).then(|| sources.join(", then ")), empty: 0 }
+        let Some(origin) = origin else { return };
+        match self.origins.iter_mut().find(|(place, _)| place.is(origin)) {
+            Some((_, rows)) => *rows += 1,
+            None => self.origins.push((Place::of(origin), 1)),
+        }
     }
 }
 
@@ -100,6 +148,21 @@ impl PairSummary {
             area_source,
             clearance_source: clearance_source(pair),
         }
+    }
+
+    /// Counts a row.
+    pub(crate) fn count(&mut self, clearance: Option<f64>, pressure: Option<f64>) {
+        match ContactState::of(None, clearance, pressure) {
+            Some(ContactState::Closed) => self.closed += 1,
+            Some(ContactState::Open) => self.open += 1,
+            Some(ContactState::Undetermined) | None => self.without_master += 1,
+        }
+    }
+
+    /// Forgets the rows that were counted.
+    pub(crate) fn rewind(&mut self) {
+        (self.nodes, self.area) = (0, 0.0);
+        (self.closed, self.open, self.without_master) = (0, 0, 0);
     }
 }
 

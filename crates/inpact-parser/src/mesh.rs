@@ -49,6 +49,8 @@ pub struct Mesh {
     pub pairs: Vec<MeshPair>,
     /// What *INITIAL CONDITIONS says of the nodes, each quantity once.
     pub initial: Vec<InitialField>,
+    /// The names of the steps of the deck, in its order: results may say in which one they are by its name.
+    pub steps: Vec<Option<Name>>,
     /// What was not read, or was read with something assumed.
     pub notes: Vec<MeshNote>,
 }

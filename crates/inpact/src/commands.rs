@@ -14,6 +14,7 @@ pub(crate) mod tradeoff;
 
 pub(crate) mod evaluable;
 pub(crate) mod findings;
+mod job_results;
 mod laws;
 mod meshed;
 pub(crate) mod solvable;

@@ -55,6 +55,8 @@ pub enum Column {
     Shear,
     /// `slip_rate`: rate of relative slip γ̇ along the shear stress, L T⁻¹.
     SlipRate,
+    /// `source`: where the numbers of the row come from, for a person.
+    Source,
 }
 
 /// Along which axis of the global system a coordinate is.

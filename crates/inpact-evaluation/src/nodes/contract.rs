@@ -328,6 +328,14 @@ pub const COLUMN_PAGES: &[ColumnPage] = &[
     page(Column::Step, &["step", "kstep"], "number of the step, from 1", "1", USER, "7.1"),
     page(Column::Increment, &["increment", "kinc"], "number of the increment in its step, from 1", "1", USER, "7.1"),
     page(Column::StepTime, &["step_time"], "time since the step began", "T", USER, "7.1"),
+    page(
+        Column::Source,
+        &["source"],
+        "where the numbers of the row come from, such as `clearance=COPEN temp_s=NT11`: `inpact nodes` writes it",
+        "",
+        "nothing",
+        "",
+    ),
 ];
 
 const fn page(

@@ -67,6 +67,8 @@ pub(super) struct Layout<'deck> {
     pub(super) clearances: Vec<Entry<'deck>>,
     pub(super) initial_conditions: Vec<Entry<'deck>>,
     pub(super) assembly_name: Option<Name>,
+    /// The names of the steps.
+    pub(super) steps: Vec<Option<Name>>,
 }
 
 enum Level {
@@ -103,6 +105,7 @@ impl<'deck> Layout<'deck> {
                 }
                 "ENDINSTANCE" => level = Level::Assembly,
                 "ENDPART" | "ENDASSEMBLY" => level = Level::Model,
+                "STEP" => layout.steps.push(entry.named("NAME")),
                 "CLEARANCE" => layout.clearances.push(entry),
                 "INITIALCONDITIONS" => layout.initial_conditions.push(entry),
                 _ => layout.at(&level).add(&name, entry),

@@ -54,6 +54,7 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) initial_conditions: Vec<Entry<'deck>>,
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
+    steps: Vec<Option<Name>>,
     notes: Vec<MeshNote>,
     /// The same, so that each is said once.
     noted: HashSet<MeshNote>,
@@ -82,6 +83,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             initial_conditions: layout.initial_conditions,
             assembly: layout.assembly,
             assembly_name: layout.assembly_name,
+            steps: layout.steps,
             notes: Vec::new(),
             noted: HashSet::new(),
         }
@@ -123,7 +125,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         let initial = self.initial(&located)?;
         let Located { points, nodes, .. } = located;
         let surfaces = surfaces.into_iter().flatten().collect();
-        Ok(Mesh { points, nodes, surfaces, pairs, initial, notes: self.notes })
+        Ok(Mesh { points, nodes, surfaces, pairs, initial, steps: self.steps, notes: self.notes })
     }
 
     pub(super) fn note(&mut self, span: Span, message: String) {

@@ -1,13 +1,14 @@
-//! `inpact nodes`: a deck with a mesh in, the node table of its contact pairs out.
+//! `inpact nodes`: a deck with a mesh in, and what its job wrote; the node table of its contact pairs out.
 
 use super::findings::FindingFormat;
+use super::job_results::{JobResultArguments, States};
 use super::meshed::MeshedDeck;
 use super::table_output::TableOutput;
 use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
 use crate::settings::DeckArguments;
 use clap::Args;
-use inpact_contact::{ColumnSummary, NodeRows, PairSummary, RowsError, State};
+use inpact_contact::{ColumnSummary, FileSummary, NodeRows, PairSummary, RowsError, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::results::{ResultWriter, TableFormat, push_number};
 use serde_json::json;
@@ -21,6 +22,8 @@ pub(crate) struct NodesArguments {
     #[arg(value_name = "DECK")]
     deck: PathBuf,
     #[command(flatten)]
+    results: JobResultArguments,
+    #[command(flatten)]
     reading: DeckArguments,
     #[command(flatten)]
     output: TableOutput,
@@ -32,12 +35,13 @@ pub(crate) struct NodesArguments {
 pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::name_as_inputs(&[&arguments.deck]);
+    files::name_as_inputs(arguments.results.paths());
     files::check_targets(&[arguments.output.target()])?;
     let settings = arguments.reading.settings(&arguments.deck)?;
     let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
     // What the deck includes is known now.
     files::check_targets(&[arguments.output.target()])?;
-    let states = [State::initial(&meshed.mesh)];
+    let States { states, files } = arguments.results.states(&meshed, arguments.format)?;
     let mut rows = rows(&meshed, &states, arguments.format)?;
     let mut output = ResultFile::create(arguments.output.target())?;
     match write(&mut rows, &states, &mut output, arguments.output.format()) {
@@ -48,16 +52,16 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     let seconds = start.elapsed().as_secs_f64();
     match arguments.format {
         FindingFormat::Concise | FindingFormat::Github => {
-            for line in summary_text(&rows, seconds) {
+            for line in summary_text(&rows, &files, seconds) {
                 say(&visible_line(&line));
             }
         }
-        FindingFormat::Json => say_json(&summary_json(&rows, seconds)),
+        FindingFormat::Json => say_json(&summary_json(&rows, &files, seconds)),
     }
     Ok(Outcome::Clean)
 }
 
-/// The rows of a deck's pairs, after saying what was not read; an error where there are none.
+/// The rows of a deck's pairs in these states, after saying what was not read; an error where there are none.
 pub(crate) fn rows<'a>(
     meshed: &'a MeshedDeck,
     states: &[State],
@@ -112,9 +116,15 @@ pub(crate) fn write(
 }
 
 /// What was made, for a person.
-fn summary_text(rows: &NodeRows<'_>, seconds: f64) -> Vec<String> {
+fn summary_text(rows: &NodeRows<'_>, files: &[FileSummary], seconds: f64) -> Vec<String> {
     let counted = |number: u64, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     let mut lines = vec![format!("{}, {seconds:.3} s", counted(rows.rows(), "row"))];
+    for file in files {
+        let FileSummary { file: name, format, frames, used_frames, nodes, matched_by } = file;
+        lines.push(format!(
+            "  `{name}`, {format}: {used_frames} of {frames} states, {nodes} nodes found by {matched_by}"
+        ));
+    }
     for pair in rows.summaries() {
         let PairSummary { slave, master, interaction, area_source, clearance_source, .. } = pair;
         let beside = match pair.without_master {
@@ -127,21 +137,21 @@ fn summary_text(rows: &NodeRows<'_>, seconds: f64) -> Vec<String> {
         lines.push(format!("    area: {area_source}"));
         lines.push(format!("    clearance: {clearance_source}"));
     }
-    for ColumnSummary { column, source, empty } in rows.columns() {
-        let empty = match empty {
+    for summary in rows.columns() {
+        let empty = match summary.empty {
             0 => None,
-            empty => Some(format!("empty in {}", counted(*empty, "row"))),
+            empty => Some(format!("empty in {}", counted(empty, "row"))),
         };
-        let said: Vec<&str> = [source.as_deref(), empty.as_deref()].into_iter().flatten().collect();
+        let said: Vec<String> = summary.source().into_iter().chain(empty).collect();
         if !said.is_empty() {
-            lines.push(format!("  {column}: {}", said.join(", ")));
+            lines.push(format!("  {}: {}", summary.column, said.join(", ")));
         }
     }
     lines
 }
 
 /// The same as a JSON object on one line.
-fn summary_json(rows: &NodeRows<'_>, seconds: f64) -> String {
+fn summary_json(rows: &NodeRows<'_>, files: &[FileSummary], seconds: f64) -> String {
     let pair = |pair: &PairSummary| {
         json!({
             "slave": pair.slave.written(),
@@ -156,10 +166,21 @@ fn summary_json(rows: &NodeRows<'_>, seconds: f64) -> String {
             "clearance_source": pair.clearance_source,
         })
     };
-    let column = |column: &ColumnSummary| json!({ "column": column.column.to_string(), "source": column.source, "empty": column.empty });
+    let column = |column: &ColumnSummary| json!({ "column": column.column.to_string(), "source": column.source(), "empty": column.empty });
+    let file = |file: &FileSummary| {
+        json!({
+            "file": &*file.file,
+            "format": file.format.to_string(),
+            "states": file.frames,
+            "used_states": file.used_frames,
+            "nodes": file.nodes,
+            "matched_by": file.matched_by.to_string(),
+        })
+    };
     json!({ "summary": {
         "rows": rows.rows(),
         "seconds": seconds,
+        "results": files.iter().map(file).collect::<Vec<_>>(),
         "pairs": rows.summaries().map(pair).collect::<Vec<_>>(),
         "columns": rows.columns().iter().map(column).collect::<Vec<_>>(),
     } })

@@ -1,0 +1,302 @@
+//! From result files to states: frames of all files by their times, fields by the nodes of the mesh.
+//!
+//! Files are added one by one; what an earlier one says of a node counts, and a later one fills what is left.
+
+mod frames;
+mod nodes;
+mod pairs;
+mod quantities;
+
+pub use nodes::MatchedBy;
+
+use crate::state::{Source, State};
+use frames::Building;
+use inpact_geometry::NodeId;
+use inpact_parser::mesh::Mesh;
+use inpact_parser::model::Model;
+use inpact_results::{Field, Format, Frame, Region, Results, Rows};
+use nodes::NodeMap;
+use pairs::{PairNames, PairOf};
+use quantities::Quantity;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Makes states of result files.
+#[derive(Debug)]
+pub struct Join<'a> {
+    mesh: &'a Mesh,
+    /// Whether nodes move in the analysis that the deck asks for.
+    moves: bool,
+    pairs: PairNames,
+    /// The slave nodes of all pairs, and those of several.
+    slaves: Vec<NodeId>,
+    shared: Vec<NodeId>,
+    building: Vec<Building>,
+    files: Vec<FileSummary>,
+    notes: Vec<ResultNote>,
+}
+
+/// What result files say of a mesh.
+#[derive(Debug)]
+pub struct Joined {
+    /// A state a time, in the order of times.
+    pub states: Vec<State>,
+    /// What was made of each file.
+    pub files: Vec<FileSummary>,
+    /// What could not be used, and what was taken with something assumed.
+    pub notes: Vec<ResultNote>,
+}
+
+/// What was made of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileSummary {
+    /// The file.
+    pub file: Arc<str>,
+    /// Of which kind it is.
+    pub format: Format,
+    /// How many frames it has.
+    pub frames: usize,
+    /// How many of them say something of a node of a contact surface.
+    pub used_frames: usize,
+    /// How many nodes of contact surfaces it says something of.
+    pub nodes: usize,
+    /// How its nodes were found in the mesh.
+    pub matched_by: MatchedBy,
+}
+
+/// Something to be known of a result file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ResultNote {
+    /// The file.
+    pub file: Arc<str>,
+    /// What it is, for a person.
+    pub message: String,
+}
+
+/// Why nothing of result files can be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct JoinError(String);
+
+impl<'a> Join<'a> {
+    /// Nothing yet.
+    pub fn new(mesh: &'a Mesh, model: &Model) -> Self {
+        let still = ["HEAT TRANSFER", "COUPLED THERMAL-ELECTRICAL", "MASS DIFFUSION"];
+        let moves = model.procedures.iter().any(|procedure| !still.contains(&procedure.option.keyword.as_str()));
+        let (slaves, shared) = frames::slave_nodes(mesh);
+        Self {
+            mesh,
+            moves,
+            pairs: PairNames::new(mesh),
+            slaves,
+            shared,
+            building: Vec::new(),
+            files: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Adds a file; what is wrong with it as a whole is an error, what of it cannot be used a note.
+    ///
+    /// # Errors
+    /// Where it is of another mesh: its nodes are elsewhere.
+    pub fn add(&mut self, file: &str, results: &Results) -> Result<(), JoinError> {
+        let file: Arc<str> = file.into();
+        let (map, notes) =
+            NodeMap::new(self.mesh, results).map_err(|message| JoinError(format!("{file}: {message}")))?;
+        let mut of_file = OfFile {
+            file: Arc::clone(&file),
+            format: results.format,
+            map,
+            used: BTreeSet::new(),
+            not_needed: BTreeSet::new(),
+            notes: notes.into_iter().collect(),
+        };
+        let mut used_frames = 0;
+        for frame in &results.frames {
+            used_frames += usize::from(self.frame(frame, &mut of_file));
+        }
+        let OfFile { map, used, not_needed, notes, .. } = of_file;
+        let mut messages: Vec<String> = notes.into_iter().collect();
+        if !not_needed.is_empty() {
+            let names: Vec<&str> = not_needed.iter().map(String::as_str).collect();
+            messages.push(format!("no node table has a place for {}: not used", names.join(", ")));
+        }
+        if !results.not_read.is_empty() {
+            let listed: Vec<String> =
+                results.not_read.iter().map(|what| format!("{} ({})", what.what, what.count)).collect();
+            messages.push(format!("not read: {}", listed.join(", ")));
+        }
+        messages.extend(map.without(self.mesh, &used));
+        self.notes.extend(messages.into_iter().map(|message| ResultNote { file: Arc::clone(&file), message }));
+        self.files.push(FileSummary {
+            file,
+            format: results.format,
+            frames: results.frames.len(),
+            used_frames,
+            nodes: used.len(),
+            matched_by: map.matched_by(),
+        });
+        Ok(())
+    }
+
+    /// Takes what a frame says; whether that is anything.
+    fn frame(&mut self, frame: &Frame, of_file: &mut OfFile) -> bool {
+        let moment = match frames::moment(frame, &self.mesh.steps) {
+            Ok(moment) => moment,
+            Err(message) => {
+                of_file.note(message);
+                return false;
+            }
+        };
+        let of_total = frame.total_time.is_some();
+        let mut building = Building::new(self.mesh, moment, of_total, &of_file.file, of_file.format);
+        for field in &frame.fields {
+            self.field(field, of_file, &mut building);
+        }
+        if building.is_empty() {
+            return false;
+        }
+        if quantities::is_of_calculix(of_file.format) {
+            building.open_where_nothing_is_in_contact(&self.slaves);
+        }
+        of_file.notes.extend(building.without_shared(&self.shared, self.mesh));
+        let near = self.building.iter_mut().filter_map(|other| Some((other.distance(&building)?, other)));
+        match near.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((_, same)) => {
+                let disagreements = same.merge(building, self.mesh);
+                of_file.notes.extend(disagreements);
+            }
+            None => self.building.push(building),
+        }
+        true
+    }
+
+    fn field(&self, field: &Field, of_file: &mut OfFile, building: &mut Building) {
+        let quantities: Vec<Option<Quantity>> =
+            field.columns.iter().map(|column| quantities::of_column(&column.name, of_file.format)).collect();
+        if quantities.iter().all(Option::is_none) {
+            of_file.not_needed.insert(field.name.to_string());
+            return;
+        }
+        let Rows::Nodes(labels) = &field.rows else {
+            let what = match field.rows {
+                Rows::FacePoints { .. } => "is of integration points of faces",
+                Rows::Elements(_) => "is of elements",
+                _ => "is of the pair as a whole",
+            };
+            // The file says the area or the force of a pair, which nobody takes for one of nodes.
+            if !matches!(field.rows, Rows::Whole) {
+                of_file.note(format!("{} {what}, not of nodes: not used", field.name));
+            }
+            return;
+        };
+        let is_of_contact = quantities.iter().flatten().any(|quantity| quantity.is_of_contact());
+        let pair = match self.pairs.of_region(&field.region) {
+            PairOf::Pair(pair) => Some(pair),
+            PairOf::Unsaid => None,
+            PairOf::Unknown if !is_of_contact => None,
+            PairOf::Unknown => {
+                of_file.note(format!(
+                    "{} is of a pair {}, which the deck does not have: not used",
+                    field.name,
+                    named(&field.region)
+                ));
+                return;
+            }
+        };
+        let rows: Vec<(usize, NodeId)> = labels
+            .iter()
+            .enumerate()
+            .filter_map(|(row, label)| Some((row, of_file.map.node(&field.region, pair, *label)?)))
+            .collect();
+        // A list of what is in contact says something even where it is empty.
+        if rows.is_empty() && !(is_of_contact && quantities::is_of_calculix(of_file.format)) {
+            return;
+        }
+        of_file.used.extend(rows.iter().map(|(_, node)| *node));
+        for (column, quantity) in field.columns.iter().zip(quantities) {
+            let Some(quantity) = quantity else { continue };
+            let source = Source::File { quantity: quantity.name(), file: Arc::clone(&of_file.file) };
+            let values = rows.iter().filter_map(|(row, node)| {
+                let value = column.values[*row];
+                (!value.is_nan()).then_some((*node, value))
+            });
+            building.take(quantity, pair.filter(|_| quantity.is_of_contact()), source, values);
+        }
+    }
+
+    /// The states, completed from *INITIAL CONDITIONS.
+    ///
+    /// # Errors
+    /// Where no file says anything of a node of a contact surface, or where several states have no time.
+    pub fn finish(mut self) -> Result<Joined, JoinError> {
+        if self.building.is_empty() {
+            let names: Vec<String> = self.files.iter().map(|file| format!("`{}`", file.file)).collect();
+            let of = if names.is_empty() { "no result file".to_owned() } else { names.join(", ") };
+            return Err(JoinError(format!("{of} says nothing of the nodes of the contact surfaces")));
+        }
+        let timeless = self.building.iter().filter(|building| building.moment.time.is_none()).count();
+        if 0 < timeless && 1 < self.building.len() {
+            let message = format!(
+                "{timeless} of {} states have no time, so that no history can be made of them; name files that say times, or one state only",
+                self.building.len()
+            );
+            return Err(JoinError(message));
+        }
+        // The sort is stable: what has one time stays in the order of the files.
+        self.building.sort_by(|a, b| a.moment.time.unwrap_or_default().total_cmp(&b.moment.time.unwrap_or_default()));
+        frames::slip_rates(&mut self.building);
+        let mut notes: BTreeSet<String> = BTreeSet::new();
+        let mut states = Vec::new();
+        for building in self.building {
+            let (mut state, missing) = building.finish(self.mesh);
+            if let Some(message) = missing {
+                notes.insert(message);
+            } else if state.displacements.is_none() && self.moves {
+                let message = "no displacements (U): areas, the faces across and clearances that nothing else says are those of the undeformed mesh";
+                notes.insert(message.to_owned());
+            }
+            let of_files = state.fields.len();
+            state.complete(self.mesh);
+            if 0 < of_files || !state.contact.is_empty() {
+                let initial = state.fields.iter().filter(|field| field.source == Source::InitialConditions);
+                for field in initial {
+                    let column = field.quantity.column(inpact_evaluation::nodes::Part::Slave).to_string();
+                    let quantity = column.trim_end_matches("_s");
+                    notes.insert(format!("no {quantity} of nodes: that of *INITIAL CONDITIONS is taken"));
+                }
+            }
+            states.push(state);
+        }
+        if let Some(file) = self.files.first().map(|file| Arc::clone(&file.file)) {
+            self.notes.extend(notes.into_iter().map(|message| ResultNote { file: Arc::clone(&file), message }));
+        }
+        Ok(Joined { states, files: self.files, notes: self.notes })
+    }
+}
+
+/// What is gathered while a file is read.
+struct OfFile {
+    file: Arc<str>,
+    format: Format,
+    map: NodeMap,
+    /// The nodes that something was said of.
+    used: BTreeSet<NodeId>,
+    /// Fields that no node table has a place for.
+    not_needed: BTreeSet<String>,
+    /// Messages, each once.
+    notes: BTreeSet<String>,
+}
+
+impl OfFile {
+    fn note(&mut self, message: String) {
+        self.notes.insert(message);
+    }
+}
+
+/// The surfaces of a region.
+fn named(region: &Region) -> String {
+    let name = |name: &Option<inpact_results::Name>| name.as_deref().unwrap_or("?").to_owned();
+    format!("`{}` on `{}`", name(&region.slave), name(&region.master))
+}

@@ -1,0 +1,50 @@
+//! Which pair of the deck the pair of a result file is.
+//!
+//! Abaqus writes names of surfaces in capitals, with the assembly and the instance before them: `ASSEMBLY_PLATE-1_TOP` for `Plate-1.Top`.
+
+use inpact_parser::mesh::Mesh;
+use inpact_parser::model::Name;
+use inpact_results::Region;
+
+/// The names of the surfaces of all pairs, in the order of the deck.
+#[derive(Debug)]
+pub(super) struct PairNames(Vec<[String; 2]>);
+
+/// Which pair a region is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PairOf {
+    /// This one.
+    Pair(usize),
+    /// The region is no pair.
+    Unsaid,
+    /// A pair that the deck does not have, or that could be several of its.
+    Unknown,
+}
+
+impl PairNames {
+    pub(super) fn new(mesh: &Mesh) -> Self {
+        let name = |surface: usize| plain(&mesh.surfaces[surface].name);
+        Self(mesh.pairs.iter().map(|pair| [name(pair.slave), name(pair.master)]).collect())
+    }
+
+    pub(super) fn of_region(&self, region: &Region) -> PairOf {
+        let Some(slave) = &region.slave else { return PairOf::Unsaid };
+        let is = |deck: &str, file: &str| {
+            let file = plain(&Name::new(file));
+            file == deck || file.strip_suffix(deck).is_some_and(|before| before.ends_with('_'))
+        };
+        let fits = |[of_slave, of_master]: &[String; 2]| {
+            is(of_slave, slave) && region.master.as_ref().is_none_or(|master| is(of_master, master))
+        };
+        let mut found = (0..self.0.len()).filter(|pair| fits(&self.0[*pair]));
+        match (found.next(), found.next()) {
+            (Some(pair), None) => PairOf::Pair(pair),
+            _ => PairOf::Unknown,
+        }
+    }
+}
+
+/// A name as result files write it.
+fn plain(name: &Name) -> String {
+    name.canonical().to_ascii_uppercase().replace('.', "_").replace('"', "")
+}

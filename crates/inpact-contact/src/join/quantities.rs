@@ -1,0 +1,81 @@
+//! What the columns of result files are for a node table.
+
+use crate::state::{ContactQuantity, NodeQuantity};
+use inpact_evaluation::results::Output;
+use inpact_results::Format;
+use std::sync::Arc;
+
+/// What a column says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// A component of the displacement, from 0.
+    Displacement(usize),
+    /// A quantity of the nodes of either side.
+    Node(NodeQuantity, &'static str),
+    /// A quantity of slave nodes.
+    Contact(ContactQuantity, &'static str),
+    /// A component of the frictional shear stress, from 0.
+    Shear(usize),
+    /// A component of the accumulated slip, from 0.
+    Slip(usize),
+    /// What is computed of the interface here too.
+    Output(Output),
+}
+
+impl Quantity {
+    /// Whether it is of slave nodes as such.
+    pub(super) fn is_of_contact(self) -> bool {
+        !matches!(self, Self::Displacement(_) | Self::Node(..))
+    }
+
+    /// What the file calls it.
+    pub(super) fn name(self) -> Arc<str> {
+        match self {
+            Self::Displacement(_) => "U".into(),
+            Self::Node(NodeQuantity::FieldVariable(number), _) => format!("FV{number}").into(),
+            Self::Node(_, name) | Self::Contact(_, name) => name.into(),
+            Self::Shear(_) => "CSHEAR".into(),
+            Self::Slip(_) => "CSLIP".into(),
+            Self::Output(output) => output.to_string().into(),
+        }
+    }
+}
+
+/// What a column of a result file is for a node table; `None` where it has no place there.
+pub(super) fn of_column(name: &str, format: Format) -> Option<Quantity> {
+    let name = name.to_ascii_uppercase();
+    let known = match name.as_str() {
+        "U1" => Quantity::Displacement(0),
+        "U2" => Quantity::Displacement(1),
+        "U3" => Quantity::Displacement(2),
+        // Shells have several; the first is that of the reference surface.
+        "NT11" | "NT" => Quantity::Node(NodeQuantity::Temperature, "NT11"),
+        "EPOT" => Quantity::Node(NodeQuantity::Potential, "EPOT"),
+        "POR" => Quantity::Node(NodeQuantity::PorePressure, "POR"),
+        "COPEN" => Quantity::Contact(ContactQuantity::Clearance, "COPEN"),
+        "CPRESS" => Quantity::Contact(ContactQuantity::Pressure, "CPRESS"),
+        "CNAREA" => Quantity::Contact(ContactQuantity::Area, "CNAREA"),
+        "CSHEAR1" => Quantity::Shear(0),
+        "CSHEAR2" => Quantity::Shear(1),
+        // The slip of CalculiX is that of its elastic stick; a deck for it says the speed itself (K-38).
+        "CSLIP1" if !is_of_calculix(format) => Quantity::Slip(0),
+        "CSLIP2" if !is_of_calculix(format) => Quantity::Slip(1),
+        _ => return field_variable(&name).or_else(|| output(&name)),
+    };
+    Some(known)
+}
+
+/// Whether CalculiX wrote the file.
+pub(super) fn is_of_calculix(format: Format) -> bool {
+    matches!(format, Format::Frd | Format::Dat)
+}
+
+fn field_variable(name: &str) -> Option<Quantity> {
+    let number = name.strip_prefix("FV")?.parse().ok().filter(|number| *number != 0)?;
+    Some(Quantity::Node(NodeQuantity::FieldVariable(number), "FV"))
+}
+
+/// An output of Abaqus; those that are our own have small letters.
+fn output(name: &str) -> Option<Quantity> {
+    Output::NAMED.iter().copied().find(|output| output.to_string() == name).map(Quantity::Output)
+}

@@ -1,0 +1,91 @@
+//! Result files of a deck's own job, joined with its mesh.
+
+use super::findings::FindingFormat;
+use super::meshed::MeshedDeck;
+use crate::failure::{Failure, say, say_json};
+use crate::files;
+use clap::Args;
+use inpact_contact::{FileSummary, Join, JoinError, Joined, ResultNote, State};
+use inpact_diagnostics::visible::visible_line;
+use inpact_results::{Incomplete, Results};
+use serde_json::json;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// More notes than these of one run nobody reads.
+const MOST_NOTES: usize = 100;
+
+#[derive(Debug, Args)]
+pub(crate) struct JobResultArguments {
+    /// What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; several are joined by their times, and where two say something of a node, the one named first counts.
+    #[arg(long, value_name = "FILE")]
+    results: Vec<PathBuf>,
+}
+
+/// What is known of a mesh at the times of result files, or at the beginning where there are none.
+pub(crate) struct States {
+    pub(crate) states: Vec<State>,
+    pub(crate) files: Vec<FileSummary>,
+}
+
+impl JobResultArguments {
+    /// The files that are read.
+    pub(crate) fn paths(&self) -> &[PathBuf] {
+        &self.results
+    }
+
+    /// Reads the files and joins them with the mesh, after saying what could not be used.
+    pub(crate) fn states(&self, meshed: &MeshedDeck, format: FindingFormat) -> Result<States, Failure> {
+        if self.results.is_empty() || meshed.mesh.pairs.is_empty() {
+            return Ok(States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() });
+        }
+        let mut join = Join::new(&meshed.mesh, &meshed.model);
+        let failed = |error: JoinError| Failure::Data(error.to_string());
+        for path in &self.results {
+            join.add(&path.display().to_string(), &read(path)?).map_err(failed)?;
+        }
+        let joined = join.finish();
+        let Joined { states, files, notes } = joined.map_err(failed)?;
+        say_notes(&notes, format);
+        Ok(States { states, files })
+    }
+}
+
+fn read(path: &Path) -> Result<Results, Failure> {
+    let mut bytes = Vec::new();
+    files::open(path)?.read_to_end(&mut bytes).map_err(|error| Failure::read(path, error))?;
+    inpact_results::read(&bytes).map_err(|incomplete| unsound(path, &incomplete))
+}
+
+/// Says where a file breaks off, and what stands before.
+fn unsound(path: &Path, incomplete: &Incomplete) -> Failure {
+    let Incomplete { problem, read } = incomplete;
+    let before = match read.as_deref() {
+        None => String::new(),
+        Some(results) => {
+            let time = results.frames.iter().rev().find_map(|frame| frame.total_time.or(frame.step_time));
+            let to = time.map_or_else(String::new, |time| format!(" up to time {time:?}"));
+            match results.frames.len() {
+                0 => "; before it stands no state".to_owned(),
+                1 => format!("; before it stands 1 state{to}, which may not be whole"),
+                frames => format!("; before it stand {frames} states{to}, the last of which may not be whole"),
+            }
+        }
+    };
+    Failure::Data(format!("{}:{}: {} ({}){before}", path.display(), problem.place.line, problem.message, problem.help))
+}
+
+fn say_notes(notes: &[ResultNote], format: FindingFormat) {
+    for ResultNote { file, message } in notes.iter().take(MOST_NOTES) {
+        match format {
+            FindingFormat::Concise | FindingFormat::Github => say(&visible_line(&format!("{file}: note: {message}"))),
+            FindingFormat::Json => {
+                say_json(&json!({ "severity": "note", "file": &**file, "message": message }).to_string());
+            }
+        }
+    }
+    let more = notes.len().saturating_sub(MOST_NOTES);
+    if 0 < more && format != FindingFormat::Json {
+        say(&format!("note: {more} more notes on results"));
+    }
+}
