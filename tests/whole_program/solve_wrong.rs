@@ -53,12 +53,12 @@ const CASES: [(&str, &str, &str); 20] = [
     ),
     ("master = \"cold\"", "master = \"clod\"", "is `cold` meant?"),
     ("thermal = 1.0", "thremal = 1.0", "there is no key `thremal` here (is `thermal` meant?"),
+    ("temperature = { fixed = 20.0 }", "temperature = 20.0", "expected a table such as { fixed = 1.0 }, found `20.0`"),
     (
-        "temperature = { fixed = 20.0 }",
-        "temperature = 20.0",
-        "`20.0` stands where there should be a table such as { fixed = 1.0 }",
+        "[\"hot\", \"middle\"]",
+        "[\"hot\", \"middle\", \"cold\"]",
+        "expected the names of two nodes such as [\"a\", \"b\"], found ",
     ),
-    ("[\"hot\", \"middle\"]", "[\"hot\", \"middle\", \"cold\"]", "stands where there should be the names of two nodes"),
     ("fixed = 20.0", "fixt = 20.0", "there is no key `fixt` here"),
     ("thermal = 1.0", "thermal = -1.0", "`thermal` of the link of `hot` and `middle` is -1.0"),
     ("thermal = 1.0", "thermal = nan", "`thermal` of the link of `hot` and `middle` is nan"),
@@ -74,7 +74,7 @@ const CASES: [(&str, &str, &str); 20] = [
     (
         "fixed = 20.0",
         "fixed = \"warm\"",
-        "`\"warm\"` stands where there should be a number, or points of time and value",
+        "expected a number, or points of time and value such as [[0.0, 20.0], [1.0, 80.0]], found `\"warm\"`",
     ),
     ("name = \"middle\"", "name = \"middle\"\n[[node]]\nname = \"middle\"", "node `middle` is defined twice"),
     ("[[link]]", "[time]\nend = 1.0\nstep = 0.5\n[[link]]", "a steady state has no `time`"),
@@ -91,6 +91,39 @@ fn changed(from: &str, to: &str) -> String {
 fn solve(deck: &str, scene: &str) -> Run {
     let folder = Folder::with(&[("deck.inp", deck), ("scene.toml", scene)]);
     folder.inpact(&["solve", "scene.toml"])
+}
+
+/// All that is no TOML in one run, with what is wrong in the rest; nothing is said of what the lines taken out would have said.
+#[test]
+fn every_line_that_is_no_toml_is_told_in_one_run() {
+    let scene = SCENE
+        .replace("deck = \"deck.inp\"", "deck = \"deck.inp\"\n[initial]\ntemperature = 1.0.0")
+        .replace("area = 0.5", "area")
+        .replace("thermal = 1.0", "thermal = warm")
+        .replace("fixed = 20.0", "fixt = 20.0");
+    let run = solve(DECK, &scene);
+    assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
+    let messages: Vec<&str> =
+        run.errors.lines().filter_map(|line| line.split_once("[D011] ")).map(|(_, said)| said).collect();
+    let expected = [
+        "expected a number, found `1.0.0`",
+        "there is no key `fixt` here (the keys here are `fixed`, `source`, `capacity`, `initial`)",
+        "expected a number, found `warm`",
+        "expected a key with `=` and its value, found `area`",
+    ];
+    assert_eq!(messages, expected, "{}", run.errors);
+}
+
+/// A scene that has nothing to solve says so.
+#[test]
+fn a_scene_without_nodes_is_refused() {
+    let run = solve(DECK, "deck = \"deck.inp\"\n");
+    assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
+    assert!(
+        run.errors.contains("error[D011] the scene has no nodes, so that there is nothing to solve"),
+        "{}",
+        run.errors
+    );
 }
 
 #[test]

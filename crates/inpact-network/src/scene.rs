@@ -9,6 +9,7 @@ pub(crate) mod nearest;
 mod read;
 mod rules;
 mod shape;
+mod syntax;
 mod tables;
 mod usable;
 mod values;

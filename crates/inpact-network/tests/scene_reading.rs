@@ -93,9 +93,9 @@ fn every_key_of_the_schema_can_be_read() {
 }
 
 #[test]
-fn the_least_scene_is_a_deck() {
-    let scene = scene("deck = \"a.inp\"");
-    assert!(scene.nodes.is_empty() && scene.links.is_empty() && scene.interfaces.is_empty());
+fn the_least_scene_is_a_deck_and_a_node() {
+    let scene = scene("deck = \"a.inp\"\n[[node]]\nname = \"a\"");
+    assert!(scene.nodes.len() == 1 && scene.links.is_empty() && scene.interfaces.is_empty());
     assert_eq!((scene.initial_temperature, scene.initial_pore_pressure, scene.is_transient()), (None, None, false));
     assert!(Field::ALL.iter().all(|field| !scene.mentions(*field)));
 }

@@ -10,6 +10,7 @@ use super::file::{
 use super::nearest::meant_or;
 use super::rules::{DUPLICATE_NODE, MALFORMED_SCENE, MALFORMED_TIME, UNKNOWN_NODE};
 use super::shape::{self, Shaped};
+use super::syntax::{self, Sound};
 use super::usable::{self, Given, Refusal};
 use super::values::{Keyed, Number, Pair};
 use super::{
@@ -41,15 +42,19 @@ pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene
 /// Reads a scene and gives what could be read of it beside its errors, so that more can be said of it; `None` where it is no scene at all.
 pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<Diagnostic>) {
     let mut reader = Reader::new(text, name);
-    let Shaped { table, problems, lacks_nodes } = shape::shaped(text);
+    let Sound { text: sound, without, mut problems } = syntax::sound(text);
+    let shaped = sound.as_deref().map(|sound| shape::shaped(sound, &without));
+    let Shaped { table, problems: further, lacks_nodes } = shaped.unwrap_or_default();
     reader.lacks_nodes = lacks_nodes;
+    problems.extend(further);
+    problems.sort_by_key(|problem| problem.at);
     for shape::Problem { at, rule, message, help } in problems {
         let place = reader.place(at);
         reader.findings.report(rule, place, message, help);
     }
     match table.map(|table| SceneFile::deserialize(toml::de::Deserializer::from(table))) {
         Some(Ok(file)) => reader.take(file, files),
-        // What has the shape of a scene can be read; whatever else the parser says is said in its words.
+        // What has the shape of a scene can be read.
         Some(Err(error)) => {
             let line = reader.line(error.span().map_or(0, |span| span.start));
             reader.report(&MALFORMED_SCENE, line, error.message(), "");
@@ -208,6 +213,11 @@ impl<'a> Reader<'a> {
         }
         for entry in file.interface_files.0 {
             self.take_interface_file(&entry.into_inner().0.file, files, &mut scene);
+        }
+        // Whatever else is wrong comes first.
+        if scene.nodes.is_empty() && !self.lacks_nodes && !self.findings.has_errors() && self.found.is_empty() {
+            let help = "add a [[node]] for each point whose potential, temperature or pore pressure is sought or held, or a [[node_file]]";
+            self.report(&MALFORMED_SCENE, 1, "the scene has no nodes, so that there is nothing to solve", help);
         }
         self.scene = Some(scene);
     }

@@ -27,6 +27,7 @@ pub(super) struct Problem {
 }
 
 /// A scene file whose every key is known and has a value of its kind.
+#[derive(Default)]
 pub(super) struct Shaped<'t> {
     /// What is left of it; `None` where its head is wrong.
     pub(super) table: Option<Spanned<DeTable<'t>>>,
@@ -175,42 +176,74 @@ static LINK_FILE: Shape = Shape {
 static INTERFACE_FILE: Shape = shape::<file::FileEntry>(&[needed("file", Kind::Text)]);
 
 /// Holds a text against the shape of a scene.
-pub(super) fn shaped(text: &str) -> Shaped<'_> {
-    let mut walk = Walk { text, problems: Vec::new(), lacks_nodes: false };
-    let table = match DeTable::parse(text) {
-        Ok(parsed) => {
-            let span = parsed.span();
-            walk.table(parsed.into_inner(), &span, &SCENE).map(|table| Spanned::new(span, table))
-        }
-        Err(error) => {
-            walk.no_table(&error);
-            None
-        }
-    };
+///
+/// `without` tells where lines were taken out: what these entries lack is not missing.
+pub(super) fn shaped<'t>(text: &'t str, without: &[usize]) -> Shaped<'t> {
+    let mut walk = Walk { text, without, problems: Vec::new(), lacks_nodes: false };
+    // What is no TOML was taken out before.
+    let table = DeTable::parse(text).ok().and_then(|parsed| {
+        let span = parsed.span();
+        walk.table(parsed.into_inner(), &span, &SCENE).map(|table| Spanned::new(span, table))
+    });
     walk.problems.sort_by_key(|problem| problem.at);
     Shaped { table, problems: walk.problems, lacks_nodes: walk.lacks_nodes }
 }
 
-struct Walk<'t> {
+/// Which part of a value is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All of it.
+    Whole,
+    /// Something in its brackets.
+    Inside,
+}
+
+/// What should stand behind a key under a heading, where that is known.
+pub(super) fn expected_of(heading: Option<&str>, name: &str, part: Part) -> Option<String> {
+    let below = |name: &str| {
+        SCENE.keys.iter().find(|key| key.is_called(name)).and_then(|key| match key.kind {
+            Kind::Table(shape) | Kind::Entries(shape) => Some(shape),
+            _ => None,
+        })
+    };
+    let here = match heading {
+        Some(heading) => below(heading)?,
+        None => &SCENE,
+    };
+    // Conditions are tables in a line.
+    let mut keys = here.keys.iter().chain(CONDITION.keys);
+    let kind = &keys.find(|key| key.is_called(name))?.kind;
+    match (part, kind) {
+        (Part::Whole, _) => Some(kind.expected()),
+        (Part::Inside, Kind::Numbers | Kind::Course) => Some(Kind::Number.expected()),
+        (Part::Inside, Kind::TwoNames) => Some(Kind::Text.expected()),
+        (Part::Inside, _) => None,
+    }
+}
+
+struct Walk<'w, 't> {
     text: &'t str,
+    without: &'w [usize],
     problems: Vec<Problem>,
     lacks_nodes: bool,
 }
 
-impl<'t> Walk<'t> {
+impl<'t> Walk<'_, 't> {
     fn report(&mut self, at: usize, message: String, help: impl Into<String>) {
         self.problems.push(Problem { at, rule: &MALFORMED_SCENE, message, help: help.into() });
     }
 
-    /// What the parser of TOML says where the text is none.
-    fn no_table(&mut self, error: &toml::de::Error) {
-        // Some messages of the parser have several lines.
-        let message = error.message().lines().collect::<Vec<_>>().join("; ");
-        let at = error.span().map_or(0, |span| span.start);
-        match error.span().and_then(|span| self.quoted(&span)).filter(|_| message == "duplicate key") {
-            Some(key) => self.report(at, format!("`{key}` is given twice"), "leave one of the two out"),
-            None => self.report(at, message, ""),
-        }
+    /// Whether a line was taken out of a table that begins at a place.
+    fn is_cut(&self, span: &Range<usize>) -> bool {
+        let rest = self.text.get(span.end..).unwrap_or_default();
+        let end = if self.text[span.start..].starts_with('{') {
+            span.end
+        } else {
+            let mut lines = rest.match_indices('\n').map(|(end, _)| end + 1);
+            let next = lines.find(|start| rest[*start..].trim_start_matches([' ', '\t']).starts_with('['));
+            next.map_or(self.text.len(), |next| span.end + next)
+        };
+        self.without.iter().any(|line| (span.start..end).contains(line))
     }
 
     /// A piece of the text, if it is short enough to be quoted.
@@ -243,11 +276,14 @@ impl<'t> Walk<'t> {
                 None => is_whole &= matches!(key.kind, Kind::Entries(_)),
             }
         }
+        let is_cut = self.is_cut(span);
+        // What is left of a scene can be read, what is left of an entry says something else.
+        is_whole &= !is_cut || std::ptr::eq(shape, &SCENE);
         let missing = shape.keys.iter().filter(|key| key.need == Need::Needed && !seen.contains(&key.name));
         for key in missing {
             is_whole = false;
             // A misspelt name was told of already.
-            if !meant.contains(&key.name) {
+            if !meant.contains(&key.name) && !is_cut {
                 let help = match key.name {
                     "deck" => "begin the scene with the name of its deck, such as deck = \"joint.inp\"".to_owned(),
                     name => format!("add `{name}` to the entry that begins here"),
@@ -277,8 +313,7 @@ impl<'t> Walk<'t> {
         match (kind, value.get_ref()) {
             (Kind::Number, _) => self.number(&value).then_some(value),
             (Kind::Text, DeValue::String(_)) | (Kind::Flag, DeValue::Boolean(_)) => Some(value),
-            (Kind::Text, _) => self.other_kind(&value, "a text in quotes"),
-            (Kind::Flag, _) => self.other_kind(&value, "`true` or `false`"),
+            (Kind::Text | Kind::Flag, _) => self.other_kind(&value, &kind.expected()),
             (Kind::Word(words), DeValue::String(word)) if words.contains(&word.as_ref()) => Some(value),
             (Kind::Word(words), DeValue::String(word)) => {
                 let message = format!("`{word}` is none of {}", listed(words));
@@ -286,12 +321,12 @@ impl<'t> Walk<'t> {
                 self.report(span.start, message, help);
                 None
             }
-            (Kind::Word(words), _) => self.other_kind(&value, &format!("one of {}", listed(words))),
+            (Kind::Word(_), _) => self.other_kind(&value, &kind.expected()),
             (Kind::Numbers, DeValue::Array(numbers)) => {
                 let is_right = numbers.iter().map(|number| self.number(number)).fold(true, |all, one| all & one);
                 is_right.then_some(value)
             }
-            (Kind::Numbers, _) => self.other_kind(&value, Number::LIST),
+            (Kind::Numbers, _) => self.other_kind(&value, &kind.expected()),
             (Kind::Course, DeValue::Array(points)) => {
                 let is_point = |point: &Spanned<DeValue<'_>>| match point.get_ref() {
                     DeValue::Array(pair) => pair.len() == 2 && pair.iter().all(is_number),
@@ -305,7 +340,7 @@ impl<'t> Walk<'t> {
                 is_right.then_some(value)
             }
             (Kind::Course, _) if is_number(&value) => self.number(&value).then_some(value),
-            (Kind::Course, _) => self.other_kind(&value, file::COURSE),
+            (Kind::Course, _) => self.other_kind(&value, &kind.expected()),
             (Kind::TwoNames, DeValue::Array(names)) => {
                 let other = names.iter().find(|name| name.get_ref().as_str().is_none());
                 match other.filter(|_| names.len() == 2) {
@@ -317,14 +352,14 @@ impl<'t> Walk<'t> {
                     None => self.other_kind(&value, file::TWO_NAMES),
                 }
             }
-            (Kind::TwoNames, _) => self.other_kind(&value, file::TWO_NAMES),
+            (Kind::TwoNames, _) => self.other_kind(&value, &kind.expected()),
             (Kind::Table(shape), DeValue::Table(_)) => {
                 let DeValue::Table(table) = value.into_inner() else { return None };
                 let before = self.problems.len();
                 let table = self.table(table, &span, shape)?;
                 (self.problems.len() == before).then(|| Spanned::new(span, DeValue::Table(table)))
             }
-            (Kind::Table(shape), _) => self.other_kind(&value, shape.one),
+            (Kind::Table(_), _) => self.other_kind(&value, &kind.expected()),
             (Kind::Entries(shape), DeValue::Array(_)) => {
                 let DeValue::Array(entries) = value.into_inner() else { return None };
                 let right: DeArray<'t> = entries.into_iter().filter_map(|entry| self.entry(entry, shape)).collect();
@@ -332,7 +367,7 @@ impl<'t> Walk<'t> {
             }
             (Kind::Entries(shape), _) => {
                 self.lacks_nodes |= shape.defines_nodes;
-                self.other_kind(&value, shape.many)
+                self.other_kind(&value, &kind.expected())
             }
         }
     }
@@ -374,8 +409,25 @@ impl<'t> Walk<'t> {
             (None, DeValue::Table(_)) => "a table".to_owned(),
             (None, _) => "something else".to_owned(),
         };
-        self.report(value.span().start, format!("{found} stands where there should be {expected}"), "");
+        self.report(value.span().start, format!("expected {expected}, found {found}"), "");
         None
+    }
+}
+
+impl Kind {
+    /// What stands there, for a message.
+    fn expected(&self) -> String {
+        match self {
+            Self::Number => "a number".to_owned(),
+            Self::Text => "a text in quotes".to_owned(),
+            Self::Flag => "`true` or `false`".to_owned(),
+            Self::Word(words) => format!("one of {}", listed(words)),
+            Self::Numbers => Number::LIST.to_owned(),
+            Self::Course => file::COURSE.to_owned(),
+            Self::TwoNames => file::TWO_NAMES.to_owned(),
+            Self::Table(shape) => shape.one.to_owned(),
+            Self::Entries(shape) => shape.many.to_owned(),
+        }
     }
 }
 

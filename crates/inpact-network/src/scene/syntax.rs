@@ -1,0 +1,320 @@
+//! Where the text of a scene file is no TOML: every such place in one pass, in our words.
+//!
+//! The parser of TOML goes on behind what it cannot read and says where that was; what is wrong there is found out from the text.
+//! Lines that are wrong are read as empty, so that the rest of the scene can be read and has its own problems told in the same run.
+
+use super::rules::MALFORMED_SCENE;
+use super::shape::{Part, Problem, expected_of};
+use std::borrow::Cow;
+use std::ops::Range;
+use toml::de::DeTable;
+
+/// Of what is longer only the beginning is quoted.
+const LONGEST_QUOTE: usize = 40;
+
+/// The text of a scene file with what is wrong in it taken out.
+pub(super) struct Sound<'t> {
+    /// The text; the lines that are wrong hold blanks, so that every byte is where it was. `None` where too much is wrong.
+    pub(super) text: Option<Cow<'t, str>>,
+    /// Where lines were taken out, in ascending order.
+    pub(super) without: Vec<usize>,
+    /// What was wrong, in the order of the text.
+    pub(super) problems: Vec<Problem>,
+}
+
+/// How often the text is read at most: behind a key without a value its parser sees keys and values only once that is taken out.
+const MOST_PASSES: usize = 4;
+
+/// Finds what is no TOML.
+pub(super) fn sound(text: &str) -> Sound<'_> {
+    let mut sound = Sound { text: None, without: Vec::new(), problems: Vec::new() };
+    let mut rest = Cow::Borrowed(text);
+    for _ in 0..MOST_PASSES {
+        let places = places(&rest);
+        if places.is_empty() {
+            sound.text = Some(rest);
+            break;
+        }
+        let Some(sounder) = take_out(text, rest.into_owned(), places, &mut sound) else { break };
+        rest = Cow::Owned(sounder);
+    }
+    sound.problems.sort_by_key(|problem| problem.at);
+    sound.without.sort_unstable();
+    sound
+}
+
+/// Says what is wrong at some places, and puts blanks where their lines are; `None` where there is nothing left to take out.
+fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sound<'_>) -> Option<String> {
+    let mut rest = rest.into_bytes();
+    let before = sound.without.len();
+    for place in places {
+        let line = line_at(text, place.start);
+        // What follows in a line from what is wrong in it says nothing more.
+        if sound.without.contains(&line.start) {
+            continue;
+        }
+        let (message, help) = said(text, &line, &place);
+        sound.problems.push(Problem { at: place.start, rule: &MALFORMED_SCENE, message, help });
+        rest[line.clone()].fill(b' ');
+        sound.without.push(line.start);
+    }
+    // Whole lines of UTF-8 were replaced.
+    String::from_utf8(rest).ok().filter(|_| before < sound.without.len())
+}
+
+/// Where the parser meets something that it cannot read, in ascending order.
+fn places(text: &str) -> Vec<Range<usize>> {
+    let (_, errors) = DeTable::parse_recoverable(text);
+    let mut places: Vec<_> = errors.iter().map(|error| error.span().unwrap_or(text.len()..text.len())).collect();
+    places.sort_by_key(|place| (place.start, place.end));
+    places
+}
+
+/// The line that a byte is in, without its end; the last one that is not empty where the text has ended.
+fn line_at(text: &str, at: usize) -> Range<usize> {
+    let end = if at < text.len() { at } else { text.trim_end().len() };
+    let start = text[..floor(text, end)].rfind('\n').map_or(0, |before| before + 1);
+    let end = text[start..].find('\n').map_or(text.len(), |length| start + length);
+    start..end
+}
+
+/// The last place where a character begins, at or before a byte.
+fn floor(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
+}
+
+/// What is wrong at a place of a line, and what to do.
+fn said(text: &str, line: &Range<usize>, place: &Range<usize>) -> (String, String) {
+    let written = &text[line.clone()];
+    let at = floor(written, place.start.clamp(line.start, line.end) - line.start);
+    let none = String::new();
+    if written.trim_start().starts_with('[') && !written[..at].contains('=') {
+        return heading(written, &text[..line.start], at, place);
+    }
+    let Some(equals) = equals_before(written, at) else { return key(written, at, place) };
+    let open = open_bracket(&written[..at]);
+    if open == Some('{') && written[..at].trim_end().ends_with(['{', ',']) {
+        return key(written, at, place);
+    }
+    let name = written[..equals].trim_end().rsplit([' ', '\t', '{', ',']).next().unwrap_or_default();
+    let behind = &written[equals + 1..];
+    if let Some(quote) = open_quote(behind) {
+        return (format!("`{}` has no closing `{quote}`", quoted(behind.trim())), format!("close it with `{quote}`"));
+    }
+    let value = written[equals + 1..at].trim();
+    let found = word(&written[at..]);
+    let found = if found.is_empty() { "the end of the line".to_owned() } else { format!("`{}`", quoted(found)) };
+    let is_open = value.is_empty() || value.ends_with(['[', '{', ',']);
+    if is_open || !place.is_empty() {
+        // The place may lie inside of a number.
+        let whole = if place.is_empty() { found } else { whole_word(written, equals + 1, at).unwrap_or(found) };
+        let part = if value.contains('[') { Part::Inside } else { Part::Whole };
+        let expected = expected_of(heading_before(&text[..line.start]), name, part);
+        let expected = expected.unwrap_or_else(|| "a number, a text in quotes, a list or a table".to_owned());
+        return (format!("expected {expected}, found {whole}"), none);
+    }
+    let expected = match open {
+        Some('[') => "`,` or `]`".to_owned(),
+        Some(_) => "`,` or `}`".to_owned(),
+        None => format!("the end of the line behind the value of `{}`", quoted(name)),
+    };
+    (format!("expected {expected}, found {found}"), none)
+}
+
+/// The name of the last heading of a text.
+fn heading_before(text: &str) -> Option<&str> {
+    let last = text.lines().map(str::trim_start).rfind(|line| line.starts_with('['))?;
+    last.trim_start_matches('[').split([']', '.', '#']).next().map(str::trim)
+}
+
+/// What is wrong in a heading.
+fn heading(written: &str, before: &str, at: usize, place: &Range<usize>) -> (String, String) {
+    let shown = quoted(written.trim());
+    let is_whole = place.len() == whole_key(&written[at..])
+        && !place.is_empty()
+        && written[at + place.len()..].trim_start().starts_with(']');
+    let is_repeated = before.lines().any(|line| line.trim() == written.trim());
+    if is_whole {
+        let help = if is_repeated {
+            "leave one of the two out"
+        } else {
+            "a name is either that of one table, `[…]`, or that of a list of tables, `[[…]]`"
+        };
+        return (format!("`{shown}` is given twice"), help.to_owned());
+    }
+    (format!("expected a heading such as `[time]` or `[[node]]`, found `{shown}`"), String::new())
+}
+
+/// What is wrong where a key should be.
+fn key(written: &str, at: usize, place: &Range<usize>) -> (String, String) {
+    let length = whole_key(&written[at..]);
+    let behind = written[at + length..].trim_start();
+    let is_key = 0 < length && place.len() == length && behind.starts_with(['=', '.']);
+    let is_alone = written.matches('=').count() < 2;
+    if is_key {
+        return (
+            format!("`{}` is given twice", quoted(&written[at..at + length])),
+            "leave one of the two out".to_owned(),
+        );
+    }
+    let shown = quoted(written.trim());
+    match written.split_once('=').filter(|_| is_alone) {
+        Some((key, _)) if key.trim().is_empty() => {
+            (format!("expected a key before `=`, found `{shown}`"), String::new())
+        }
+        Some((key, _)) => {
+            (format!("expected a key of letters, digits, `_` and `-`, found `{}`", quoted(key.trim())), String::new())
+        }
+        None => (format!("expected a key with `=` and its value, found `{shown}`"), String::new()),
+    }
+}
+
+/// The last `=` before a place of a line, outside of quotes.
+fn equals_before(written: &str, at: usize) -> Option<usize> {
+    let mut open = None;
+    let mut found = None;
+    for (place, character) in written[..at].char_indices() {
+        match (open, character) {
+            (None, '"' | '\'') => open = Some(character),
+            (Some(quote), _) if quote == character => open = None,
+            (None, '=') => found = Some(place),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// The last bracket of a part of a line that is open.
+fn open_bracket(before: &str) -> Option<char> {
+    let mut open = Vec::new();
+    let mut quote = None;
+    for character in before.chars() {
+        match (quote, character) {
+            (None, '"' | '\'') => quote = Some(character),
+            (Some(closing), _) if closing == character => quote = None,
+            (None, '[' | '{') => open.push(character),
+            (None, ']' | '}') => drop(open.pop()),
+            _ => {}
+        }
+    }
+    open.pop()
+}
+
+/// The quote that is opened and not closed.
+fn open_quote(text: &str) -> Option<char> {
+    let mut open = None;
+    let mut is_escaped = false;
+    for character in text.chars() {
+        match (open, character) {
+            (Some('"'), '\\') if !is_escaped => {
+                is_escaped = true;
+                continue;
+            }
+            (None, '#') => return None,
+            (None, '"' | '\'') => open = Some(character),
+            (Some(quote), _) if quote == character && !is_escaped => open = None,
+            _ => {}
+        }
+        is_escaped = false;
+    }
+    open
+}
+
+/// The value that a place lies in, up to what separates it.
+fn whole_word(written: &str, from: usize, at: usize) -> Option<String> {
+    let start = written[from..at].rfind([' ', '\t', ',', '[', '{', '=']).map_or(from, |before| from + before + 1);
+    let found = word(&written[start..]);
+    (!found.is_empty()).then(|| format!("`{}`", quoted(found)))
+}
+
+/// What stands at the beginning of a text, up to a comma, a closing bracket or a comment.
+fn word(text: &str) -> &str {
+    let text = text.trim_start();
+    let end = match text.chars().next() {
+        Some(bracket @ ('[' | '{' | ']' | '}' | ',')) => bracket.len_utf8(),
+        _ => text.find([',', ']', '}', '#']).unwrap_or(text.len()),
+    };
+    text[..end].trim_end()
+}
+
+/// The length of the key, bare or in quotes, that a text begins with.
+fn whole_key(text: &str) -> usize {
+    match text.chars().next() {
+        Some(quote @ ('"' | '\'')) => text[1..].find(quote).map_or(0, |end| end + 2),
+        _ => text.find(|end: char| !(end.is_ascii_alphanumeric() || matches!(end, '_' | '-'))).unwrap_or(text.len()),
+    }
+}
+
+/// The beginning of a text, for a message.
+fn quoted(text: &str) -> Cow<'_, str> {
+    if text.chars().count() <= LONGEST_QUOTE {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(text.chars().take(LONGEST_QUOTE).chain(['…']).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sound;
+
+    fn said(text: &str) -> Vec<String> {
+        sound(text).problems.into_iter().map(|problem| format!("{}: {}", problem.at, problem.message)).collect()
+    }
+
+    fn check(text: &str, expected: &[&str]) {
+        assert_eq!(said(text), expected, "{text}");
+    }
+
+    /// What is said of a line of an interface.
+    fn in_interface(line: &str, expected: &str) {
+        let text = format!("[[interface]]\n{line}\nslave = \"a\"\n");
+        let found = sound(&text).problems;
+        assert_eq!(found.len(), 1, "{text}");
+        assert_eq!(found[0].message, expected, "{text}");
+    }
+
+    #[test]
+    fn values() {
+        in_interface("area = x", "expected a number, found `x`");
+        in_interface("area = 1.0.0", "expected a number, found `1.0.0`");
+        in_interface("area = # none", "expected a number, found the end of the line");
+        in_interface("area =", "expected a number, found the end of the line");
+        in_interface("area = 1 2", "expected a number, found `1 2`");
+        in_interface(
+            "interaction = \"a\" \"b\"",
+            "expected the end of the line behind the value of `interaction`, found `\"b\"`",
+        );
+        in_interface("clearance = { fixed = 1.0, fixed = 2.0 }", "`fixed` is given twice");
+        in_interface("closed = yes", "expected `true` or `false`, found `yes`");
+        in_interface("interaction = \"COND", "`\"COND` has no closing `\"`");
+        in_interface("fv = [1.0 2.0]", "expected a number, found `1.0 2.0`");
+        in_interface("clearance = [[0.0, 1.0] [2.0, x]]", "expected `,` or `]`, found `[`");
+        in_interface("foo = bar", "expected a number, a text in quotes, a list or a table, found `bar`");
+        check("deck = joint.inp\n", &["7: expected a text in quotes, found `joint.inp`"]);
+        check("[initial]\ntemperature = 1.0.0\n", &["27: expected a number, found `1.0.0`"]);
+        let course = "a number, or points of time and value such as [[0.0, 20.0], [1.0, 80.0]]";
+        check("[[node]]\ntemperature = { fixed = warm }\n", &[&format!("33: expected {course}, found `warm`")]);
+    }
+
+    #[test]
+    fn keys_and_headings() {
+        check("area\n", &["4: expected a key with `=` and its value, found `area`"]);
+        check("= 5\n", &["0: expected a key before `=`, found `= 5`"]);
+        check("a b = 5\n", &["2: expected a key of letters, digits, `_` and `-`, found `a b`"]);
+        check("area = 1\narea = 2\n", &["9: `area` is given twice"]);
+        check("[time]\nend = 1\n[time]\n", &["16: `[time]` is given twice"]);
+        check("[[node]\nname = \"a\"\n", &["7: expected a heading such as `[time]` or `[[node]]`, found `[[node]`"]);
+    }
+
+    /// Every place in one pass, and the rest is still there.
+    #[test]
+    fn all_of_them() {
+        let text = "deck = joint.inp\n[[node]]\nname = \"a\"\narea\n[[node]]\nname = \"b\"\narea = ü\n";
+        let sound = sound(text);
+        assert_eq!(sound.problems.len(), 3);
+        let rest = sound.text.expect("the rest is sound");
+        assert_eq!(rest.len(), text.len());
+        assert_eq!(rest.matches("[[node]]").count(), 2);
+        assert_eq!(sound.without.len(), 3);
+    }
+}
