@@ -127,7 +127,7 @@ fn findings_concern_the_interaction_they_lie_in() {
     let found = inpact_validation::check(&scanned, grammar, &model, &problems);
     let codes = |name: &str| {
         let name = Name::new(name);
-        let concerning = concerning(&found, &scanned, grammar, &model, &[&name]);
+        let concerning = concerning(&found, &scanned, grammar, &model, &[&name], None);
         let errors = concerning.iter().filter(|found| found.severity == inpact_validation::Severity::Error);
         errors.map(|found| found.code).collect::<Vec<_>>()
     };
@@ -139,4 +139,29 @@ fn findings_concern_the_interaction_they_lie_in() {
     assert_eq!(codes("B"), Vec::<&str>::new());
     assert!(found.iter().any(|found| found.code == "R001"), "the pair names no interaction, which concerns neither");
     assert_eq!(model_of(deck).interactions.len(), 2);
+}
+
+/// the procedure that says whether a law is steady or transient feeds it, unless the run says so itself.
+#[test]
+fn findings_on_the_deciding_procedure_concern_the_interaction() {
+    let step = |procedure: &str| format!("*STEP\n{procedure}\n*END STEP\n");
+    let deck = [
+        "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n1., 0.\n0., 1.\n*SURFACE INTERACTION, NAME=B\n"
+            .to_owned(),
+        step("*COUPLED THERMAL-ELECTRICAL, STEDY STATE"),
+        step("*COUPLED THERMAL-ELECTRICAL, STEAYD STATE"),
+        step("*HEAT TRANSFER, STEEDY STATE"),
+    ];
+    let grammar = Grammar::builtin();
+    let deck = deck.concat();
+    let scanned = scan("deck.inp", deck.as_bytes(), grammar);
+    let (model, problems) = read(&scanned, grammar);
+    let found = inpact_validation::check(&scanned, grammar, &model, &problems);
+    let lines = |name: &str, chosen: Option<Regime>| {
+        let concerning = concerning(&found, &scanned, grammar, &model, &[&Name::new(name)], chosen);
+        concerning.iter().map(|found| (found.code, found.primary.position.line)).collect::<Vec<_>>()
+    };
+    assert_eq!(lines("A", None), [("K004", 10)]);
+    assert_eq!(lines("A", Some(Regime::Transient)), []);
+    assert_eq!(lines("B", None), []);
 }

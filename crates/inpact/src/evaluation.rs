@@ -223,7 +223,7 @@ impl Deck {
         let mut unavailable = Findings::new(TABLE);
         plan.report_unavailable(choices, &mut unavailable);
         found.extend(self.judged(unavailable, "an output that is asked for cannot be given")?);
-        found.extend(self.judged_deck(&plan)?);
+        found.extend(self.judged_deck(&plan, choices)?);
         if plan.outputs.is_empty() {
             return Err(self.nothing_to_evaluate(&plan));
         }
@@ -267,10 +267,10 @@ impl Deck {
     }
 
     /// What the check says of the interactions that are used.
-    fn judged_deck(&self, plan: &Plan) -> Result<Vec<Diagnostic>, Error> {
+    fn judged_deck(&self, plan: &Plan, choices: &Choices) -> Result<Vec<Diagnostic>, Error> {
         let found = self.check();
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
-        let concerning = concerning(&found, self.syntax(), self.grammar(), &self.model, &names);
+        let concerning = concerning(&found, self.syntax(), self.grammar(), &self.model, &names, choices.regime);
         let concerning: Vec<Diagnostic> = concerning.into_iter().cloned().collect();
         match concerning.iter().find(|found| found.severity == Severity::Error) {
             Some(first) => {

@@ -9,11 +9,12 @@
 //! | a sub-option that stands behind it and is misplaced: it may be meant for it | K012, K013 |
 //! | *PARAMETER, and every *INCLUDE, where a `<name>` stands in these blocks (S-61, S-65) | all |
 //! | *PHYSICAL CONSTANTS, where it radiates (2.6) | all |
+//! | the procedure that says whether it is steady or transient, unless the run itself says so | all |
 
 use inpact_parser::deck::{Block, Deck};
 use inpact_parser::expression::references;
 use inpact_parser::grammar::Grammar;
-use inpact_parser::model::{Model, Name};
+use inpact_parser::model::{Model, Name, Procedure, Regime};
 use inpact_parser::span::{SourceId, Span};
 use inpact_validation::Diagnostic;
 use std::collections::HashSet;
@@ -21,14 +22,19 @@ use std::collections::HashSet;
 /// The findings about what feeds the interactions of these names, or could.
 ///
 /// An unknown keyword counts to the interaction it follows: it may be a misspelt sub-option.
+/// `chosen` is the regime where the run says which, and no procedure does.
 pub fn concerning<'a>(
     diagnostics: &'a [Diagnostic],
     deck: &Deck,
     grammar: &Grammar,
     model: &Model,
     names: &[&Name],
+    chosen: Option<Regime>,
 ) -> Vec<&'a Diagnostic> {
     let mut regions = regions(deck, grammar, model, names);
+    if chosen.is_none() {
+        regions.extend(deciding(deck, model, names));
+    }
     // Blocks do not overlap: the one that begins last before a place is the only one that may hold it.
     regions.sort_unstable_by_key(|region| (region.span.source, region.span.start));
     let concerns = |found: &&Diagnostic| {
@@ -99,6 +105,29 @@ fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Ve
         regions.append(&mut of_symbols);
     }
     regions
+}
+
+/// The procedures that decide whether the interactions of these names are steady or transient.
+fn deciding(deck: &Deck, model: &Model, names: &[&Name]) -> Vec<Region> {
+    let mut wanted = names.iter().filter_map(|name| model.interactions.get(*name));
+    let has_current = wanted.any(|interaction| interaction.gap_electrical_conductance.is_some());
+    let last = |solves: fn(&Procedure) -> bool| {
+        model.procedures.iter().rfind(|procedure| solves(procedure) && procedure.regime().is_some())
+    };
+    let current = last(Procedure::solves_electrical).filter(|_| has_current);
+    // Pore fluid crosses an interface that says nothing of it (P-03).
+    let fluid = last(Procedure::solves_pore_pressure);
+    let starts = [current, fluid].into_iter().flatten().map(|procedure| procedure.option.span);
+    let starts: HashSet<(SourceId, u64)> = starts.map(|span| (span.source, span.start)).collect();
+    let decides = |block: &&Block| {
+        let keyword = block.span_of_keyword();
+        starts.contains(&(keyword.source, keyword.start))
+    };
+    deck.blocks()
+        .iter()
+        .filter(decides)
+        .map(|block| Region { span: block.span_of_keyword(), part: Part::Feeds })
+        .collect()
 }
 
 /// Whether a `<name>` stands in a block.

@@ -162,7 +162,7 @@ impl EvaluableArguments {
         }
         let found = settings.apply(check(&deck, grammar, &model, &problems));
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
-        let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), &names, format);
+        let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), (&names, choices.regime), format);
         let deck_name = self.deck.display().to_string();
         Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, rows }))
     }

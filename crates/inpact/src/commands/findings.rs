@@ -8,7 +8,7 @@ use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::plan::concerning;
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
-use inpact_parser::model::{Model, Name};
+use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity};
 use serde::Serialize;
 use std::path::Path;
@@ -33,6 +33,9 @@ impl FindingFormat {
     }
 }
 
+/// The interactions of a run, and its regime where the run says which and no procedure of the deck does.
+pub(crate) type Governing<'a> = (&'a [&'a Name], Option<Regime>);
+
 /// Where findings go: a command prints them, the library collects them.
 pub(crate) trait Reporter {
     /// Reads nothing outside of the repository where that is wanted.
@@ -42,7 +45,7 @@ pub(crate) trait Reporter {
     fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool;
 
     /// Takes what the check found in some interactions; true if there are errors.
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), names: &[&Name]) -> bool;
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool;
 
     /// Takes several files that cannot be read; gives what the command or the call fails with.
     fn failures(&mut self, failures: Vec<Failure>) -> Failure;
@@ -57,8 +60,8 @@ impl Reporter for FindingFormat {
         say_data_findings(found, settings, *self)
     }
 
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), names: &[&Name]) -> bool {
-        say_deck_findings(found, of, names, *self)
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
+        say_deck_findings(found, of, governing, *self)
     }
 
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
@@ -83,9 +86,10 @@ impl Reporter for Collected {
         has_errors
     }
 
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), names: &[&Name]) -> bool {
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
         let (deck, grammar, model) = of;
-        let concerning = concerning(found, deck, grammar, model, names);
+        let (names, chosen) = governing;
+        let concerning = concerning(found, deck, grammar, model, names, chosen);
         let shown = concerning.into_iter().filter(|found| found.severity != Severity::Note);
         let before = self.0.len();
         self.0.extend(shown.cloned());
@@ -104,10 +108,10 @@ impl Reporter for Collected {
 pub(crate) fn say_deck_findings(
     found: &[Diagnostic],
     (deck, grammar, model): (&Deck, &Grammar, &Model),
-    names: &[&Name],
+    (names, chosen): Governing<'_>,
     format: FindingFormat,
 ) -> bool {
-    let concerning = concerning(found, deck, grammar, model, names);
+    let concerning = concerning(found, deck, grammar, model, names, chosen);
     let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
     let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
     let format = match format {

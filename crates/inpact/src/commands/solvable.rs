@@ -92,7 +92,7 @@ impl SolvableScene {
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
         let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();
-        if reporter.deck(&found, (&deck, grammar, &model), &names) {
+        if reporter.deck(&found, (&deck, grammar, &model), (&names, Some(regime))) {
             return Ok(None);
         }
         let deck_name = deck_path.display().to_string();
