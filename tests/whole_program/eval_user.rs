@@ -155,11 +155,16 @@ fn answers_that_are_no_conductance_end_with_1_and_nothing_is_written() {
 
 #[test]
 fn a_routine_that_stops_is_told_and_leaves_no_result() {
-    let Some((run, folder)) = eval_with("      SIGMA(1) = 1\n      IF (NODE.EQ.205) STOP\n") else { return };
+    // The routine takes down which files there are when it stops.
+    let stop = "      SIGMA(1) = 1\n      IF (NODE.EQ.205) THEN\n      CALL SYSTEM('ls -a > seen.txt')\n      STOP\n      END IF\n";
+    let Some((run, folder)) = eval_with(stop) else { return };
     assert_eq!(run.code, 2, "{}", run.errors);
     let told = "error: user subroutine GAPELECTR ended the program (by STOP or an error of the Fortran runtime) when it was called for node 205";
     assert!(run.errors.contains(told), "{}", run.errors);
     assert!(!folder.path().join("result.csv").exists());
+    let seen = std::fs::read_to_string(folder.path().join("seen.txt")).expect("what the routine saw");
+    assert!(seen.lines().any(|name| name.starts_with(".inpact-")), "{seen}");
+    assert!(folder.names().iter().all(|name| !name.starts_with(".inpact-")), "{:?}", folder.names());
 }
 
 #[test]
