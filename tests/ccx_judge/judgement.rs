@@ -28,6 +28,18 @@ pub(crate) const REFUSED_ON_PURPOSE: &[(&[&str], &str)] = &[
     (&["S008"], "a number of more than 20 characters, of which ccx reads another value from the first 20"),
 ];
 
+/// Why the heat of a deck that both run is not compared: each with the warning that inpact gives of it.
+pub(crate) const WARNED_OF: &[(&str, &str)] = &[
+    (
+        "R009",
+        "there is no contact pair (its keyword is none): ccx has no contact and prints no heat; `eval` gives the heat of the interaction at the nodes of the table",
+    ),
+    (
+        "C009",
+        "node-to-surface and massless contact: ccx reads another row of the table and generates no heat; `eval` gives the heat of face-to-face contact",
+    ),
+];
+
 /// What comes of a deck.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Judgement {
@@ -37,6 +49,8 @@ pub(crate) enum Judgement {
     SameHeat,
     /// Both run it, and ccx printed no heat, or one whose last digits depend on where its iteration ended.
     NotCompared,
+    /// Both run it, and inpact warns that its heat is not that of ccx, by a code of [`WARNED_OF`].
+    WarnedOf(&'static str),
     /// inpact refuses it for a reason of [`REFUSED_ON_PURPOSE`].
     OnPurpose(Vec<String>),
     /// inpact refuses it and ccx runs it.
@@ -78,7 +92,17 @@ pub(crate) fn judge(cubes: &Cubes, ccx: &Ccx, inpact: &Inpact) -> Judgement {
     match &inpact.heats {
         Err(why) => Judgement::NotEvaluated(why.clone()),
         Ok(heats) if (0..2).all(|side| is_printed_as(heats[side], &printed[side])) => Judgement::SameHeat,
-        Ok(_) if cubes.is_iterated() => Judgement::NotCompared,
-        Ok(heats) => Judgement::OtherHeat(*heats, printed.clone()),
+        Ok(heats) => match warned_of(printed, inpact) {
+            Some(code) => Judgement::WarnedOf(code),
+            None if cubes.is_iterated() => Judgement::NotCompared,
+            None => Judgement::OtherHeat(*heats, printed.clone()),
+        },
     }
+}
+
+/// The warning that says why the heats differ, where inpact gives one that holds: without contact no heat flows.
+fn warned_of(printed: &[String; 2], inpact: &Inpact) -> Option<&'static str> {
+    let holds = |code: &str| code != "R009" || printed.iter().all(|heat| is_printed_as(0.0, heat));
+    let mut codes = WARNED_OF.iter().map(|(code, _)| *code);
+    codes.find(|code| inpact.warnings.contains(*code) && holds(code))
 }

@@ -1,7 +1,7 @@
 //! The table of the judge in `docs/calculix.md`, and what a failing test prints.
 
 use crate::Case;
-use crate::judgement::{Judgement, REFUSED_ON_PURPOSE};
+use crate::judgement::{Judgement, REFUSED_ON_PURPOSE, WARNED_OF};
 use crate::program::root;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -60,6 +60,10 @@ fn table(cases: &[Case]) -> String {
             "both run it, and ccx prints no heat, or stops iterating before its last digits stand still",
             count(&|judgement| *judgement == Judgement::NotCompared),
         ),
+        (
+            "both run it, and inpact warns that its heat is not that of ccx (below)",
+            count(&|judgement| matches!(judgement, Judgement::WarnedOf(_))),
+        ),
         ("inpact refuses on purpose what ccx runs (below)", on_purpose),
         ("**disagreement** (below)", against),
     ];
@@ -72,6 +76,11 @@ fn table(cases: &[Case]) -> String {
         share(total - against),
         share(total - against - on_purpose),
     );
+    text += "\nWarned of, and not compared:\n\n| code | why | decks |\n|---|---|---:|\n";
+    for (code, reason) in WARNED_OF {
+        let number = count(&|judgement| *judgement == Judgement::WarnedOf(code));
+        let _ = writeln!(text, "| {code} | {reason} | {number} |");
+    }
     text += "\nRefused on purpose:\n\n| codes | what ccx does | decks |\n|---|---|---:|\n";
     for (codes, reason) in REFUSED_ON_PURPOSE {
         let number = count(&|judgement| match judgement {

@@ -23,6 +23,8 @@ pub(crate) enum Ccx {
 pub(crate) struct Inpact {
     /// The codes of the errors that `check` found.
     pub(crate) errors: BTreeSet<String>,
+    /// The codes of its warnings.
+    pub(crate) warnings: BTreeSet<String>,
     /// The heat that must be supplied to the upper and to the lower cube, or why there is none.
     pub(crate) heats: Result<[f64; 2], String>,
 }
@@ -86,12 +88,14 @@ fn printed_heats(cubes: &Cubes, dat: &str) -> Option<[String; 2]> {
 fn inpact(folder: &Folder, cubes: &Cubes) -> Inpact {
     let inpact = |arguments: &[&str]| run(crate::program::command(folder.path(), arguments), b"");
     let checked = inpact(&["check", "--dialect", "calculix", "--format", "concise", "job.inp"]);
-    let codes =
-        checked.output.lines().filter_map(|line| Some(line.split_once("error[")?.1.split_once(']')?.0.to_owned()));
-    let errors: BTreeSet<String> = codes.collect();
+    let codes = |severity: &str| {
+        let code = |line: &str| Some(line.split_once(severity)?.1.split_once(']')?.0.to_owned());
+        checked.output.lines().filter_map(code).collect::<BTreeSet<String>>()
+    };
+    let (errors, warnings) = (codes(" error["), codes(" warning["));
     assert_eq!(errors.is_empty(), checked.code == 0, "{}\n{}", checked.output, checked.errors);
     let heats = if errors.is_empty() { heats(folder, cubes) } else { Err("the deck has errors".to_owned()) };
-    Inpact { errors, heats }
+    Inpact { errors, warnings, heats }
 }
 
 /// What the contact does at temperatures of the lower and the upper face.

@@ -187,6 +187,116 @@ fn cx_10_heat_generation() {
     check_deck(&deck(", 0.5, 3."), &["error[P004]", "warning[T013]"]);
 }
 
+/// A pair whose keyword ccx passes over is no pair: it runs, and no heat flows; `check` and `eval` say so.
+#[test]
+fn a_deck_without_a_contact_pair_has_no_contact() {
+    let deck = |keyword: &str, step: &str| {
+        format!(
+            "*NODE\n1, 0., 0., 0.\n*SURFACE, NAME=SL\nA, S1\n*SURFACE, NAME=MA\nB, S1\n{PAD}*GAP CONDUCTANCE\n100.\n\
+             {keyword}, INTERACTION=PAD, TYPE=SURFACE TO SURFACE\nSL, MA\n{step}"
+        )
+    };
+    let step = "*STEP\n*COUPLED TEMPERATURE-DISPLACEMENT\n*END STEP\n";
+    check_deck(&deck("*CONTACT PAIR", step), &[]);
+    // A part of a deck may be included beside the pair.
+    check_deck(&deck("*CONTACT PAYR", ""), &["warning[K001]"]);
+    let folder = Folder::with(&[("d.inp", &deck("*CONTACT PAYR", step)), ("n.csv", NODES)]);
+    assert_eq!(check(&folder), ["warning[R009]", "warning[K001]"]);
+    let run = folder.inpact(&[&["eval", "d.inp", "--nodes", "n.csv"], &CALCULIX[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(
+        run.errors.contains("warning[R009] the deck has no contact pair, so that `PAD` has no effect"),
+        "{}",
+        run.errors
+    );
+}
+
+/// CX-10: in node-to-surface and massless contact the heat of ccx is another one, which `eval` says with its own.
+#[test]
+fn cx_10_contact_types_with_another_heat() {
+    let deck = |kind: &str| {
+        format!(
+            "{PAD}*GAP CONDUCTANCE\n100.\n*FRICTION\n0.5, 1.E7\n*GAP HEAT GENERATION\n0.4, 0.25, 3.\n\
+             *CONTACT PAIR, INTERACTION=PAD, TYPE={kind}\nSL, MA\n"
+        )
+    };
+    check_deck(&deck("SURFACE TO SURFACE"), &[]);
+    for kind in ["NODE TO SURFACE", "massless", "NODE TO SURFACES"] {
+        check_deck(&deck(kind), &["warning[C009]", "warning[C009]"]);
+    }
+    let folder = Folder::with(&[("d.inp", &deck("NODE TO SURFACE")), ("n.csv", NODES)]);
+    let run = folder.inpact(&[&["eval", "d.inp", "--nodes", "n.csv"], &CALCULIX[..]].concat());
+    for said in
+        ["node-to-surface contact reads the table at another pressure", "node-to-surface contact generates no heat"]
+    {
+        assert!(run.errors.contains(said), "{}", run.errors);
+    }
+}
+
+/// ccx stops at a node set of ADJUST that is defined nowhere in the deck, whether another setting follows or not.
+#[test]
+fn the_node_set_of_adjust_is_defined() {
+    let deck = |adjust: &str, behind: &str| {
+        format!(
+            "*NODE, NSET=ALL\n1, 0., 0., 0.\n*SURFACE, NAME=SL\nA, S1\n*SURFACE, NAME=MA\nB, S1\n{PAD}\
+             *CONTACT PAIR, INTERACTION=PAD, TYPE=SURFACE TO SURFACE, {adjust}\nSL, MA\n{behind}"
+        )
+    };
+    for adjust in ["ADJUST=all", "ADJUST=0.", "ADJUST=1.+2", "ADJUST=-1.", "ADJUST=", "ADJUST"] {
+        check_deck(&deck(adjust, ""), &[]);
+    }
+    check_deck(&deck("ADJUST=LATE", "*NSET, NSET=LATE\n1\n"), &[]);
+    for adjust in ["ADJUST=NOSET", "ADJUST=\"ALL\"", "ADJUST=1.E"] {
+        check_deck(&deck(adjust, "*ELSET, ELSET=NOSET\n1\n"), &["error[R008]"]);
+    }
+    check_deck(&deck("ADJUST=NOSET, ADJUST=0.", ""), &["error[R008]", "error[K009]"]);
+}
+
+/// Of two names of an interaction the first counts, of two interactions of a pair the last.
+#[test]
+fn the_first_name_counts() {
+    let deck = |names: &str, used: &str| {
+        format!(
+            "{}*GAP CONDUCTANCE\n100.\n*CONTACT PAIR, INTERACTION=TI, INTERACTION={used}, TYPE=SURFACE TO SURFACE\nSL, MA\n",
+            PAD.replace("NAME=PAD", names)
+        )
+    };
+    check_deck(&deck("NAME=SI, NAME=\"SI\"", "SI"), &["error[K009]", "error[K009]"]);
+    check_deck(&deck("NAME=\"SI\", NAME=SI", "SI"), &["error[K009]", "error[K009]", "error[R006]"]);
+    // What `inp` writes of the model keeps the one that counts.
+    let folder = Folder::with(&[("d.inp", &deck("NAME=SI, NAME=TI", "SI"))]);
+    let json = folder.inpact(&[&["json", "d.inp"], &CALCULIX[..]].concat()).output;
+    folder.write("m.json", &json);
+    let written = folder.inpact(&["inp", "m.json"]);
+    assert_eq!(written.code, 0, "{}", written.errors);
+    assert!(written.output.contains("*SURFACE INTERACTION, NAME=SI, NAME=TI"), "{}", written.output);
+}
+
+/// CX-02: two names that only their quotes tell apart are two, in JSON and in the deck that is made of it.
+#[test]
+fn cx_02_names_that_quotes_tell_apart_survive_json() {
+    let quoted = PAD.replace("=PAD", "=\"PAD\"").replace("1.E7", "2.E7");
+    let folder = Folder::with(&[("d.inp", &format!("{PAD}{quoted}"))]);
+    assert_eq!(check(&folder), Vec::<String>::new());
+    let json = folder.inpact(&[&["json", "d.inp"], &CALCULIX[..]].concat()).output;
+    folder.write("m.json", &json);
+    let written = folder.inpact(&["inp", "m.json", "-o", "again.inp"]);
+    assert_eq!(written.code, 0, "{}", written.errors);
+    assert!(written.errors.contains("the deck says this in CalculiX alone"), "{}", written.errors);
+    let again = folder.inpact(&[&["json", "again.inp"], &CALCULIX[..]].concat()).output;
+    let interactions = |json: &str| {
+        let document: serde_json::Value = serde_json::from_str(json).expect("JSON");
+        let stiffness = |name: &str| document["interactions"][name]["other"][0]["rows"][0][0].clone();
+        [stiffness("PAD"), stiffness("\"PAD\"")]
+    };
+    assert_eq!(interactions(&json), ["1.E7", "2.E7"]);
+    assert_eq!(interactions(&again), interactions(&json));
+    // Names that neither dialect tells apart stay refused.
+    folder.write("m.json", &json.replace("\"\\\"PAD\\\"\"", "\"pad\""));
+    let refused = folder.inpact(&["inp", "m.json"]);
+    assert!(refused.code == 1 && refused.errors.contains("stands there already"), "{}", refused.errors);
+}
+
 /// K-06, CX-11: of two interactions of one name the first counts.
 #[test]
 fn cx_11_the_first_of_two_interactions() {

@@ -22,6 +22,7 @@ pub use text::Source;
 use crate::grammar::{KeywordId, Lookup};
 use crate::span::{Position, SourceId, Span};
 use lines::{LineKind, line_kind, without_line_end};
+use std::num::NonZeroU32;
 
 /// A deck: its source files, cut into blocks in reading order.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,10 +60,10 @@ pub struct KeywordLine {
     pub resolved: Lookup<KeywordId>,
     /// The parameters in the order of the line.
     pub parameters: Vec<Parameter>,
-    /// Where a quote opens that does not close on its line (S-41).
-    pub unterminated_quote: Option<Span>,
-    /// The comma at the end of the line, when the next line is not its continuation (S-19).
-    pub dangling_comma: Option<Span>,
+    /// Where in the line a quote opens that does not close on it.
+    open_quote: Option<NonZeroU32>,
+    /// Where in the line a comma stands that nothing answers.
+    last_comma: Option<NonZeroU32>,
 }
 
 /// `NAME` or `NAME=VALUE` on a keyword line (S-17).
@@ -258,6 +259,21 @@ impl KeywordLine {
             Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),
             Lookup::Ambiguous(_) | Lookup::Unknown => None,
         }
+    }
+
+    /// Where a quote opens that does not close on its line (S-41).
+    pub fn unterminated_quote(&self) -> Option<Span> {
+        self.open_quote.map(|at| self.byte(at))
+    }
+
+    /// The comma at the end of the line, when the next line is not its continuation (S-19).
+    pub fn dangling_comma(&self) -> Option<Span> {
+        self.last_comma.map(|at| self.byte(at))
+    }
+
+    fn byte(&self, at: NonZeroU32) -> Span {
+        let at = self.span.start + u64::from(at.get());
+        Span::new(self.span.source, at, at + 1)
     }
 
     /// The line without its line end: what a label underlines.

@@ -12,6 +12,7 @@ mod rows;
 mod table;
 
 pub use name::Name;
+pub(crate) use print::named_in;
 pub use print::{PrintError, print};
 pub use read::{MOST_FIELD_VARIABLES, read};
 pub use table::{CellText, Table};
@@ -64,11 +65,11 @@ pub struct Interaction {
     /// The constants of USER, PROPERTIES=n (K-02).
     pub properties: Vec<f64>,
     /// *GAP ELECTRICAL CONDUCTANCE (2.2).
-    pub gap_electrical_conductance: Option<ElectricalConductance>,
+    pub gap_electrical_conductance: Option<Box<ElectricalConductance>>,
     /// *CONTACT PERMEABILITY (2.3).
-    pub contact_permeability: Option<ContactPermeability>,
+    pub contact_permeability: Option<Box<ContactPermeability>>,
     /// *GAP HEAT GENERATION (2.5).
-    pub gap_heat_generation: Option<HeatGeneration>,
+    pub gap_heat_generation: Option<Box<HeatGeneration>>,
     /// Every other sub-option.
     pub other: Vec<SubOption>,
 }
@@ -262,9 +263,9 @@ pub enum SetAsideItem {
     /// A table of a kind the interaction has again, or of a misplaced option.
     Table(Table),
     /// A *CONTACT PERMEABILITY that stands twice or misplaced.
-    ContactPermeability(ContactPermeability),
+    ContactPermeability(Box<ContactPermeability>),
     /// A *GAP HEAT GENERATION that stands twice or misplaced.
-    HeatGeneration(HeatGeneration),
+    HeatGeneration(Box<HeatGeneration>),
     /// Another sub-option that is misplaced.
     SubOption(SubOption),
 }

@@ -125,7 +125,7 @@ fn quotes_without_end() {
                 let (deck, _, _) = read(&line);
                 let keyword = deck.blocks()[0].keyword.as_ref().expect("a keyword");
                 let is_odd = !odd.is_empty();
-                assert_eq!(keyword.unterminated_quote.is_some(), is_odd, "{quotes}{odd}");
+                assert_eq!(keyword.unterminated_quote().is_some(), is_odd, "{quotes}{odd}");
                 assert_eq!(deck.blocks().len(), 2, "a quote ends with its line");
             }
         }

@@ -66,7 +66,7 @@ fn is_keyword_line(bytes: &[u8]) -> bool {
     let deck = deck(bytes);
     let [block] = deck.blocks() else { return false };
     let Some(keyword) = &block.keyword else { return false };
-    block.rows.is_empty() && keyword.unterminated_quote.is_none() && keyword.dangling_comma.is_none()
+    block.rows.is_empty() && keyword.unterminated_quote().is_none() && keyword.dangling_comma().is_none()
 }
 
 /// Whether `*X, ` and the example is a keyword line of exactly that parameter; its name and value.

@@ -99,14 +99,17 @@ fn interaction() -> impl Strategy<Value = Interaction> {
             interaction.parameters.push(parameter("PROPERTIES", Some(&constants.len().to_string())));
             interaction.properties = constants;
         }
-        (interaction.gap_electrical_conductance, interaction.contact_permeability) = (laws.0, laws.1);
-        interaction.gap_heat_generation = laws.2.map(|(fraction, slave_weight)| HeatGeneration {
-            span: Span::default(),
-            row: None,
-            fraction,
-            slave_weight,
-            slip_rate: None,
-            texts: Vec::new(),
+        (interaction.gap_electrical_conductance, interaction.contact_permeability) =
+            (laws.0.map(Box::new), laws.1.map(Box::new));
+        interaction.gap_heat_generation = laws.2.map(|(fraction, slave_weight)| {
+            Box::new(HeatGeneration {
+                span: Span::default(),
+                row: None,
+                fraction,
+                slave_weight,
+                slip_rate: None,
+                texts: Vec::new(),
+            })
         });
         interaction.other = other;
         interaction

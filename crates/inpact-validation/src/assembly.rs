@@ -4,6 +4,7 @@ use crate::parameter::given_as;
 use crate::references::{Definitions, components};
 use crate::rule::{Context, DefinedBlock};
 use crate::suggestion::did_you_mean;
+use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::nearest_names;
 use inpact_parser::model::Name;
 use std::collections::{HashMap, HashSet};
@@ -86,6 +87,37 @@ impl Assembly {
         elsewhere
             .then(|| format!("surface `{surface}` is not in instance `{instance}` nor in its part: check both names"))
     }
+}
+
+/// Whether the deck has a mesh, and all of what it has.
+pub(crate) fn defines_its_mesh(context: &Context<'_>) -> bool {
+    has_mesh(context) && is_whole(context)
+}
+
+/// Whether nodes or elements are defined.
+pub(crate) fn has_mesh(context: &Context<'_>) -> bool {
+    keywords(context).any(|(name, _)| matches!(name, "NODE" | "ELEMENT"))
+}
+
+/// Whether nothing of the deck comes from elsewhere: an imported part, an instance of a library, a restart.
+pub(crate) fn is_whole(context: &Context<'_>) -> bool {
+    keywords(context).all(|(name, line)| {
+        let is_given = |name: &[u8]| {
+            line.parameters.iter().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(name))
+        };
+        match name {
+            "IMPORT" => false,
+            "INSTANCE" => !is_given(b"LIBRARY") && !is_given(b"INSTANCE"),
+            "RESTART" => !is_given(b"READ"),
+            _ => true,
+        }
+    })
+}
+
+/// The keywords of the deck in full, with their lines.
+fn keywords<'a>(context: &Context<'a>) -> impl Iterator<Item = (&'a str, &'a KeywordLine)> {
+    let grammar = context.grammar;
+    context.keyword_lines().filter_map(move |line| Some((grammar.keyword(line.id()?).name.as_str(), line)))
 }
 
 fn named(context: &Context<'_>, block: DefinedBlock<'_>, parameter: &str) -> Option<Name> {

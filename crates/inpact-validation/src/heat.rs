@@ -8,9 +8,9 @@ use inpact_parser::span::Span;
 
 /// Every *GAP HEAT GENERATION that the reader took for a sub-option of an interaction, misplaced ones too.
 fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
-    let placed = model.all_interactions().filter_map(|interaction| interaction.gap_heat_generation.as_ref());
+    let placed = model.all_interactions().filter_map(|interaction| interaction.gap_heat_generation.as_deref());
     let aside = model.set_aside.iter().filter_map(|aside| match &aside.item {
-        SetAsideItem::HeatGeneration(heat) => Some(heat),
+        SetAsideItem::HeatGeneration(heat) => Some(&**heat),
         _ => None,
     });
     placed.chain(aside)

@@ -80,7 +80,7 @@ impl InterfaceLaws {
             friction: tells_of_friction(interaction).then(|| FrictionSource {
                 slip_rate: interaction
                     .gap_heat_generation
-                    .as_ref()
+                    .as_deref()
                     .and_then(inpact_parser::model::HeatGeneration::given_slip_rate),
                 takes_magnitudes: choices.dialect == Dialect::Calculix,
             }),

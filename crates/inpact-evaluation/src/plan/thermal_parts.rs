@@ -160,7 +160,7 @@ pub(super) fn plan_friction(
     let given_speed = planner
         .interaction
         .gap_heat_generation
-        .as_ref()
+        .as_deref()
         .and_then(inpact_parser::model::HeatGeneration::given_slip_rate);
     let has_option = |keyword: &str| planner.interaction.other.iter().any(|option| option.keyword == keyword);
     // A deck without heat has friction too, and says nothing of its heat.

@@ -13,6 +13,7 @@ use super::{
 };
 use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape, ValueUse};
 use crate::span::{SourceId, Span};
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 /// The most characters of a keyword or data line (S-06).
@@ -347,7 +348,7 @@ impl<'grammar> Scanner<'grammar> {
         let text = &open.text[..open.accepted];
         let mut keyword = keyword_line(text, self.id, open.start, self.options.grammar);
         if open.is_answered {
-            keyword.dangling_comma = None;
+            keyword.last_comma = None;
         }
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
         self.block = OpenBlock {
@@ -495,7 +496,8 @@ fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> Key
         Dialect::Calculix => keyword_line::parse_unprotected(text),
     };
     let span = |range: Range<usize>| Span::new(id, start + range.start as u64, start + range.end as u64);
-    let point = |at: usize| span(at..at + 1);
+    // An asterisk stands before both.
+    let point = |at: usize| u32::try_from(at).ok().and_then(NonZeroU32::new);
     let resolved = grammar.keyword_named(&text[pieces.name.clone()]);
     let definition = match resolved {
         Lookup::Exact(id) | Lookup::Abbreviated(id) => grammar.keyword(id).definition(),
@@ -512,8 +514,8 @@ fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> Key
         name: span(pieces.name),
         resolved,
         parameters: parameters.collect(),
-        unterminated_quote: pieces.unterminated_quote.map(point),
-        dangling_comma: pieces.final_comma.map(point),
+        open_quote: pieces.unterminated_quote.and_then(point),
+        last_comma: pieces.final_comma.and_then(point),
     }
 }
 

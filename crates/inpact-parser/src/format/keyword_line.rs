@@ -16,7 +16,7 @@ const CONTINUATION_INDENT: &[u8] = b"    ";
 /// That is so for a line with an open quote, an empty parameter, a piece that goes over a line end, and for one that
 /// would grow too long.
 pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition, dialect: Dialect) -> Option<Vec<u8>> {
-    if keyword.unterminated_quote.is_some() {
+    if keyword.unterminated_quote().is_some() {
         return None;
     }
     let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start, formatted: b"*".to_vec() };

@@ -3,15 +3,18 @@
 use crate::grammar::Dialect;
 use std::fmt;
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 /// A label as the deck writes it, compared the way Abaqus compares labels.
 ///
 /// Unquoted, case and blanks carry no meaning: `SteelGap`, `STEEL GAP` and `steelgap` are one name.
 /// Quoted, both are kept: `"Steel Gap"` differs from each of them, while `"STEELGAP"` is the same as they.
+///
+/// Both forms are one text where they are the same, and a copy of a name shares it: a deck may be nothing but names.
 #[derive(Debug, Clone)]
 pub struct Name {
-    written: String,
-    canonical: String,
+    written: Arc<str>,
+    canonical: Arc<str>,
 }
 
 impl Name {
@@ -30,7 +33,13 @@ impl Name {
                 _ => canonical.push(character.to_ascii_uppercase()),
             }
         }
-        Self { written: text.to_owned(), canonical }
+        Self::of(text, &canonical)
+    }
+
+    fn of(written: &str, canonical: &str) -> Self {
+        let canonical: Arc<str> = canonical.into();
+        let written = if *written == *canonical { Arc::clone(&canonical) } else { written.into() };
+        Self { written, canonical }
     }
 
     /// The name that `text` writes in a deck of a dialect: for CalculiX quotes are letters, and case and blanks count nowhere (CX-02).
@@ -39,8 +48,8 @@ impl Name {
             Dialect::Abaqus => Self::new(text),
             Dialect::Calculix => {
                 let kept = text.chars().filter(|character| !matches!(character, ' ' | '\t'));
-                let canonical = kept.map(|character| character.to_ascii_uppercase()).collect();
-                Self { written: text.trim().to_owned(), canonical }
+                let canonical: String = kept.map(|character| character.to_ascii_uppercase()).collect();
+                Self::of(text.trim(), &canonical)
             }
         }
     }

@@ -45,15 +45,20 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
     }
     print_property_assignments(&mut out, &model.property_assignments);
     print_procedures(&mut out, &model.procedures);
+    let named = named_in(grammar.dialect(), model.without_places());
+    // Names that the dialect does not tell apart were two.
+    if named.interactions.len() < model.interactions.len() {
+        return Err(PrintError { what: "the list of interactions".to_owned() });
+    }
     let (again, _) = read(&scan("", out.as_bytes(), grammar), grammar);
-    match difference(&named_in(grammar.dialect(), model.without_places()), &again.without_places()) {
+    match difference(&named, &again.without_places()) {
         None => Ok(out),
         Some(what) => Err(PrintError { what }),
     }
 }
 
 /// The model with its names as a dialect compares them: JSON does not say of which dialect they are.
-fn named_in(dialect: Dialect, mut model: Model) -> Model {
+pub(crate) fn named_in(dialect: Dialect, mut model: Model) -> Model {
     let rename = |name: &mut Name| *name = Name::in_dialect(name.written(), dialect);
     let interactions = std::mem::take(&mut model.interactions).into_values();
     model.interactions = interactions
@@ -117,7 +122,12 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
         span: interaction.span,
     };
     let named = !interaction.name.written().is_empty();
-    let parameters = with_meant(named.then_some(&name), &interaction.parameters);
+    let name = named.then_some(&name);
+    let parameters = match grammar.dialect() {
+        Dialect::Abaqus => with_meant(name, &interaction.parameters),
+        // The first of several names counts.
+        Dialect::Calculix => name.into_iter().chain(&interaction.parameters).collect(),
+    };
     print_keyword(out, "SURFACE INTERACTION", parameters);
     let is_default = interaction.thickness.to_bits() == 1.0_f64.to_bits();
     let rows_are_properties = has_explicit_step

@@ -55,7 +55,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             let subroutine = if user.value.is_some() { "VUINTERACTION" } else { "UINTER or VUINTER" };
             say(user.span, subroutine, "the interaction");
         }
-        if let Some(span) = interaction.gap_electrical_conductance.as_ref().and_then(user_alone) {
+        if let Some(span) = interaction.gap_electrical_conductance.as_deref().and_then(user_alone) {
             say(span, "GAPELECTR", "the electrical conductance");
         }
         let thermal = || interaction.other.iter().filter(|option| option.keyword == "GAP CONDUCTANCE");

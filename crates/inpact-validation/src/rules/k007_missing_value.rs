@@ -37,7 +37,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let is_empty = given.parameter.value.is_some_and(Span::is_empty);
         let is_missing = match value_use {
             ValueUse::Never => false,
-            ValueUse::Optional => is_empty,
+            // CalculiX reads what is empty as 0.
+            ValueUse::Optional => is_empty && !context.is_for_calculix(),
             ValueUse::Always => given.value().is_none(),
         };
         if !is_missing {

@@ -33,10 +33,14 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             let Some(index) = given.parameter.index() else { continue };
             let name = &given.definition.name;
             if let Some(first) = earlier[index].replace(given.parameter.span()) {
+                // CalculiX takes the first name of an interaction (surfaceinteractions.f), of all else the last.
+                let first_counts = context.is_for_calculix() && (block.name, name.as_str()) == ("SURFACE INTERACTION", "NAME");
+                let [label, before] =
+                    if first_counts { ["passed over", "this one is used"] } else { ["this one is used here", "given before"] };
                 report
                     .at(given.parameter.span(), format!("`{name}` of `*{}` is given twice", block.name))
-                    .label("this one is used here")
-                    .also(first, "given before")
+                    .label(label)
+                    .also(first, before)
                     .note(if context.is_for_calculix() {
                         "CalculiX takes the last of several values that it knows, of NAME the first"
                     } else {

@@ -1,9 +1,9 @@
 //! R004: surfaces that are named and not defined.
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, has_mesh, is_whole};
 use crate::quantity::and_more;
 use crate::references::{Definitions, missing, suggestion, uses_of_surfaces};
-use crate::rule::{Context, Report, declare_rule};
+use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 
 declare_rule! {
     /// A contact pair or a property assignment names a surface that the deck does not define.
@@ -62,22 +62,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 
 /// Whether the deck has surfaces or a mesh, and all of what it has.
 fn says_what_its_surfaces_are(context: &Context<'_>) -> bool {
-    let mut surfaces = 0;
-    let mut has_mesh = false;
-    for keyword in context.keyword_lines() {
-        let Some(id) = keyword.id() else { continue };
-        let is_given = |name: &[u8]| {
-            keyword.parameters.iter().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(name))
-        };
-        match context.grammar.keyword(id).name.as_str() {
-            "NODE" | "ELEMENT" => has_mesh = true,
-            "SURFACE" => surfaces += 1,
-            "IMPORT" => return false,
-            "INSTANCE" if is_given(b"LIBRARY") || is_given(b"INSTANCE") => return false,
-            "RESTART" if is_given(b"READ") => return false,
-            _ => {}
-        }
-    }
+    let is_surface = |block: &DefinedBlock<'_>| block.name == "SURFACE";
+    let surfaces = context.defined_blocks().filter(is_surface).count();
     // A *SURFACE without a name (K006) may be the one that is meant.
-    (surfaces > 0 || has_mesh) && surfaces == context.model.surfaces.len()
+    surfaces == context.model.surfaces.len() && (surfaces > 0 || has_mesh(context)) && is_whole(context)
 }

@@ -51,7 +51,7 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for keyword in context.keyword_lines() {
-        let Some(comma) = keyword.dangling_comma else { continue };
+        let Some(comma) = keyword.dangling_comma() else { continue };
         // CalculiX passes over the comma; only what was meant to continue the line is lost (CX-01).
         if context.is_for_calculix() && !is_meant_to_go_on(context, comma) {
             continue;

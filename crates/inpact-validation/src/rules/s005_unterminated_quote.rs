@@ -28,10 +28,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // For CalculiX a quote is a letter, but around the name of a file (CX-02).
     if context.is_for_calculix() {
         let includes = context.defined_blocks().filter(|block| block.name == "INCLUDE");
-        return includes.filter_map(|block| block.keyword.unterminated_quote).for_each(|quote| say(quote, report));
+        return includes.filter_map(|block| block.keyword.unterminated_quote()).for_each(|quote| say(quote, report));
     }
     for keyword in context.keyword_lines() {
-        if let Some(quote) = keyword.unterminated_quote {
+        if let Some(quote) = keyword.unterminated_quote() {
             say(quote, report);
         }
     }

@@ -7,14 +7,16 @@ use super::document::{
     TableDocument,
 };
 use crate::expression::{Parameters, StatementLine, define};
-use crate::grammar::Release;
+use crate::grammar::{Dialect, Release};
 use crate::json::{JsonError, parse};
+use crate::model::named_in;
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
     HeatGeneration, Interaction, MOST_FIELD_VARIABLES, Model, Name, Procedure, PropertyAssignment, Reference,
     SubOption, SurfacePair, Table,
 };
 use crate::span::{SourceId, Span};
+use std::collections::HashSet;
 
 /// The greatest number of a step: every step up to it is written, also those without a procedure.
 const MOST_STEPS: usize = 100_000;
@@ -29,13 +31,15 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
         return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
     }
     let mut model = Model { parameters: parameters(&document.parameters)?, ..Model::default() };
+    let dialect = dialect_of(document.interactions.iter().map(|(key, _)| key.as_str()));
     for (key, interaction) in document.interactions {
         let path = format!("interactions.{key}");
         if Name::new(&key) != Name::new(&interaction.name) {
             let message = format!("`{}` is not the name it stands under", interaction.name);
             return Err(JsonError::new(format!("{path}.name"), message));
         }
-        let interaction = interaction.into_model(&path)?;
+        let mut interaction = interaction.into_model(&path)?;
+        interaction.name = Name::in_dialect(interaction.name.written(), dialect);
         if model.interactions.contains_key(&interaction.name) {
             return Err(JsonError::new(path, "an interaction of that name stands there already"));
         }
@@ -46,7 +50,17 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
         document.property_assignments.into_iter().map(AssignmentDocument::into_model).collect();
     let procedures = document.procedures.into_iter().enumerate();
     model.procedures = procedures.map(|(index, found)| found.into_model(index)).collect::<Result<_, _>>()?;
-    Ok(model)
+    Ok(named_in(dialect, model))
+}
+
+/// The dialect whose names these are: JSON does not say which, and only CalculiX tells `"SI"` and `SI` apart (CX-02).
+fn dialect_of<'key>(keys: impl Iterator<Item = &'key str> + Clone) -> Dialect {
+    let is_told_apart = |dialect| {
+        let mut names = HashSet::new();
+        keys.clone().all(|key| names.insert(Name::in_dialect(key, dialect)))
+    };
+    let is_of_calculix = !is_told_apart(Dialect::Abaqus) && is_told_apart(Dialect::Calculix);
+    if is_of_calculix { Dialect::Calculix } else { Dialect::Abaqus }
 }
 
 /// Executes the definitions again; what the JSON says of their values must agree.
@@ -87,24 +101,27 @@ impl InteractionDocument {
         interaction.parameters = given_parameters(self.parameters);
         interaction.properties = self.properties;
         let electrical = self.gap_electrical_conductance;
-        interaction.gap_electrical_conductance =
-            electrical.map(|law| law.into_model(&format!("{path}.gap_electrical_conductance"))).transpose()?;
+        interaction.gap_electrical_conductance = electrical
+            .map(|law| law.into_model(&format!("{path}.gap_electrical_conductance")).map(Box::new))
+            .transpose()?;
         interaction.contact_permeability = self
             .contact_permeability
-            .map(|option| option.into_model(&format!("{path}.contact_permeability")))
+            .map(|option| option.into_model(&format!("{path}.contact_permeability")).map(Box::new))
             .transpose()?;
-        interaction.gap_heat_generation = self.gap_heat_generation.map(|heat| HeatGeneration {
-            span: Span::default(),
-            row: None,
-            fraction: heat.fraction.value(),
-            slave_weight: heat.slave_weight.value(),
-            slip_rate: heat.slip_rate.as_ref().map(Cell::value),
-            texts: [Some(heat.fraction), Some(heat.slave_weight), heat.slip_rate]
-                .into_iter()
-                .flatten()
-                .enumerate()
-                .filter_map(written)
-                .collect(),
+        interaction.gap_heat_generation = self.gap_heat_generation.map(|heat| {
+            Box::new(HeatGeneration {
+                span: Span::default(),
+                row: None,
+                fraction: heat.fraction.value(),
+                slave_weight: heat.slave_weight.value(),
+                slip_rate: heat.slip_rate.as_ref().map(Cell::value),
+                texts: [Some(heat.fraction), Some(heat.slave_weight), heat.slip_rate]
+                    .into_iter()
+                    .flatten()
+                    .enumerate()
+                    .filter_map(written)
+                    .collect(),
+            })
         });
         let other = self.other.into_iter().enumerate();
         interaction.other = other

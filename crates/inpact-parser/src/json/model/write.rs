@@ -36,8 +36,8 @@ impl From<&Interaction> for InteractionDocument {
             thickness: interaction.thickness,
             parameters: given_documents(&interaction.parameters),
             properties: interaction.properties.clone(),
-            gap_electrical_conductance: interaction.gap_electrical_conductance.as_ref().map(Into::into),
-            contact_permeability: interaction.contact_permeability.as_ref().map(Into::into),
+            gap_electrical_conductance: interaction.gap_electrical_conductance.as_deref().map(Into::into),
+            contact_permeability: interaction.contact_permeability.as_deref().map(Into::into),
             gap_heat_generation: interaction.gap_heat_generation.as_ref().map(|heat| HeatDocument {
                 fraction: cell(heat.fraction, heat.texts.iter().find(|text| text.cell == 0)),
                 slave_weight: cell(heat.slave_weight, heat.texts.iter().find(|text| text.cell == 1)),

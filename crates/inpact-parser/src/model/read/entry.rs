@@ -26,10 +26,16 @@ pub(super) struct Entry<'a> {
 impl<'a> Entry<'a> {
     /// The last setting of a parameter counts.
     pub(super) fn parameter(self, name: &str) -> Option<&'a Parameter> {
-        let is_meant = |parameter: &&Parameter| {
-            parameter.index().is_some_and(|index| self.definition.parameters[index].name == name)
-        };
-        self.keyword.parameters.iter().rev().find(is_meant)
+        self.keyword.parameters.iter().rev().find(|parameter| self.is_called(parameter, name))
+    }
+
+    /// The first setting of a parameter.
+    pub(super) fn first_parameter(self, name: &str) -> Option<&'a Parameter> {
+        self.keyword.parameters.iter().find(|parameter| self.is_called(parameter, name))
+    }
+
+    fn is_called(self, parameter: &Parameter, name: &str) -> bool {
+        parameter.index().is_some_and(|index| self.definition.parameters[index].name == name)
     }
 
     pub(super) fn is_given(self, name: &str) -> bool {

@@ -1,14 +1,14 @@
 //! *SURFACE INTERACTION and the sub-options in its block (2.1 to 2.5).
 
 use super::Reader;
-use super::entry::{Entry, take};
+use super::entry::Entry;
 use crate::deck::{DataLine, KeywordLine};
 use crate::expression::substitute;
 use crate::grammar::{Dialect, KeywordId, RowShape};
 use crate::model::rows::undefined_parameter;
 use crate::model::{
-    CellText, ConstraintMethod, ContactPermeability, HeatGeneration, Interaction, Name, SetAside, SetAsideItem,
-    SetAsideReason, Table,
+    CellText, ConstraintMethod, ContactPermeability, ElectricalConductance, HeatGeneration, Interaction, Name,
+    SetAside, SetAsideItem, SetAsideReason, Table,
 };
 use crate::number::{read_float, read_integer};
 use crate::problem::{Problem, ProblemKind};
@@ -20,9 +20,14 @@ impl Reader<'_> {
         self.check_level(option);
         self.parent = Some(option.id);
         let mut parameters = self.given_parameters(option);
+        // Of several names the first counts for CalculiX (surfaceinteractions.f), here the last.
+        let named = match self.grammar.dialect() {
+            Dialect::Abaqus => option.parameter("NAME"),
+            Dialect::Calculix => option.first_parameter("NAME"),
+        };
+        parameters.retain(|parameter| named.is_none_or(|named| named.span() != parameter.span));
         // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
-        take(&mut parameters, "NAME");
-        let name = self.value_of(option, "NAME").unwrap_or_default();
+        let name = named.and_then(|named| named.value).map(|value| self.value_text(value)).unwrap_or_default();
         let name = Name::in_dialect(&name, self.grammar.dialect());
         let mut interaction = Interaction::new(name, option.keyword.visible_span(self.deck));
         let is_user = parameters.iter().any(|parameter| parameter.name == "USER");
@@ -171,9 +176,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn set_parts_aside(&mut self, interaction: Interaction) {
-        let electrical = interaction.gap_electrical_conductance.into_iter();
-        let tables =
-            electrical.flat_map(|option| [option.clearance, option.pressure]).flatten().map(SetAsideItem::Table);
+        let tables = interaction.gap_electrical_conductance.into_iter().flat_map(|option| {
+            let ElectricalConductance { clearance, pressure, .. } = *option;
+            [clearance, pressure]
+        });
+        let tables = tables.flatten().map(SetAsideItem::Table);
         let items = tables
             .chain(interaction.contact_permeability.map(SetAsideItem::ContactPermeability))
             .chain(interaction.gap_heat_generation.map(SetAsideItem::HeatGeneration))
@@ -209,7 +216,7 @@ impl Reader<'_> {
             cutoff_gap_fill: self.float_of(option, "CUTOFF GAP FILL"),
             constraint_method: self.constraint_method(option),
         };
-        if let Some(earlier) = interaction.contact_permeability.replace(permeability) {
+        if let Some(earlier) = interaction.contact_permeability.replace(Box::new(permeability)) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::ContactPermeability(earlier));
         }
     }
@@ -256,7 +263,7 @@ impl Reader<'_> {
         });
         let texts = texts.collect();
         let heat = HeatGeneration { span, row, fraction, slave_weight, slip_rate, texts };
-        if let Some(earlier) = interaction.gap_heat_generation.replace(heat) {
+        if let Some(earlier) = interaction.gap_heat_generation.replace(Box::new(heat)) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::HeatGeneration(earlier));
         }
     }
