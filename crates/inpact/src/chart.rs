@@ -1,9 +1,14 @@
-//! Charts of points over two logarithmic axes, as data and as pictures.
+//! Pictures: points over two logarithmic axes, and panels of curves.
 //!
-//! A [`Chart`] says what there is to see; [`Chart::svg`] draws it, and `png::render` makes pixels of that drawing.
-//! Knows no decks and no measurements. Text is drawn with fonts of the viewer in SVG; for PNG the font comes with the program.
+//! A [`Chart`] says what there is to see of a trade-off; [`Chart::svg`] draws it. [`sheet`] draws [`crate::curves`], a [`panel`] a law, [`terminal`] in letters.
+//! `png::render` makes pixels of a drawing. Knows no decks and no measurements. Text is drawn with fonts of the viewer in SVG; for PNG the font comes with the program.
 
 mod axis;
+mod colours;
+pub(crate) mod panel;
+pub(crate) mod scale;
+pub(crate) mod sheet;
+pub(crate) mod terminal;
 #[cfg(feature = "png")]
 pub(crate) mod png;
 mod svg;

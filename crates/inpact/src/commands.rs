@@ -8,6 +8,7 @@ pub(crate) mod inp;
 pub(crate) mod json;
 pub(crate) mod nodes;
 pub(crate) mod plan;
+pub(crate) mod plot;
 pub(crate) mod shell;
 pub(crate) mod solve;
 pub(crate) mod tradeoff;

@@ -23,6 +23,7 @@
 //! ```
 
 pub mod cli;
+pub mod curves;
 pub mod pages;
 
 mod deck;

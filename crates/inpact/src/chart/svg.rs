@@ -30,6 +30,19 @@ const LOOKS: &[(&str, &str)] = &[
     ("level-label", r##"fill="#5b6b7a" font-size="12""##),
 ];
 
+/// How shapes of panels of curves look.
+const PANEL_LOOKS: &[(&str, &str)] = &[
+    ("panel-title", r##"fill="#16202a" font-size="15" font-weight="bold""##),
+    ("axis-title", r##"fill="#16202a" font-size="13""##),
+    ("contact", r##"stroke="#3a434c" stroke-width="1.2""##),
+    ("tick-line", r##"stroke="#3a434c" stroke-width="1""##),
+    ("error", r##"fill="#a3161f" font-size="12" font-weight="bold""##),
+    ("warning", r##"fill="#8f4a00" font-size="12" font-weight="bold""##),
+    ("remark", r##"fill="#33475b" font-size="12" font-weight="bold""##),
+    ("error-note", r##"fill="#a3161f" font-size="12""##),
+    ("sheet-title", r##"fill="#16202a" font-size="17" font-weight="bold""##),
+];
+
 impl Drawing {
     /// A light ground of that size, in pixels; `title` is what a screen reader says.
     pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
@@ -76,6 +89,66 @@ impl Drawing {
         self.add(&format!(r#"<text transform="{turn}" text-anchor="middle" {}>{text}</text>"#, looks(look)));
     }
 
+    /// Straight lines from corner to corner, with a look of its own.
+    pub(super) fn polyline(&mut self, corners: &[(f64, f64)], look: &str) {
+        if corners.len() < 2 {
+            return;
+        }
+        let corners: Vec<String> = corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect();
+        self.add(&format!(r#"<polyline points="{}" {look}/>"#, corners.join(" ")));
+    }
+
+    /// A mark of curve `index`: circle, square, triangle, diamond in turn, so that curves are told apart without colours; it says `words` when pointed at.
+    pub(super) fn mark(&mut self, (x, y): (f64, f64), index: usize, colour: &str, words: &str) {
+        let look = format!(r##"fill="{colour}" stroke="#ffffff" stroke-width="0.8""##);
+        let polygon = |corners: &[(f64, f64)]| {
+            let corners: Vec<String> =
+                corners.iter().map(|(dx, dy)| format!("{},{}", short(x + dx), short(y + dy))).collect();
+            format!(r#"<polygon points="{}" {look}"#, corners.join(" "))
+        };
+        let shape = match index % 4 {
+            0 => format!(r#"<circle cx="{}" cy="{}" r="4" {look}"#, short(x), short(y)),
+            1 => polygon(&[(-3.6, -3.6), (3.6, -3.6), (3.6, 3.6), (-3.6, 3.6)]),
+            2 => polygon(&[(0.0, -4.8), (4.4, 3.4), (-4.4, 3.4)]),
+            _ => polygon(&[(0.0, -5.2), (4.6, 0.0), (0.0, 5.2), (-4.6, 0.0)]),
+        };
+        if words.is_empty() {
+            self.add(&format!("{shape}/>"));
+        } else {
+            let tag = if shape.starts_with("<circle") { "circle" } else { "polygon" };
+            self.add(&format!("{shape}><title>{}</title></{tag}>", escaped(words)));
+        }
+    }
+
+    /// A ring around a place of note; it says `words` when pointed at.
+    pub(super) fn ring(&mut self, (x, y): (f64, f64), look: &str, words: &str) {
+        let colour = looks(look).split('"').nth(1).unwrap_or("#000000");
+        let at = format!(r#"cx="{}" cy="{}""#, short(x), short(y));
+        let look = format!(r#"fill="none" stroke="{colour}" stroke-width="2""#);
+        self.add(&format!(r#"<circle {at} r="9" {look}><title>{}</title></circle>"#, escaped(words)));
+    }
+
+    /// A small point among many.
+    pub(super) fn dot(&mut self, (x, y): (f64, f64)) {
+        let look = r##"fill="#16202a" fill-opacity="0.35""##;
+        self.add(&format!(r#"<circle cx="{}" cy="{}" r="2" {look}/>"#, short(x), short(y)));
+    }
+
+    /// A bar of a histogram.
+    pub(super) fn bar(&mut self, at: (f64, f64), size: (f64, f64)) {
+        self.rectangle(at, size, r##"fill="#7b8794" fill-opacity="0.45""##);
+    }
+
+    /// A stripe of a scale of colours.
+    pub(super) fn stripe(&mut self, at: (f64, f64), size: (f64, f64), colour: &str) {
+        self.rectangle(at, size, &format!(r#"fill="{colour}""#));
+    }
+
+    fn rectangle(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), look: &str) {
+        let [x, y, width, height] = [x, y, width, height].map(short);
+        self.add(&format!(r#"<rect x="{x}" y="{y}" width="{width}" height="{height}" {look}/>"#));
+    }
+
     /// The document.
     pub(super) fn finish(mut self) -> String {
         self.text += "</svg>\n";
@@ -89,7 +162,7 @@ impl Drawing {
 }
 
 fn looks(name: &str) -> &'static str {
-    LOOKS.iter().find(|(known, _)| *known == name).map_or("", |(_, attributes)| attributes)
+    LOOKS.iter().chain(PANEL_LOOKS).find(|(known, _)| *known == name).map_or("", |(_, attributes)| attributes)
 }
 
 /// A coordinate to a tenth of a pixel.

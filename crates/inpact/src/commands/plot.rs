@@ -1,0 +1,251 @@
+//! `inpact plot`: decks in, the curves of their laws out.
+
+use super::laws::LawArguments;
+use crate::chart::panel::Scales;
+use crate::chart::scale::ScaleKind;
+use crate::chart::{sheet, terminal};
+use crate::curves::{self, Detail, Figure, LawKind, Probing, Request, Units};
+use crate::failure::{Failure, Outcome, say};
+use crate::files;
+use crate::input;
+use crate::settings::{DeckArguments, Settings};
+use clap::{Args, ValueEnum};
+use inpact_parser::deck::Keep;
+use inpact_parser::model::{self, Model, Name};
+use inpact_validation::{Diagnostic, check};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(crate) struct PlotArguments {
+    /// Decks or fragments; several stand side by side with the same axes. `-` reads standard input.
+    #[arg(required = true, value_name = "DECK")]
+    decks: Vec<PathBuf>,
+    #[command(flatten)]
+    drawing: DrawingArguments,
+    /// Where to draw: FILE ends in .svg or .png; without it a plot in letters goes to standard output.
+    #[arg(short, long, value_name = "FILE", value_parser = picture)]
+    output: Option<Picture>,
+    /// Which axes are logarithmic; that of the values where none is named.
+    #[arg(long, value_enum, value_name = "AXES", num_args = 0..=1, require_equals = true, default_missing_value = "y")]
+    log: Option<LogAxes>,
+    /// Mark what a check of the deck finds in the rows that are drawn.
+    #[arg(long)]
+    findings: bool,
+    #[command(flatten)]
+    laws: LawArguments,
+    #[command(flatten)]
+    reading: DeckArguments,
+}
+
+/// What of a deck is drawn.
+#[derive(Debug, Args)]
+pub(crate) struct DrawingArguments {
+    /// Draw this interaction only; may be given several times.
+    #[arg(long, value_name = "NAME")]
+    interaction: Vec<String>,
+    /// Draw these laws only.
+    #[arg(long, value_enum, value_name = "LAWS", value_delimiter = ',')]
+    law: Vec<LawName>,
+    /// Hold variables at values instead of drawing a curve or a panel for each: temp=150,fv1=2.
+    #[arg(long, value_name = "NAME=VALUE", value_delimiter = ',', value_parser = held)]
+    at: Vec<(String, f64)>,
+    /// Your names of units, by base quantity or by column: L=mm,M=t,T=s,theta=K or pressure=MPa.
+    #[arg(long, value_name = "UNITS", default_value = "", hide_default_value = true)]
+    units: Units,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LawName {
+    /// Electrical conductance.
+    Electrical,
+    /// Thermal conductance.
+    Thermal,
+    /// The view factor of radiation.
+    ViewFactor,
+    /// Permeability to pore fluid.
+    Permeability,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LogAxes {
+    /// That of the values.
+    Y,
+    /// Those of clearance and contact pressure.
+    X,
+    /// All.
+    Xy,
+}
+
+/// A picture to draw.
+#[derive(Debug, Clone)]
+struct Picture {
+    path: PathBuf,
+    kind: PictureKind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum PictureKind {
+    Svg,
+    Png,
+}
+
+/// The most panels of a picture.
+const MOST_PANELS: usize = 40;
+
+/// How many values a curve has on logarithmic axes, where it is not straight between its rows.
+const ON_LOGARITHMIC: usize = 160;
+
+impl DrawingArguments {
+    /// What is to be drawn.
+    pub(crate) fn request(&self, detail: Detail, most_panels: usize, probing: Probing) -> Request {
+        let law = |law: &LawName| match law {
+            LawName::Electrical => LawKind::Electrical,
+            LawName::Thermal => LawKind::Thermal,
+            LawName::ViewFactor => LawKind::ViewFactor,
+            LawName::Permeability => LawKind::Permeability,
+        };
+        Request {
+            interactions: self.interaction.iter().map(|name| Name::new(name)).collect(),
+            laws: self.law.iter().map(law).collect(),
+            at: self.at.clone(),
+            units: self.units.clone(),
+            detail,
+            most_panels,
+            probing,
+        }
+    }
+
+    /// Refuses names of interactions that none of the decks has.
+    pub(crate) fn refuse_unknown(&self, models: &[&Model]) -> Result<(), Failure> {
+        for name in &self.interaction {
+            let wanted = Name::new(name);
+            if !models.iter().any(|model| model.interactions.contains_key(&wanted)) {
+                let known = models.iter().flat_map(|model| model.interactions.keys()).map(|name| format!("`{name}`"));
+                let known: Vec<String> = known.take(8).collect();
+                let message = format!("there is no interaction `{name}`; there are {}", known.join(", "));
+                return Err(Failure::Usage(message));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A deck that is drawn.
+struct DrawnDeck {
+    name: String,
+    settings: Settings,
+    model: Model,
+    findings: Vec<Diagnostic>,
+}
+
+pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
+    let standard_input = arguments.decks.iter().filter(|path| path.as_os_str() == files::STANDARD_STREAM);
+    if 1 < standard_input.count() {
+        return Err(Failure::Usage("standard input can be read only once".to_owned()));
+    }
+    files::name_as_inputs(&arguments.decks);
+    let target = arguments.output.as_ref().map(|picture| picture.path.as_path());
+    files::check_targets(&[target])?;
+    let decks = arguments.decks.iter().map(|path| read(path, arguments)).collect::<Result<Vec<_>, _>>()?;
+    let models: Vec<&Model> = decks.iter().map(|deck| &deck.model).collect();
+    arguments.drawing.refuse_unknown(&models)?;
+    let figures = figures(arguments, &decks)?;
+    if figures.iter().all(|figure| figure.panels.is_empty()) {
+        return Err(nothing_to_draw(&figures));
+    }
+    // What the decks include is known now.
+    files::check_targets(&[target])?;
+    match &arguments.output {
+        None => {
+            let text = terminal::text(&figures, scales(arguments));
+            files::write_result(None, text.as_bytes())?;
+        }
+        Some(picture) => {
+            figures.iter().flat_map(|figure| &figure.notes).for_each(|note| say(&format!("note: {note}")));
+            let svg = sheet::svg(&figures, scales(arguments));
+            files::write_result(Some(&picture.path), &drawn(svg, picture.kind)?)?;
+        }
+    }
+    Ok(Outcome::Clean)
+}
+
+fn read(path: &Path, arguments: &PlotArguments) -> Result<DrawnDeck, Failure> {
+    let settings = arguments.reading.settings(path)?;
+    let deck = input::read_deck(path, Keep::Interpreted, &settings)?;
+    let (model, problems) = model::read(&deck, settings.grammar);
+    let findings =
+        if arguments.findings { settings.apply(check(&deck, settings.grammar, &model, &problems)) } else { Vec::new() };
+    Ok(DrawnDeck { name: path.display().to_string(), settings, model, findings })
+}
+
+fn figures(arguments: &PlotArguments, decks: &[DrawnDeck]) -> Result<Vec<Figure>, Failure> {
+    let scales = scales(arguments);
+    let detail = match scales {
+        Scales { x: ScaleKind::Linear, y: ScaleKind::Linear } => Detail::Rows,
+        Scales { x: ScaleKind::Linear, .. } => Detail::Even(ON_LOGARITHMIC),
+        _ => Detail::Geometric(ON_LOGARITHMIC),
+    };
+    let request = arguments.drawing.request(detail, MOST_PANELS, Probing::Off);
+    let Some(first) = decks.first() else { return Ok(Vec::new()) };
+    let grammar = first.settings.grammar;
+    let choices = arguments.laws.choices(&first.model, grammar.dialect(), None)?;
+    let named: Vec<(&str, &Model)> = decks.iter().map(|deck| (deck.name.as_str(), &deck.model)).collect();
+    let mut figures = curves::figures(&named, grammar, &choices, &request);
+    for (figure, deck) in figures.iter_mut().zip(decks) {
+        curves::mark_findings(figure, &deck.model, &deck.findings);
+    }
+    Ok(figures)
+}
+
+fn scales(arguments: &PlotArguments) -> Scales {
+    let (x, y) = match arguments.log {
+        None => (ScaleKind::Linear, ScaleKind::Linear),
+        Some(LogAxes::Y) => (ScaleKind::Linear, ScaleKind::Logarithmic),
+        Some(LogAxes::X) => (ScaleKind::Logarithmic, ScaleKind::Linear),
+        Some(LogAxes::Xy) => (ScaleKind::Logarithmic, ScaleKind::Logarithmic),
+    };
+    Scales { x, y }
+}
+
+/// Why there is no curve at all.
+pub(crate) fn nothing_to_draw(figures: &[Figure]) -> Failure {
+    let decks: Vec<String> = figures.iter().map(|figure| format!("`{}`", figure.deck)).collect();
+    let notes: Vec<&str> = figures.iter().flat_map(|figure| &figure.notes).map(String::as_str).collect();
+    let reasons = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
+    Failure::Data(format!(
+        "there is no table of conductance, permeability or view factor to draw in {}{reasons}",
+        decks.join(", ")
+    ))
+}
+
+fn drawn(svg: String, kind: PictureKind) -> Result<Vec<u8>, Failure> {
+    match kind {
+        PictureKind::Svg => Ok(svg.into_bytes()),
+        #[cfg(feature = "png")]
+        PictureKind::Png => {
+            crate::chart::png::render(&svg).map_err(|error| Failure::Usage(format!("cannot draw the picture: {error}")))
+        }
+        #[cfg(not(feature = "png"))]
+        PictureKind::Png => Err(Failure::Usage("this inpact was built without PNG: draw an .svg".to_owned())),
+    }
+}
+
+fn picture(text: &str) -> Result<Picture, String> {
+    let path = Path::new(text);
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let kind = match extension.to_str() {
+        Some("svg") => PictureKind::Svg,
+        Some("png") => PictureKind::Png,
+        _ => return Err("the name of a picture must end in .svg or .png".to_owned()),
+    };
+    Ok(Picture { path: path.to_owned(), kind })
+}
+
+/// `fv1=2`.
+fn held(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as temp=150 or fv1=2")?;
+    match value.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok((name.trim().to_ascii_lowercase(), value)),
+        _ => Err(format!("expected a number behind `{}=`, found `{}`", name.trim(), value.trim())),
+    }
+}

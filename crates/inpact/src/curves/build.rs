@@ -1,0 +1,437 @@
+//! From a model to its panels: which laws, which variable tells curves apart, what is held where.
+
+use super::law::Law;
+use super::probe::probe;
+use super::rows::LawRows;
+use super::sample::{self, spread, thinned};
+use super::{Branch, Curve, Figure, Half, Held, Knot, LawKind, Panel, Quantity, Reach, Sample, Side, Units, number};
+use inpact_evaluation::compile::{FlowOf, InterfaceLaws};
+use inpact_evaluation::plan::{Choices, Reason};
+use inpact_parser::grammar::Grammar;
+use inpact_parser::model::{Interaction, Model, Name};
+use std::collections::HashMap;
+
+/// The most curves of one panel.
+const MOST_CURVES: usize = 24;
+
+/// The most panels of one law.
+const MOST_MULTIPLES: usize = 6;
+
+/// The most lines about what is not drawn.
+const MOST_NOTES: usize = 20;
+
+/// How far an axis goes beyond the last row.
+const BEYOND: f64 = 1.15;
+
+/// What is to be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// The interactions; all where there is none.
+    pub interactions: Vec<Name>,
+    /// The laws; all where there is none.
+    pub laws: Vec<LawKind>,
+    /// Variables by the names of their columns, held at these values.
+    pub at: Vec<(String, f64)>,
+    /// The names of units.
+    pub units: Units,
+    /// How many values a curve has.
+    pub detail: Detail,
+    /// The most panels of a deck.
+    pub most_panels: usize,
+    /// Whether values at other temperatures and field variables are found as well.
+    pub probing: Probing,
+}
+
+/// Whether panels have values for sliders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Probing {
+    /// They have none.
+    Off,
+    /// They have.
+    On,
+}
+
+/// At how many places curves are evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// At the abscissae of the rows: enough for linear axes.
+    Rows,
+    /// At so many places at least, evenly between the rows.
+    Even(usize),
+    /// The same, evenly on a logarithmic axis.
+    Geometric(usize),
+}
+
+/// How far the axes of a law go.
+#[derive(Debug, Clone, Copy, Default)]
+struct Extents {
+    open: Option<f64>,
+    closed: Option<(f64, f64)>,
+}
+
+/// The panels of one deck.
+pub fn figure(deck: (&str, &Model), grammar: &Grammar, choices: &Choices, request: &Request) -> Figure {
+    figures(&[deck], grammar, choices, request).pop().unwrap_or_default()
+}
+
+/// The panels of several decks: those of one law have the same axes in all of them.
+pub fn figures(decks: &[(&str, &Model)], grammar: &Grammar, choices: &Choices, request: &Request) -> Vec<Figure> {
+    let mut extents: HashMap<(String, LawKind), Extents> = HashMap::new();
+    for (_, model) in decks {
+        for interaction in request.interactions_of(model).take(request.most_panels) {
+            let laws = InterfaceLaws::of(model, interaction, choices);
+            for kind in request.kinds() {
+                let rows = LawRows::of(model, interaction, kind);
+                let of = extents.entry((interaction.name.canonical().to_owned(), kind)).or_default();
+                of.widen(&rows, Law::of(&laws, kind, choices.characteristic_length));
+            }
+        }
+    }
+    let builder = Builder { grammar, choices, request, extents: &extents };
+    decks.iter().map(|(name, model)| builder.figure(name, model)).collect()
+}
+
+impl Request {
+    fn kinds(&self) -> impl Iterator<Item = LawKind> {
+        LawKind::ALL.into_iter().filter(|kind| self.laws.is_empty() || self.laws.contains(kind))
+    }
+
+    fn interactions_of<'m>(&'m self, model: &'m Model) -> impl Iterator<Item = &'m Interaction> {
+        let is_meant = |interaction: &&Interaction| {
+            self.interactions.is_empty() || self.interactions.contains(&interaction.name)
+        };
+        model.interactions.values().filter(is_meant)
+    }
+}
+
+impl Extents {
+    fn widen(&mut self, rows: &LawRows<'_>, law: Option<Law<'_>>) {
+        let greater = |a: f64, b: f64| if a < b { b } else { a };
+        let beyond = |greatest: f64| {
+            let end = greatest * BEYOND;
+            if 0.0 < end { greater(greatest, end.min(f64::MAX)) } else { 1.0 }
+        };
+        let of_rows = rows.open.as_ref().and_then(super::rows::Rows::range).map(|(_, greatest)| beyond(greatest));
+        let of_cutoff = law.and_then(Law::cutoff).map(|cutoff| if 0.0 < cutoff { 1.5 * cutoff } else { 1.0 });
+        for end in of_rows.into_iter().chain(of_cutoff) {
+            self.open = Some(self.open.map_or(end, |known| greater(known, end)));
+        }
+        if let Some((least, greatest)) = rows.closed.as_ref().and_then(super::rows::Rows::range) {
+            let (start, end) = (least.min(0.0), beyond(greatest));
+            let known = self.closed.unwrap_or((start, end));
+            self.closed = Some((known.0.min(start), greater(known.1, end)));
+        }
+    }
+}
+
+struct Builder<'a> {
+    grammar: &'a Grammar,
+    choices: &'a Choices,
+    request: &'a Request,
+    extents: &'a HashMap<(String, LawKind), Extents>,
+}
+
+/// A law of one interaction, with what all its panels share.
+struct Subject<'a> {
+    interaction: &'a Interaction,
+    kind: LawKind,
+    rows: &'a LawRows<'a>,
+    law: Option<Law<'a>>,
+    sides: [sample::Side<'a>; 2],
+    /// The variables behind the abscissa, each with its values.
+    variables: Vec<Variable>,
+    fault: Option<String>,
+}
+
+struct Variable {
+    quantity: Quantity,
+    values: Vec<f64>,
+    /// Where the user wants it.
+    chosen: Option<f64>,
+}
+
+impl Builder<'_> {
+    fn figure(&self, name: &str, model: &Model) -> Figure {
+        let mut figure = Figure { deck: name.to_owned(), ..Figure::default() };
+        let mut left = 0_usize;
+        let mut silent = 0_usize;
+        for interaction in self.request.interactions_of(model) {
+            let rows = self.request.kinds().map(|kind| (kind, LawRows::of(model, interaction, kind)));
+            let rows: Vec<_> = rows.collect();
+            if self.request.most_panels <= figure.panels.len() {
+                left += rows.iter().filter(|(_, rows)| !rows.is_empty()).count();
+                continue;
+            }
+            let laws = InterfaceLaws::of(model, interaction, self.choices);
+            for (kind, rows) in &rows {
+                match self.subject(interaction, *kind, rows, &laws) {
+                    Ok(subject) => figure.panels.extend(self.panels(&subject)),
+                    Err(None) => {}
+                    Err(Some(_)) if MOST_NOTES <= figure.notes.len() => silent += 1,
+                    Err(Some(why)) => {
+                        figure.notes.push(format!("{} of `{}`: {why}", kind.name(), interaction.name));
+                    }
+                }
+            }
+        }
+        if 0 < silent {
+            figure.notes.push(format!("{silent} more laws are not drawn for such reasons"));
+        }
+        if 0 < left {
+            let drawn = self.request.most_panels;
+            figure.notes.push(format!("{drawn} panels are drawn and {left} laws are not: choose some with `--interaction` and `--law`"));
+        }
+        let mut tables = Vec::new();
+        if !self.request.at.is_empty() {
+            tables.extend(model.interactions.values().flat_map(Interaction::tables));
+        }
+        let is_known = |column: &str| tables.iter().any(|of| of.table.column(column).is_some());
+        for (column, _) in self.request.at.iter().filter(|(column, _)| !is_known(column)) {
+            figure.notes.push(format!("no table of the deck depends on `{column}`"));
+        }
+        figure
+    }
+
+    /// A law that has something to draw; otherwise why it has not, where there is anything to say.
+    fn subject<'a>(
+        &self,
+        interaction: &'a Interaction,
+        kind: LawKind,
+        rows: &'a LawRows<'a>,
+        laws: &'a InterfaceLaws,
+    ) -> Result<Subject<'a>, Option<String>> {
+        let law = Law::of(laws, kind, self.choices.characteristic_length);
+        let reason = self.why_not(interaction, kind, laws);
+        if rows.is_empty() || (rows.closed.is_none() && rows.open.as_ref().is_some_and(|rows| rows.count() == 0)) {
+            return Err(reason);
+        }
+        if law.is_none() && !matches!(&reason, Some(reason) if reason.contains("its rows form")) {
+            return Err(reason);
+        }
+        let variables = rows.variables().iter().map(|column| Variable {
+            quantity: self.request.units.quantity(self.grammar, kind.keyword(), column),
+            values: rows.distinct(column),
+            chosen: self.request.at.iter().rfind(|(named, _)| named == column).map(|(_, at)| *at),
+        });
+        Ok(Subject {
+            interaction,
+            kind,
+            rows,
+            law,
+            sides: Side::BOTH.map(|side| sample::Side::of(rows.side(side))),
+            variables: variables.collect(),
+            fault: if law.is_some() { None } else { reason },
+        })
+    }
+
+    /// Why a law that the interaction tells of has no values.
+    fn why_not(&self, interaction: &Interaction, kind: LawKind, laws: &InterfaceLaws) -> Option<String> {
+        let flow = match kind {
+            LawKind::Electrical => FlowOf::Charge,
+            LawKind::Thermal | LawKind::ViewFactor => FlowOf::Heat,
+            LawKind::Permeability => FlowOf::PoreFluid,
+        };
+        if kind == LawKind::Permeability
+            && interaction.contact_permeability.as_ref().is_some_and(|option| option.table.is_none())
+        {
+            return Some(Reason::InfinitePermeability.to_string());
+        }
+        let is_of_radiation = |what: &str| what.contains("radiation");
+        let mut reasons = laws.left_out.iter().filter(|(of, left_out)| {
+            *of == flow && (flow != FlowOf::Heat || is_of_radiation(&left_out.what) == (kind == LawKind::ViewFactor))
+        });
+        reasons.next().map(|(_, left_out)| left_out.reason.to_string())
+    }
+
+    fn panels(&self, subject: &Subject<'_>) -> Vec<Panel> {
+        let is_free = |variable: &Variable| variable.chosen.is_none() && 1 < variable.values.len();
+        let free: Vec<&Variable> = subject.variables.iter().filter(|variable| is_free(variable)).collect();
+        let family = free.iter().find(|variable| variable.quantity.column == "temp").or(free.first()).copied();
+        let is_family = |variable: &Variable| family.is_some_and(|family| std::ptr::eq(family, variable));
+        let multiple = free.iter().copied().find(|variable| !is_family(variable));
+        let places = multiple.map_or_else(|| vec![None], |multiple| {
+            spread(&multiple.values, MOST_MULTIPLES).into_iter().map(Some).collect()
+        });
+        let mut panels = Vec::new();
+        for place in places {
+            let mut held = Vec::new();
+            let at = |variable: &Variable| {
+                let is_multiple = multiple.is_some_and(|multiple| std::ptr::eq(multiple, variable));
+                let first = variable.values.first().copied().unwrap_or(0.0);
+                variable.chosen.unwrap_or(if is_multiple { place.unwrap_or(first) } else { first })
+            };
+            let variables: Vec<f64> = subject.variables.iter().map(at).collect();
+            for (variable, at) in subject.variables.iter().zip(&variables) {
+                if !is_family(variable) && (1 < variable.values.len() || variable.chosen.is_some()) {
+                    held.push(Held { quantity: variable.quantity.clone(), at: *at, of: variable.values.len() });
+                }
+            }
+            let family = family.and_then(|family| {
+                let index = subject.variables.iter().position(|variable| std::ptr::eq(variable, family))?;
+                Some((index, family))
+            });
+            panels.push(self.panel(subject, &variables, family, held));
+        }
+        if let (Some(law), Some(first), Probing::On) = (subject.law, panels.first_mut(), self.request.probing) {
+            let movable = subject.variables.iter().enumerate().filter(|(_, variable)| is_free(variable));
+            let movable: Vec<_> =
+                movable.map(|(index, variable)| (index, &variable.quantity, variable.values.as_slice())).collect();
+            let variables: Vec<f64> =
+                subject.variables.iter().map(|of| of.chosen.or(of.values.first().copied()).unwrap_or(0.0)).collect();
+            let halves = [first.open.clone(), first.closed.clone()];
+            first.probe = probe(law, &subject.sides, &halves, &variables, &movable);
+        }
+        panels
+    }
+
+    fn panel(
+        &self,
+        subject: &Subject<'_>,
+        variables: &[f64],
+        family: Option<(usize, &Variable)>,
+        held: Vec<Held>,
+    ) -> Panel {
+        let halves = Side::BOTH.map(|side| self.half(subject, side));
+        let first = subject.rows.open.as_ref().or(subject.rows.closed.as_ref());
+        let column = first.and_then(|rows| rows.columns.first()).map_or("", String::as_str);
+        let mut value = self.request.units.quantity(self.grammar, subject.kind.keyword(), column);
+        subject.kind.name().clone_into(&mut value.name);
+        let (curves, all_curves) = if subject.law.is_some() {
+            let places = family.map_or_else(|| vec![None], |(_, family)| family.values.iter().copied().map(Some).collect());
+            let curves = spread(&places, MOST_CURVES).into_iter().map(|at| {
+                let mut variables = variables.to_vec();
+                if let (Some(at), Some((index, _))) = (at, family) {
+                    variables[index] = at;
+                }
+                let [open, closed] = [0, 1].map(|side| self.branch(subject, side, &halves[side], &variables));
+                Curve { at, open, closed }
+            });
+            (curves.collect::<Vec<_>>(), places.len())
+        } else {
+            as_they_stand(subject)
+        };
+        let [open, closed] = halves;
+        let mut panel = Panel {
+            interaction: subject.interaction.name.written().to_owned(),
+            law: subject.kind,
+            value,
+            family: family.map(|(_, family)| family.quantity.clone()),
+            held,
+            open,
+            closed,
+            curves,
+            all_curves,
+            fault: subject.fault.clone(),
+            probe: None,
+            marks: Vec::new(),
+            nodes: None,
+            notes: Vec::new(),
+        };
+        panel.notes = self.notes(subject, &panel);
+        panel
+    }
+
+    fn half(&self, subject: &Subject<'_>, side: Side) -> Half {
+        let key = (subject.interaction.name.canonical().to_owned(), subject.kind);
+        let extents = self.extents.get(&key).copied().unwrap_or_default();
+        let column = match side {
+            Side::Open => "clearance",
+            Side::Closed => "pressure",
+        };
+        let keyword = match subject.kind {
+            // *CONTACT PERMEABILITY has a clearance in its cutoffs only.
+            LawKind::Permeability | LawKind::ViewFactor => LawKind::Thermal.keyword(),
+            kind => kind.keyword(),
+        };
+        let ends = match side {
+            Side::Open => extents.open.map(|end| (0.0, end)),
+            Side::Closed => extents.closed,
+        };
+        let (start, end) = ends.unwrap_or((0.0, 1.0));
+        Half {
+            quantity: self.request.units.quantity(self.grammar, keyword, column),
+            start,
+            end,
+            has_scale: ends.is_some(),
+            rows: subject.rows.side(side).map(super::rows::Rows::count),
+        }
+    }
+
+    fn branch(&self, subject: &Subject<'_>, side: usize, half: &Half, variables: &[f64]) -> Branch {
+        let of = &subject.sides[side];
+        let Some(law) = subject.law else { return Branch::default() };
+        let (knots, knot_count) = of.knots(of.group(variables));
+        let side = Side::BOTH[side];
+        let jumps: Vec<f64> = law.cutoff().filter(|_| side == Side::Open).into_iter().collect();
+        let abscissae = of.abscissae(variables, (half.start, half.end), &jumps, self.request.detail);
+        let samples = abscissae.into_iter().filter_map(|x| {
+            let value = law.value(side, x, variables)?;
+            Some(Sample { x, y: value.y, reach: value.reach })
+        });
+        Branch { knots, knot_count, samples: thinned(samples.collect()) }
+    }
+
+    fn notes(&self, subject: &Subject<'_>, panel: &Panel) -> Vec<String> {
+        let mut notes = Vec::new();
+        if panel.curves.len() < panel.all_curves {
+            notes.push(format!("{} of {} curves", panel.curves.len(), panel.all_curves));
+        }
+        for held in panel.held.iter().filter(|held| 1 < held.of) {
+            let (column, of) = (&held.quantity.column, held.of);
+            notes.push(format!("{column} = {} is one of {of} values: `--at {column}=…`", number(held.at)));
+        }
+        if subject.law.is_some_and(Law::needs_characteristic_length) {
+            notes.push("while open it has the value at pressure 0, up to the characteristic element length: `--char-length`".to_owned());
+        }
+        let branches = panel.curves.iter().flat_map(|curve| [&curve.open, &curve.closed]);
+        let unmarked: usize = branches.filter(|of| of.knots.is_empty()).map(|of| of.knot_count).sum();
+        if 0 < unmarked {
+            notes.push(format!("{unmarked} rows are not marked: too many to tell apart"));
+        }
+        if let Some(decades) = decades(panel).filter(|decades| 3.0 < *decades) {
+            notes.push(format!("values over {decades:.0} decades: `--log` tells them apart"));
+        }
+        notes
+    }
+}
+
+/// Over how many decades the values above zero go.
+fn decades(panel: &Panel) -> Option<f64> {
+    let values = panel.values().filter(|value| 0.0 < *value && value.is_finite());
+    let range = values.fold(None, |range: Option<(f64, f64)>, value| {
+        let (least, greatest) = range.unwrap_or((value, value));
+        Some((least.min(value), greatest.max(value)))
+    });
+    range.map(|(least, greatest)| greatest.log10() - least.log10())
+}
+
+/// The rows of a law that cannot be evaluated, group by group in the order of the deck.
+fn as_they_stand(subject: &Subject<'_>) -> (Vec<Curve>, usize) {
+    let mut curves = Vec::new();
+    let mut count = 0;
+    for (side, of) in Side::BOTH.into_iter().zip(&subject.sides) {
+        for group in of.groups() {
+            count += 1;
+            if MOST_CURVES <= curves.len() {
+                continue;
+            }
+            let Some(rows) = of.rows else { continue };
+            let (knots, knot_count) = of.knots(Some(group.clone()));
+            let points: Vec<Knot> = if knots.is_empty() {
+                let knot = |row: usize| Knot { x: rows.row(row)[1], y: rows.row(row)[0], row };
+                spread(&group.clone().collect::<Vec<_>>(), MOST_CURVES * 100).into_iter().map(knot).collect()
+            } else {
+                knots.clone()
+            };
+            let is_finite = |knot: &&Knot| knot.x.is_finite() && knot.y.is_finite();
+            let samples = points.iter().filter(is_finite).map(|knot| Sample { x: knot.x, y: knot.y, reach: Reach::Within });
+            let branch = Branch { knots, knot_count, samples: samples.collect() };
+            let at = rows.row(group.start).get(2).copied().filter(|_| 1 < of.groups().len());
+            curves.push(match side {
+                Side::Open => Curve { at, open: branch, closed: Branch::default() },
+                Side::Closed => Curve { at, open: Branch::default(), closed: branch },
+            });
+        }
+    }
+    (curves, count)
+}

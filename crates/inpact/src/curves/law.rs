@@ -1,0 +1,151 @@
+//! The laws that have curves, and their values at a point: what an evaluation of a node row would find there.
+
+use super::{Reach, Side};
+use inpact_evaluation::compile::{ElectricalSource, InterfaceLaws};
+use inpact_evaluation::law::conductance::{Conductance, ConductanceTables, ContactPoint};
+use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PorePressure};
+use inpact_evaluation::law::pore::{Gap, Permeability, PoreLaw, PorePoint};
+use inpact_evaluation::law::radiation::RadiationLaw;
+use inpact_evaluation::law::thermal::ThermalConductance;
+use inpact_evaluation::table::Sides;
+
+/// A law with a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LawKind {
+    /// Electrical conductance, *GAP ELECTRICAL CONDUCTANCE.
+    Electrical,
+    /// Thermal conductance, *GAP CONDUCTANCE.
+    Thermal,
+    /// The view factor of radiation, *GAP RADIATION.
+    ViewFactor,
+    /// Permeability to pore fluid, *CONTACT PERMEABILITY.
+    Permeability,
+}
+
+impl LawKind {
+    /// All of them, in the order in which they are drawn.
+    pub const ALL: [Self; 4] = [Self::Electrical, Self::Thermal, Self::ViewFactor, Self::Permeability];
+
+    /// What it is called in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Electrical => "electrical conductance",
+            Self::Thermal => "thermal conductance",
+            Self::ViewFactor => "view factor",
+            Self::Permeability => "permeability",
+        }
+    }
+
+    /// The keyword whose rows it is made of.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Electrical => "GAP ELECTRICAL CONDUCTANCE",
+            Self::Thermal => "GAP CONDUCTANCE",
+            Self::ViewFactor => "GAP RADIATION",
+            Self::Permeability => "CONTACT PERMEABILITY",
+        }
+    }
+}
+
+/// A law that can be evaluated.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Law<'a> {
+    Electrical(&'a ConductanceTables),
+    Thermal(&'a ThermalConductance),
+    ViewFactor(&'a RadiationLaw),
+    Permeability(&'a PoreLaw, Option<f64>),
+}
+
+/// A value of a law.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Value {
+    pub(super) y: f64,
+    pub(super) reach: Reach,
+}
+
+impl<'a> Law<'a> {
+    /// The law of that kind; `None` where the interaction has none of it that rows of the deck give.
+    pub(super) fn of(laws: &'a InterfaceLaws, kind: LawKind, characteristic_length: Option<f64>) -> Option<Self> {
+        match kind {
+            LawKind::Electrical => match laws.electrical.as_ref()? {
+                ElectricalSource::Tables(tables) => Some(Self::Electrical(tables)),
+                ElectricalSource::User(..) => None,
+            },
+            LawKind::Thermal => laws.thermal.as_ref().map(Self::Thermal),
+            LawKind::ViewFactor => laws.radiation.as_ref().map(Self::ViewFactor),
+            LawKind::Permeability => {
+                let law = laws.pore.as_ref().filter(|law| matches!(law.permeability, Permeability::Finite(_)))?;
+                Some(Self::Permeability(law, characteristic_length))
+            }
+        }
+    }
+
+    /// The clearance above which the law is switched off altogether, where it has one and it is known.
+    pub(super) fn cutoff(self) -> Option<f64> {
+        match self {
+            Self::Permeability(law, length) => law.cutoffs.flow_across.or(length),
+            _ => None,
+        }
+    }
+
+    /// Whether the law has values while open that the rows against pressure do not tell of.
+    pub(super) fn needs_characteristic_length(self) -> bool {
+        matches!(self, Self::Permeability(..)) && self.cutoff().is_none()
+    }
+
+    /// The value at clearance or contact pressure `x`; `variables` are those of the rows behind the first.
+    ///
+    /// `None` where the law has none, as beyond a cutoff that is not known.
+    pub(super) fn value(self, side: Side, x: f64, variables: &[f64]) -> Option<Value> {
+        let (state, clearance, pressure) = match side {
+            Side::Open => (ContactState::Open, x, 0.0),
+            Side::Closed => (ContactState::Closed, 0.0, x),
+        };
+        let (clearance, pressure) = (Clearance(clearance), ContactPressure(pressure));
+        let point = ContactPoint { clearance, pressure, state, variables };
+        let found = match self {
+            Self::Electrical(tables) => Value::of(side, tables.conductance(&point)),
+            Self::Thermal(thermal) => Value::of(side, thermal.conductance(&point)),
+            Self::ViewFactor(law) => {
+                let (y, sides) = law.view_factor(clearance, state);
+                let has_rows = side == Side::Open;
+                Value { y, reach: if has_rows { reach(sides) } else { Reach::Continued } }
+            }
+            Self::Permeability(law, characteristic_length) => {
+                let nothing = PorePressure(0.0);
+                let flow = law.flow(&PorePoint {
+                    clearance,
+                    pressure,
+                    state,
+                    slave: nothing,
+                    master: nothing,
+                    jump: None,
+                    variables,
+                    characteristic_length,
+                    bulk: None,
+                    gap: Gap::Steady,
+                    multiplier: None,
+                });
+                let has_rows = side == Side::Closed;
+                Value { y: flow.permeability?, reach: if has_rows { reach(flow.sides) } else { Reach::Continued } }
+            }
+        };
+        found.y.is_finite().then_some(found)
+    }
+}
+
+impl Value {
+    fn of(side: Side, found: Conductance) -> Self {
+        use inpact_evaluation::law::conductance::Branch;
+        let has_rows = match side {
+            Side::Open => found.branch == Branch::Clearance,
+            Side::Closed => found.branch == Branch::Pressure,
+        };
+        Self { y: found.value, reach: if has_rows { reach(found.sides) } else { Reach::Continued } }
+    }
+}
+
+/// Only along the axis of the curve a value is continued; of the others it is said where they are held.
+fn reach(sides: Sides) -> Reach {
+    if sides.is_below(0) || sides.is_above(0) { Reach::Continued } else { Reach::Within }
+}

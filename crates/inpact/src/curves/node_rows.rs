@@ -1,0 +1,41 @@
+//! Rows of a node table on the curves of a law: where the nodes are, and how many of them are where no row of the table says a value.
+
+use super::Side;
+
+/// The rows of a node table that a law of an interaction governs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NodeRows {
+    /// How many there are, while open and while closed.
+    pub count: [u64; 2],
+    /// How many of them are beyond the rows of the table along any variable, while open and while closed.
+    pub beyond: [u64; 2],
+    /// Some of them, evenly spread.
+    pub sample: Vec<NodeSample>,
+}
+
+/// A row of a node table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NodeSample {
+    /// On which side of contact.
+    pub side: Side,
+    /// Clearance or contact pressure.
+    pub x: f64,
+    /// The law's value there, at the row's own temperature and field variables.
+    pub y: f64,
+}
+
+impl NodeRows {
+    /// How many rows there are on both sides.
+    pub fn total(&self) -> u64 {
+        self.count[0] + self.count[1]
+    }
+
+    /// In one line: `256 rows: 224 closed, 32 open; 36 beyond the table (14.1 %)`.
+    pub fn summary(&self) -> String {
+        let (open, closed) = (self.count[0], self.count[1]);
+        let beyond = self.beyond[0] + self.beyond[1];
+        let rows = if self.total() == 1 { "row" } else { "rows" };
+        let share = 100.0 * beyond as f64 / self.total().max(1) as f64;
+        format!("{} {rows}: {closed} closed, {open} open; {beyond} beyond the table ({share:.1} %)", self.total())
+    }
+}

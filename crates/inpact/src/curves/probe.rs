@@ -1,0 +1,123 @@
+//! Values of a law at stops of its temperature and field variables, found beforehand: what a page without the law itself can show by sliders.
+
+use super::law::Law;
+use super::sample::{Side as SideRows, spread};
+use super::{Detail, Half, Quantity, Side};
+
+/// The values of a law at all combinations of stops.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Probe {
+    /// The variables that can be moved, the first slowest.
+    pub axes: Vec<ProbeAxis>,
+    /// While open, and while closed.
+    pub branches: [ProbeBranch; 2],
+}
+
+/// A variable with its stops.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProbeAxis {
+    /// Which one.
+    pub quantity: Quantity,
+    /// Its values, ascending.
+    pub stops: Vec<f64>,
+}
+
+/// The values on one side of contact.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ProbeBranch {
+    /// Clearances or contact pressures, ascending.
+    pub abscissae: Vec<f64>,
+    /// For each combination of stops, the last variable running fastest, a value an abscissa; `None` where the law has none.
+    pub values: Vec<Option<f64>>,
+}
+
+/// How many values a law may have in a page.
+const MOST_VALUES: usize = 4000;
+
+/// How many abscissae each side has.
+const MOST_ABSCISSAE: usize = 40;
+
+/// Into how many parts the range between two values of a variable is divided.
+const PARTS: [usize; 3] = [4, 2, 1];
+
+/// The law at the stops of `movable` variables, which are given by their place among all `variables`; `None` where nothing can be moved.
+pub(super) fn probe(
+    law: Law<'_>,
+    sides: &[SideRows<'_>; 2],
+    halves: &[Half; 2],
+    variables: &[f64],
+    movable: &[(usize, &Quantity, &[f64])],
+) -> Option<Probe> {
+    if movable.is_empty() {
+        return None;
+    }
+    let most_stops = MOST_VALUES / (2 * MOST_ABSCISSAE);
+    let axes = axes(movable, most_stops);
+    let stops: usize = axes.iter().map(|axis| axis.stops.len()).product();
+    let abscissae = [0, 1].map(|side| {
+        let mut all = Vec::new();
+        for stop in 0..stops {
+            let variables = at_stop(variables, movable, &axes, stop);
+            all.extend(sides[side].abscissae(
+                &variables,
+                (halves[side].start, halves[side].end),
+                &law.cutoff().filter(|_| side == 0).into_iter().collect::<Vec<_>>(),
+                Detail::Rows,
+            ));
+        }
+        all.sort_unstable_by(f64::total_cmp);
+        all.dedup();
+        spread(&all, MOST_ABSCISSAE)
+    });
+    let branches = [0, 1].map(|side| {
+        let values = (0..stops).flat_map(|stop| {
+            let variables = at_stop(variables, movable, &axes, stop);
+            abscissae[side].iter().map(move |x| law.value(Side::BOTH[side], *x, &variables).map(|value| value.y)).collect::<Vec<_>>()
+        });
+        ProbeBranch { values: values.collect(), abscissae: abscissae[side].clone() }
+    });
+    Some(Probe { axes, branches })
+}
+
+/// Stops at the values of the rows and between them, as many as fit; variables beyond the first few stay where they are.
+fn axes(movable: &[(usize, &Quantity, &[f64])], most: usize) -> Vec<ProbeAxis> {
+    for parts in PARTS {
+        let axes: Vec<ProbeAxis> = movable.iter().map(|(_, quantity, values)| axis(quantity, values, parts)).collect();
+        if axes.iter().map(|axis| axis.stops.len()).product::<usize>() <= most {
+            return axes;
+        }
+    }
+    let mut left = most;
+    let axes = movable.iter().map(|(_, quantity, values)| {
+        let fitting = spread(values, left.min(9).max(1));
+        let stops = if fitting.len() <= left { fitting } else { values[..1].to_vec() };
+        left = (left / stops.len()).max(1);
+        ProbeAxis { quantity: (*quantity).clone(), stops }
+    });
+    axes.collect()
+}
+
+fn axis(quantity: &Quantity, values: &[f64], parts: usize) -> ProbeAxis {
+    let mut stops = Vec::new();
+    for pair in values.windows(2) {
+        stops.push(pair[0]);
+        let part = |part: usize| pair[0] + (pair[1] - pair[0]) * (part as f64 / parts as f64);
+        stops.extend((1..parts).map(part).filter(|stop| pair[0] < *stop && *stop < pair[1]));
+    }
+    stops.extend(values.last());
+    ProbeAxis { quantity: quantity.clone(), stops }
+}
+
+fn at_stop(
+    variables: &[f64],
+    movable: &[(usize, &Quantity, &[f64])],
+    axes: &[ProbeAxis],
+    mut stop: usize,
+) -> Vec<f64> {
+    let mut at = variables.to_vec();
+    for ((index, ..), axis) in movable.iter().zip(axes).rev() {
+        at[*index] = axis.stops[stop % axis.stops.len()];
+        stop /= axis.stops.len();
+    }
+    at
+}

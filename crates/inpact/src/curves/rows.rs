@@ -1,0 +1,144 @@
+//! The rows of a law's tables, as the deck has them.
+
+use super::{LawKind, Side};
+use inpact_parser::model::{Interaction, Model, Table, TableKind};
+use inpact_parser::span::Span;
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// The rows of one table: the value, then the abscissa, then the other variables.
+#[derive(Debug, Clone)]
+pub(super) struct Rows<'a> {
+    pub(super) columns: Vec<String>,
+    pub(super) cells: Cow<'a, [f64]>,
+    /// Where each row stands, as far as that is known.
+    pub(super) spans: &'a [Span],
+}
+
+/// The tables of one law, one a side of contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LawRows<'a> {
+    pub(super) open: Option<Rows<'a>>,
+    pub(super) closed: Option<Rows<'a>>,
+}
+
+impl<'a> LawRows<'a> {
+    /// The tables of a law; of two of one kind the later governs.
+    pub(super) fn of(model: &'a Model, interaction: &'a Interaction, kind: LawKind) -> Self {
+        let tables = interaction.tables();
+        let last = |wanted: TableKind| tables.iter().rfind(|of| of.kind == wanted).map(|of| Rows::of_table(of.table));
+        match kind {
+            LawKind::Electrical => Self {
+                open: last(TableKind::ElectricalClearance),
+                closed: last(TableKind::ElectricalPressure),
+            },
+            LawKind::Thermal => {
+                Self { open: last(TableKind::ThermalClearance), closed: last(TableKind::ThermalPressure) }
+            }
+            LawKind::Permeability => Self { open: None, closed: last(TableKind::Permeability) },
+            LawKind::ViewFactor => Self { open: view_factors(model, interaction), closed: None },
+        }
+    }
+
+    pub(super) fn side(&self, side: Side) -> Option<&Rows<'a>> {
+        match side {
+            Side::Open => self.open.as_ref(),
+            Side::Closed => self.closed.as_ref(),
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.open.is_none() && self.closed.is_none()
+    }
+
+    /// The names of the variables behind the abscissa: those of the table that has more of them, which begin alike.
+    pub(super) fn variables(&self) -> &[String] {
+        let of = |rows: &'_ Option<Rows<'a>>| rows.as_ref().map_or(0, |rows| rows.columns.len());
+        let longer = if of(&self.open) < of(&self.closed) { &self.closed } else { &self.open };
+        longer.as_ref().and_then(|rows| rows.columns.get(2..)).unwrap_or(&[])
+    }
+
+    /// The values of a variable in both tables, ascending, each once; NaN is none.
+    pub(super) fn distinct(&self, variable: &str) -> Vec<f64> {
+        let mut values: Vec<f64> =
+            [&self.open, &self.closed].into_iter().flatten().flat_map(|rows| rows.distinct(variable)).collect();
+        sort_and_dedup(&mut values);
+        values
+    }
+}
+
+/// The rows of *GAP RADIATION behind the emissivities (2.6).
+fn view_factors<'a>(model: &Model, interaction: &'a Interaction) -> Option<Rows<'a>> {
+    let option = interaction.other.iter().rfind(|option| option.keyword == LawKind::ViewFactor.keyword())?;
+    let rows = option.numbers(&model.parameters);
+    // An item that is not there is zero (S-32).
+    let item = |row: &[f64], column: usize| row.get(column).copied().unwrap_or(0.0);
+    let cells: Vec<f64> = rows.iter().skip(1).flat_map(|row| [item(row, 0), item(row, 1)]).collect();
+    let columns = ["view_factor", "clearance"].map(str::to_owned).to_vec();
+    Some(Rows { columns, cells: cells.into(), spans: &[] })
+}
+
+impl<'a> Rows<'a> {
+    fn of_table(table: &'a Table) -> Self {
+        Self { columns: table.columns.to_vec(), cells: (&table.values).into(), spans: &table.rows }
+    }
+
+    pub(super) fn width(&self) -> usize {
+        self.columns.len().max(1)
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.cells.len() / self.width()
+    }
+
+    pub(super) fn row(&self, index: usize) -> &[f64] {
+        &self.cells[index * self.width()..(index + 1) * self.width()]
+    }
+
+    fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column == name)
+    }
+
+    /// The values of a column, ascending, each once.
+    fn distinct(&self, name: &str) -> Vec<f64> {
+        let Some(column) = self.column(name) else { return Vec::new() };
+        let mut values = Vec::new();
+        for row in 0..self.count() {
+            let value = self.row(row)[column];
+            // Most rows have the value of the row before.
+            if values.last() != Some(&value) {
+                values.push(value);
+            }
+        }
+        sort_and_dedup(&mut values);
+        values
+    }
+
+    /// The smallest and the largest finite abscissa.
+    pub(super) fn range(&self) -> Option<(f64, f64)> {
+        let abscissae = (0..self.count()).filter_map(|row| self.row(row).get(1)).filter(|x| x.is_finite());
+        abscissae.fold(None, |range, &x| {
+            let (least, greatest) = range.unwrap_or((x, x));
+            Some((if x < least { x } else { least }, if greatest < x { x } else { greatest }))
+        })
+    }
+
+    /// The ranges of rows that agree in all variables behind the abscissa.
+    pub(super) fn groups(&self) -> Vec<Range<usize>> {
+        let outer = |row: usize| self.row(row).get(2..).unwrap_or(&[]);
+        let mut groups: Vec<Range<usize>> = Vec::new();
+        for row in 0..self.count() {
+            match groups.last_mut() {
+                Some(group) if outer(group.start) == outer(row) => group.end = row + 1,
+                _ => groups.push(row..row + 1),
+            }
+        }
+        groups
+    }
+}
+
+fn sort_and_dedup(values: &mut Vec<f64>) {
+    values.retain(|value| !value.is_nan());
+    values.sort_unstable_by(f64::total_cmp);
+    values.dedup();
+}

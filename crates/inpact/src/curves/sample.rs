@@ -1,0 +1,195 @@
+//! Where a curve is evaluated, and how many of its values are kept.
+//!
+//! On linear axes a curve is straight between the abscissae of its rows, so that these would do; logarithmic axes, and readers who point at a curve, want more of them.
+
+use super::build::Detail;
+use super::rows::Rows;
+use super::{Knot, Sample};
+use std::ops::Range;
+
+/// Values of one branch that are kept: about two for each pixel of a wide picture.
+const MOST_SAMPLES: usize = 1600;
+
+/// Rows of one branch that are marked; more of them would be a band.
+const MOST_KNOTS: usize = 300;
+
+/// Abscissae that are taken of rows between whose groups a curve lies.
+const MOST_OF_ALL_ROWS: usize = 4000;
+
+/// Groups of rows whose end is looked at on both sides, as the value may drop there.
+const MOST_ENDS: usize = 64;
+
+/// The rows of one side of contact, with what all its curves need of them.
+#[derive(Debug)]
+pub(super) struct Side<'a> {
+    pub(super) rows: Option<&'a Rows<'a>>,
+    groups: Vec<Range<usize>>,
+    /// The abscissae of all rows, ascending, each once; too many are thinned out.
+    all: Vec<f64>,
+}
+
+impl<'a> Side<'a> {
+    pub(super) fn of(rows: Option<&'a Rows<'a>>) -> Self {
+        let Some(of) = rows.filter(|rows| 1 < rows.width()) else {
+            return Self { rows: None, groups: Vec::new(), all: Vec::new() };
+        };
+        let groups = of.groups();
+        let mut all: Vec<f64> = Vec::new();
+        if 1 < groups.len() {
+            all = (0..of.count()).map(|row| of.row(row)[1]).filter(|x| x.is_finite()).collect();
+            all.sort_unstable_by(f64::total_cmp);
+            all.dedup();
+            all = spread(&all, MOST_OF_ALL_ROWS);
+        }
+        Self { rows, groups, all }
+    }
+
+    /// The rows that lie on the curve at these values of the other variables.
+    pub(super) fn group(&self, variables: &[f64]) -> Option<Range<usize>> {
+        let rows = self.rows?;
+        // A table has fewer columns than the law has variables where the other table has more.
+        let is_meant = |group: &&Range<usize>| {
+            let outer = rows.row(group.start).get(2..).unwrap_or(&[]);
+            outer.iter().zip(variables).all(|(of_row, variable)| of_row == variable)
+        };
+        self.groups.iter().find(is_meant).cloned()
+    }
+
+    pub(super) fn groups(&self) -> &[Range<usize>] {
+        &self.groups
+    }
+
+    /// The rows of a group as marks, and how many there are.
+    pub(super) fn knots(&self, group: Option<Range<usize>>) -> (Vec<Knot>, usize) {
+        let (Some(rows), Some(group)) = (self.rows, group) else { return (Vec::new(), 0) };
+        let count = group.len();
+        if MOST_KNOTS < count {
+            return (Vec::new(), count);
+        }
+        let knot = |row: usize| Knot { x: rows.row(row)[1], y: rows.row(row)[0], row };
+        (group.map(knot).filter(|knot| knot.x.is_finite() && knot.y.is_finite()).collect(), count)
+    }
+
+    /// The abscissae at which the curve at these values of the other variables is evaluated, ascending, each once.
+    pub(super) fn abscissae(&self, variables: &[f64], ends: (f64, f64), jumps: &[f64], detail: Detail) -> Vec<f64> {
+        let mut abscissae = vec![ends.0, ends.1, 0.0];
+        for jump in jumps {
+            abscissae.extend([*jump, jump.next_up(), jump.next_down()]);
+        }
+        if let Some(rows) = self.rows {
+            let last = |group: &Range<usize>| rows.row(group.end - 1)[1];
+            if let Some(group) = self.group(variables) {
+                abscissae.push(last(&group).next_up());
+                abscissae.extend(group.map(|row| rows.row(row)[1]));
+            } else {
+                abscissae.extend(self.groups.iter().take(MOST_ENDS).map(|group| last(group).next_up()));
+                abscissae.extend(&self.all);
+            }
+        }
+        abscissae.retain(|x| x.is_finite() && ends.0 <= *x && *x <= ends.1);
+        sort_and_dedup(&mut abscissae);
+        detail.refine(&mut abscissae);
+        abscissae
+    }
+}
+
+impl Detail {
+    /// Adds abscissae between those that are needed.
+    fn refine(self, abscissae: &mut Vec<f64>) {
+        let wanted = match self {
+            Self::Rows => return,
+            Self::Even(wanted) | Self::Geometric(wanted) => wanted,
+        };
+        let segments = abscissae.len().saturating_sub(1).max(1);
+        let pieces = wanted.div_ceil(segments);
+        if pieces < 2 {
+            return;
+        }
+        let mut more = Vec::new();
+        for pair in abscissae.windows(2) {
+            let (x0, x1) = (pair[0], pair[1]);
+            let is_geometric = matches!(self, Self::Geometric(_)) && 0.0 < x1;
+            // A curve that begins at zero has no logarithm there.
+            let first = if 0.0 < x0 { x0 } else { x1 * 1e-6 };
+            for piece in 1..pieces {
+                let part = piece as f64 / pieces as f64;
+                more.push(if is_geometric { first * (x1 / first).powf(part) } else { x0 + part * (x1 - x0) });
+            }
+        }
+        more.retain(|x| x.is_finite() && abscissae[0] < *x && *x < abscissae[abscissae.len() - 1]);
+        abscissae.extend(more);
+        sort_and_dedup(abscissae);
+    }
+}
+
+/// Ascending, each once. Zero is +0.
+fn sort_and_dedup(values: &mut Vec<f64>) {
+    values.iter_mut().for_each(|value| *value += 0.0);
+    values.sort_unstable_by(f64::total_cmp);
+    values.dedup();
+}
+
+/// At most so many of some values, evenly spread, the first and the last among them.
+pub(super) fn spread<T: Clone>(values: &[T], most: usize) -> Vec<T> {
+    if values.len() <= most || most < 2 {
+        return values.to_vec();
+    }
+    (0..most).map(|index| values[index * (values.len() - 1) / (most - 1)].clone()).collect()
+}
+
+/// Leaves out samples that nobody could see: of each stretch the first, the last, the smallest and the largest stay.
+pub(super) fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
+    if samples.len() <= MOST_SAMPLES {
+        return samples;
+    }
+    let stretch = samples.len().div_ceil(MOST_SAMPLES / 4);
+    let mut kept = Vec::new();
+    for part in samples.chunks(stretch) {
+        let by_value = |a: &usize, b: &usize| part[*a].y.total_cmp(&part[*b].y);
+        let least = (0..part.len()).min_by(by_value).unwrap_or(0);
+        let greatest = (0..part.len()).max_by(by_value).unwrap_or(0);
+        let mut indices = vec![0, least, greatest, part.len() - 1];
+        indices.sort_unstable();
+        indices.dedup();
+        kept.extend(indices.into_iter().map(|index| part[index]));
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Reach;
+    use super::*;
+
+    #[test]
+    fn a_spike_among_a_million_samples_stays() {
+        let sample = |index: i32| Sample {
+            x: f64::from(index),
+            y: if index == 654_321 { 7.0 } else { 1.0 },
+            reach: Reach::Within,
+        };
+        let kept = thinned((0..1_000_000).map(sample).collect());
+        assert!(kept.len() <= MOST_SAMPLES);
+        assert!(kept.iter().any(|sample| sample.y == 7.0));
+        assert!(kept.windows(2).all(|pair| pair[0].x < pair[1].x));
+        assert_eq!(kept.last().map(|sample| sample.x), Some(999_999.0));
+    }
+
+    #[test]
+    fn refined_abscissae_ascend_and_keep_those_of_the_rows() {
+        for detail in [Detail::Even(50), Detail::Geometric(50)] {
+            let rows = [0.0, 1e-6, 3.0];
+            let mut abscissae = rows.to_vec();
+            detail.refine(&mut abscissae);
+            assert!(50 <= abscissae.len());
+            assert!(abscissae.windows(2).all(|pair| pair[0] < pair[1]));
+            assert!(rows.iter().all(|row| abscissae.contains(row)));
+        }
+    }
+
+    #[test]
+    fn few_values_are_spread_over_many() {
+        assert_eq!(spread(&[1, 2, 3, 4, 5, 6, 7, 8, 9], 3), [1, 5, 9]);
+        assert_eq!(spread(&[1, 2], 3), [1, 2]);
+    }
+}
