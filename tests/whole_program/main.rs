@@ -25,6 +25,7 @@ mod json;
 mod nodes;
 mod nodes_results;
 mod plan;
+mod plot;
 mod program;
 mod solve;
 mod solve_ccx;

@@ -6,12 +6,12 @@
 mod axis;
 mod colours;
 pub(crate) mod panel;
-pub(crate) mod scale;
-pub(crate) mod sheet;
-pub(crate) mod terminal;
 #[cfg(feature = "png")]
 pub(crate) mod png;
+pub(crate) mod scale;
+pub(crate) mod sheet;
 mod svg;
+pub(crate) mod terminal;
 
 use axis::Axis;
 
@@ -44,6 +44,12 @@ pub(crate) struct Point {
     pub(crate) label: String,
     /// Whether it is joined to the others of which that is true.
     pub(crate) on_front: bool,
+}
+
+/// A count from a length: rounded, not below zero.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "rounded on purpose; `as` saturates")]
+fn whole(length: f64) -> usize {
+    length.round() as usize
 }
 
 /// The size of the drawing, in pixels.

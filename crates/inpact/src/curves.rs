@@ -86,6 +86,8 @@ pub struct Held {
     pub at: f64,
     /// How many values the rows have of it.
     pub of: usize,
+    /// How many of these no panel shows.
+    pub left_out: usize,
 }
 
 /// One side of contact.
@@ -188,6 +190,16 @@ impl Panel {
     pub fn title(&self) -> String {
         let held = self.held.iter().map(|held| format!(", {} = {}", held.quantity.column, number(held.at)));
         format!("{}: {}{}", self.interaction, self.law.name(), held.collect::<String>())
+    }
+
+    /// Over how many decades the values above zero go; `None` without any.
+    pub fn decades(&self) -> Option<f64> {
+        let values = self.values().filter(|value| 0.0 < *value && value.is_finite());
+        let range = values.fold(None, |range: Option<(f64, f64)>, value| {
+            let (least, greatest) = range.unwrap_or((value, value));
+            Some((least.min(value), greatest.max(value)))
+        });
+        range.map(|(least, greatest)| greatest.log10() - least.log10())
     }
 
     /// All values that are shown, those of continuations and of nodes included.

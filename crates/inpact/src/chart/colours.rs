@@ -22,9 +22,9 @@ pub(crate) fn of_curve(index: usize, count: usize) -> String {
 /// The colour at a part of the ramp.
 pub(crate) fn of_part(part: f64) -> String {
     let place = part.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
-    let index = (place.floor() as usize).min(RAMP.len() - 2);
+    let index = super::whole(place.floor()).min(RAMP.len() - 2);
     let (from, to, share) = (RAMP[index], RAMP[index + 1], place - index as f64);
-    let mix = |from: f64, to: f64| (from + share * (to - from)).round() as u8;
+    let mix = |from: f64, to: f64| super::whole(from + share * (to - from));
     format!("#{:02x}{:02x}{:02x}", mix(from.0, to.0), mix(from.1, to.1), mix(from.2, to.2))
 }
 

@@ -3,8 +3,10 @@
 use super::colours;
 use super::scale::{Scale, ScaleKind};
 use super::svg::Drawing;
+use super::whole;
 use crate::curves::{Panel, Reach, Sample, Side, number};
 use inpact_diagnostics::Severity;
+use inpact_diagnostics::visible::visible_line;
 use std::collections::BTreeSet;
 
 /// Which axes are logarithmic.
@@ -36,7 +38,7 @@ const BARS: usize = 40;
 const BAR: f64 = 26.0;
 
 /// A panel with its axes in place.
-pub(crate) struct Plot<'a> {
+pub(super) struct Plot<'a> {
     panel: &'a Panel,
     /// Where its left upper corner is.
     corner: (f64, f64),
@@ -55,7 +57,7 @@ struct HalfPlot {
 
 impl<'a> Plot<'a> {
     /// A panel with its left upper corner at a place; `values` are those that its axis shall hold.
-    pub(crate) fn new(panel: &'a Panel, corner: (f64, f64), scales: Scales, values: &[f64]) -> Self {
+    pub(super) fn new(panel: &'a Panel, corner: (f64, f64), scales: Scales, values: &[f64]) -> Self {
         let middle = contact(panel);
         let half = |side: Side| {
             let of = panel.half(side);
@@ -92,7 +94,7 @@ impl<'a> Plot<'a> {
         (self.corner.0 + x, self.corner.1 + y)
     }
 
-    pub(crate) fn draw(&self, drawing: &mut Drawing) {
+    pub(super) fn draw(&self, drawing: &mut Drawing) {
         self.draw_titles(drawing);
         self.draw_axes(drawing);
         self.draw_nodes(drawing);
@@ -106,7 +108,7 @@ impl<'a> Plot<'a> {
     }
 
     fn draw_titles(&self, drawing: &mut Drawing) {
-        let title = shortened(&self.panel.title(), 68);
+        let title = shortened(&visible_line(&self.panel.title()), 68);
         drawing.text(self.at(LEFT - 70.0, 26.0), &title, "panel-title", "start");
     }
 
@@ -124,7 +126,7 @@ impl<'a> Plot<'a> {
         let middle = self.half(Side::Open).from;
         drawing.line(self.at(middle, TOP - 8.0), self.at(middle, BOTTOM), "contact");
         drawing.text(self.at(middle, TOP - 13.0), "contact", "tick", "middle");
-        let title = shortened(&self.panel.value.title(), 46);
+        let title = shortened(&visible_line(&self.panel.value.title()), 46);
         drawing.upright_text(self.at(18.0, f64::midpoint(TOP, BOTTOM)), &title, "axis-title");
     }
 
@@ -133,7 +135,7 @@ impl<'a> Plot<'a> {
         let of = self.panel.half(side);
         let width = (half.to - half.from).abs();
         if of.has_scale {
-            let ticks = half.scale.ticks((width / 62.0) as usize);
+            let ticks = half.scale.ticks(whole((width / 62.0).floor()));
             let mut before = f64::INFINITY;
             for (tick, label) in ticks {
                 let x = self.across(side, tick) - self.corner.0;
@@ -141,7 +143,7 @@ impl<'a> Plot<'a> {
                 drawing.line(self.at(x, BOTTOM), self.at(x, BOTTOM + 5.0), "tick-line");
                 // At contact both sides have the same zero: one label is enough, and that of the right side stands.
                 let is_crowded = (x - before).abs() < 7.5 * label.chars().count() as f64 + 6.0;
-                if is_crowded || (is_at_contact && side == Side::Open) {
+                if is_crowded || (is_at_contact && side == Side::Open && self.panel.closed.has_scale) {
                     continue;
                 }
                 if !is_at_contact {
@@ -152,8 +154,13 @@ impl<'a> Plot<'a> {
             }
         }
         let title = if of.has_scale { of.quantity.title() } else { side_words(side).to_owned() };
-        let most = (width / 7.2) as usize;
-        drawing.text(self.at(f64::midpoint(half.from, half.to), BOTTOM + 39.0), &shortened(&title, most), "axis-title", "middle");
+        let most = whole((width / 7.2).floor());
+        drawing.text(
+            self.at(f64::midpoint(half.from, half.to), BOTTOM + 39.0),
+            &shortened(&visible_line(&title), most),
+            "axis-title",
+            "middle",
+        );
     }
 
     fn draw_curve(&self, drawing: &mut Drawing, index: usize, colour: &str) {
@@ -161,7 +168,8 @@ impl<'a> Plot<'a> {
         for side in Side::BOTH {
             let branch = curve.branch(side);
             for (points, reach) in pieces(&branch.samples) {
-                let points: Vec<(f64, f64)> = points.iter().map(|sample| self.place(side, sample.x, sample.y)).collect();
+                let points: Vec<(f64, f64)> =
+                    points.iter().map(|sample| self.place(side, sample.x, sample.y)).collect();
                 let dashes = if reach == Reach::Continued { r#" stroke-dasharray="5 4""# } else { "" };
                 let look = format!(r#"fill="none" stroke="{colour}" stroke-width="2" stroke-linejoin="round"{dashes}"#);
                 drawing.polyline(&points, &look);
@@ -189,7 +197,7 @@ impl<'a> Plot<'a> {
         for side in Side::BOTH {
             let half = self.half(side);
             let width = (half.to - half.from).abs();
-            let bars = ((BARS as f64 * width / (RIGHT - LEFT)).round() as usize).max(1);
+            let bars = whole(BARS as f64 * width / (RIGHT - LEFT)).max(1);
             let parts = nodes.sample.iter().filter(|node| node.side == side).map(|node| half.scale.part(node.x));
             for (bar, height) in histogram(parts, bars) {
                 let x = half.from + (bar as f64 + 0.5) / bars as f64 * (half.to - half.from);
@@ -197,7 +205,7 @@ impl<'a> Plot<'a> {
                 drawing.bar(self.at(x - 0.4 * width / bars as f64, y), (0.8 * width / bars as f64, height * BAR));
             }
         }
-        let bars = (BARS as f64 * (BOTTOM - TOP) / (RIGHT - LEFT)).round() as usize;
+        let bars = whole(BARS as f64 * (BOTTOM - TOP) / (RIGHT - LEFT));
         for (bar, height) in histogram(nodes.sample.iter().map(|node| self.y.part(node.y)), bars) {
             let step = (BOTTOM - TOP) / bars as f64;
             let y = BOTTOM - (bar as f64 + 0.9) * step;
@@ -218,7 +226,7 @@ impl<'a> Plot<'a> {
                 Severity::Note => "remark",
             };
             let words = format!("{} {}: line {}: {}", mark.severity, mark.code, mark.line, mark.message);
-            drawing.ring((x, y), look, &words);
+            drawing.ring((x, y), look, &visible_line(&words));
             // Several findings at one row stand one above another.
             let mut label = (x, y - 14.0);
             while taken.iter().any(|other| (other.0 - label.0).abs() < 36.0 && (other.1 - label.1).abs() < 13.0) {
@@ -237,7 +245,7 @@ impl<'a> Plot<'a> {
         };
         let right = RIGHT + 12.0 + if self.panel.nodes.is_some() { BAR } else { 0.0 };
         let mut y = TOP + 4.0;
-        for line in wrapped(&family.title(), 15) {
+        for line in wrapped(&visible_line(&family.title()), 15) {
             drawing.text(self.at(right, y), &line, "tick", "start");
             y += 16.0;
         }
@@ -269,14 +277,22 @@ impl<'a> Plot<'a> {
 
     /// What the panel has to say, in two lines below the axes.
     fn draw_footnotes(&self, drawing: &mut Drawing) {
-        let fault = self.panel.fault.iter().map(|fault| format!("not evaluated, the rows as they stand: {fault}"));
-        let nodes = self.panel.nodes.iter().map(|nodes| format!("node table: {}", nodes.summary()));
-        let notes: Vec<String> = fault.chain(nodes).chain(self.panel.notes.iter().cloned()).collect();
+        let is_linear = matches!(self.y, Scale::Linear { .. });
+        let notes = remarks(self.panel, if is_linear { ScaleKind::Linear } else { ScaleKind::Logarithmic });
         let look = if self.panel.fault.is_some() { "error-note" } else { "note" };
-        for (line, text) in wrapped(&notes.join("; "), 92).into_iter().take(2).enumerate() {
-            drawing.text(self.at(LEFT - 70.0, BOTTOM + 59.0 + 16.0 * line as f64), &text, look, "start");
+        for (line, text) in wrapped(&visible_line(&notes.join("; ")), 92).into_iter().take(2).enumerate() {
+            drawing.text(self.at(LEFT - 70.0, BOTTOM + 61.0 + 16.0 * line as f64), &text, look, "start");
         }
     }
+}
+
+/// What there is to say of a panel: why it is not evaluated, where its nodes are, what is not drawn.
+pub(super) fn remarks(panel: &Panel, kind: ScaleKind) -> Vec<String> {
+    let fault = panel.fault.iter().map(|fault| format!("not evaluated, the rows as they stand: {fault}"));
+    let nodes = panel.nodes.iter().map(|nodes| format!("node table: {}", nodes.summary()));
+    let decades = panel.decades().filter(|decades| 3.0 < *decades && kind == ScaleKind::Linear);
+    let decades = decades.map(|decades| format!("values over {decades:.0} decades: `--log` tells them apart"));
+    fault.chain(nodes).chain(panel.notes.iter().cloned()).chain(decades).collect()
 }
 
 /// What a side without a scale is called.
@@ -332,11 +348,16 @@ fn pieces(samples: &[Sample]) -> Vec<(&[Sample], Reach)> {
 fn histogram(parts: impl Iterator<Item = f64>, bars: usize) -> Vec<(usize, f64)> {
     let mut counts = vec![0_u32; bars];
     for part in parts.filter(|part| part.is_finite()) {
-        let bar = (part.clamp(0.0, 1.0) * bars as f64) as usize;
+        let bar = whole((part.clamp(0.0, 1.0) * bars as f64).floor());
         counts[bar.min(bars - 1)] += 1;
     }
     let most = counts.iter().copied().max().unwrap_or(0).max(1);
-    counts.iter().enumerate().filter(|(_, count)| 0 < **count).map(|(bar, count)| (bar, f64::from(*count) / f64::from(most))).collect()
+    counts
+        .iter()
+        .enumerate()
+        .filter(|(_, count)| 0 < **count)
+        .map(|(bar, count)| (bar, f64::from(*count) / f64::from(most)))
+        .collect()
 }
 
 /// A text of so many characters at most, its end replaced by `…`.

@@ -128,6 +128,7 @@ impl Scale {
 }
 
 /// The exponent of two of a magnitude.
+#[expect(clippy::cast_possible_truncation, reason = "logarithms of f64 are below 2000")]
 fn power_of(magnitude: f64) -> i32 {
     if magnitude == 0.0 { 0 } else { (magnitude.log2().floor() as i32).clamp(-1074, 1023) }
 }
@@ -139,6 +140,10 @@ fn scaled(number: f64, power: i32) -> f64 {
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten; each is the number that its decimal digits mean.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "logarithms of f64 are below 400, and multiples below 1e300 are refused by their count"
+)]
 fn linear_ticks(least: f64, greatest: f64, most: usize) -> Vec<f64> {
     let span = greatest / 2.0 - least / 2.0;
     let rough = span / most.max(1) as f64 * 2.0;
@@ -160,7 +165,10 @@ fn linear_ticks(least: f64, greatest: f64, most: usize) -> Vec<f64> {
     if !(first.is_finite() && last.is_finite() && last - first < 1000.0) {
         return vec![least, greatest];
     }
-    (first as i64..=last as i64).map(|multiple| parsed(multiple * step, exponent)).filter(|tick| tick.is_finite()).collect()
+    (first as i64..=last as i64)
+        .map(|multiple| parsed(multiple * step, exponent))
+        .filter(|tick| tick.is_finite())
+        .collect()
 }
 
 fn parsed(digits: i64, exponent: i32) -> f64 {
@@ -168,17 +176,20 @@ fn parsed(digits: i64, exponent: i32) -> f64 {
 }
 
 /// Powers of ten, all or every so many; zero and the negative ones where there are any.
+#[expect(clippy::cast_possible_truncation, reason = "logarithms of f64 are below 400")]
 fn logarithmic_ticks(least: f64, greatest: f64, signs: Signs, most: usize) -> Vec<f64> {
     let (first, last) = (least.log10().floor() as i32, greatest.log10().ceil() as i32);
-    let most = if signs == Signs::All { most.div_ceil(2) } else { most }.max(2) as i32;
+    let most = if signs == Signs::All { most.div_ceil(2) } else { most }.clamp(2, 20);
+    let most = i32::try_from(most).unwrap_or(20);
     let decades = last - first;
     let mut powers: Vec<f64> = Vec::new();
     if decades <= 2 {
         let digits: &[i64] = if decades <= 1 { &[1, 2, 3, 4, 6, 8] } else { &[1, 2, 5] };
         powers.extend((first..=last).flat_map(|power| digits.iter().map(move |digit| parsed(*digit, power))));
     } else {
-        let step = (decades + most - 1) / most;
-        powers.extend((first..=last).filter(|power| power.rem_euclid(step.max(1)) == 0).map(|power| parsed(1, power)));
+        let rough = (decades + most - 1) / most;
+        let step = [1, 2, 3, 5, 10, 20, 50, 100, 200].into_iter().find(|step| rough <= *step).unwrap_or(rough);
+        powers.extend((first..=last).filter(|power| power.rem_euclid(step) == 0).map(|power| parsed(1, power)));
     }
     powers.retain(|power| least <= *power && *power <= greatest);
     match signs {

@@ -2,6 +2,7 @@
 
 use super::panel::{self, Plot, Scales, shortened, values_of, wrapped};
 use super::svg::Drawing;
+use super::whole;
 use crate::curves::{Figure, LawKind, Panel};
 use inpact_diagnostics::visible::visible_line;
 
@@ -29,11 +30,11 @@ pub(crate) fn svg(figures: &[Figure], scales: Scales) -> String {
         figures => (side_by_side(figures), figures.len()),
     };
     let width = 2.0 * MARGIN + columns as f64 * panel::WIDTH;
-    let notes = notes(figures, (width / 6.6) as usize);
+    let notes = notes(figures, whole((width / 6.6).floor()));
     let height = TITLE + rows.len() as f64 * panel::HEIGHT + notes.len() as f64 * LINE + MARGIN;
     let names: Vec<&str> = figures.iter().map(|figure| figure.deck.as_str()).collect();
     let mut drawing = Drawing::new(width, height, &alternative(figures));
-    let each = (panel::WIDTH / 9.4) as usize;
+    let each = whole((panel::WIDTH / 9.4).floor());
     for (column, name) in names.iter().enumerate() {
         let x = MARGIN + 22.0 + column as f64 * panel::WIDTH;
         drawing.text((x, 30.0), &shortened(&visible_line(name), each), "sheet-title", "start");
@@ -43,7 +44,8 @@ pub(crate) fn svg(figures: &[Figure], scales: Scales) -> String {
         for (column, of) in panels.iter().enumerate() {
             let corner = (MARGIN + column as f64 * panel::WIDTH, TITLE + row as f64 * panel::HEIGHT);
             let Some(of) = of else { continue };
-            let own = values_of(std::iter::once(*of));
+            // Small multiples of one law are compared, as the same law of several decks is.
+            let own = if figures.len() == 1 { values_of(multiples(figures, of)) } else { Vec::new() };
             let values = if figures.len() == 1 { &own } else { &shared };
             Plot::new(of, corner, scales, values).draw(&mut drawing);
         }
@@ -55,11 +57,10 @@ pub(crate) fn svg(figures: &[Figure], scales: Scales) -> String {
     drawing.finish()
 }
 
-/// One panel as an SVG document.
-pub(crate) fn svg_of_panel(of: &Panel, scales: Scales) -> String {
-    let mut drawing = Drawing::new(panel::WIDTH, panel::HEIGHT, &of.in_words());
-    Plot::new(of, (0.0, 0.0), scales, &values_of(std::iter::once(of))).draw(&mut drawing);
-    drawing.finish()
+/// All panels of the law that a panel is of.
+fn multiples<'a>(figures: &'a [Figure], of: &'a Panel) -> impl Iterator<Item = &'a Panel> {
+    let panels = figures.iter().flat_map(|figure| &figure.panels);
+    panels.filter(|panel| panel.law == of.law && panel.interaction == of.interaction)
 }
 
 /// A row for each law that any deck has; a deck without it leaves its place empty.
@@ -95,7 +96,7 @@ fn notes(figures: &[Figure], width: usize) -> Vec<String> {
 fn alternative(figures: &[Figure]) -> String {
     let decks = figures.iter().map(|figure| {
         let panels: Vec<String> = figure.panels.iter().map(Panel::in_words).collect();
-        format!("{}: {}", visible_line(&figure.deck), panels.join("; "))
+        visible_line(&format!("{}: {}", figure.deck, panels.join("; "))).into_owned()
     });
     decks.collect::<Vec<_>>().join(". ")
 }

@@ -1,7 +1,8 @@
 //! Panels of curves in letters, for a terminal of 80 columns without colours.
 
-use super::panel::{Scales, values_of, wrapped};
+use super::panel::{Scales, remarks, values_of, wrapped};
 use super::scale::{Scale, ScaleKind};
+use super::whole;
 use crate::curves::{Figure, Panel, Reach, Side, number};
 use inpact_diagnostics::visible::visible_line;
 use std::fmt::Write;
@@ -31,7 +32,9 @@ pub(crate) fn text(figures: &[Figure], scales: Scales) -> String {
             out.push('\n');
         }
         for note in &figure.notes {
-            wrapped(&visible_line(note), WIDTH).iter().for_each(|line| out += &format!("{line}\n"));
+            for line in wrapped(&visible_line(note), WIDTH) {
+                out += &format!("{line}\n");
+            }
         }
     }
     out
@@ -81,7 +84,7 @@ impl<'a> Screen<'a> {
     }
 
     fn put(&mut self, (across, down): (f64, f64), character: char) {
-        let (column, row) = (across.round() as usize, down.round() as usize);
+        let (column, row) = (whole(across), whole(down));
         if let Some(cell) = self.cells.get_mut(row).and_then(|row| row.get_mut(column)) {
             *cell = character;
         }
@@ -100,17 +103,20 @@ impl<'a> Screen<'a> {
                     let (from, to) = (self.place(side, pair[0].x, pair[0].y), self.place(side, pair[1].x, pair[1].y));
                     let is_within = pair[0].reach == Reach::Within && pair[1].reach == Reach::Within;
                     let steps = (from.0 - to.0).abs().max((from.1 - to.1).abs()).ceil().max(1.0);
-                    for step in 0..=steps as usize {
+                    for step in 0..=whole(steps) {
                         let part = step as f64 / steps;
                         let at = (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
                         // A continuation is dotted.
-                        let is_gap = !is_within && (at.0.round() as i64 + at.1.round() as i64) % 2 != 0;
+                        let is_gap = !is_within && !(whole(at.0) + whole(at.1)).is_multiple_of(2);
                         if !is_gap {
-                            self.put(at, match (is_within, is_single) {
-                                (false, _) => '.',
-                                (true, true) => '*',
-                                (true, false) => letter,
-                            });
+                            self.put(
+                                at,
+                                match (is_within, is_single) {
+                                    (false, _) => '.',
+                                    (true, true) => '*',
+                                    (true, false) => letter,
+                                },
+                            );
                         }
                     }
                 }
@@ -126,7 +132,9 @@ impl<'a> Screen<'a> {
             }
         }
         let marks: Vec<_> = self.panel.marks.iter().map(|mark| self.place(mark.side, mark.x, mark.y)).collect();
-        marks.into_iter().for_each(|at| self.put(at, '!'));
+        for at in marks {
+            self.put(at, '!');
+        }
     }
 
     fn text(mut self) -> String {
@@ -135,11 +143,14 @@ impl<'a> Screen<'a> {
         let mut line = |text: &str| {
             let _ = writeln!(out, "{}", text.trim_end());
         };
-        wrapped(&visible_line(&self.panel.title()), WIDTH).iter().for_each(|text| line(text));
+        let lines_of = |text: &str| wrapped(&visible_line(text), WIDTH);
+        for text in lines_of(&self.panel.title()) {
+            line(&text);
+        }
         line(&visible_line(&self.panel.value.title()));
         let mut labels = vec![String::new(); ROWS];
         for (tick, label) in self.y.ticks(5) {
-            let row = ((1.0 - self.y.part(tick).clamp(0.0, 1.0)) * (ROWS - 1) as f64).round() as usize;
+            let row = whole((1.0 - self.y.part(tick).clamp(0.0, 1.0)) * (ROWS - 1) as f64);
             labels[row.min(ROWS - 1)] = label;
         }
         for (label, cells) in labels.iter().zip(&self.cells) {
@@ -153,19 +164,19 @@ impl<'a> Screen<'a> {
             let curves = self.panel.curves.iter().enumerate().map(|(index, curve)| {
                 format!("{}={}", char::from(LETTERS[index % LETTERS.len()]), curve.at.map_or_else(String::new, number))
             });
-            let text = format!("{}: {}", family.title(), curves.collect::<Vec<_>>().join(" "));
-            wrapped(&visible_line(&text), WIDTH).iter().for_each(|text| line(text));
+            for text in lines_of(&format!("{}: {}", family.title(), curves.collect::<Vec<_>>().join(" "))) {
+                line(&text);
+            }
         }
         let mut last = Vec::new();
-        last.extend(self.panel.fault.iter().map(|fault| format!("not evaluated, the rows as they stand: {fault}")));
-        last.extend(self.panel.nodes.iter().map(|nodes| format!("node table: {}", nodes.summary())));
         last.extend(self.panel.marks.iter().map(|mark| {
             let column = &self.panel.half(mark.side).quantity.column;
             format!("! {} at {column} {}, line {}: {}", mark.code, number(mark.x), mark.line, mark.message)
         }));
-        last.extend(self.panel.notes.iter().cloned());
-        for text in last {
-            wrapped(&visible_line(&text), WIDTH).iter().for_each(|text| line(text));
+        let is_linear = matches!(self.y, Scale::Linear { .. });
+        last.extend(remarks(self.panel, if is_linear { ScaleKind::Linear } else { ScaleKind::Logarithmic }));
+        for text in last.iter().flat_map(|text| lines_of(text)) {
+            line(&text);
         }
         out
     }
@@ -180,7 +191,7 @@ impl<'a> Screen<'a> {
             }
             let scale = self.halves[usize::from(side == Side::Closed)];
             for (tick, label) in scale.ticks(3) {
-                let across = self.place(side, tick, 0.0).0.round() as usize + LEFT;
+                let across = whole(self.place(side, tick, 0.0).0) + LEFT;
                 if tick == 0.0 && side == Side::Open && self.panel.closed.has_scale {
                     continue;
                 }

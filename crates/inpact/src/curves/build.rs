@@ -97,9 +97,8 @@ impl Request {
     }
 
     fn interactions_of<'m>(&'m self, model: &'m Model) -> impl Iterator<Item = &'m Interaction> {
-        let is_meant = |interaction: &&Interaction| {
-            self.interactions.is_empty() || self.interactions.contains(&interaction.name)
-        };
+        let is_meant =
+            |interaction: &&Interaction| self.interactions.is_empty() || self.interactions.contains(&interaction.name);
         model.interactions.values().filter(is_meant)
     }
 }
@@ -179,7 +178,9 @@ impl Builder<'_> {
         }
         if 0 < left {
             let drawn = self.request.most_panels;
-            figure.notes.push(format!("{drawn} panels are drawn and {left} laws are not: choose some with `--interaction` and `--law`"));
+            figure.notes.push(format!(
+                "{drawn} panels are drawn and {left} laws are not: choose some with `--interaction` and `--law`"
+            ));
         }
         let mut tables = Vec::new();
         if !self.request.at.is_empty() {
@@ -201,7 +202,7 @@ impl Builder<'_> {
         laws: &'a InterfaceLaws,
     ) -> Result<Subject<'a>, Option<String>> {
         let law = Law::of(laws, kind, self.choices.characteristic_length);
-        let reason = self.why_not(interaction, kind, laws);
+        let reason = why_not(interaction, kind, laws);
         if rows.is_empty() || (rows.closed.is_none() && rows.open.as_ref().is_some_and(|rows| rows.count() == 0)) {
             return Err(reason);
         }
@@ -224,34 +225,16 @@ impl Builder<'_> {
         })
     }
 
-    /// Why a law that the interaction tells of has no values.
-    fn why_not(&self, interaction: &Interaction, kind: LawKind, laws: &InterfaceLaws) -> Option<String> {
-        let flow = match kind {
-            LawKind::Electrical => FlowOf::Charge,
-            LawKind::Thermal | LawKind::ViewFactor => FlowOf::Heat,
-            LawKind::Permeability => FlowOf::PoreFluid,
-        };
-        if kind == LawKind::Permeability
-            && interaction.contact_permeability.as_ref().is_some_and(|option| option.table.is_none())
-        {
-            return Some(Reason::InfinitePermeability.to_string());
-        }
-        let is_of_radiation = |what: &str| what.contains("radiation");
-        let mut reasons = laws.left_out.iter().filter(|(of, left_out)| {
-            *of == flow && (flow != FlowOf::Heat || is_of_radiation(&left_out.what) == (kind == LawKind::ViewFactor))
-        });
-        reasons.next().map(|(_, left_out)| left_out.reason.to_string())
-    }
-
     fn panels(&self, subject: &Subject<'_>) -> Vec<Panel> {
         let is_free = |variable: &Variable| variable.chosen.is_none() && 1 < variable.values.len();
         let free: Vec<&Variable> = subject.variables.iter().filter(|variable| is_free(variable)).collect();
         let family = free.iter().find(|variable| variable.quantity.column == "temp").or(free.first()).copied();
         let is_family = |variable: &Variable| family.is_some_and(|family| std::ptr::eq(family, variable));
         let multiple = free.iter().copied().find(|variable| !is_family(variable));
-        let places = multiple.map_or_else(|| vec![None], |multiple| {
-            spread(&multiple.values, MOST_MULTIPLES).into_iter().map(Some).collect()
-        });
+        let places = multiple.map_or_else(
+            || vec![None],
+            |multiple| spread(&multiple.values, MOST_MULTIPLES).into_iter().map(Some).collect(),
+        );
         let mut panels = Vec::new();
         for place in places {
             let mut held = Vec::new();
@@ -263,7 +246,10 @@ impl Builder<'_> {
             let variables: Vec<f64> = subject.variables.iter().map(at).collect();
             for (variable, at) in subject.variables.iter().zip(&variables) {
                 if !is_family(variable) && (1 < variable.values.len() || variable.chosen.is_some()) {
-                    held.push(Held { quantity: variable.quantity.clone(), at: *at, of: variable.values.len() });
+                    let is_multiple = multiple.is_some_and(|multiple| std::ptr::eq(multiple, variable));
+                    let of = variable.values.len();
+                    let left_out = if is_multiple { of.saturating_sub(MOST_MULTIPLES) } else { of.saturating_sub(1) };
+                    held.push(Held { quantity: variable.quantity.clone(), at: *at, of, left_out });
                 }
             }
             let family = family.and_then(|family| {
@@ -297,7 +283,8 @@ impl Builder<'_> {
         let mut value = self.request.units.quantity(self.grammar, subject.kind.keyword(), column);
         subject.kind.name().clone_into(&mut value.name);
         let (curves, all_curves) = if subject.law.is_some() {
-            let places = family.map_or_else(|| vec![None], |(_, family)| family.values.iter().copied().map(Some).collect());
+            let places =
+                family.map_or_else(|| vec![None], |(_, family)| family.values.iter().copied().map(Some).collect());
             let curves = spread(&places, MOST_CURVES).into_iter().map(|at| {
                 let mut variables = variables.to_vec();
                 if let (Some(at), Some((index, _))) = (at, family) {
@@ -327,7 +314,7 @@ impl Builder<'_> {
             nodes: None,
             notes: Vec::new(),
         };
-        panel.notes = self.notes(subject, &panel);
+        panel.notes = notes(subject, &panel);
         panel
     }
 
@@ -370,39 +357,49 @@ impl Builder<'_> {
         });
         Branch { knots, knot_count, samples: thinned(samples.collect()) }
     }
-
-    fn notes(&self, subject: &Subject<'_>, panel: &Panel) -> Vec<String> {
-        let mut notes = Vec::new();
-        if panel.curves.len() < panel.all_curves {
-            notes.push(format!("{} of {} curves", panel.curves.len(), panel.all_curves));
-        }
-        for held in panel.held.iter().filter(|held| 1 < held.of) {
-            let (column, of) = (&held.quantity.column, held.of);
-            notes.push(format!("{column} = {} is one of {of} values: `--at {column}=…`", number(held.at)));
-        }
-        if subject.law.is_some_and(Law::needs_characteristic_length) {
-            notes.push("while open it has the value at pressure 0, up to the characteristic element length: `--char-length`".to_owned());
-        }
-        let branches = panel.curves.iter().flat_map(|curve| [&curve.open, &curve.closed]);
-        let unmarked: usize = branches.filter(|of| of.knots.is_empty()).map(|of| of.knot_count).sum();
-        if 0 < unmarked {
-            notes.push(format!("{unmarked} rows are not marked: too many to tell apart"));
-        }
-        if let Some(decades) = decades(panel).filter(|decades| 3.0 < *decades) {
-            notes.push(format!("values over {decades:.0} decades: `--log` tells them apart"));
-        }
-        notes
-    }
 }
 
-/// Over how many decades the values above zero go.
-fn decades(panel: &Panel) -> Option<f64> {
-    let values = panel.values().filter(|value| 0.0 < *value && value.is_finite());
-    let range = values.fold(None, |range: Option<(f64, f64)>, value| {
-        let (least, greatest) = range.unwrap_or((value, value));
-        Some((least.min(value), greatest.max(value)))
+/// Why a law that the interaction tells of has no values.
+fn why_not(interaction: &Interaction, kind: LawKind, laws: &InterfaceLaws) -> Option<String> {
+    let flow = match kind {
+        LawKind::Electrical => FlowOf::Charge,
+        LawKind::Thermal | LawKind::ViewFactor => FlowOf::Heat,
+        LawKind::Permeability => FlowOf::PoreFluid,
+    };
+    if kind == LawKind::Permeability
+        && interaction.contact_permeability.as_ref().is_some_and(|option| option.table.is_none())
+    {
+        return Some(Reason::InfinitePermeability.to_string());
+    }
+    let is_of_radiation = |what: &str| what.contains("radiation");
+    let mut reasons = laws.left_out.iter().filter(|(of, left_out)| {
+        *of == flow && (flow != FlowOf::Heat || is_of_radiation(&left_out.what) == (kind == LawKind::ViewFactor))
     });
-    range.map(|(least, greatest)| greatest.log10() - least.log10())
+    reasons.next().map(|(_, left_out)| left_out.reason.to_string())
+}
+
+/// What there is to know of a panel besides.
+fn notes(subject: &Subject<'_>, panel: &Panel) -> Vec<String> {
+    let mut notes = Vec::new();
+    if panel.curves.len() < panel.all_curves {
+        notes.push(format!("{} of {} curves", panel.curves.len(), panel.all_curves));
+    }
+    for held in panel.held.iter().filter(|held| 0 < held.left_out) {
+        let (column, of) = (&held.quantity.column, held.of);
+        notes.push(format!("{column} = {} is one of {of} values: `--at {column}=…`", number(held.at)));
+    }
+    if subject.law.is_some_and(Law::needs_characteristic_length) {
+        notes.push(
+            "while open it has the value at pressure 0, up to the characteristic element length: `--char-length`"
+                .to_owned(),
+        );
+    }
+    let branches = panel.curves.iter().flat_map(|curve| [&curve.open, &curve.closed]);
+    let unmarked: usize = branches.filter(|of| of.knots.is_empty()).map(|of| of.knot_count).sum();
+    if 0 < unmarked {
+        notes.push(format!("{unmarked} rows are not marked: too many to tell apart"));
+    }
+    notes
 }
 
 /// The rows of a law that cannot be evaluated, group by group in the order of the deck.
@@ -424,7 +421,8 @@ fn as_they_stand(subject: &Subject<'_>) -> (Vec<Curve>, usize) {
                 knots.clone()
             };
             let is_finite = |knot: &&Knot| knot.x.is_finite() && knot.y.is_finite();
-            let samples = points.iter().filter(is_finite).map(|knot| Sample { x: knot.x, y: knot.y, reach: Reach::Within });
+            let samples =
+                points.iter().filter(is_finite).map(|knot| Sample { x: knot.x, y: knot.y, reach: Reach::Within });
             let branch = Branch { knots, knot_count, samples: samples.collect() };
             let at = rows.row(group.start).get(2).copied().filter(|_| 1 < of.groups().len());
             curves.push(match side {

@@ -72,7 +72,10 @@ pub(super) fn probe(
     let branches = [0, 1].map(|side| {
         let values = (0..stops).flat_map(|stop| {
             let variables = at_stop(variables, movable, &axes, stop);
-            abscissae[side].iter().map(move |x| law.value(Side::BOTH[side], *x, &variables).map(|value| value.y)).collect::<Vec<_>>()
+            abscissae[side]
+                .iter()
+                .map(move |x| law.value(Side::BOTH[side], *x, &variables).map(|value| value.y))
+                .collect::<Vec<_>>()
         });
         ProbeBranch { values: values.collect(), abscissae: abscissae[side].clone() }
     });
@@ -89,7 +92,7 @@ fn axes(movable: &[(usize, &Quantity, &[f64])], most: usize) -> Vec<ProbeAxis> {
     }
     let mut left = most;
     let axes = movable.iter().map(|(_, quantity, values)| {
-        let fitting = spread(values, left.min(9).max(1));
+        let fitting = spread(values, left.clamp(1, 9));
         let stops = if fitting.len() <= left { fitting } else { values[..1].to_vec() };
         left = (left / stops.len()).max(1);
         ProbeAxis { quantity: (*quantity).clone(), stops }
@@ -108,12 +111,7 @@ fn axis(quantity: &Quantity, values: &[f64], parts: usize) -> ProbeAxis {
     ProbeAxis { quantity: quantity.clone(), stops }
 }
 
-fn at_stop(
-    variables: &[f64],
-    movable: &[(usize, &Quantity, &[f64])],
-    axes: &[ProbeAxis],
-    mut stop: usize,
-) -> Vec<f64> {
+fn at_stop(variables: &[f64], movable: &[(usize, &Quantity, &[f64])], axes: &[ProbeAxis], mut stop: usize) -> Vec<f64> {
     let mut at = variables.to_vec();
     for ((index, ..), axis) in movable.iter().zip(axes).rev() {
         at[*index] = axis.stops[stop % axis.stops.len()];

@@ -28,10 +28,9 @@ impl<'a> LawRows<'a> {
         let tables = interaction.tables();
         let last = |wanted: TableKind| tables.iter().rfind(|of| of.kind == wanted).map(|of| Rows::of_table(of.table));
         match kind {
-            LawKind::Electrical => Self {
-                open: last(TableKind::ElectricalClearance),
-                closed: last(TableKind::ElectricalPressure),
-            },
+            LawKind::Electrical => {
+                Self { open: last(TableKind::ElectricalClearance), closed: last(TableKind::ElectricalPressure) }
+            }
             LawKind::Thermal => {
                 Self { open: last(TableKind::ThermalClearance), closed: last(TableKind::ThermalPressure) }
             }
@@ -59,10 +58,18 @@ impl<'a> LawRows<'a> {
     }
 
     /// The values of a variable in both tables, ascending, each once; NaN is none.
+    ///
+    /// A table with one value of it is the same at any: it counts only where the other has no more either.
     pub(super) fn distinct(&self, variable: &str) -> Vec<f64> {
+        let of_tables =
+            [&self.open, &self.closed].map(|rows| rows.as_ref().map_or_else(Vec::new, |rows| rows.distinct(variable)));
+        let depends = of_tables.iter().any(|values| 1 < values.len());
         let mut values: Vec<f64> =
-            [&self.open, &self.closed].into_iter().flatten().flat_map(|rows| rows.distinct(variable)).collect();
+            of_tables.into_iter().filter(|values| !depends || 1 < values.len()).flatten().collect();
         sort_and_dedup(&mut values);
+        if !depends {
+            values.truncate(1);
+        }
         values
     }
 }
@@ -93,6 +100,16 @@ impl<'a> Rows<'a> {
 
     pub(super) fn row(&self, index: usize) -> &[f64] {
         &self.cells[index * self.width()..(index + 1) * self.width()]
+    }
+
+    /// For each variable behind the abscissa whether the rows know more than one value of it.
+    pub(super) fn depends(&self) -> Vec<bool> {
+        let varies = |column: usize| {
+            let mut values = (0..self.count()).map(|row| self.row(row)[column]);
+            let first = values.next();
+            values.any(|value| Some(value) != first)
+        };
+        (2..self.columns.len()).map(varies).collect()
     }
 
     fn column(&self, name: &str) -> Option<usize> {

@@ -24,6 +24,8 @@ const MOST_ENDS: usize = 64;
 pub(super) struct Side<'a> {
     pub(super) rows: Option<&'a Rows<'a>>,
     groups: Vec<Range<usize>>,
+    /// On which of the variables behind the abscissa the values depend.
+    depends: Vec<bool>,
     /// The abscissae of all rows, ascending, each once; too many are thinned out.
     all: Vec<f64>,
 }
@@ -31,7 +33,7 @@ pub(super) struct Side<'a> {
 impl<'a> Side<'a> {
     pub(super) fn of(rows: Option<&'a Rows<'a>>) -> Self {
         let Some(of) = rows.filter(|rows| 1 < rows.width()) else {
-            return Self { rows: None, groups: Vec::new(), all: Vec::new() };
+            return Self { rows: None, groups: Vec::new(), depends: Vec::new(), all: Vec::new() };
         };
         let groups = of.groups();
         let mut all: Vec<f64> = Vec::new();
@@ -41,7 +43,7 @@ impl<'a> Side<'a> {
             all.dedup();
             all = spread(&all, MOST_OF_ALL_ROWS);
         }
-        Self { rows, groups, all }
+        Self { rows, groups, depends: of.depends(), all }
     }
 
     /// The rows that lie on the curve at these values of the other variables.
@@ -50,7 +52,8 @@ impl<'a> Side<'a> {
         // A table has fewer columns than the law has variables where the other table has more.
         let is_meant = |group: &&Range<usize>| {
             let outer = rows.row(group.start).get(2..).unwrap_or(&[]);
-            outer.iter().zip(variables).all(|(of_row, variable)| of_row == variable)
+            let mut cells = outer.iter().zip(variables).zip(&self.depends);
+            cells.all(|((of_row, variable), depends)| !depends || of_row == variable)
         };
         self.groups.iter().find(is_meant).cloned()
     }
@@ -124,7 +127,9 @@ impl Detail {
 
 /// Ascending, each once. Zero is +0.
 fn sort_and_dedup(values: &mut Vec<f64>) {
-    values.iter_mut().for_each(|value| *value += 0.0);
+    for value in values.iter_mut() {
+        *value += 0.0;
+    }
     values.sort_unstable_by(f64::total_cmp);
     values.dedup();
 }
