@@ -3,7 +3,7 @@
 //! Editors name a place by its line and a number of units from the start of that line; which units is agreed on with each editor.
 //! Text that is no UTF-8 is counted as [`Position`](crate::span::Position) counts it: a byte that goes on with a character counts nothing.
 
-/// What a column counts.
+/// Units of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ColumnUnit {
     /// Bytes of UTF-8.
@@ -16,7 +16,7 @@ pub enum ColumnUnit {
 }
 
 impl ColumnUnit {
-    /// How many units a text has.
+    /// The number of units of a text.
     pub fn count(self, text: &[u8]) -> u64 {
         if self == Self::Utf8 {
             return text.len() as u64;
@@ -50,7 +50,7 @@ impl ColumnUnit {
         if units < passed { start } else { line.len() }
     }
 
-    /// How many units a byte adds to a column.
+    /// The number of units that a byte adds to a column.
     fn units_at(self, byte: u8) -> u64 {
         match self {
             Self::Utf8 => 1,

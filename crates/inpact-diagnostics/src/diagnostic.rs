@@ -1,4 +1,4 @@
-//! What is wrong, where, why, and what to do: the one source of every output format.
+//! A finding with its place, reason and help: the one source of every output format.
 
 use crate::fix::{Edit, Fix, FixSafety};
 use crate::rule::Rule;
@@ -13,19 +13,19 @@ pub struct Diagnostic {
     pub code: &'static str,
     /// The stable name, such as `not-ascending`.
     pub name: &'static str,
-    /// How grave it is.
+    /// Its severity.
     pub severity: Severity,
-    /// What is wrong, with the values in it; names in backticks, no full stop.
+    /// The fault, with the values in it; names in backticks, no full stop.
     pub message: String,
-    /// Where it is.
+    /// Its place.
     pub primary: Label,
     /// Row and column by name, where a finding is about a table or a scene; `None` in a deck.
     pub cell: Option<Cell>,
     /// The other places it has to do with.
     pub secondary: Vec<Label>,
-    /// Why it matters: the rule or the physics.
+    /// The reason: the rule or the physics.
     pub note: Option<String>,
-    /// What to do.
+    /// The remedy.
     pub help: Option<String>,
     /// A change of the deck that mends it.
     pub fix: Option<Fix>,
@@ -34,19 +34,19 @@ pub struct Diagnostic {
 /// A place in a file with a few words about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// What the file is called in messages; empty until line and column are found out.
+    /// The name of the file in messages; empty until line and column are known.
     pub file: Arc<str>,
     /// The bytes it points at.
     pub span: Span,
     /// Line and column of the first of them.
     pub position: Position,
-    /// How much of that is known.
+    /// The part of the place that is known.
     pub extent: Extent,
-    /// What to say there; may be empty.
+    /// The text of the label; may be empty.
     pub text: String,
 }
 
-/// How closely a place is known.
+/// Precision of a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
     /// By its bytes.
@@ -62,7 +62,7 @@ pub enum Extent {
 pub struct Cell {
     /// The row, counted from 1 below the header.
     pub row: Option<u64>,
-    /// What the header calls the column.
+    /// The header of the column.
     pub field: Option<String>,
 }
 

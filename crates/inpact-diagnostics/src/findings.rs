@@ -18,7 +18,7 @@ pub struct Place {
     pub row: Option<u64>,
     /// The line of the file, from 1.
     pub line: Option<u64>,
-    /// What the header calls the column.
+    /// The header of the column.
     pub column: Option<String>,
     /// Its bytes in the file, and the column of the first of them, in characters from 1.
     pub exact: Option<(Range<u64>, u64)>,
@@ -53,7 +53,7 @@ impl Place {
 pub struct Findings {
     file: Arc<str>,
     kept: Vec<Diagnostic>,
-    /// How often each rule was reported, by its code.
+    /// The number of findings of each rule, by its code.
     reported: BTreeMap<&'static str, usize>,
 }
 

@@ -5,7 +5,7 @@ use crate::span::Span;
 /// A change of the deck that makes a finding go away.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fix {
-    /// What it does, in the imperative.
+    /// Its effect, in the imperative.
     pub title: String,
     /// Whether the meaning of the deck stays the same.
     pub safety: FixSafety,
@@ -25,9 +25,9 @@ pub enum FixSafety {
 /// Bytes put in the place of a span.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edit {
-    /// What is replaced; an empty span inserts.
+    /// The bytes replaced; an empty span inserts.
     pub span: Span,
-    /// What stands there afterwards.
+    /// The new bytes.
     pub replacement: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! What a finding is: the [`Rule`] it is of, how grave it is, where, why, what to do, and how that mends it.
+//! A finding: its [`Rule`], severity, place, reason, help and fix.
 //!
 //! Findings in decks, node tables and scenes are of one kind, [`Diagnostic`], a plain value that knows its file, line, column and bytes.
 //! Knows nothing of keywords, tables or laws, opens no file and prints nothing.

@@ -1,4 +1,4 @@
-//! What there is to know of a rule without running it.
+//! Metadata of a rule, known without running it.
 
 use crate::severity::Severity;
 
@@ -9,11 +9,11 @@ pub struct Rule {
     pub code: &'static str,
     /// The name, such as `not-ascending`.
     pub name: &'static str,
-    /// How grave a finding is unless the rule or the configuration says otherwise.
+    /// The severity of its findings unless the rule or the configuration sets another.
     pub severity: Severity,
-    /// Whether findings come with a fix, and of what kind.
+    /// The kind of fix of its findings, if any.
     pub fix: FixKind,
-    /// Which rule of the semantics, or which contract, it enforces.
+    /// The rule of the semantics, or the contract, that it enforces.
     pub source: &'static str,
     /// Its page in Markdown: its doc comment. The first line says what is wrong.
     pub documentation: &'static str,

@@ -1,8 +1,8 @@
-//! How grave a finding is.
+//! Severities of findings.
 
 use std::fmt;
 
-/// How grave a diagnostic is.
+/// Severity of a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// Abaqus would refuse the deck, or the result would be meaningless.

@@ -2,7 +2,7 @@
 //!
 //! Knows nothing of keywords or values.
 
-/// Which of the deck's files a span points into; the deck itself is [`SourceId::ROOT`], included files follow.
+/// One of the deck's files; the deck itself is [`SourceId::ROOT`], included files follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct SourceId(pub u32);
 
@@ -18,7 +18,7 @@ pub struct Span {
     pub source: SourceId,
     /// Offset of the first byte.
     pub start: u64,
-    /// Offset behind the last byte.
+    /// Offset after the last byte.
     pub end: u64,
 }
 

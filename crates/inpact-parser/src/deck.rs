@@ -1,4 +1,4 @@
-//! The deck as it stands in its files: blocks of a keyword line and the rows behind it.
+//! The deck as it is in its files: blocks of a keyword line and the rows after it.
 //!
 //! Lossless: the blocks printed in order are the file, byte for byte, whatever the bytes are.
 //! Never fails: a line that means nothing is still a line of some block.
@@ -37,13 +37,13 @@ pub struct Deck {
 /// A keyword line and everything up to the next one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// The keyword line; `None` for what stands before the first keyword of a file, and for rows behind an *INCLUDE.
+    /// The keyword line; `None` for rows before the first keyword of a file, and for rows after an *INCLUDE.
     pub keyword: Option<KeywordLine>,
-    /// The lines behind the keyword line: data, comments, blank lines.
+    /// The lines after the keyword line: data, comments, blank lines.
     pub rows: Span,
-    /// Whether the deck holds the text of `rows`; mesh rows are not kept when a deck is only checked.
+    /// The text of `rows` is in the deck; mesh rows are not kept when a deck is only checked.
     pub rows_kept: bool,
-    /// Rows of this block that stand elsewhere: in a file that begins with rows, or behind the *INCLUDE of one (S-51).
+    /// Rows of this block in another file: in a file that begins with rows, or after the *INCLUDE of one (S-51).
     ///
     /// They are blocks without a keyword as well.
     pub continued_in: Vec<Span>,
@@ -54,15 +54,15 @@ pub struct Block {
 pub struct KeywordLine {
     /// All of it, line ends included.
     pub span: Span,
-    /// The words behind the asterisk.
+    /// the name after the asterisk.
     pub name: Span,
-    /// Which keyword the words mean (S-13).
+    /// The keyword that the name resolves to (S-13).
     pub resolved: Lookup<KeywordId>,
     /// The parameters in the order of the line.
     pub parameters: Vec<Parameter>,
-    /// Where in the line a quote opens that does not close on it.
+    /// The offset in the line of the quote that does not close on it (S-41).
     open_quote: Option<NonZeroU32>,
-    /// Where in the line a comma stands that nothing answers.
+    /// The offset in the line of the comma at its end, when the next line is not its continuation (S-19).
     last_comma: Option<NonZeroU32>,
 }
 
@@ -73,29 +73,29 @@ pub struct Parameter {
     pub name: Span,
     /// The value; `None` when there is no `=`.
     pub value: Option<Span>,
-    /// Which parameter of the keyword is meant, as an index into its definition's list; unknown where the grammar has no definition.
+    /// The parameter that the name resolves to, as an index into the keyword's list; unknown where the grammar has no definition.
     pub resolved: Lookup<usize>,
 }
 
 /// Something seen while lines were cut, in rows whose text may not be kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LineNote {
-    /// What was seen.
+    /// The kind of note.
     pub kind: LineNoteKind,
     /// The first line of the block for which it holds.
     pub span: Span,
-    /// How many lines of the block it holds for.
+    /// The number of lines of the block it holds for.
     pub lines: u64,
 }
 
-/// What a [`LineNote`] is about.
+/// Kinds of [`LineNote`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LineNoteKind {
     /// More than 256 characters on a keyword or data line (S-06).
     TooLong,
     /// A byte above 0x7F on a keyword or data line, outside quotes (S-01).
     NonAscii,
-    /// `**` behind blanks (S-04).
+    /// `**` after blanks (S-04).
     IndentedComment,
 }
 
@@ -158,7 +158,7 @@ impl Deck {
             .collect()
     }
 
-    /// What was seen while lines were cut, in reading order.
+    /// Notes on lines, in reading order.
     pub fn notes(&self) -> &[LineNote] {
         &self.notes
     }
@@ -235,7 +235,7 @@ impl Deck {
 }
 
 impl Block {
-    /// The keyword, when its words mean exactly one.
+    /// The keyword, when its name is unambiguous.
     pub fn keyword_id(&self) -> Option<KeywordId> {
         self.keyword.as_ref()?.id()
     }
@@ -253,7 +253,7 @@ impl Block {
 }
 
 impl KeywordLine {
-    /// The keyword, when the words mean exactly one.
+    /// The keyword, when its name is unambiguous.
     pub fn id(&self) -> Option<KeywordId> {
         match self.resolved {
             Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),

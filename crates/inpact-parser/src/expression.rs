@@ -3,13 +3,13 @@
 //! The data lines of *PARAMETER are a part of Python: `name = expression`.
 //! Up to release 2023 it is Python 2, whose integers divide as integers; from 2024 on Python 3, whose division is true ([`Division`]).
 //! [`define`] executes the lines of one block; called for every block of the deck in order, it leaves the final values
-//! in [`Parameters`], which [`substitute`] then puts in place of every `<name>`, also of one that stands further up (S-61).
+//! in [`Parameters`], which [`substitute`] then puts in place of every `<name>`, also of one further up (S-61).
 //!
 //! Knows nothing of keywords, blocks or files, and executes nothing but arithmetic.
 //! Whatever the text is, time and memory follow its length: nesting, the length of texts, the size of integers and the
 //! number of arguments are limited, and what passes a limit is an [`ExpressionProblem`].
 //!
-//! What S-60 leaves open is read as Python 2 reads it: `//` and `%` exist, `**` binds to the right and before a sign on
+//! Cases that S-60 leaves open follow Python 2: `//` and `%` exist, `**` binds to the right and before a sign on
 //! its left, `pow` is that of the `math` module and gives a real number, `str` gives twelve digits.
 //! `min` and `max` are not listed in S-60 but decks call them.
 
@@ -36,14 +36,14 @@ pub use value::Value;
 
 use crate::span::Span;
 
-/// Why a statement of *PARAMETER cannot be executed (S016); the first reason of each statement.
+/// A statement of *PARAMETER that cannot be executed (S016), with its first problem.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionProblem {
     /// The part of the statement that is wrong.
     pub span: Span,
-    /// What is wrong with it.
+    /// The problem.
     pub message: String,
-    /// What to do.
+    /// The help.
     pub help: Option<String>,
     /// The name that is used without a definition above, when that is what is wrong: it may be defined further down, or
     /// in a file that could not be read.
@@ -62,7 +62,7 @@ pub const MAX_TEXT_IN_ALL: usize = 16 << 20;
 /// The most arguments of a call; Python 2 has the same limit.
 pub const MAX_ARGUMENTS: usize = 255;
 
-/// What is wrong, before it is known where.
+/// A problem without its place.
 #[derive(Debug)]
 struct Complaint {
     message: String,

@@ -1,11 +1,11 @@
 //! One style for the blocks of contact interfaces; every other byte of a deck stays as it is.
 //!
 //! [`format()`] goes from a [`Deck`] to the bytes of one of its files, and knows nothing of files or of the model.
-//! What it touches:
+//! Blocks that are formatted:
 //!
 //! | blocks | keyword line | rows |
 //! |---|---|---|
-//! | *SURFACE INTERACTION and its sub-options, where they stand in its block or stray (2.1) | yes | those the grammar describes |
+//! | *SURFACE INTERACTION and its sub-options, in its block or stray (2.1) | yes | those the grammar describes |
 //! | *CONTACT PAIR (C-02), *CONTACT PROPERTY ASSIGNMENT (C-05) | yes | yes |
 //! | any other, sub-options of another keyword such as *MATERIAL or *CHANGE FRICTION among them | no | no |
 //!
@@ -38,7 +38,7 @@ pub fn format(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<u8> {
     apply(&deck.print(source), &edits(deck, source, grammar))
 }
 
-/// What changes a source file of the deck into the one style: a keyword line or the rows of a block each, in order.
+/// The edits that bring a source file of the deck into the one style: a keyword line or the rows of a block each, in order.
 ///
 /// Rows that were not kept are none that are formatted: a deck whose interpreted rows are kept gives all edits.
 pub fn edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edit> {
@@ -59,7 +59,7 @@ pub fn edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edit> {
     edits
 }
 
-/// Where in a deck one is, as far as it decides which blocks are formatted.
+/// The place in a deck, as far as it decides which blocks are formatted.
 struct Place<'a> {
     grammar: &'a Grammar,
     /// Whether a *SURFACE INTERACTION is open.
@@ -86,7 +86,7 @@ impl<'a> Place<'a> {
         keyword.definition().filter(|_| is_formatted)
     }
 
-    /// Whether a sub-option outside of an interaction belongs to nothing else either.
+    /// Whether a sub-option outside of an interaction belongs to no other option either.
     fn is_stray(&self, definition: &Definition) -> bool {
         let has_other_parent =
             self.parent.is_some_and(|parent| definition.has_parent(&self.grammar.keyword(parent).name));

@@ -2,8 +2,8 @@
 //!
 //! Everything here comes from the files of `grammar/` in the repository: two lists of names, one TOML a keyword,
 //! and one for every keyword that means something else in CalculiX.
-//! They are compiled in; a definition is parsed when it is first asked for.
-//! Knows nothing of decks, files or spans: it answers questions about words (S-11 to S-16) and about the layout of rows (K-50 to K-56).
+//! They are compiled in; a definition is parsed when it is first looked up.
+//! Knows nothing of decks, files or spans: it looks up names (S-11 to S-16) and about the layout of rows (K-50 to K-56).
 
 mod data;
 mod definition;
@@ -35,7 +35,7 @@ const ABAQUS_NAMES: &str = include_str!("../grammar/names/abaqus.txt");
 /// Every keyword of CalculiX, one a line, without blanks.
 const CALCULIX_NAMES: &str = include_str!("../grammar/names/calculix.txt");
 
-/// The one keyword that CalculiX compares with the blank behind it: `*GAP X` is not *GAP.
+/// The one keyword that CalculiX compares with the blank after it: `*GAP X` is not *GAP.
 const ONLY_WHOLE: &[u8] = b"GAP";
 
 /// Whose keyword language it is.
@@ -53,9 +53,9 @@ pub enum Dialect {
 pub struct Grammar {
     dialect: Dialect,
     release: Release,
-    /// Sorted by folded name, so that all names with one prefix stand together.
+    /// Sorted by folded name, so that all names with one prefix are adjacent.
     keywords: Vec<Keyword>,
-    /// Where each folded name stands in `keywords`: nearly every keyword line has its name in full.
+    /// The index of each folded name in `keywords`: nearly every keyword line has its name in full.
     exact: HashMap<Vec<u8>, KeywordId>,
     /// Folded and sorted.
     calculix_names: Vec<&'static str>,
@@ -72,9 +72,9 @@ pub struct Keyword {
     pub name: String,
     folded: String,
     source: Option<&'static str>,
-    /// Whether the dialect has it; an Abaqus keyword that CalculiX lacks is kept, so that it can be named.
+    /// The dialect has it; an Abaqus keyword that CalculiX lacks is kept, so that it can be named.
     is_listed: bool,
-    /// Whether the definition is that of another dialect, whose parameters may differ.
+    /// The definition is that of another dialect, whose parameters may differ.
     is_borrowed: bool,
     /// Whose language it is.
     dialect: Dialect,
@@ -118,7 +118,7 @@ impl Grammar {
         self.dialect
     }
 
-    /// Which release's language it is.
+    /// The release of its language.
     pub fn release(&self) -> Release {
         self.release
     }
@@ -164,7 +164,7 @@ impl Grammar {
         definition.parameter_named_in(written, self.release)
     }
 
-    /// The keyword behind an id of this grammar.
+    /// the keyword of an id of this grammar.
     pub fn keyword(&self, id: KeywordId) -> &Keyword {
         &self.keywords[usize::from(id.0)]
     }
@@ -220,7 +220,7 @@ impl Keyword {
         }
     }
 
-    /// What the keyword means; `None` when only its name is known.
+    /// The definition; `None` when only the name is known.
     pub fn definition(&self) -> Option<&Definition> {
         // A test loads every definition that is compiled in, so none is lost here.
         let parse = || {

@@ -28,13 +28,13 @@ impl JsonError {
         Self { path: path.into(), message: message.into() }
     }
 
-    /// Where it is, in the form `interactions.STEEL.thickness`; empty when the text is no JSON at all.
+    /// The path to it, in the form `interactions.STEEL.thickness`; empty when the text is no JSON at all.
     pub fn path(&self) -> &str {
         &self.path
     }
 }
 
-/// Which view a JSON text is.
+/// Views of JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum View {
     /// `inpact/model/1`.
@@ -46,7 +46,7 @@ pub enum View {
 /// Reads which view a JSON text is from its `schema` field.
 ///
 /// # Errors
-/// When the text is no JSON object, or `schema` is missing or names neither view.
+/// A text that is no JSON object, or whose `schema` is missing or names neither view.
 pub fn view_of(text: &str) -> Result<View, JsonError> {
     #[derive(serde::Deserialize)]
     #[serde(expecting = "a document: an object")]
@@ -75,7 +75,7 @@ fn parse<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     Ok(document)
 }
 
-/// The message of a wrong type, in words of JSON where serde names a type of Rust.
+/// The message of a wrong type, with the name of JSON where serde names a type of Rust.
 fn json_message(message: &str) -> String {
     let Some((found, (expected, place))) =
         message.rsplit_once(", expected ").and_then(|(found, rest)| Some((found, rest.split_once(" at line ")?)))
@@ -130,7 +130,7 @@ mod tests {
         }
     }
 
-    /// Whatever stands in the place of a value, no message names a type of this program.
+    /// No message names a type of this program, whatever is in the place of a value.
     #[test]
     fn no_message_names_a_type_of_rust() {
         let grammar = Grammar::builtin();

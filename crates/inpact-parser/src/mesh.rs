@@ -1,12 +1,12 @@
 //! The mesh around the contact pairs of a deck: faces and nodes of their surfaces, at their places in the assembly.
 //!
 //! A deck of gigabytes has few faces that meet others.
-//! The scan says where rows stand without reading them ([`Deck`]); [`read`] then reads the rows of surfaces, of the sets that they name, of the elements in these,
+//! The scan gives the places of rows without reading them ([`Deck`]); [`read`] then reads the rows of surfaces, of the sets that they name, of the elements in these,
 //! and of the nodes of the faces that were found: each once, straight from the bytes, and keeps only what surfaces need.
-//! Where bytes come from is the caller's ([`RowBytes`]).
+//! The bytes come from the caller ([`RowBytes`]).
 //! Temperatures, pore pressures and field variables that *INITIAL CONDITIONS gives these nodes are read with them.
 //!
-//! Nothing is guessed: what a surface or a pair asks for and what is not read here is named in [`Mesh::notes`], with its place.
+//! Nothing is guessed: the parts of a surface or a pair that are not read here are named in [`Mesh::notes`], with its place.
 //!
 //! Not read, and named where it matters: nodes and elements made by *NGEN, *NFILL, *NCOPY, *NMAP, *ELGEN, *ELCOPY and *SYSTEM, rows in files of their own (INPUT
 //! on *NODE and *ELEMENT), surfaces that are neither of elements nor of nodes, COMBINE, self-contact, and the surfaces that general contact finds by itself.
@@ -39,23 +39,23 @@ use std::io;
 /// The surfaces of all contact pairs, their nodes and the pairs themselves.
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
-    /// Where the nodes are (L), instances at their places.
+    /// Coordinates of the nodes (L), instances at their places.
     pub points: Vec<Point>,
-    /// What the nodes are called, in the same order.
+    /// The names of the nodes, in the same order.
     pub nodes: Vec<MeshNode>,
     /// The surfaces that pairs name.
     pub surfaces: Vec<MeshSurface>,
     /// The pairs, in the order of the deck.
     pub pairs: Vec<MeshPair>,
-    /// What *INITIAL CONDITIONS says of the nodes, each quantity once.
+    /// Values of *INITIAL CONDITIONS at the nodes, each quantity once.
     pub initial: Vec<InitialField>,
     /// The names of the steps of the deck, in its order: results may say in which one they are by its name.
     pub steps: Vec<Option<Name>>,
-    /// What was not read, or was read with something assumed.
+    /// Parts that were not read, or were read with an assumption.
     pub notes: Vec<MeshNote>,
 }
 
-/// What a node or an element is called: its number, and the instance that it is in.
+/// The name of a node or an element: its number, and its instance.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeshNode {
     /// The instance; `None` in a deck without.
@@ -81,11 +81,11 @@ pub struct MeshSurface {
     pub name: Name,
     /// Its keyword line.
     pub span: Span,
-    /// What it is made of.
+    /// Its kind.
     pub kind: SurfaceKind,
 }
 
-/// What a surface is made of.
+/// Kinds of surfaces.
 #[derive(Debug, Clone)]
 pub enum SurfaceKind {
     /// Faces of elements.
@@ -99,13 +99,13 @@ pub enum SurfaceKind {
 pub struct FaceSurface {
     /// The faces, by nodes of the mesh.
     pub surface: Surface,
-    /// Which face of which element each is.
+    /// The element and face of each.
     pub elements: Vec<(MeshNode, FaceLabel)>,
     /// The space the elements are in; the same for all.
     pub space: ElementSpace,
     /// The thickness of plane elements and of sheets (L), from their section; `None` where no section says one.
     pub thickness: Vec<Option<f64>>,
-    /// How far the side of a sheet lies from its nodes, along its normal (L); 0 for solids.
+    /// The distance of the side of a sheet from its nodes, along its normal (L); 0 for solids.
     pub shifts: Vec<f64>,
 }
 
@@ -121,9 +121,9 @@ pub struct NodeSurface {
 /// Something of the deck that was not read, or was read with something assumed.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct MeshNote {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// What it is, for a person.
+    /// The note, for users.
     pub message: String,
 }
 
@@ -131,7 +131,7 @@ pub struct MeshNote {
 ///
 /// # Errors
 ///
-/// Where bytes cannot be read. What is wrong with the deck is in [`Mesh::notes`].
+/// Bytes that cannot be read. Problems of the deck are in [`Mesh::notes`].
 pub fn read(deck: &Deck, grammar: &Grammar, model: &Model, rows: &mut dyn RowBytes) -> io::Result<Mesh> {
     reader::Reader::new(deck, grammar, rows).read(model)
 }

@@ -2,7 +2,7 @@
 //!
 //! Built by [`read`] from the blocks of a [`Deck`](crate::deck::Deck); knows nothing of how lines are cut,
 //! and judges nothing: a table that does not ascend is a table all the same.
-//! What cannot be placed, or is replaced by a later definition, is in [`Model::set_aside`], so that it can be judged too.
+//! Options that cannot be placed, or are replaced by a later definition, are in [`Model::set_aside`], so that they can be judged too.
 
 mod name;
 mod places;
@@ -36,9 +36,9 @@ pub struct Model {
     pub surfaces: Vec<Surface>,
     /// The procedures of the steps (section 9.2).
     pub procedures: Vec<Procedure>,
-    /// What *PHYSICAL CONSTANTS gives (2.6); it is no part of the JSON view.
+    /// Values of *PHYSICAL CONSTANTS (2.6); no part of the JSON view.
     pub constants: PhysicalConstants,
-    /// What the deck holds beside that: misplaced sub-options and definitions that a later one replaced.
+    /// The rest of the deck: misplaced sub-options and definitions that a later one replaced.
     pub set_aside: Vec<SetAside>,
 }
 
@@ -124,7 +124,7 @@ pub struct HeatGeneration {
     pub slave_weight: f64,
     /// The relative speed of the surfaces, dimension L T⁻¹, as a row of CalculiX has it (K-38): below zero it is computed.
     pub slip_rate: Option<f64>,
-    /// What stands in the items that are not written as a number, as in [`Table::texts`]: 0 is the fraction, 1 the weight, 2 the speed.
+    /// The text of the items that are not written as a number, as in [`Table::texts`]: 0 is the fraction, 1 the weight, 2 the speed.
     pub texts: Vec<CellText>,
 }
 
@@ -157,7 +157,7 @@ pub struct GivenParameter {
     pub name: String,
     /// Its value as it is written, without blanks around it; a parameter in it, `<name>`, stays a name.
     pub value: Option<String>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
@@ -196,12 +196,12 @@ pub struct PropertyAssignment {
     pub interaction: Option<Reference>,
 }
 
-/// A name that refers to something defined elsewhere, and where it stands.
+/// A name that refers to something defined elsewhere, and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// The name.
     pub name: Name,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
@@ -241,10 +241,10 @@ pub struct SetAside {
     pub item: SetAsideItem,
 }
 
-/// Why something was set aside.
+/// Reasons why an option was set aside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SetAsideReason {
-    /// It stands outside a *SURFACE INTERACTION, or at a level where it may not stand.
+    /// It is outside a *SURFACE INTERACTION, or at a level where it may not occur.
     Misplaced,
     /// A later definition of the same name or kind replaced it; the span is that of the later one.
     ReplacedBy(Span),
@@ -255,16 +255,16 @@ pub enum SetAsideReason {
     },
 }
 
-/// What was set aside.
+/// Options set aside.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SetAsideItem {
     /// An interaction whose name is defined again.
     Interaction(Box<Interaction>),
     /// A table of a kind the interaction has again, or of a misplaced option.
     Table(Table),
-    /// A *CONTACT PERMEABILITY that stands twice or misplaced.
+    /// A *CONTACT PERMEABILITY that occurs twice or is misplaced.
     ContactPermeability(Box<ContactPermeability>),
-    /// A *GAP HEAT GENERATION that stands twice or misplaced.
+    /// A *GAP HEAT GENERATION that occurs twice or is misplaced.
     HeatGeneration(Box<HeatGeneration>),
     /// Another sub-option that is misplaced.
     SubOption(SubOption),
@@ -335,7 +335,7 @@ impl Model {
         self.interactions.values().chain(replaced)
     }
 
-    /// Every table the deck defines, those that govern nothing too: a table is judged wherever it stands.
+    /// Every table the deck defines, those that govern nothing too: a table is judged anywhere.
     pub fn tables(&self) -> Vec<TableOf<'_>> {
         let mut tables: Vec<_> = self.all_interactions().flat_map(Interaction::tables).collect();
         tables.extend(self.set_aside.iter().filter_map(|aside| {

@@ -1,12 +1,12 @@
 //! Numbers as Abaqus writes them (S-34, S-35).
 //!
-//! Reading is exact: the result is the f64 nearest to the decimal that stands there.
+//! Reading is exact: the result is the f64 nearest to the decimal that is written.
 
 mod fortran;
 
 pub use fortran::{FortranNumber, read_fortran};
 
-/// Why a text is no number.
+/// Reasons why a text is no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NumberError {
     /// Not of the form sign, digits, point, exponent.
@@ -25,7 +25,7 @@ pub const FLOAT_CHARACTERS: usize = 20;
 /// The most digits of an integer (S-35).
 pub const INTEGER_DIGITS: usize = 9;
 
-/// Reads a float: optional sign, digits with at most one point, optional exponent behind `E` or `D`.
+/// Reads a float: optional sign, digits with at most one point, optional exponent after `E` or `D`.
 ///
 /// # Errors
 /// `nan`, `inf`, hexadecimal digits, digit separators and an exponent without a letter are refused, and so is a
@@ -43,7 +43,7 @@ pub fn read_float(text: &[u8]) -> Result<f64, NumberError> {
     }
 }
 
-/// A number whose exponent stands behind a D, as Fortran writes it.
+/// A number whose exponent follows a D, as Fortran writes it.
 fn parse_with_d(text: &[u8]) -> Option<f64> {
     let at = text.iter().position(|byte| matches!(byte, b'd' | b'D'))?;
     let mut with_e = text.to_vec();

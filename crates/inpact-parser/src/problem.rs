@@ -1,7 +1,7 @@
-//! What is wrong with rows and places, as the reader finds it: values, not errors.
+//! Problems with rows and places, as the reader finds them: values, not errors.
 //!
 //! The reader says what it met and where; the rules of validation say what that means, how grave it is and what to do.
-//! What a rule can see from the deck, the grammar and the model alone is no problem here.
+//! A problem that a rule can see from the deck, the grammar and the model alone is not among them.
 
 use crate::grammar::{KeywordId, Level};
 use crate::number::NumberError;
@@ -10,15 +10,15 @@ use crate::span::Span;
 /// Something the reader met that does not fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// What it is.
+    /// The kind of problem.
     pub kind: ProblemKind,
-    /// Where it is: the cell, the line, or the keyword line.
+    /// Its place: the cell, the line, or the keyword line.
     pub span: Span,
     /// The keyword line of the block it is in.
     pub keyword: Span,
 }
 
-/// What is read of a float of more than 20 characters.
+/// Reading of a float of more than 20 characters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LongNumber {
     /// All of it, as Abaqus may.
@@ -31,57 +31,57 @@ pub enum LongNumber {
     Nothing,
 }
 
-/// What a [`Problem`] is about.
+/// Kinds of [`Problem`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ProblemKind {
     /// An item that should be a number is none (S-34).
     MalformedNumber {
         /// In what way.
         error: NumberError,
-        /// The column it stands in.
+        /// Its column.
         column: String,
     },
     /// A float of more than 20 characters (S-34, CX-05).
     NumberTooLong {
-        /// How many characters it has.
+        /// The number of characters.
         characters: usize,
-        /// What the dialect reads of it.
+        /// The reading in the dialect.
         read: LongNumber,
     },
     /// An empty line inside a table; skipped (S-08).
     BlankRow,
     /// A row has more items than the option has columns; the rest was dropped (S-33).
     TooManyItems {
-        /// How many items the line may have.
+        /// The number of items that the line may have.
         allowed: usize,
-        /// How many it has.
+        /// The number of items given.
         given: usize,
         /// Whether every line the row could go over is counted in `allowed`.
         lines: usize,
     },
     /// The block ends inside a row that goes over several lines (K-55).
     IncompleteRow {
-        /// How many lines a row has.
+        /// The number of lines of a row.
         lines: usize,
-        /// How many the last row has.
+        /// The number of lines of the last row.
         given: usize,
     },
     /// PROPERTIES=n of a *SURFACE INTERACTION, USER and the number of values below it differ (K-02, K-03).
     PropertyCount {
-        /// What PROPERTIES says; 0 where it is not given.
+        /// The value of PROPERTIES; 0 where it is not given.
         stated: usize,
-        /// How many values there are.
+        /// The number of values.
         given: usize,
     },
-    /// A row behind the first, of an option that has only one (S-38).
+    /// A row after the first, of an option that has only one (S-38).
     SurplusRow,
-    /// A row that should go over several lines stands on one; read all the same (K-53).
+    /// A row that should go over several lines is on one; read all the same (K-53).
     RowOnOneLine {
-        /// How many lines it should have.
+        /// The number of lines it should have.
         lines: usize,
-        /// How many items belong on the first line.
+        /// The number of items of the first line.
         first: usize,
-        /// How many belong on every further line.
+        /// The number of items of every further line.
         following: usize,
     },
     /// The dependent value is left empty and reads as 0 (S-32).
@@ -98,16 +98,16 @@ pub enum ProblemKind {
     },
     /// A statement of *PARAMETER that cannot be executed (S-60).
     InvalidExpression {
-        /// What is wrong.
+        /// The problem.
         message: String,
-        /// What to do.
+        /// The help.
         help: Option<String>,
         /// The parameter that is used without a definition above, when that is what is wrong.
         undefined: Option<String>,
     },
     /// *PARAMETER with TABLE: the parameters it gives are not interpreted (S-63).
     UninterpretedParameters,
-    /// A sub-option stands where no block of its parent is open (S-21, K012).
+    /// A sub-option where no block of its parent is open (S-21, K012).
     Misplaced {
         /// The sub-option.
         keyword: KeywordId,
@@ -118,7 +118,7 @@ pub enum ProblemKind {
     WrongLevel {
         /// The keyword.
         keyword: KeywordId,
-        /// Where it stands.
+        /// Its level.
         level: Level,
         /// The keyword line that opened the level.
         opened_by: Option<Span>,

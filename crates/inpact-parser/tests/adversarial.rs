@@ -14,7 +14,7 @@ use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::SourceId;
 use std::path::PathBuf;
 
-/// How much there is of everything.
+/// The number of each element of a deck.
 const SIZES: [usize; 2] = [8_000, 16_000];
 
 const TABLE: &str = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n";

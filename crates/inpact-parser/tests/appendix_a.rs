@@ -26,7 +26,7 @@ fn a_07_one_text_means_two_things_under_two_keywords() {
     assert_eq!(thermal.row(0), [10., 0., 0., 1., 0.]);
 }
 
-/// Which pair of surfaces an interaction governs follows from these lines, the last one first.
+/// The interaction of a pair of surfaces follows from these lines, the last one first.
 #[test]
 fn a_42_the_lines_of_a_property_assignment() {
     let model = model_of("*CONTACT PROPERTY ASSIGNMENT\n, , P1\nS1, S1, P2\nS2, S3,\n, S4, P3\n");

@@ -7,7 +7,7 @@ use inpact_parser::expression::{
 use inpact_parser::span::{SourceId, Span};
 use std::time::{Duration, Instant};
 
-/// What costs the square of this takes many minutes, what is linear a second.
+/// Quadratic cost takes many minutes at this size, linear cost a second.
 const MANY: usize = 1 << 18;
 
 /// A quarter of it, as a value.

@@ -41,7 +41,7 @@ fn tree() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// How tightly the outermost operator binds: sum, product, sign, power, atom.
+/// The precedence of the outermost operator: sum, product, sign, power, atom.
 fn level(tree: &Tree) -> u8 {
     match tree {
         Tree::Binary("+" | "-", ..) => 1,
@@ -52,7 +52,7 @@ fn level(tree: &Tree) -> u8 {
     }
 }
 
-/// The text of a tree with no parentheses but those it needs where `least` is the loosest operator that may stand.
+/// The text of a tree with no parentheses but those it needs where `least` is the loosest operator that may occur.
 fn print(tree: &Tree, least: u8, gap: &str) -> String {
     let bare = match tree {
         Tree::Integer(value) => value.to_string(),
@@ -71,7 +71,7 @@ fn print(tree: &Tree, least: u8, gap: &str) -> String {
     if level(tree) < least { format!("({bare})") } else { bare }
 }
 
-/// What Python 2 gives, or `None` where it fails, leaves 64 bits or is not finite.
+/// The value in Python 2, or `None` where it fails, leaves 64 bits or is not finite.
 fn reference(tree: &Tree) -> Option<Number> {
     match tree {
         Tree::Integer(value) => Some(Number::Integer(i128::from(*value))),

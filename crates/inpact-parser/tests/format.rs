@@ -28,7 +28,7 @@ fn check_untouched(deck: &str) {
     check(deck, deck);
 }
 
-/// What formatting promises for any bytes, checked on the scanned decks before and after; says what was broken.
+/// The promises of formatting for any bytes, checked on the scanned decks before and after; the error names the broken one.
 fn check_promises(bytes: &[u8], grammar: &Grammar) -> Result<(), String> {
     let before = scan("x", bytes, grammar);
     let text = format(&before, SourceId::ROOT, grammar);
@@ -58,7 +58,7 @@ fn check_promises(bytes: &[u8], grammar: &Grammar) -> Result<(), String> {
         .try_for_each(|blocks| same_but_for_style(&before, &after, blocks, grammar))
 }
 
-/// What a model says, as text: a cell that is no number is NaN, which equals nothing.
+/// A model as text: a cell that is no number is NaN, which equals nothing.
 fn said(model: &Model) -> String {
     let mut model = model.without_places();
     // Their order in print is left to chance, so only the definitions count.

@@ -1,4 +1,4 @@
-//! What the fuzz targets of `fuzz/` have found, each in the smallest form.
+//! Findings of the fuzz targets of `fuzz/`, each in the smallest form.
 
 use inpact_parser::deck::{FoundFile, IncludedFiles, Keep, ScanOptions, Scanner, scan};
 use inpact_parser::grammar::Grammar;
@@ -23,7 +23,7 @@ impl IncludedFiles for OneRow {
     }
 }
 
-/// The rows behind an *INCLUDE were a block of their own in JSON, which the lines then did not form.
+/// The rows after an *INCLUDE were a block of their own in JSON, which the lines then did not form.
 #[test]
 fn rows_after_an_include_come_back_from_the_lossless_json() {
     let text = b"*SURFACE INTERACTION, NAME=A\n*INCLUDE, INPUT=rows\n1., 2.\n*FRICTION\n";

@@ -1,4 +1,4 @@
-//! How written words find keywords and parameters: S-11 to S-16 and the test vectors of appendix A.
+//! Lookup of keywords and parameters by written names: S-11 to S-16 and the test vectors of appendix A.
 
 use inpact_parser::grammar::{Definition, Dialect, Grammar, Lookup, Release, lookup_name};
 use std::sync::LazyLock;

@@ -102,7 +102,7 @@ fn the_schema_names_the_releases() {
     assert_eq!(schema["$defs"]["release"]["enum"], Value::from(expected));
 }
 
-/// What the schema requires is what reading cannot do without.
+/// The schema requires the keys that reading requires.
 #[test]
 fn the_schema_requires_what_reading_requires() {
     let schema: Value = serde_json::from_str(SCHEMA).unwrap();

@@ -104,7 +104,7 @@ fn is_continuation(example: &[u8]) -> bool {
     is_keyword_line(&line) && keyword.parameters.len() == 2
 }
 
-/// Whether the example, as an item of a table, stands for a parameter's value.
+/// Whether the example, as an item of a table, is a symbol for a parameter's value.
 fn is_symbol(example: &[u8]) -> bool {
     let text = [b"*SURFACE INTERACTION, NAME=A\n*CONTACT PERMEABILITY\n", example, b", 0.\n"].concat();
     let (model, problems) = read(&deck(&text), Grammar::builtin());

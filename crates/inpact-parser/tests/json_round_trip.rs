@@ -14,7 +14,7 @@ use proptest::option::of;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// What two models are compared by: as text, because a cell without a value is NaN, which equals nothing.
+/// The text by which two models are compared, because a cell without a value is NaN, which equals nothing.
 fn meaning(model: &Model) -> (Parameters, String) {
     let mut model = model.without_places();
     (std::mem::take(&mut model.parameters), format!("{model:#?}"))
@@ -228,7 +228,7 @@ fn procedure() -> impl Strategy<Value = Procedure> {
     })
 }
 
-// What they consist of.
+// Their parts.
 
 fn option(keyword: &str, parameters: Vec<GivenParameter>, table: Option<Table>, rows: Vec<Vec<String>>) -> SubOption {
     SubOption { keyword: keyword.to_owned(), span: Span::default(), parameters, table, rows }

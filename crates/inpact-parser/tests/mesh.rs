@@ -234,7 +234,7 @@ fn plane_and_axisymmetric_elements() {
         close(area, 0.5);
         close(clearance, 0.5);
     }
-    // Where no section says one, the interaction does; that no section does is said.
+    // Without a section the interaction gives the thickness; that there is no section is noted.
     let without = mesh(&deck("CPS4", ""));
     assert_eq!(without.notes.len(), 2);
     assert_eq!(without.notes[0].message, "no section gives a thickness to 1 faces of this surface");
@@ -260,7 +260,7 @@ fn cylindrical_and_spherical_coordinates() {
     system("S", "11, 2., 90., 30.\n").iter().zip([0.0, 3.0_f64.sqrt(), 1.0]).for_each(|(a, b)| close(*a, b));
 }
 
-/// What is not read is said, once, and where.
+/// Parts that are not read are noted, once, with their place.
 #[test]
 fn what_is_not_read_is_named() {
     let said = |deck: &str| -> Vec<String> { mesh(deck).notes.into_iter().map(|note| note.message).collect() };

@@ -130,7 +130,7 @@ CDIS
     )
 }
 
-/// What ccx printed: by node, the first number behind it; `None` without ccx.
+/// Output of ccx: by node, the first number after it; `None` without ccx.
 struct Printed {
     areas: BTreeMap<u32, String>,
     clearances: BTreeMap<u32, String>,

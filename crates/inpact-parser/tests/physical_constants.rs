@@ -1,4 +1,4 @@
-//! What radiation and the friction of CalculiX take from a model beside tables: constants, emissivities, a speed.
+//! Parts of a model beside tables that radiation and the friction of CalculiX need: constants, emissivities, a speed.
 
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::{Dialect, Grammar, Release};

@@ -2,7 +2,7 @@
 //!
 //! A deck of a hundred megabytes is mostly mesh. What a piece of it holds is surveyed once; a scan passes over a piece of mesh rows
 //! without touching its bytes, and gives the very deck that the whole text would.
-//! A piece ends behind a line end, and no CR is parted from its LF; only the last piece may end in the middle of a line.
+//! A piece ends after a line end, and no CR is parted from its LF; only the last piece may end in the middle of a line.
 
 use super::Scanner;
 use super::lines::{count_line_ends, lines, without_line_end};
@@ -107,12 +107,12 @@ impl EditedText {
         self.bytes(0..self.length).into_owned()
     }
 
-    /// The bytes of a line without its line end, and where it begins; lines are counted from 0, and one behind the last is empty.
+    /// The bytes of a line without its line end, and where it begins; lines are counted from 0, and one after the last is empty.
     pub fn line(&self, line: u64) -> (u64, &[u8]) {
         let mut left = line;
         let mut start = 0;
         for piece in &self.pieces {
-            // The line behind the last line end of a piece begins the next one.
+            // The line after the last line end of a piece begins the next one.
             if left < piece.line_ends || (left == piece.line_ends && !ends_line(&piece.bytes)) {
                 let index = usize::try_from(left).unwrap_or(usize::MAX);
                 let range = lines(&piece.bytes).nth(index).unwrap_or(piece.bytes.len()..piece.bytes.len());
@@ -149,7 +149,7 @@ impl EditedText {
         }
     }
 
-    /// How many bytes at the beginning and at the end are shared with another text; they do not overlap.
+    /// The lengths of the common prefix and suffix with another text, in bytes; they do not overlap.
     ///
     /// Whole pieces are compared by being the same ones.
     pub fn shared_with(&self, other: &Self) -> (u64, u64) {
@@ -161,7 +161,7 @@ impl EditedText {
         (self.pieces[..before].iter().map(|piece| piece.bytes.len() as u64).sum(), after)
     }
 
-    /// The piece that a byte lies in and where that begins; behind the last byte the last piece, where it does not end a line.
+    /// The piece that a byte lies in and where that begins; after the last byte the last piece, where it does not end a line.
     fn piece_at(&self, offset: u64) -> (usize, u64) {
         let mut start = 0;
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -175,7 +175,7 @@ impl EditedText {
     }
 }
 
-/// Cuts bytes into pieces of about that length, behind line ends.
+/// Cuts bytes into pieces of about that length, after line ends.
 fn cut(bytes: &[u8], length: usize) -> Vec<Arc<Piece>> {
     let mut pieces = Vec::new();
     let mut rest = bytes;

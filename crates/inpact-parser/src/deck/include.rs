@@ -1,7 +1,7 @@
 //! Puts included files in their places (S-50 to S-54).
 //!
-//! A file is scanned by itself; its blocks then stand behind the *INCLUDE that named it.
-//! Rows before the first keyword of an included file, and rows behind the *INCLUDE itself, go on with the block that is
+//! A file is scanned by itself; its blocks then follow the *INCLUDE that named it.
+//! Rows before the first keyword of an included file, and rows after the *INCLUDE itself, go on with the block that is
 //! open there (S-51). What could not be read is said in [`Include::outcome`], and the rest of the deck is read all the same.
 
 use super::scan::LeadingRows;
@@ -35,11 +35,11 @@ pub struct Include {
     pub keyword: Span,
     /// The name of the file as it is written; `None` when INPUT is missing.
     pub name: Option<Span>,
-    /// What became of it.
+    /// The outcome.
     pub outcome: IncludeOutcome,
 }
 
-/// What became of an *INCLUDE.
+/// Outcomes of an *INCLUDE.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum IncludeOutcome {
     /// It was read as this source.
@@ -60,12 +60,12 @@ pub enum IncludeOutcome {
     Unnamed,
 }
 
-/// Where included files come from; whoever implements it does the input and output.
+/// Source of included files; its implementation does the input and output.
 pub trait IncludedFiles {
-    /// What tells the deck itself from every other file; `None` when it is no file.
+    /// The identity of the deck among files; `None` when it is no file.
     fn deck(&self) -> Option<PathBuf>;
 
-    /// The folder that a file lies outside of although nothing beyond it may be read; asked before the file is looked for.
+    /// The folder that must not be left and does not contain the file; checked before the file is looked for.
     fn outside(&mut self, _name: &str, _from: &str) -> Option<String> {
         None
     }
@@ -78,13 +78,13 @@ pub trait IncludedFiles {
     /// Finds the file that is written as `name` in the source called `from`.
     ///
     /// # Errors
-    /// Says in words why there is none.
+    /// The reason why there is none, for users.
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String>;
 
     /// Pushes the bytes of a file that was found.
     ///
     /// # Errors
-    /// Says in words why they cannot be read.
+    /// The reason why they cannot be read, for users.
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String>;
 }
 
@@ -101,9 +101,9 @@ pub enum Excerpts {
 /// A file that an *INCLUDE names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundFile {
-    /// What diagnostics call it.
+    /// The name in diagnostics.
     pub name: String,
-    /// What tells it from every other file.
+    /// The identity of the file.
     pub path: PathBuf,
 }
 
@@ -147,9 +147,9 @@ struct Assembly<'a> {
     open: Option<usize>,
     /// The files that are being read, outermost first.
     path: Vec<PathBuf>,
-    /// How many of them are included.
+    /// The depth of inclusion.
     level: usize,
-    /// How long each file is that has been read.
+    /// The lengths of the files read so far, in bytes.
     lengths: HashMap<PathBuf, u64>,
     /// The bytes of the deck and of the files that have been read, each counted once.
     first_bytes: u64,
@@ -191,9 +191,9 @@ impl Assembly<'_> {
 
     fn include(&mut self, keyword: &KeywordLine) -> Include {
         let name = match self.options.grammar.dialect() {
-            // FILE stands for INPUT in decks that ran all the same.
+            // FILE is taken for INPUT in decks that ran all the same.
             Dialect::Abaqus => self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE")),
-            // For CalculiX all that stands behind the first `=` is the name, commas included (CX-06).
+            // For CalculiX all that follows the first `=` is the name, commas included (CX-06).
             Dialect::Calculix => {
                 let end = keyword.visible_span(&self.deck).end;
                 let value = keyword.parameters.iter().find_map(|parameter| parameter.value);

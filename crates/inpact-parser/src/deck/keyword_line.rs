@@ -1,4 +1,4 @@
-//! One keyword line: the name behind the asterisk, and the parameters (S-10 to S-20).
+//! One keyword line: the name after the asterisk, and the parameters (S-10 to S-20).
 //!
 //! nom parses the line; blanks carry no meaning outside quotes (S-11), so names and values are spans whose
 //! canonical form is taken when they are compared.
@@ -16,11 +16,11 @@ use super::lines::{LineKind, line_kind, lines, without_line_end};
 /// The pieces of a keyword line as byte ranges of the text that was parsed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct KeywordPieces {
-    /// The words behind the asterisk.
+    /// the name after the asterisk.
     pub(super) name: Range<usize>,
     /// The parameters in the order of the line; empty items (`*X,,Y=1`) leave none.
     pub(super) parameters: Vec<ParameterPieces>,
-    /// Where a quote opens that does not close on its line.
+    /// The quote that does not close on its line.
     pub(super) unterminated_quote: Option<usize>,
     /// The comma that ends the line, when the line ends in one.
     pub(super) final_comma: Option<usize>,
@@ -47,7 +47,7 @@ pub(super) fn parse_unprotected(text: &[u8]) -> KeywordPieces {
     parse_items(text, |input| take_till(|byte| byte == b',').parse(input))
 }
 
-/// What takes one item of a line.
+/// A parser of one item of a line.
 type TakeItem = fn(&[u8]) -> IResult<&[u8], &[u8]>;
 
 fn parse_items(text: &[u8], word: TakeItem) -> KeywordPieces {
@@ -70,7 +70,7 @@ fn parse_items(text: &[u8], word: TakeItem) -> KeywordPieces {
     pieces
 }
 
-/// Whether a line that ends the way `text` does asks for a continuation: its last character is a comma (S-19).
+/// Whether a line continues on the next: its last character is a comma (S-19).
 pub(super) fn ends_in_comma(text: &[u8]) -> bool {
     text.trim_ascii_end().last() == Some(&b',')
 }
@@ -108,7 +108,7 @@ fn parenthesised(input: &[u8]) -> IResult<&[u8], &[u8]> {
     recognize(delimited(tag("("), take_while(|byte| byte != b')'), tag(")"))).parse(input)
 }
 
-/// A parenthesis that never closes stands for itself.
+/// A parenthesis that never closes is an ordinary character.
 fn stray(input: &[u8]) -> IResult<&[u8], &[u8]> {
     tag("(").parse(input)
 }

@@ -4,12 +4,12 @@
 
 use memchr::{memchr, memchr_iter, memchr2};
 
-/// What kind of line it is (S-03).
+/// Kinds of lines (S-03).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineKind {
     /// `*` in columns 1 and 2 (S-04).
     Comment,
-    /// `**` behind blanks: formally a keyword line, meant as a comment (S-04); taken as a comment.
+    /// `**` after blanks: formally a keyword line, meant as a comment (S-04); taken as a comment.
     IndentedComment,
     /// The first character that is not a blank is `*` (S-05).
     Keyword,
@@ -31,7 +31,7 @@ pub fn line_kind(line: &[u8]) -> LineKind {
     }
 }
 
-/// The offset behind the line end of the line that begins at `from`, or the length of `bytes` for an unfinished line.
+/// The offset after the line end of the line that begins at `from`, or the length of `bytes` for an unfinished line.
 pub fn next_line(bytes: &[u8], from: usize) -> usize {
     match memchr2(b'\n', b'\r', &bytes[from..]) {
         None => bytes.len(),
@@ -69,7 +69,7 @@ pub fn count_line_ends(bytes: &[u8]) -> u64 {
     (line_feeds + lone_carriage_returns(bytes)) as u64
 }
 
-/// How many CRs stand without an LF behind them; almost always none, and found out at the speed of memory.
+/// The number of CRs without an LF after them; almost always zero, counted with `memchr`.
 fn lone_carriage_returns(bytes: &[u8]) -> usize {
     let Some(first) = memchr(b'\r', bytes) else { return 0 };
     let rest = &bytes[first..];
@@ -79,7 +79,7 @@ fn lone_carriage_returns(bytes: &[u8]) -> usize {
     inner + usize::from(rest.last() == Some(&b'\r'))
 }
 
-/// Where the next line of kind [`LineKind::Keyword`] begins at or behind `from`, which must be the start of a line.
+/// The start of the next line of kind [`LineKind::Keyword`] at or after `from`, which must be the start of a line.
 ///
 /// Looks at asterisks only, so that megabytes of mesh rows cost one `memchr`.
 /// The comments it passes are handed to `comment`, as the start of their line and the place of their first asterisk.
@@ -101,7 +101,7 @@ pub fn find_keyword_line(bytes: &[u8], from: usize, mut comment: impl FnMut(usiz
     None
 }
 
-/// The start of the line of `at` when only blanks stand between it and `at`.
+/// The start of the line of `at` when only blanks are between it and `at`.
 fn line_start_before(bytes: &[u8], from: usize, at: usize) -> Option<usize> {
     let mut start = at;
     while start > from {

@@ -1,8 +1,8 @@
 //! Cuts bytes into blocks: the arrow from a file to a [`Deck`].
 //!
 //! Bytes are pushed in pieces of any size, so a file is read once and need not fit into memory.
-//! Knows the grammar only to tell which keyword a line means, whether its rows are worth keeping,
-//! and whether the line behind a trailing comma continues it (S-19).
+//! Knows the grammar only to find the keyword of a line, whether its rows are worth keeping,
+//! and whether the line after a trailing comma continues it (S-19).
 
 use super::lines::{
     LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
@@ -19,10 +19,10 @@ use std::ops::Range;
 /// The most characters of a keyword or data line (S-06).
 const LINE_CHARACTERS: usize = 256;
 
-/// How much of the rows before the first keyword is kept when only interpreted blocks are: enough to tell a fragment from a file that is no deck.
+/// The number of bytes kept of the rows before the first keyword when only interpreted blocks are: enough to distinguish a fragment from a file that is no deck.
 const LEADING_ROWS_KEPT: u64 = 64 * 1024;
 
-/// Which rows keep their text.
+/// The rows that keep their text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Keep {
     /// All of them: the deck can be printed.
@@ -32,21 +32,21 @@ pub enum Keep {
     Interpreted,
 }
 
-/// How a deck is scanned.
+/// Options of a scan.
 #[derive(Debug, Clone, Copy)]
 pub struct ScanOptions<'grammar> {
     /// The keyword language.
     pub grammar: &'grammar Grammar,
-    /// Which rows keep their text.
+    /// The rows that keep their text.
     pub keep: Keep,
 }
 
-/// How much is kept of the rows before the first keyword of a file.
+/// The part kept of the rows before the first keyword of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LeadingRows {
     /// All of them: they go on with a block whose rows are kept.
     All,
-    /// As much as it takes to tell a fragment from a file that is no deck.
+    /// As much as distinguishes a fragment from a file that is no deck.
     Some,
     /// None.
     None,
@@ -68,7 +68,7 @@ pub struct Scanner<'grammar> {
     blocks: Vec<Block>,
     notes: Vec<LineNote>,
     directives: Vec<Span>,
-    /// Bytes behind the last complete line that was processed.
+    /// Bytes after the last complete line that was processed.
     pending: Vec<u8>,
     /// Offset and line number of the next byte to be processed.
     offset: u64,
@@ -82,17 +82,17 @@ pub struct Scanner<'grammar> {
 #[derive(Debug)]
 struct OpenKeyword {
     start: u64,
-    /// Which keyword it is; asked for once, however many lines continue it.
+    /// The keyword; looked up once, however many lines continue it.
     id: Option<KeywordId>,
     /// The physical lines taken so far, comments between them included.
     text: Vec<u8>,
-    /// How much of `text` belongs to the keyword line for sure: comments at its end do not.
+    /// The length of `text` that belongs to the keyword line for sure: comments at its end do not.
     accepted: usize,
-    /// Whether the comma at its end is answered by what may be a flag, or may be in the file that includes this one.
+    /// The comma at its end is followed by fields that may be flags, or by the file that includes this one.
     is_answered: bool,
 }
 
-/// Why a line is taken down while it goes by.
+/// Kinds of lines that are noted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mark {
     Note(LineNoteKind),
@@ -106,7 +106,7 @@ struct OpenBlock {
     keyword: Option<KeywordLine>,
     rows_start: u64,
     keeps_rows: KeepsRows,
-    /// Whether the rows are free text, in which any byte may stand (S-70).
+    /// The rows are free text, in which any byte may occur (S-70).
     free_text: bool,
 }
 
@@ -182,7 +182,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// How many bytes have been taken of a line that has not ended yet: they are kept until it does.
+    /// The number of bytes of a line that has not ended yet: they are kept until it does.
     pub fn unfinished(&self) -> usize {
         self.pending.len()
     }
@@ -244,7 +244,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Takes rows and comments of the open block; `marked` are the starts of comments that somebody asks for.
+    /// Takes rows and comments of the open block; `marked` are the starts of comments that are wanted.
     fn rows(&mut self, bytes: &[u8], marked: &[(usize, Mark)], survey: Survey) {
         if bytes.is_empty() {
             return;
@@ -304,7 +304,7 @@ impl<'grammar> Scanner<'grammar> {
             id,
             text: line.to_vec(),
             accepted: line.len(),
-            // What stands behind the last line of an included file is in another one.
+            // The line after the last one of an included file is in another file.
             is_answered: may_continue && self.id != SourceId::ROOT,
         });
         self.source.keep(self.offset, self.line, line);
@@ -317,7 +317,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Looks at the line at `at` behind a keyword line that ends in a comma; gives where to go on.
+    /// Looks at the line at `at` after a keyword line that ends in a comma; gives where to go on.
     fn continue_keyword(&mut self, bytes: &[u8], at: usize) -> usize {
         let end = next_line(bytes, at);
         let line = &bytes[at..end];
@@ -374,7 +374,7 @@ impl<'grammar> Scanner<'grammar> {
     }
 }
 
-/// The lines that are too long or not ASCII (S-01, S-06); comments may be both. `offset` is where `bytes` stand in the file.
+/// The lines that are too long or not ASCII (S-01, S-06); comments may be both. `offset` is that of `bytes` in the file.
 fn noteworthy_lines(bytes: &[u8], offset: u64, survey: Survey) -> Vec<(Range<usize>, Mark)> {
     let mut found = Vec::new();
     let is_row = |line: &Range<usize>| matches!(line_kind(&bytes[line.clone()]), LineKind::Data | LineKind::Keyword);
@@ -398,12 +398,12 @@ fn noteworthy_lines(bytes: &[u8], offset: u64, survey: Survey) -> Vec<(Range<usi
     found
 }
 
-/// Whether a comment is meant for inpact: `** inpact: …`.
+/// Whether a comment is a directive: `** inpact: …`.
 fn is_directive(comment: &[u8]) -> bool {
     comment.strip_prefix(b"**").is_some_and(|text| text.trim_ascii_start().starts_with(b"inpact:"))
 }
 
-/// Where in `bytes` the line ends that `pending` begins, if it does.
+/// The end in `bytes` of the line that `pending` begins, if it ends there.
 fn end_of_pending_line(pending: &[u8], bytes: &[u8]) -> Option<usize> {
     if pending.last() == Some(&b'\r') {
         return bytes.first().map(|first| usize::from(*first == b'\n'));
@@ -414,18 +414,18 @@ fn end_of_pending_line(pending: &[u8], bytes: &[u8]) -> Option<usize> {
     ended.then_some(end)
 }
 
-/// Where the last complete line of `bytes` ends; a CR at the very end may be half of a CR LF.
+/// The end of the last complete line of `bytes`; a CR at the very end may be half of a CR LF.
 fn end_of_last_line(bytes: &[u8]) -> usize {
     let certain = bytes.strip_suffix(b"\r").unwrap_or(bytes);
     memchr::memrchr2(b'\n', b'\r', certain).map_or(0, |last| last + 1)
 }
 
-/// How a line reads behind a keyword line that ends in a comma (S-19).
+/// Readings of a line after a keyword line that ends in a comma (S-19).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum NextLine {
     /// As parameters of the keyword: it goes on with them.
     Parameters,
-    /// As words that may be flags of a keyword whose parameters are not all known here.
+    /// As names that may be flags of a keyword whose parameters are not all known here.
     ///
     /// The line is read as a row, and the comma in front of it is nothing to complain about: without it a flag would be one.
     PerhapsFlags,
@@ -433,12 +433,12 @@ enum NextLine {
     NoParameters,
 }
 
-/// How `line` reads behind a keyword line: as its parameters if it has `=`, or if its words are flags the keyword knows (S-19).
+/// The reading of `line` after a keyword line: as its parameters if it has `=`, or if its fields are flags the keyword knows (S-19).
 fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> NextLine {
     let definition = keyword.and_then(|id| grammar.keyword(id).definition());
     let knows_all = definition.is_some_and(|definition| definition.parameters_complete);
     match line_kind(line) {
-        // What a blank line means here is said nowhere.
+        // No manual says what a blank line means here.
         LineKind::Blank if !knows_all => return NextLine::PerhapsFlags,
         LineKind::Data => {}
         _ => return NextLine::NoParameters,
@@ -451,7 +451,7 @@ fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> Ne
             (Some(definition), Lookup::Exact(index) | Lookup::Abbreviated(index)) => {
                 has_value || definition.parameters[index].value_use() != ValueUse::Always
             }
-            // Rows of free text may hold `=` without being parameters: `x = 5` behind `*PARAMETER,`.
+            // Rows of free text may hold `=` without being parameters: `x = 5` after `*PARAMETER,`.
             (Some(definition), _) => has_value && (definition.rows() != RowShape::Text || !knows_all),
             (None, _) => has_value,
         }
@@ -489,7 +489,7 @@ fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {
     }
 }
 
-/// Resolves the pieces of a keyword line that stands at `start` in the file.
+/// Resolves the pieces of a keyword line that begins at `start` in the file.
 fn keyword_line(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> KeywordLine {
     let pieces = match grammar.dialect() {
         Dialect::Abaqus => keyword_line::parse(text),

@@ -1,6 +1,6 @@
-//! What a stretch of bytes holds, found out in one pass at the speed of memory.
+//! Properties of a stretch of bytes, found in one vectorised pass.
 //!
-//! Mesh rows are plain: short ASCII lines that end in LF, without an asterisk. One look tells, and then nobody has to
+//! Mesh rows are plain: short ASCII lines that end in LF, without an asterisk. One look shows it, and then nobody has to
 //! look closer. The loop is written for a compiler that vectorises it, for whatever the processor has.
 
 /// The lanes that are looked at side by side.
@@ -9,10 +9,10 @@ const LANES: usize = 64;
 /// The bytes that must hold a line end for the lines around them to be of ordinary length.
 const BLOCK: usize = 2 * LANES;
 
-/// How many blocks a lane can count line ends over before its eight bits are full.
+/// The number of blocks in which a lane can count line ends before its eight bits are full.
 const BLOCKS_A_COUNT: usize = 255 / 2;
 
-/// What a stretch of bytes holds.
+/// Properties of a stretch of bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Survey {
     /// The number of LFs.
@@ -21,7 +21,7 @@ pub(super) struct Survey {
     pub(super) is_ascii: bool,
     pub(super) has_carriage_return: bool,
     pub(super) has_asterisk: bool,
-    /// Whether a line may be longer than 256 bytes: false is certain, true is worth a closer look.
+    /// `false` is certain; `true` means that a line may be longer than 256 bytes.
     pub(super) may_have_long_line: bool,
 }
 

@@ -1,6 +1,6 @@
 //! The bytes of one source file that the scan kept, found again by their offset in the file.
 //!
-//! A deck is mostly mesh, and nobody asks for the text of a mesh: the store holds stretches of a file, not the file.
+//! A deck is mostly mesh, and nobody needs the text of a mesh: the store holds stretches of a file, not the file.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ pub struct Source {
     pub(super) included_by: Option<Span>,
     pub(super) excerpts: Excerpts,
     stretches: Vec<Stretch>,
-    /// The kept bytes, stretch behind stretch.
+    /// The kept bytes, stretch after stretch.
     bytes: Vec<u8>,
 }
 
@@ -53,7 +53,7 @@ impl Source {
         self.included_by
     }
 
-    /// Whether its lines may be quoted around findings.
+    /// Whether diagnostics may quote its lines.
     pub fn excerpts(&self) -> Excerpts {
         self.excerpts
     }
@@ -63,7 +63,7 @@ impl Source {
         self.bytes.len() as u64 == self.length
     }
 
-    /// Keeps `bytes`, which stand at `start` in the file, at the beginning of line `first_line`.
+    /// Keeps `bytes`, which begin at `start` in the file, at the beginning of line `first_line`.
     ///
     /// Stretches come in ascending order; what was kept already is not kept twice.
     pub(super) fn keep(&mut self, start: u64, first_line: u64, bytes: &[u8]) {
@@ -135,7 +135,7 @@ impl Source {
     }
 }
 
-/// How far a sweep over ascending offsets has come.
+/// State of a sweep over ascending offsets.
 struct Sweep {
     offset: u64,
     line: u64,

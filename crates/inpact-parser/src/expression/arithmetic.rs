@@ -19,7 +19,7 @@ pub(super) enum Operator {
 }
 
 impl Operator {
-    /// How it is written.
+    /// Its sign in an expression.
     fn symbol(self) -> &'static str {
         match self {
             Self::Add => "+",
@@ -134,7 +134,7 @@ fn true_division(left: i64, right: i64) -> Result<Value, Complaint> {
     Ok(Value::Real(left as f64 / right as f64))
 }
 
-/// What a division of integers gives in either way, where there is a remainder.
+/// Both results of a division of integers, where there is a remainder.
 pub(super) fn with_remainder(left: &Value, right: &Value) -> Option<(Value, Value)> {
     let (Value::Integer(left), Value::Integer(right)) = (left, right) else { return None };
     let (floor, remainder) = floor_division(i128::from(*left), i128::from(*right)).ok()?;

@@ -1,10 +1,10 @@
-//! What `/` does between two integers, which depends on the release (S-60).
+//! Division of two integers by `/`, which depends on the release (S-60).
 
 use super::value::Value;
 use crate::grammar::Release;
 use crate::span::Span;
 
-/// How an integer is divided by an integer.
+/// Division of an integer by an integer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Division {
     /// As Python 2 does, towards minus infinity: 5/4 = 1 (before release 2024).
@@ -24,14 +24,14 @@ impl Division {
 /// A `/` between two integers that leaves a remainder: what it gives depends on the release (S019).
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntegerDivision {
-    /// Dividend and divisor with what stands between them.
+    /// Dividend and divisor with the text between them.
     pub span: Span,
     /// The dividend as it is written.
     pub dividend: Span,
     /// The divisor as it is written.
     pub divisor: Span,
-    /// What it gives before release 2024.
+    /// The quotient before release 2024, rounded down.
     pub floor: Value,
-    /// What it gives from release 2024 on.
+    /// The quotient from release 2024 on.
     pub quotient: Value,
 }

@@ -18,7 +18,7 @@ const RESERVED: [&str; 32] = [
     "try", "while", "with", "yield", "None",
 ];
 
-/// Why there is no value.
+/// Reasons why there is no value.
 #[derive(Debug)]
 pub(super) enum Stop {
     /// Something is wrong here.
@@ -37,9 +37,9 @@ struct Operand {
     range: Range<usize>,
 }
 
-/// What waits for an operand on its right.
+/// An operator or a call that waits for an operand on its right.
 enum Pending {
-    /// `+` or `-` in front, and where it stands.
+    /// `+` or `-` in front, and its place.
     Sign(Operator, usize),
     /// An operator with its left operand.
     Binary(Operand, Operator),
@@ -50,7 +50,7 @@ enum Pending {
 }
 
 impl Pending {
-    /// How tightly it binds: an operator on the right takes the operand away if it binds tighter.
+    /// Its binding power: an operator on the right takes the operand away if it binds tighter.
     fn binding(&self) -> u8 {
         match self {
             Self::Parenthesis(_) | Self::Call { .. } => 0,
@@ -59,7 +59,7 @@ impl Pending {
         }
     }
 
-    /// Whether it is one more level of nesting; sums and products stand side by side.
+    /// Whether it is one more level of nesting; sums and products are not.
     fn nests(&self) -> bool {
         !matches!(self, Self::Binary(_, operator) if *operator != Operator::Power)
     }
@@ -78,10 +78,10 @@ pub(super) struct Evaluator<'a> {
     pub(super) text: &'a [u8],
     lexer: Lexer<'a>,
     parameters: &'a Parameters,
-    /// The token that comes next, and where it stands.
+    /// The token that comes next, and its place.
     pub(super) token: Token,
     pub(super) range: Range<usize>,
-    /// Where the token before it ends.
+    /// The end of the token before it.
     pub(super) end_of_last: usize,
     pending: Vec<Pending>,
     depth: usize,
@@ -102,7 +102,7 @@ pub(super) fn stop<T>(at: Range<usize>, complaint: Complaint) -> Result<T, Stop>
     Err(Stop::Complaint { at, complaint })
 }
 
-/// Whether Python keeps the word for itself.
+/// Whether it is a reserved word of Python.
 pub(super) fn is_reserved(name: &[u8]) -> bool {
     RESERVED.iter().any(|word| word.as_bytes() == name)
 }

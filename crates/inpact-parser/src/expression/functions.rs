@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 /// A function and what it takes.
 pub(super) struct Function {
     pub(super) name: &'static str,
-    /// How many arguments it takes.
+    /// The range of its number of arguments.
     pub(super) arguments: RangeInclusive<usize>,
     /// Computes it; the number of arguments has been checked.
     pub(super) compute: fn(&[Value]) -> Result<Value, Complaint>,

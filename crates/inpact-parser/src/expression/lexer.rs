@@ -14,7 +14,7 @@ pub(super) enum Token {
     Integer,
     /// Digits with a point or an exponent.
     Real,
-    /// What begins like a number but goes on like none: `1.d0`, `2x`, `1.2.3`.
+    /// A token that begins like a number but is none: `1.d0`, `2x`, `1.2.3`.
     MalformedNumber,
     /// `'…'` or `"…"`.
     Text,
@@ -55,7 +55,7 @@ impl<'text> Lexer<'text> {
         Self { text, at: from }
     }
 
-    /// The next token and where it stands; [`Token::End`] for ever at the end.
+    /// The next token and its place; [`Token::End`] for ever at the end.
     pub(super) fn next_token(&mut self) -> (Token, Range<usize>) {
         self.skip_while(is_blank);
         let start = self.at;
@@ -106,7 +106,7 @@ impl<'text> Lexer<'text> {
         }
     }
 
-    /// Passes the exponent whose letter stands here; `false` when no digit follows.
+    /// Passes the exponent whose letter is here; `false` when no digit follows.
     fn skip_exponent(&mut self) -> bool {
         let digits = if matches!(self.peek(1), Some(b'+' | b'-')) { 2 } else { 1 };
         let has_digits = self.peek(digits).is_some_and(|byte| byte.is_ascii_digit());
@@ -166,7 +166,7 @@ pub(super) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\x0C')
 }
 
-/// Whether a byte can stand in a name, behind its first.
+/// Whether a byte may occur in a name after its first.
 pub(super) fn is_name_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }

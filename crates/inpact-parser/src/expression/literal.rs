@@ -1,4 +1,4 @@
-//! What the numbers and texts of an expression are worth, and what is wrong with those that are none.
+//! The values of the numbers and texts of an expression, and the problems of malformed ones.
 
 use super::arithmetic::{integer_too_large, real_too_large, text, text_too_long};
 use super::value::Value;
@@ -22,7 +22,7 @@ pub(super) fn real_literal(digits: &[u8]) -> Result<Value, Complaint> {
 }
 
 /// A text without its quotes, with Python's escapes for backslash and quotes; a backslash before anything that is no
-/// escape stands for itself.
+/// escape is two characters.
 pub(super) fn text_literal(word: &[u8]) -> Result<Value, Complaint> {
     let inner = &word[1..word.len() - 1];
     // An escape takes two bytes for one.
@@ -51,7 +51,7 @@ fn control_character(escape: char) -> Complaint {
         .help(format!("write `\\\\{escape}` for a backslash before `{escape}`"))
 }
 
-/// What is wrong with a word that begins like a number.
+/// The problem of a word that begins like a number.
 pub(super) fn malformed_number(word: &[u8]) -> Complaint {
     let (mantissa, exponent) = word.split_at(word.iter().position(u8::is_ascii_alphabetic).unwrap_or(word.len()));
     if let [b'd' | b'D', digits @ ..] = exponent

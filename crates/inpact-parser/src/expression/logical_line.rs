@@ -9,7 +9,7 @@ use std::ops::Range;
 /// One line of a *PARAMETER block; the deck's own comment lines (`**`) are passed over before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StatementLine<'deck> {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// Its bytes, without line end.
     pub text: &'deck [u8],
@@ -19,11 +19,11 @@ pub struct StatementLine<'deck> {
 #[derive(Debug)]
 pub(super) struct LogicalLine<'deck> {
     pub(super) text: Cow<'deck, [u8]>,
-    /// Where in `text` each physical line begins, and where that line stands in the deck; never empty.
+    /// The start in `text` of each physical line, and its place in the deck; never empty.
     pieces: Vec<(usize, Span)>,
 }
 
-/// How a physical line ends.
+/// Ends of a physical line.
 enum LineEnd {
     /// The statement is over, or goes on only because a parenthesis is open.
     Plain,
@@ -33,7 +33,7 @@ enum LineEnd {
     ContinuedText,
 }
 
-/// What has been opened and not closed so far.
+/// Quotes and brackets open so far.
 #[derive(Default)]
 struct Open {
     quote: Option<u8>,
@@ -42,7 +42,7 @@ struct Open {
 
 /// Takes the next logical line off `lines`.
 ///
-/// It goes on behind a backslash (S-60; blanks behind it do not count, S-06) and, as in Python, while a parenthesis is
+/// It goes on after a backslash (S-60; blanks after it do not count, S-06) and, as in Python, while a parenthesis is
 /// open, but then not over a line that is a definition of its own: a missing parenthesis must not swallow the block.
 pub(super) fn next_logical_line<'deck>(
     lines: &mut Peekable<impl Iterator<Item = StatementLine<'deck>>>,
@@ -106,7 +106,7 @@ fn begins_definition(line: &[u8]) -> bool {
 }
 
 impl LogicalLine<'_> {
-    /// Where a range of the text stands in the deck; cut at the end of its first line when it goes on in another file.
+    /// The place of a range of the text in the deck; cut at the end of its first line when it goes on in another file.
     pub(super) fn place(&self, range: &Range<usize>) -> Span {
         let start = self.offset(range.start);
         let end = self.offset(range.end);

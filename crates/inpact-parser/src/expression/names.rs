@@ -1,11 +1,11 @@
-//! Where the statements of *PARAMETER name parameters: what is to be renamed together.
+//! The places where statements of *PARAMETER name parameters, to be renamed together.
 
 use super::lexer::{self, Lexer, Token};
 use std::ops::Range;
 
 /// The names in a physical line of *PARAMETER, from left to right: parameters, and functions such as `sqrt`.
 ///
-/// Texts and what stands behind `#` have none.
+/// Texts and the text after `#` have none.
 pub fn names(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
     let mut lexer = Lexer::new(line, 0);
     std::iter::from_fn(move || {

@@ -11,11 +11,11 @@ use std::collections::HashMap;
 pub struct Definition {
     /// The name; upper and lower case differ (S-60).
     pub name: String,
-    /// What stands behind the `=`, without comment, continuation lines joined.
+    /// The expression after the `=`, without comment, continuation lines joined.
     pub expression: String,
     /// The statement, from the name to the end of the expression, as far as it lies in one file.
     pub span: Span,
-    /// What it gave; `None` when the statement has a problem, or uses a parameter whose statement has one.
+    /// Its value; `None` when the statement has a problem, or uses a parameter whose statement has one.
     pub value: Option<Value>,
 }
 
@@ -28,7 +28,6 @@ pub struct Parameters {
     of_lower_case: HashMap<String, usize>,
     /// The bytes of all text values.
     pub(super) text_bytes: usize,
-    /// How integers are divided.
     division: Division,
     /// The divisions of integers that leave a remainder, in the order of execution.
     pub(super) integer_divisions: Vec<IntegerDivision>,
@@ -45,7 +44,7 @@ impl Parameters {
         Self { division: Division::of_release(release), ..Self::default() }
     }
 
-    /// How integers are divided.
+    /// Division of integers.
     pub fn division(&self) -> Division {
         self.division
     }
@@ -84,7 +83,7 @@ impl Parameters {
         self.definitions.iter().enumerate().filter(is_last).map(|(_, definition)| definition)
     }
 
-    /// Forgets where the definitions stand, so that two decks that define the same compare equal.
+    /// Forgets the places of the definitions, so that two decks that define the same compare equal.
     pub(crate) fn forget_places(&mut self) {
         self.definitions.iter_mut().for_each(|definition| definition.span = Span::default());
         self.integer_divisions.clear();

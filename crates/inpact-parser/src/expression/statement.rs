@@ -32,11 +32,11 @@ pub fn define<'deck>(
 struct Statement {
     /// The names it defines.
     names: Vec<Range<usize>>,
-    /// The expression, as far as it could be told.
+    /// The expression, as far as it could be read.
     expression: Range<usize>,
     outcome: Result<Value, Stop>,
     divisions: Vec<Remainder>,
-    /// Where the next statement begins.
+    /// The start of the next statement.
     end: usize,
 }
 
@@ -49,7 +49,7 @@ fn execute(text: &[u8], from: usize, parameters: &Parameters) -> Option<Statemen
     let mut names = Vec::new();
     let mut expression = None;
     let outcome = definition(&mut evaluator, &mut names, &mut expression);
-    // What a problem left unread.
+    // The part that a problem left unread.
     while !matches!(evaluator.token, Token::Semicolon | Token::End) {
         evaluator.advance();
     }
@@ -58,7 +58,7 @@ fn execute(text: &[u8], from: usize, parameters: &Parameters) -> Option<Statemen
     Some(Statement { names, expression, outcome, divisions, end: evaluator.range.end })
 }
 
-/// `name = expression`; the name and where the expression begins are told even when there is a problem.
+/// `name = expression`; the name and where the expression begins are given even when there is a problem.
 fn definition(
     evaluator: &mut Evaluator<'_>,
     names: &mut Vec<Range<usize>>,
@@ -108,7 +108,7 @@ fn reserved_word(evaluator: &Evaluator<'_>, word: Range<usize>) -> Result<Value,
     )
 }
 
-/// What stands behind a name where `=` should.
+/// The problem of a name without `=` after it.
 fn no_assignment(evaluator: &Evaluator<'_>, name: Range<usize>) -> Result<Value, Stop> {
     let found = evaluator.range.clone();
     match evaluator.token {
@@ -144,7 +144,7 @@ fn several_names(
         return stop(all, Complaint::new(format!("{shown} is no definition")).help("write `name = expression`"));
     }
     evaluator.advance();
-    // Behind each other they would cost the square of their number.
+    // After each other they would cost the square of their number.
     *expression = Some(evaluator.text.len());
     stop(
         all,

@@ -15,7 +15,7 @@ pub struct Reference<'text> {
     pub name: &'text str,
 }
 
-/// Why a text cannot be substituted.
+/// Reasons why a text cannot be substituted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SubstitutionError {
     /// No *PARAMETER defines the name (S015).
@@ -24,7 +24,7 @@ pub enum SubstitutionError {
     /// The name is defined by a statement that has a problem, which is reported there (S016).
     #[error("the definition of the parameter `{0}` has no value")]
     WithoutValue(String),
-    /// What comes out would be longer than sixteen times the text and 64 KiB, which only a hostile deck can want.
+    /// The result would be longer than sixteen times the text and 64 KiB, which only a hostile deck can want.
     #[error("a line of {0} bytes becomes too long when its parameters are substituted")]
     TooLong(usize),
 }

@@ -1,4 +1,4 @@
-//! What a parameter is worth, and how it is written.
+//! Values of parameters and their text.
 
 use crate::number::float_text;
 use std::fmt;
@@ -34,7 +34,7 @@ impl Value {
     }
 }
 
-/// The text that stands in the deck in place of `<name>` (S-62): a real number in the shortest form that reads back to
+/// The text that replaces `<name>` (S-62): a real number in the shortest form that reads back to
 /// the same f64, with a point or an exponent; a text without quotes.
 impl fmt::Display for Value {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -46,7 +46,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// `str` of Python 2 for a real number: twelve significant digits, `.0` behind a whole number, and an exponent from 1e11 on
+/// `str` of Python 2 for a real number: twelve significant digits, `.0` after a whole number, and an exponent from 1e11 on
 /// (there C's `%.12g` still has none) and below 1e-4.
 pub(super) fn python_text(value: f64) -> String {
     const DIGITS: i32 = 12;

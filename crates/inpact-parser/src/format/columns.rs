@@ -15,7 +15,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// The cell whose item stands at `range` of `text`.
+    /// The cell whose item is at `range` of `text`.
     pub(super) fn new(range: Range<usize>, text: &[u8]) -> Self {
         let item = &text[range.clone()];
         let is_number = is_number_or_symbol(item);
@@ -39,7 +39,7 @@ impl Cell {
     }
 }
 
-/// How wide each column of a group of lines is.
+/// The widths of the columns of a group of lines.
 #[derive(Debug, Default)]
 pub(super) struct Columns {
     columns: Vec<Column>,
@@ -48,7 +48,7 @@ pub(super) struct Columns {
 /// The room the items of a column need.
 #[derive(Debug, Default, Clone)]
 struct Column {
-    /// Whether an item is no number: then all begin at the left.
+    /// Some item is no number: then all begin at the left.
     has_text: bool,
     width: usize,
     before: usize,
@@ -69,13 +69,13 @@ impl Columns {
         }
     }
 
-    /// Writes a line without its line end: each item in its place, the comma right behind it, no blanks at the end.
+    /// Writes a line without its line end: each item in its place, the comma right after it, no blanks at the end.
     pub(super) fn write(&self, cells: &[Cell], text: &[u8], line: &mut Vec<u8>) {
         let mut due = 0;
         for (index, (column, cell)) in self.columns.iter().zip(cells).enumerate() {
             let (before, after) = column.blanks_around(cell);
             let is_last = index + 1 == cells.len();
-            // Nothing is written behind the last comma of `1.,`.
+            // Nothing is written after the last comma of `1.,`.
             if !(is_last && cell.is_empty()) {
                 line.resize(line.len() + due + before, b' ');
             }
@@ -89,7 +89,7 @@ impl Columns {
 }
 
 impl Column {
-    /// The blanks before an item and behind its comma.
+    /// The blanks before an item and after its comma.
     fn blanks_around(&self, cell: &Cell) -> (usize, usize) {
         if self.has_text {
             (0, self.width - cell.width())

@@ -1,6 +1,6 @@
 //! One keyword line in the one style: names in full and in upper case, `, ` between the parameters (S-10 to S-19).
 //!
-//! The pieces between the commas are replaced and so is what stands between them; a value is never changed.
+//! The pieces between the commas are replaced and so is the text between them; a value is never changed.
 
 use super::LINE_CHARACTERS;
 use crate::deck::lines::{LineKind, line_kind, lines, without_line_end};
@@ -8,7 +8,7 @@ use crate::deck::{Deck, KeywordLine, Parameter};
 use crate::grammar::{Definition, Dialect, Lookup};
 use crate::span::Span;
 
-/// What stands before the parameters on a line that continues another.
+/// The indent of a line that continues another.
 const CONTINUATION_INDENT: &[u8] = b"    ";
 
 /// The keyword line with its line ends; `None` when it is to stay as it is.
@@ -60,9 +60,9 @@ fn known_name<'a>(parameter: &Parameter, definition: &'a Definition, dialect: Di
 
 /// A keyword line in the making.
 struct Line<'deck> {
-    /// The line as it stands.
+    /// The line as it is.
     written: &'deck [u8],
-    /// Where it stands in its file.
+    /// Its offset in the file.
     offset: u64,
     formatted: Vec<u8>,
 }
@@ -80,7 +80,7 @@ impl<'deck> Line<'deck> {
         (!piece.iter().any(|byte| matches!(byte, b'\n' | b'\r'))).then_some(piece)
     }
 
-    /// Takes what stands between two pieces: one comma, and behind it perhaps a line end and comments (S-19, Q-35).
+    /// Takes the text between two pieces: one comma, and after it perhaps a line end and comments (S-19, Q-35).
     fn take_comma(&mut self, between: &[u8]) -> Option<()> {
         let mut physical = lines(between).map(|range| &between[range]);
         let first = physical.next()?;
@@ -106,7 +106,7 @@ impl<'deck> Line<'deck> {
         Some(())
     }
 
-    /// Takes what stands behind the last piece: a comma at most, which stays, since Abaqus looks for a continuation behind it.
+    /// Takes the text after the last piece: a comma at most, which stays, since Abaqus looks for a continuation after it.
     fn take_end(&mut self, rest: &[u8]) -> Option<()> {
         let content = without_line_end(rest);
         match content.trim_ascii() {

@@ -14,7 +14,7 @@ use std::ops::Range;
 /// The rows of a block; `None` when they are to stay as they are.
 ///
 /// That is so for rows the grammar does not describe, for rows that are ignored beside a parameter, and where a
-/// line would grow too long: then the rows of the block cannot stand below one another.
+/// line would grow too long: then the rows of the block cannot occur below one another.
 pub(super) fn format(deck: &Deck, block: &Block, definition: &Definition) -> Option<Vec<u8>> {
     let order = Order::of(deck, block, definition)?;
     let text = deck.text(block.rows);
@@ -36,7 +36,7 @@ pub(super) fn format(deck: &Deck, block: &Block, definition: &Definition) -> Opt
     Some(formatted)
 }
 
-/// Which lines of a block stand below one another.
+/// Alignment of the lines of a block.
 #[derive(Debug, Clone, Copy)]
 enum Order {
     /// A row of `width` items goes over `lines` lines; the first lines of all rows belong together, and so on (K-52).
@@ -59,7 +59,7 @@ impl Order {
             keyword.parameters.iter().rev().find(|parameter| parameter.index().is_some_and(is_meant))
         };
         let counted = definition.data.counted.as_ref().and_then(|counted| parameter(&counted.count)?.value);
-        // Where the number is a symbol its value is not known here, and nothing but the look depends on it.
+        // The value of a symbol is not known here, and nothing but the look depends on it.
         let count = counted.and_then(|value| read_integer(deck.text(value)).ok()).unwrap_or(0);
         let count = usize::try_from(count).unwrap_or(0).min(crate::model::MOST_FIELD_VARIABLES);
         let layout = definition.layout(|name| parameter(name).is_some(), count)?;
@@ -76,7 +76,7 @@ impl Order {
         }
     }
 
-    /// The group of the line behind one of `group` with so many items.
+    /// The group of the line after one of `group` with so many items.
     fn next_group(self, group: usize, items: usize) -> usize {
         match self {
             Self::Headed => 1,
@@ -90,7 +90,7 @@ impl Order {
 /// The lines of a block, cut into cells, and the columns they need.
 struct Rows {
     lines: Vec<Line>,
-    /// The cells of all lines, line behind line.
+    /// The cells of all lines, line after line.
     cells: Vec<Cell>,
     /// One set of columns a group.
     columns: Vec<Columns>,
@@ -100,7 +100,7 @@ struct Rows {
 struct Line {
     /// The line with its line end.
     range: Range<usize>,
-    /// Which lines it stands below.
+    /// The group of lines that it is aligned with.
     group: usize,
     /// Its cells; `None` for a line that stays as it is.
     cells: Option<Range<usize>>,
@@ -153,9 +153,9 @@ pub(super) fn is_number_or_symbol(item: &[u8]) -> bool {
     item.contains(&b'<') || read_float(item).is_ok()
 }
 
-/// How many cells of a row are written.
+/// The number of cells of a row that are written.
 ///
-/// In a row of numbers the empty ones at the end are not, but for one comma behind a first item: `1.,` is how a single
+/// In a row of numbers the empty ones at the end are not, but for one comma after a first item: `1.,` is how a single
 /// item is usually written, and `,` alone is a row, which a blank line is not (S-08).
 fn kept(cells: &[Cell], shape: RowShape) -> usize {
     if !shape.is_numbers() {

@@ -7,11 +7,11 @@ use serde::Deserialize;
 /// The most items on a data line (K-50).
 const ITEMS_ON_A_LINE: usize = 8;
 
-/// What stands behind the keyword line of an option.
+/// The rows of an option.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Data {
-    /// What the rows are.
+    /// Their shape.
     pub shape: RowShape,
     /// Whether the option means nothing without rows (K-11).
     #[serde(default)]
@@ -22,17 +22,17 @@ pub struct Data {
     /// The parameters beside which the rows are ignored.
     #[serde(default)]
     pub ignored_with: Vec<String>,
-    /// The items of the line that stands before the rows of a [`RowShape::HeadedTable`].
+    /// The items of the line before the rows of a [`RowShape::HeadedTable`].
     #[serde(default)]
     pub head: Vec<Column>,
     /// The items of a row, in their order.
     #[serde(default)]
     pub columns: Vec<Column>,
-    /// Items behind the columns, as many as a parameter says.
+    /// Items after the columns, as many as a parameter says.
     pub counted: Option<Counted>,
 }
 
-/// What the rows of an option are.
+/// Shapes of the rows of an option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowShape {
@@ -58,23 +58,23 @@ pub enum RowShape {
 pub struct Column {
     /// Its name in node tables, JSON and messages.
     pub name: String,
-    /// What stands in it.
+    /// The kind of its values.
     pub kind: ColumnKind,
     /// The dimension of a number.
     pub dimension: Option<Dimension>,
-    /// What an empty item means; 0 where nothing is said (S-32).
+    /// The value of an empty item; 0 unless given (S-32).
     pub default: Option<f64>,
     /// The parameter that must be given for the column to be there.
     pub with: Option<String>,
     /// The parameter that must not be given for the column to be there.
     pub without: Option<String>,
-    /// What it is.
+    /// One sentence without a full stop.
     pub description: String,
-    /// Where that is said: manual section, rule number.
+    /// Manual section, rule number.
     pub source: String,
 }
 
-/// What stands in a column.
+/// Kinds of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ColumnKind {
@@ -96,28 +96,28 @@ pub struct Counted {
     pub count: String,
     /// Their names begin so and end in 1, 2, 3, ….
     pub prefix: String,
-    /// How many of them fit on the first line, behind the columns (K-52).
+    /// The number of them that fit on the first line, after the columns (K-52).
     pub first_line: usize,
-    /// How many stand on every further line.
+    /// The number on every further line.
     pub following: usize,
-    /// What they are.
+    /// One sentence without a full stop.
     pub description: String,
-    /// Where that is said.
+    /// Manual section, rule number.
     pub source: String,
 }
 
-/// How the rows of one block are laid out.
+/// Layout of the rows of one block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// The columns by name, the counted ones last.
     pub columns: Vec<String>,
-    /// What an empty item means, column by column (S-32).
+    /// The values of empty items, column by column (S-32).
     pub defaults: Vec<f64>,
     /// The most items on the first line of a row.
     pub first_line: usize,
     /// The most items on every further line.
     pub following: usize,
-    /// How many counted columns come behind `columns`, which no row of the block goes on to.
+    /// The number of counted columns after `columns` that no row of the block reaches.
     pub unwritten: usize,
 }
 
@@ -164,7 +164,7 @@ impl Data {
         })
     }
 
-    /// What contradicts itself in the definition of these rows.
+    /// A contradiction in the definition of these rows.
     pub(super) fn contradiction(&self, has_parameter: impl Fn(&str) -> bool) -> Option<String> {
         let is_numbers = self.shape.is_numbers();
         if is_numbers && self.columns.is_empty() {
@@ -205,12 +205,12 @@ impl Data {
 }
 
 impl Layout {
-    /// How many items a whole row has.
+    /// The number of items of a whole row.
     pub fn width(&self) -> usize {
         self.columns.len() + self.unwritten
     }
 
-    /// How many lines a row goes over (K-52).
+    /// The number of lines of a row (K-52).
     pub fn lines_per_row(&self) -> usize {
         1 + self.width().saturating_sub(self.first_line).div_ceil(self.following)
     }
@@ -220,7 +220,7 @@ impl Layout {
 mod tests {
     use super::super::Grammar;
 
-    /// how many items stand on each line of a row.
+    /// the number of items on each line of a row.
     fn check(keyword: &str, dependencies: usize, expected: usize) {
         let grammar = Grammar::builtin();
         let definition = grammar.keyword(grammar.id_of(keyword).unwrap()).definition().unwrap();

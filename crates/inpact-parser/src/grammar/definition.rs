@@ -1,4 +1,4 @@
-//! What a keyword means: where it may stand, its parameters, its rows. One TOML file each, read strictly.
+//! Definition of a keyword: levels, parameters, rows. One TOML file each, read strictly.
 
 use super::data::{Data, Layout, RowShape};
 use super::dimension::Dimension;
@@ -14,11 +14,11 @@ use std::collections::HashSet;
 pub struct Definition {
     /// The keyword in full: upper case, single blanks between its words.
     pub name: String,
-    /// What it is for, in one line.
+    /// Its purpose, in one line.
     pub summary: String,
-    /// Where it may stand; at a level that is not listed it is misplaced (S-73). An empty list says nothing.
+    /// The levels at which it may occur; at any other it is misplaced (S-73). An empty list allows all.
     pub levels: Vec<Level>,
-    /// The keywords whose block it must stand in; none when it stands alone (S-21).
+    /// The keywords whose block it must occur in; none when it needs no parent (S-21).
     pub parents: Vec<String>,
     /// The products that read it.
     pub products: Vec<Product>,
@@ -29,11 +29,11 @@ pub struct Definition {
     /// Whether it is the procedure of a step (section 9.2).
     #[serde(default)]
     pub procedure: bool,
-    /// Where all that is said: manual section, rule number.
+    /// Manual section, rule number.
     pub source: String,
     /// A piece of a deck that uses it and is right.
     pub example: String,
-    /// Whether `parameters` are all there are; a parameter that is not listed is no error otherwise.
+    /// All parameters are listed; otherwise one that is not listed is no error.
     #[serde(default = "complete")]
     pub parameters_complete: bool,
     /// Its parameters, in the order of the manual.
@@ -41,18 +41,18 @@ pub struct Definition {
     pub parameters: Vec<ParameterDefinition>,
     /// Its rows.
     pub data: Data,
-    /// How parameters are recognised.
+    /// Matching of parameters.
     #[serde(skip)]
     matching: Matching,
 }
 
-/// How much of a name must be written (S-13, CX-03).
+/// Matching of names (S-13, CX-03).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Matching {
-    /// As much as tells it from all others, as Abaqus has it.
+    /// As much as distinguishes it from all others, as in Abaqus.
     #[default]
     Abbreviated,
-    /// All of it, as CalculiX has it; flags and choices may go on behind it.
+    /// All of it, as in CalculiX; flags and choices may go on after it.
     InFull,
 }
 
@@ -62,12 +62,12 @@ enum Matching {
 pub struct ParameterDefinition {
     /// The name in full.
     pub name: String,
-    /// What its value is.
+    /// The kind of its value.
     pub kind: ParameterKind,
     /// Whether the keyword line means nothing without it.
     #[serde(default)]
     pub required: bool,
-    /// What leaving it out means, as it would be written.
+    /// The value when it is left out, as it would be written.
     pub default: Option<String>,
     /// The dimension of a number.
     pub dimension: Option<Dimension>,
@@ -75,21 +75,21 @@ pub struct ParameterDefinition {
     pub minimum: Option<f64>,
     /// The greatest number that is legal.
     pub maximum: Option<f64>,
-    /// The words that are legal, where the kind is a choice.
+    /// The legal names, where the kind is a choice.
     #[serde(default)]
     pub choices: Vec<String>,
-    /// Whether it may stand without a value although it can have one.
+    /// Whether it may occur without a value although it can have one.
     #[serde(default)]
     pub value_optional: bool,
-    /// The parameters that it must stand beside.
+    /// The parameters that it must occur beside.
     #[serde(default)]
     pub needs: Vec<String>,
-    /// The parameters that it must not stand beside.
+    /// The parameters that it must not occur beside.
     #[serde(default)]
     pub excludes: Vec<String>,
     /// The parameter of the same keyword that is meant by it, where decks have this name for it and no manual does.
     pub stands_for: Option<String>,
-    /// The options that must not stand in the block that this keyword opens, beside the parameter (K-05).
+    /// The options that must not occur in the block that this keyword opens, beside the parameter (K-05).
     #[serde(default)]
     pub excludes_options: Vec<String>,
     /// The parameters beside which it means nothing (K-12).
@@ -99,16 +99,16 @@ pub struct ParameterDefinition {
     pub since: Option<Release>,
     /// The last release that has it, where there is one.
     pub until: Option<Release>,
-    /// What it is.
+    /// One sentence without a full stop.
     pub description: String,
-    /// Where that is said: manual section, rule number.
+    /// Manual section, rule number.
     pub source: String,
-    /// How choices are recognised.
+    /// Matching of choices.
     #[serde(skip)]
     matching: Matching,
 }
 
-/// What the value of a parameter is.
+/// Kinds of values of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ParameterKind {
@@ -122,7 +122,7 @@ pub enum ParameterKind {
     Label,
     /// Any other text.
     Text,
-    /// One of a few words, which may be abbreviated (S-13).
+    /// One of a few names, which may be abbreviated (S-13).
     Choice,
     /// The name of a file (S-22).
     File,
@@ -133,13 +133,13 @@ pub enum ParameterKind {
 pub enum ValueUse {
     /// A flag.
     Never,
-    /// It may stand alone.
+    /// It may occur alone.
     Optional,
     /// It must have one.
     Always,
 }
 
-/// A part of a deck in which keywords stand (S-71 to S-74).
+/// A part of a deck in which keywords occur (S-71 to S-74).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
@@ -165,7 +165,7 @@ pub enum Product {
     Explicit,
 }
 
-/// Why a text is no definition of a keyword.
+/// A text that is no definition of a keyword.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct DefinitionError {
@@ -177,7 +177,7 @@ impl Definition {
     ///
     /// # Errors
     ///
-    /// When the text is no TOML, has a key that is not known, lacks one, or contradicts itself.
+    /// A text that is no TOML, has an unknown key, lacks one, or contradicts itself.
     pub fn parse(toml: &str) -> Result<Self, DefinitionError> {
         let error = |message: String| DefinitionError { message };
         let definition: Self = toml::from_str(toml).map_err(|reason| error(reason.to_string()))?;
@@ -187,12 +187,12 @@ impl Definition {
         }
     }
 
-    /// What its rows are.
+    /// The shape of its rows.
     pub fn rows(&self) -> RowShape {
         self.data.shape
     }
 
-    /// Whether it may stand in the block of that keyword, given by its full name.
+    /// Whether it may occur in the block of that keyword, given by its full name.
     pub fn has_parent(&self, keyword: &str) -> bool {
         self.parents.iter().any(|parent| parent == keyword)
     }
@@ -232,14 +232,14 @@ impl Definition {
         nearest::nearest(written.as_bytes(), self.parameters.iter().map(|parameter| parameter.name.as_str()), at_most)
     }
 
-    /// How the rows are laid out when these parameters are given and so many columns are counted; see [`Data::layout`].
+    /// The layout of the rows when these parameters are given and so many columns are counted; see [`Data::layout`].
     pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
         self.data.layout(given, count)
     }
 
-    /// Takes out everything that forbids or demands something: what is left tells names and columns.
+    /// Takes out everything that forbids or demands something: names and columns are left.
     ///
-    /// For a definition of Abaqus that stands in for one of CalculiX, where no list says what differs.
+    /// For a definition of Abaqus that replaces one of CalculiX, where no list says what differs.
     pub(super) fn loosen(&mut self) {
         self.parameters_complete = false;
         self.levels.clear();
@@ -326,12 +326,12 @@ fn complete() -> bool {
     true
 }
 
-/// Whether a text says something and, being one sentence, ends without a full stop.
+/// Whether a text is not empty and, being one sentence, ends without a full stop.
 pub(super) fn is_description(text: &str) -> bool {
     !text.trim().is_empty() && !text.ends_with('.')
 }
 
-/// The first name that stands a second time.
+/// The first name that occurs a second time.
 pub(super) fn first_repeated<'name>(mut names: impl Iterator<Item = &'name str>) -> Option<&'name str> {
     let mut seen = HashSet::new();
     names.find(|name| !seen.insert(*name))

@@ -1,8 +1,8 @@
-//! How a written word finds the name it means: blanks and case removed, exact or abbreviated (S-11 to S-13).
+//! Lookup of a written name: blanks and case removed, exact or abbreviated (S-11 to S-13).
 //!
 //! The same for keywords, parameters and enumerated values. Works on bytes, allocates only to list what an ambiguous word may mean.
 
-/// What a written word means among a set of names.
+/// Result of looking up a written name among a set of names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Lookup<T> {
     /// The name in full.
@@ -16,7 +16,7 @@ pub enum Lookup<T> {
 }
 
 impl<T> Lookup<T> {
-    /// What was found, when it is one.
+    /// The thing found, when it is one.
     pub fn found(self) -> Option<T> {
         match self {
             Self::Exact(found) | Self::Abbreviated(found) => Some(found),
@@ -25,7 +25,7 @@ impl<T> Lookup<T> {
     }
 }
 
-/// Which of `names` is meant by what is written, as its place in the list (S-13).
+/// Looks up a written name among `names`; gives its place in the list (S-13).
 ///
 /// Right for parameters and enumerated values; never for numbers and file names, which are not abbreviated.
 pub fn lookup_name<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str>) -> Lookup<usize> {
@@ -33,7 +33,7 @@ pub fn lookup_name<'name>(written: &[u8], names: impl IntoIterator<Item = &'name
     lookup_among(written, indexed)
 }
 
-/// Which of the named things is meant by what is written.
+/// Looks up a written name among named things.
 pub(super) fn lookup_among<'name, T>(written: &[u8], named: impl IntoIterator<Item = (T, &'name str)>) -> Lookup<T> {
     match Folded::new(written) {
         Some(folded) => decide(folded.as_bytes(), named),
@@ -78,12 +78,12 @@ fn begins_with(name: &str, folded: &[u8]) -> Match {
     if letters.next().is_none() { Match::Exact } else { Match::Prefix }
 }
 
-/// Whether what is written is that name in full.
+/// Whether a written name is that name in full.
 pub(super) fn is_name(written: &[u8], name: &str) -> bool {
     fold(written).eq(fold(name.as_bytes()))
 }
 
-/// Whether what is written is that name in full, with or without letters behind it.
+/// Whether a written name is that name in full, with or without letters after it.
 pub(super) fn begins_with_name(written: &[u8], name: &str) -> bool {
     let mut letters = fold(written);
     fold(name.as_bytes()).all(|letter| letters.next() == Some(letter))
@@ -115,7 +115,7 @@ impl Folded {
     }
 }
 
-/// The bytes that count, in upper case. Line ends are none of them: a keyword line may go on behind one (S-19).
+/// The bytes that count, in upper case. Line ends are none of them: a keyword line may go on after one (S-19).
 pub(super) fn fold(written: &[u8]) -> impl Iterator<Item = u8> {
     written.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase)
 }

@@ -24,7 +24,7 @@ pub fn nearest<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str
     near.into_iter().take(at_most).map(|(_, name)| name).collect()
 }
 
-/// How far a name is from a word; `None` when too far to be meant.
+/// The distance of a name from a word; `None` when it is too far to be meant.
 fn nearness(word: &[u8], name: &[u8]) -> Option<usize> {
     let shorter = word.len().min(name.len());
     let common = word.iter().zip(name).take_while(|(a, b)| a == b).count();

@@ -1,4 +1,4 @@
-//! The releases of Abaqus whose keyword language is told apart (2.8).
+//! The releases of Abaqus whose keyword language is distinguished (2.8).
 
 use serde::Deserialize;
 use std::fmt;
@@ -37,7 +37,7 @@ impl Release {
     /// Every release, oldest first.
     pub const ALL: [Self; 6] = [Self::R6_11, Self::R6_14, Self::R2016, Self::R2017, Self::R2022, Self::R2024];
 
-    /// Whether something that came with `since` and was last seen in `until` is there; a bound that is not known holds none back.
+    /// Whether a thing introduced with `since` and last available in `until` exists; an unknown bound excludes no release.
     pub fn is_within(self, since: Option<Self>, until: Option<Self>) -> bool {
         since.is_none_or(|since| since <= self) && until.is_none_or(|until| self <= until)
     }

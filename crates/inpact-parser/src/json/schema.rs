@@ -30,7 +30,7 @@ fn plain(schema: &mut Schema) {
     if let Some(description) = schema.get("description").and_then(Value::as_str).map(|text| text.replace('\n', " ")) {
         schema.insert("description".to_owned(), description.into());
     }
-    // What has a default may be left out.
+    // A property with a default may be left out.
     let Some(properties) = schema.get("properties").and_then(Value::as_object).cloned() else { return };
     let is_due = |name: &Value| {
         let property = name.as_str().and_then(|name| properties.get(name));

@@ -1,4 +1,4 @@
-//! The lossless view: every line of every file as it stands.
+//! The lossless view: every line of every file as it is.
 //!
 //! A line is a string when it is UTF-8 and ends the way most lines of its file do; otherwise it is an object that says
 //! its bytes or its line end. What is derived from the lines (`keyword`, `parameters`) is there for reading;
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// The value of the `schema` field.
 pub const SCHEMA: &str = "inpact/syntax/1";
 
-/// The lossless view of a deck: every line of every file as it stands.
+/// The lossless view of a deck: every line of every file as it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "Lossless view of a deck"))]
 #[serde(deny_unknown_fields, expecting = "a document: an object")]
@@ -39,7 +39,7 @@ struct File {
     blocks: Vec<BlockDocument>,
 }
 
-/// A keyword line and the lines behind it.
+/// A keyword line and the lines after it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "block"))]
 #[serde(deny_unknown_fields, expecting = "a block: an object")]
@@ -51,7 +51,7 @@ struct BlockDocument {
     parameters: Vec<ParameterDocument>,
     /// The physical lines of the keyword line.
     keyword_lines: Vec<Line>,
-    /// The lines behind it, up to the next keyword line, comments included.
+    /// The lines after it, up to the next keyword line, comments included.
     rows: Vec<Line>,
 }
 
@@ -111,7 +111,7 @@ pub fn write(deck: &Deck, grammar: &Grammar) -> String {
         for block in blocks {
             let document = block_document(deck, grammar, block, line_end);
             match documents.last_mut() {
-                // Rows behind an *INCLUDE go on with another block (S-51), but in their file they stand behind its line.
+                // Rows after an *INCLUDE go on with another block (S-51), but in their file they follow its line.
                 Some(before) if block.keyword.is_none() => before.rows.extend(document.rows),
                 _ => documents.push(document),
             }

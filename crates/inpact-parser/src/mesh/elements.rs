@@ -8,10 +8,10 @@ use crate::span::Span;
 use inpact_geometry::{ElementShape, ElementSpace, ElementType, FaceLabel, FaceShape, FreeFaces, MAX_NODES, NodeId};
 use std::io;
 
-/// Which faces a row of *SURFACE picks in one instance.
+/// The faces that a row of *SURFACE picks in one instance.
 #[derive(Debug, Clone)]
 pub(super) struct Pick {
-    /// Which surface it belongs to.
+    /// Its surface.
     pub(super) surface: usize,
     pub(super) instance: usize,
     pub(super) elements: Selection,
@@ -40,7 +40,7 @@ impl RawFace {
         &self.nodes[..self.shape.nodes()]
     }
 
-    /// Whether its area or its place depends on a section.
+    /// Whether its area or its position depends on a section.
     pub(super) fn needs_section(&self) -> bool {
         self.kind.shape.is_sheet() || self.kind.space == ElementSpace::Plane
     }
@@ -98,7 +98,7 @@ impl Reader<'_, '_> {
         let Some(kind) = ElementType::named(name) else {
             return self.unknown_rows(option, name, picks);
         };
-        // Most rows are in no pick: one question is asked for all.
+        // Most rows are in no pick: one comparison is made for all.
         let mut any = Selection::default();
         picks.iter().filter(|pick| pick.elements.may_touch(key)).for_each(|pick| any.add_all(&pick.elements));
         any.labels.sort();
@@ -232,7 +232,7 @@ fn picks_of(pick: &Pick, free: FreeFaces) -> Vec<Pick> {
     by_face
 }
 
-/// Whether the row of an element goes on behind this line: it ends in a comma, or has the 16 items that a line may have.
+/// Whether the row of an element continues after this line: it ends in a comma, or has the 16 items that a line may have.
 fn goes_on(line: &[u8]) -> bool {
     line.trim_ascii_end().ends_with(b",") || 15 <= memchr::memchr_iter(b',', line).count()
 }

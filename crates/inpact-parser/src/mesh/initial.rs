@@ -14,7 +14,7 @@ use crate::span::Span;
 use std::io;
 use std::rc::Rc;
 
-/// What an initial condition is of.
+/// Quantities of initial conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum InitialQuantity {
     /// TYPE=TEMPERATURE (θ).
@@ -25,7 +25,7 @@ pub enum InitialQuantity {
     FieldVariable(u32),
 }
 
-/// What the nodes of surfaces begin with.
+/// Initial values at the nodes of surfaces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InitialField {
     /// The quantity.
@@ -71,7 +71,7 @@ impl Reader<'_, '_> {
         Ok(fields)
     }
 
-    /// What an option is of; `None` where it is of something else, or is not read.
+    /// The quantity of an option; `None` where it is of something else, or is not read.
     fn quantity(&mut self, option: Entry<'_>) -> Option<InitialQuantity> {
         let kind = canonical(option.parameter("TYPE").unwrap_or("").as_bytes());
         let quantity = match kind.as_str() {

@@ -1,6 +1,6 @@
 //! Sets of numbers of nodes or elements, as ranges: a set of a million neighbours is one range.
 
-/// Numbers, added in any order, asked for once all are there.
+/// Numbers, added in any order, looked up once all are there.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Labels {
     /// First and last of each range; ascending and apart once sorted.

@@ -1,4 +1,4 @@
-//! What stands where in a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
+//! Structure of a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
 
 use crate::deck::{Block, Deck, KeywordLine};
 use crate::grammar::Grammar;

@@ -27,7 +27,7 @@ impl Wanted {
     }
 }
 
-/// How the three numbers of a node are meant.
+/// Meanings of the three numbers of a node.
 #[derive(Debug, Clone, Copy)]
 enum System {
     Rectangular,
@@ -51,7 +51,7 @@ impl System {
     }
 }
 
-/// Where an instance is put.
+/// The placement of an instance.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Placement {
     translation: Point,
@@ -180,12 +180,12 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Where a number stands among the wanted ones.
+/// The index of a number among the wanted ones.
 fn place_of(wanted: &[u32], label: u32, next: usize) -> Option<usize> {
     if wanted.get(next) == Some(&label) { Some(next) } else { wanted.binary_search(&label).ok() }
 }
 
-/// The coordinates behind the number; those that are left out are 0.
+/// The coordinates after the number; those that are left out are 0.
 fn coordinates(line: &[u8], end: usize) -> Option<Point> {
     let mut point = [0.0; 3];
     let rest = line.get(end + 1..).unwrap_or(&[]);

@@ -11,7 +11,7 @@ use inpact_geometry::{
     contact_nodes,
 };
 
-/// How far surfaces may slide on each other.
+/// Sliding of surfaces on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sliding {
     /// Any distance.
@@ -39,7 +39,7 @@ pub struct MeshPair {
     pub adjust: Option<f64>,
     /// EXTENSION ZONE: how far the master reaches beyond its outer edge, as a share of an edge.
     pub extension: f64,
-    /// Whether thickness of sheets counts: not with NO THICKNESS, and not in finite sliding NODE TO SURFACE.
+    /// The thickness of sheets counts: not with NO THICKNESS, and not in finite sliding NODE TO SURFACE.
     pub counts_thickness: bool,
     /// *CLEARANCE, VALUE: the clearance of every slave node, whatever the mesh says (L).
     pub clearance: Option<f64>,
@@ -55,7 +55,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Where the mesh has no geometry, and where the master is of nodes.
+    /// The mesh has no geometry, or the master is of nodes.
     pub fn contact(&self, pair: &MeshPair, thickness: f64) -> Result<Vec<ContactNode>, GeometryError> {
         self.contact_at(&self.points, pair, thickness)
     }
@@ -111,7 +111,7 @@ impl Mesh {
 }
 
 impl FaceSurface {
-    /// What makes an area of its faces.
+    /// The factor from lengths to areas of its faces.
     pub fn extent<'a>(&self, thickness: &'a [f64]) -> Extent<'a> {
         match self.space {
             ElementSpace::Spatial => Extent::Spatial,
@@ -121,7 +121,7 @@ impl FaceSurface {
     }
 }
 
-/// The surfaces and pairs that the model asks for; pairs by position among these surfaces.
+/// The surfaces and pairs that the model needs; pairs by position among these surfaces.
 pub(super) struct Request {
     pub(super) names: Vec<Reference>,
     pub(super) pairs: Vec<MeshPair>,
@@ -135,7 +135,7 @@ impl MeshPair {
 }
 
 impl Reader<'_, '_> {
-    /// What is asked for by *CONTACT PAIR, and by *CONTACT PROPERTY ASSIGNMENT with two names.
+    /// The surfaces that *CONTACT PAIR needs, and *CONTACT PROPERTY ASSIGNMENT with two names.
     pub(super) fn request(&mut self, model: &Model) -> Request {
         let mut request = Request { names: Vec::new(), pairs: Vec::new() };
         for option in &model.contact_pairs {

@@ -1,4 +1,4 @@
-//! Where a note stands: rows of meshes are not kept, so that their lines are counted in the bytes themselves.
+//! Lines of notes: rows of meshes are not kept, so that their lines are counted in the bytes themselves.
 
 use super::RowBytes;
 use crate::deck::Deck;
@@ -9,7 +9,7 @@ use std::io;
 ///
 /// # Errors
 ///
-/// Where bytes cannot be read.
+/// Bytes that cannot be read.
 pub fn position(deck: &Deck, rows: &mut dyn RowBytes, span: Span) -> io::Result<Position> {
     let known = |span| deck.positions(&[span]).first().copied().unwrap_or(Position { line: 1, column: 1 });
     let is_in = |range: &&Span| range.source == span.source && range.start <= span.start && span.start < range.end;
@@ -27,7 +27,7 @@ pub fn position(deck: &Deck, rows: &mut dyn RowBytes, span: Span) -> io::Result<
                     at.line += u64::from(ends_line);
                     at.column = 1;
                 }
-                // The bytes behind the first of a character.
+                // The bytes after the first of a character.
                 0x80..=0xBF => {}
                 _ => at.column += 1,
             }

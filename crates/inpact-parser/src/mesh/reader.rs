@@ -17,7 +17,7 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::ops::Range;
 
-/// Where names are looked up.
+/// Scopes of names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Context {
     /// In the model and the assembly.
@@ -36,7 +36,7 @@ impl Context {
     }
 }
 
-/// What has nodes and elements of its own: the model (always the first), or an instance.
+/// A scope of nodes and elements: the model (always the first), or an instance.
 pub(super) struct Instance<'deck> {
     pub(super) name: Option<Name>,
     /// The instance's own options, then those of its part.
@@ -234,7 +234,7 @@ pub(super) struct Located {
     points: Vec<[f64; 3]>,
     nodes: Vec<MeshNode>,
     ids: HashMap<(usize, u32), NodeId>,
-    /// The keyword line of the *NODE option that each stands in.
+    /// The keyword line of the *NODE option of each.
     pub(super) options: Vec<Span>,
     /// The nodes of each instance.
     pub(super) of_instances: Vec<Range<usize>>,
@@ -256,7 +256,7 @@ impl Located {
         self.of_instances.push(first..self.points.len());
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
     }

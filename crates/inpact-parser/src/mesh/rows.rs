@@ -1,4 +1,4 @@
-//! Where the bytes of rows come from, and the lines in them.
+//! The source of the bytes of rows, and the lines in them.
 
 use crate::deck::lines::{LineKind, line_kind, lines, next_line, without_line_end};
 use crate::deck::{Block, Deck};
@@ -6,7 +6,7 @@ use crate::span::{SourceId, Span};
 use std::collections::HashMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// How much is read at a time.
+/// The number of bytes read at a time.
 const PIECE: usize = 1 << 20;
 
 /// Gives the bytes of spans of a deck.
@@ -15,7 +15,7 @@ pub trait RowBytes {
     ///
     /// # Errors
     ///
-    /// Where they cannot be read.
+    /// Bytes that cannot be read.
     fn read(&mut self, span: Span, take: &mut dyn FnMut(&[u8])) -> io::Result<()>;
 }
 

@@ -1,4 +1,4 @@
-//! Which nodes or elements a set names (*NSET, *ELSET with GENERATE and INSTANCE, NSET on *NODE, ELSET on *ELEMENT), in each instance.
+//! Nodes or elements of a set (*NSET, *ELSET with GENERATE and INSTANCE, NSET on *NODE, ELSET on *ELEMENT), in each instance.
 
 use super::labels::Labels;
 use super::layout::{Entry, canonical};
@@ -10,7 +10,7 @@ use crate::span::Span;
 use std::collections::BTreeMap;
 use std::io;
 
-/// What is selected.
+/// Kinds of sets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Kind {
     Elements,
@@ -47,11 +47,11 @@ impl Selection {
     }
 }
 
-/// What a set selects in each instance.
+/// Selections of a set in each instance.
 pub(super) type Selected = BTreeMap<usize, Selection>;
 
 impl<'deck> Reader<'deck, '_> {
-    /// What an item of a row selects: a number, the name of a set, or either behind the name of an instance and a dot.
+    /// Selects by an item of a row: a number, the name of a set, or either after the name of an instance and a dot.
     pub(super) fn select(&mut self, kind: Kind, context: Context, item: &str, span: Span) -> io::Result<Selected> {
         let name = Name::new(item);
         let (context, name) = self.without_prefix(context, name);

@@ -15,7 +15,7 @@ use inpact_geometry::{ElementSpace, Face, FaceLabel, NodeId, Surface, sheet_shif
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-/// What the rows of all surfaces pick.
+/// The picks of the rows of all surfaces.
 #[derive(Debug, Default)]
 pub(super) struct Picks {
     pub(super) faces: Vec<Pick>,

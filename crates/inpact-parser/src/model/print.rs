@@ -26,7 +26,7 @@ pub struct PrintError {
 /// Writes the model as a deck: interactions first, then what uses them, then the steps with their procedures.
 ///
 /// # Errors
-/// When the deck would read back as another model: a name with a comma and no quotes, a keyword the grammar does not
+/// A deck that would read back as another model: a name with a comma and no quotes, a keyword the grammar does not
 /// know, a row that begins with an asterisk.
 pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
     let mut out = String::new();
@@ -78,7 +78,7 @@ pub(crate) fn named_in(dialect: Dialect, mut model: Model) -> Model {
     model
 }
 
-/// What two models differ in, if anything.
+/// The first difference between two models.
 fn difference(model: &Model, again: &Model) -> Option<String> {
     if !same(&model.parameters, &again.parameters) {
         return Some("the list of parameters".to_owned());
@@ -161,7 +161,7 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
     }
 }
 
-/// A parameter that counts before the others; behind them where they have it too, since the last setting counts.
+/// A parameter that counts before the others; after them where they have it too, since the last setting counts.
 fn with_meant<'a>(meant: Option<&'a GivenParameter>, others: &'a [GivenParameter]) -> Vec<&'a GivenParameter> {
     let mut all: Vec<_> = others.iter().collect();
     if let Some(meant) = meant {
@@ -239,7 +239,7 @@ fn print_rows(out: &mut String, table: &Table, definition: Option<&Definition>) 
     });
     let texts: Vec<String> = texts.collect();
     for row in texts.chunks(width.max(1)) {
-        // A line that begins with an asterisk is no row: then the whole row stands on one line (K-53).
+        // A line that begins with an asterisk is no row: then the whole row is on one line (K-53).
         let begins_keyword = row.iter().skip(1).any(|item| item.starts_with('*'));
         let (first, further) = row.split_at(if begins_keyword { row.len() } else { first_line.min(row.len()) });
         for line in std::iter::once(first).chain(further.chunks(following)) {
@@ -259,7 +259,7 @@ fn print_option(out: &mut String, option: &SubOption, grammar: &Grammar) {
     }
 }
 
-/// The items of a line; nothing stands behind one whose quote does not close, since it would be a part of it (S-41).
+/// The items of a line; nothing follows one whose quote does not close, since it would be a part of it (S-41).
 fn joined(items: &[String]) -> String {
     let open = items.iter().position(|item| has_open_quote(item));
     items[..open.map_or(items.len(), |open| open + 1)].join(", ")
@@ -319,7 +319,7 @@ fn print_procedures(out: &mut String, procedures: &[Procedure]) {
 
 fn print_keyword<'a>(out: &mut String, keyword: &str, parameters: impl IntoIterator<Item = &'a GivenParameter>) {
     let mut line = format!("*{keyword}");
-    // Nothing is read behind a quote that does not close.
+    // Nothing is read after a quote that does not close.
     let is_open = |parameter: &&GivenParameter| parameter.value.as_deref().is_some_and(has_open_quote);
     let (last, first): (Vec<_>, Vec<_>) = parameters.into_iter().partition(is_open);
     for parameter in first.into_iter().chain(last) {

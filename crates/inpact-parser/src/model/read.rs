@@ -40,7 +40,7 @@ pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
         has_explicit_step: deck.blocks().iter().any(|block| is_explicit_procedure(block, grammar)),
     };
     reader.model.parameters = Parameters::of_release(grammar.release());
-    // All definitions of the deck come first, wherever they stand (S-61).
+    // All definitions of the deck come first, anywhere (S-61).
     for block in deck.blocks() {
         reader.define_parameters(block);
     }
@@ -67,9 +67,9 @@ struct Reader<'a> {
     /// The open levels below the model, with the lines that opened them.
     levels: Vec<(Level, Span)>,
     steps: usize,
-    /// Whether the open step is one of Abaqus/Explicit, where interactions may stand in a step (S-73).
+    /// The open step is one of Abaqus/Explicit, where interactions may occur in a step (S-73).
     explicit: bool,
-    /// Whether any step of the deck is one of Abaqus/Explicit: then user interactions are its (K-03).
+    /// Some step of the deck is one of Abaqus/Explicit: then user interactions are its (K-03).
     has_explicit_step: bool,
 }
 
@@ -145,7 +145,7 @@ impl<'a> Reader<'a> {
         self.levels.last().map_or((Level::Model, None), |(level, span)| (*level, Some(*span)))
     }
 
-    /// Whether the option may stand at this level; reports it when it may not.
+    /// Checks that the option may occur at this level; reports it when it may not.
     fn check_level(&mut self, option: Entry<'_>) -> bool {
         let (level, opened_by) = self.level();
         let in_explicit_step = level == Level::Step && self.explicit;
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether unknown words were likely meant to begin the next *SURFACE INTERACTION, whose sub-options are not the last one's.
+/// Whether an unknown keyword was likely meant to begin the next *SURFACE INTERACTION, whose sub-options are not the last one's.
 fn is_likely_interaction(text: &[u8]) -> bool {
     let letters = text.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase);
     let letters: Vec<u8> = letters.take(40).collect();

@@ -15,7 +15,7 @@ use std::ops::Range;
 /// Up to so many counted columns a table has them all, written or not.
 const ALWAYS_THERE: usize = 32;
 
-/// How many of `count` columns behind the first `lead` the rows of a block can go on to: more are no use.
+/// The number of the `count` columns after the first `lead` that the rows of a block can reach.
 pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: usize) -> usize {
     if count <= ALWAYS_THERE {
         return count;
@@ -194,7 +194,7 @@ impl RowReader<'_> {
 }
 
 impl SubOption {
-    /// The rows that are kept as texts, as numbers: 0 where nothing stands (S-32), a `<parameter>` by its value, NaN where there is no number.
+    /// The rows that are kept as texts, as numbers: 0 for an empty item (S-32), a `<parameter>` by its value, NaN where there is no number.
     ///
     /// A row has as many numbers as it has items up to the last that is not empty.
     pub fn numbers(&self, parameters: &Parameters) -> Vec<Vec<f64>> {
@@ -257,7 +257,7 @@ fn differs_by_rounding(cut: f64, whole: f64) -> bool {
     (cut - whole).abs() <= 1e-15 * whole.abs()
 }
 
-/// How many items belong on line `line` of a row, counted from 0.
+/// The number of items on line `line` of a row, counted from 0.
 fn items_on(layout: &Layout, line: usize) -> usize {
     let before = if line == 0 { 0 } else { layout.first_line + (line - 1) * layout.following };
     let room = if line == 0 { layout.first_line } else { layout.following };

@@ -6,25 +6,25 @@ use std::sync::Arc;
 /// Rows of numbers in the order of the deck.
 ///
 /// The first column is the dependent value; the others are its independent variables, the one that varies fastest
-/// first (T-02, T-03). Rows are kept as they stand, in order or not: the rules judge them.
+/// first (T-02, T-03). Rows are kept as they are, in order or not: the rules judge them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// The names of the columns: `conductance`, `clearance`, `temp`, `fv1`, ….
     ///
     /// Tables of one kind share them: a deck may have more tables than numbers.
     pub columns: Arc<[String]>,
-    /// The cells, row behind row; `columns.len()` a row. Units are those of the columns (see the grammar).
+    /// The cells, row after row; `columns.len()` a row. Units are those of the columns (see the grammar).
     ///
     /// A cell that is no number, or a parameter without a value, is NaN; see [`Table::texts`].
     pub values: Vec<f64>,
-    /// Where each row stands; shorter than the number of rows when the table was not read from a deck.
+    /// The span of each row; shorter than the number of rows when the table was not read from a deck.
     pub rows: Vec<Span>,
-    /// What stands in the cells that are not written as a number: a parameter, `<name>` (S-62), or something malformed (S006).
+    /// The text of the cells that are not written as a number: a parameter, `<name>` (S-62), or a malformed number (S006).
     /// In ascending order of [`CellText::cell`].
     pub texts: Vec<CellText>,
     /// The keyword line the table belongs to.
     pub keyword: Span,
-    /// How many field variables DEPENDENCIES counts behind `columns`: no row goes on to them, so that they are zero throughout (S-32).
+    /// The number of field variables of DEPENDENCIES after `columns`: no row reaches them, so that they are zero throughout (S-32).
     ///
     /// Rows are not filled up with what nobody wrote: a deck of a few bytes may count a thousand.
     pub unwritten: usize,
@@ -35,7 +35,7 @@ pub struct Table {
 pub struct CellText {
     /// Index into [`Table::values`].
     pub cell: usize,
-    /// What stands there, without the blanks around it.
+    /// The text, without the blanks around it.
     pub text: String,
 }
 
@@ -60,7 +60,7 @@ impl Table {
         &self.values[index * self.width()..(index + 1) * self.width()]
     }
 
-    /// Where row `index` stands; an empty span at the keyword when the table was not read from a deck.
+    /// The span of row `index`; an empty span at the keyword when the table was not read from a deck.
     pub fn row_span(&self, index: usize) -> Span {
         self.rows.get(index).copied().unwrap_or(self.keyword)
     }

@@ -1,21 +1,21 @@
 //! Numbers as CalculiX reads them: by the Fortran format F20.0 (CX-05).
 //!
-//! Blanks vanish; the first 20 characters that are left count, whatever stands behind them.
-//! The exponent may stand behind E, D or Q, or behind its sign alone.
+//! Blanks vanish; the first 20 characters that are left count, whatever follows.
+//! The exponent may occur after E, D or Q, or after its sign alone.
 //! A text without digits before the exponent is 0 for Fortran; it is no number here, nor are `nan` and `inf`, which Fortran takes.
 
 use super::{FLOAT_CHARACTERS, NumberError};
 
-/// What CalculiX reads from an item.
+/// Reading of an item by CalculiX.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FortranNumber {
-    /// The number that stands there.
+    /// The number that is written.
     Whole(f64),
     /// The number of the first 20 characters.
     Cut {
         /// The number.
         value: f64,
-        /// What all characters together would be; `None` when that is no number.
+        /// The value of all characters together; `None` when that is no number.
         whole: Option<f64>,
     },
     /// The first 20 characters are no number, though all of them may be.
@@ -25,7 +25,7 @@ pub enum FortranNumber {
 /// Reads an item.
 ///
 /// # Errors
-/// What is no number by the format, has no digits before its exponent, is not finite or too large.
+/// A text that is no number by the format, has no digits before its exponent, is not finite or too large.
 pub fn read_fortran(text: &[u8]) -> Result<FortranNumber, NumberError> {
     let kept: Vec<u8> = text.iter().copied().filter(|byte| !matches!(byte, b' ' | b'\t')).collect();
     if kept.len() <= FLOAT_CHARACTERS {
@@ -34,7 +34,7 @@ pub fn read_fortran(text: &[u8]) -> Result<FortranNumber, NumberError> {
     let whole = read_f20(&kept);
     match read_f20(&kept[..FLOAT_CHARACTERS]) {
         Ok(value) => Ok(FortranNumber::Cut { value, whole: whole.ok() }),
-        // What is no number at all is told as such.
+        // A text that is no number at all is reported as such.
         Err(_) if whole.is_ok() => Ok(FortranNumber::CutToNothing),
         Err(error) => Err(error),
     }

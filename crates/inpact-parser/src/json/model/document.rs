@@ -41,9 +41,9 @@ pub(super) struct Document {
 pub(super) struct ParameterDocument {
     /// The name; upper and lower case differ.
     pub(super) name: String,
-    /// The expression behind the equals sign, as it is written.
+    /// The expression after the equals sign, as it is written.
     pub(super) expression: String,
-    /// What the expression gives, for reading only: it follows from the expression. `null` when it gives nothing.
+    /// The value of the expression, for reading only: it follows from the expression. `null` when there is none.
     #[serde(deserialize_with = "required")]
     pub(super) value: Option<ValueDocument>,
 }
@@ -66,9 +66,9 @@ type SpanDocument = [u64; 2];
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "interaction"))]
 #[serde(deny_unknown_fields, expecting = "an interaction: an object")]
 pub(super) struct InteractionDocument {
-    /// NAME as it is written, quotes included; the same name as the one it stands under.
+    /// NAME as it is written, quotes included; the same name as its key.
     pub(super) name: String,
-    /// Where its keyword line stands in the deck: start and end in bytes. It may be left out.
+    /// The span of its keyword line in the deck: start and end in bytes. It may be left out.
     #[serde(default)]
     pub(super) span: SpanDocument,
     /// Out-of-plane thickness, dimension L, or area per node of a node-based surface, dimension L²; 1 by default.
@@ -243,7 +243,7 @@ pub(super) struct AssignmentDocument {
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "procedure"))]
 #[serde(deny_unknown_fields, expecting = "a procedure: an object")]
 pub(super) struct ProcedureDocument {
-    /// The step it belongs to, from 1; 0 when it stands in no step.
+    /// The step it belongs to, from 1; 0 outside of steps.
     pub(super) step: usize,
     /// The keyword, in full, in upper case and without its asterisk.
     pub(super) keyword: String,
@@ -251,7 +251,7 @@ pub(super) struct ProcedureDocument {
     pub(super) parameters: GivenDocuments,
     /// The items of every line.
     pub(super) rows: Vec<Vec<String>>,
-    /// Whether it is steady or transient, for reading only: it follows from keyword and parameters.
+    /// Steady or transient, for reading only: it follows from keyword and parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) regime: Option<RegimeDocument>,
 }
@@ -268,7 +268,7 @@ pub(super) enum RegimeDocument {
 /// A number; `{"text": "<name>", "value": 1.5}` for one that is written with parameters (S-62); or the text of a cell
 /// that is no number: a parameter without a value, or what is malformed in the deck.
 ///
-/// What the deck could not say is refused on the way back: a number in quotes, and what two items or a comment would be.
+/// Texts that a deck could not contain are refused on the way back: a number in quotes, two items, a comment.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
@@ -281,7 +281,7 @@ pub(super) enum Cell {
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "symbolic_number"))]
 #[serde(deny_unknown_fields, expecting = "a number that is written with parameters: an object")]
 pub(super) struct SymbolicCell {
-    /// What stands in the deck, with `<name>` for a parameter.
+    /// The text in the deck, with `<name>` for a parameter.
     pub(super) text: String,
     /// The number that it gives.
     pub(super) value: f64,
@@ -352,13 +352,13 @@ impl Cell {
     }
 }
 
-/// Whether a text can stand in a cell of a deck and is no number there.
+/// Whether a text can occur in a cell of a deck and is no number there.
 fn is_no_number(text: &str) -> bool {
     let item = text.trim_matches(|character: char| character.is_ascii_whitespace());
     !text.is_empty() && item.len() == text.len() && read_float(text.as_bytes()).is_err()
 }
 
-/// An object none of whose keys stands twice: the second would replace the first without a word.
+/// An object none of whose keys occurs twice: the second would replace the first without a word.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Unique<V>(pub(super) IndexMap<String, V>);
 
@@ -389,7 +389,7 @@ impl<V: schemars::JsonSchema> schemars::JsonSchema for Unique<V> {
     }
 }
 
-/// Reads an object and refuses a key that stands twice.
+/// Reads an object and refuses a key that occurs twice.
 fn unique_keys<'de, D: Deserializer<'de>, V: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<IndexMap<String, V>, D::Error> {
@@ -417,7 +417,7 @@ fn unique_keys<'de, D: Deserializer<'de>, V: Deserialize<'de>>(
     deserializer.deserialize_map(UniqueKeys(std::marker::PhantomData))
 }
 
-/// Written out because the three forms are told apart by hand.
+/// Written out because the three forms are distinguished by hand.
 #[cfg(test)]
 impl schemars::JsonSchema for Cell {
     fn schema_name() -> std::borrow::Cow<'static, str> {

@@ -131,7 +131,7 @@ impl InteractionDocument {
     }
 }
 
-/// What stands in a cell that is not written as a number.
+/// The text of a cell that is not written as a number.
 fn written((place, cell): (usize, Cell)) -> Option<CellText> {
     match cell {
         Cell::Number(_) => None,

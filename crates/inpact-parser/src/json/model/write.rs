@@ -116,7 +116,7 @@ impl From<&Table> for TableDocument {
     }
 }
 
-/// A number, with what stands in its place where it is not written as one.
+/// A number, with its text in the deck where it is not written as one.
 fn cell(value: f64, text: Option<&CellText>) -> Cell {
     match text.map(|text| text.text.clone()) {
         None => Cell::Number(value),

@@ -29,7 +29,7 @@ impl Reader<'_> {
         self.problems.append(&mut problems);
     }
 
-    /// How many rows are read, and how many items of each; what stands behind them ccx passes over.
+    /// The number of rows that are read, and of items of each; ccx ignores further ones.
     fn constants_read(&self, option: Entry<'_>) -> (usize, usize) {
         let law = option.parameter("PRESSURE-OVERCLOSURE").and_then(|parameter| {
             let definition = &option.definition.parameters[parameter.index()?];

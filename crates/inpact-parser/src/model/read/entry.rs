@@ -127,7 +127,7 @@ impl Reader<'_> {
     }
 }
 
-/// What a keyword line says over several lines, on one: line ends mean what blanks do (S-11), comments between mean nothing.
+/// A keyword line over several lines, on one: line ends are blanks (S-11), comments between are dropped.
 fn on_one_line(text: &str) -> String {
     if !text.contains(['\n', '\r']) {
         return text.to_owned();

@@ -110,7 +110,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn leave_interaction(&mut self, id: KeywordId, keyword: &KeywordLine) {
-        // CalculiX gathers the sub-options of an interaction wherever they stand (CX-09).
+        // CalculiX gathers the sub-options of an interaction anywhere (CX-09).
         if self.grammar.dialect() == Dialect::Calculix {
             self.parent = Some(id);
             return;
@@ -159,7 +159,7 @@ impl Reader<'_> {
         } else {
             false
         };
-        // What is misplaced is read all the same, into a block of its own that is set aside.
+        // A misplaced option is read all the same, into a block of its own that is set aside.
         let mut interaction = if placed { self.interaction.take() } else { None }
             .unwrap_or_else(|| Interaction::new(Name::new(""), option.keyword.span));
         match option.name {

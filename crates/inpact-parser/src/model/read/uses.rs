@@ -1,4 +1,4 @@
-//! What uses the interactions: surfaces, contact pairs, property assignments, procedures (section 9); and the physical constants of the deck.
+//! Uses of the interactions: surfaces, contact pairs, property assignments, procedures (section 9); and the physical constants of the deck.
 
 use super::Reader;
 use super::entry::{Entry, take};
