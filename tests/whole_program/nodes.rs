@@ -104,7 +104,7 @@ fn initial_conditions_that_are_not_read_are_named_with_their_line() {
     for said in [
         "a.inp:34:1: note: the initial condition of `12`, which is no single number, was not read",
         "a.inp:35:1: note: the node set `NOWHERE` is not defined here",
-        "a.inp:36:1: note: initial conditions that stand elsewhere (FILE) are not read",
+        "a.inp:36:1: note: initial conditions with FILE are not read",
     ] {
         assert!(run.errors.contains(said), "{said}: {}", run.errors);
     }

@@ -243,7 +243,7 @@ fn json_that_says_a_key_twice_is_refused() {
     let folder = Folder::with(&[("i.json", json.as_str())]);
     let run: Run = folder.inpact(&["inp", "i.json"]);
     assert_eq!(run.code, 1, "{}", run.output);
-    assert!(run.errors.contains("at `interactions`: the key `A` stands twice"), "{}", run.errors);
+    assert!(run.errors.contains("at `interactions`: duplicate key `A`"), "{}", run.errors);
 }
 
 #[test]

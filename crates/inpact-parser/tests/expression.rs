@@ -108,7 +108,7 @@ fn several_statements_on_a_line() {
     assert_eq!(problems.len(), 2);
     assert_eq!(parameters.value("e"), Some(&Value::Integer(5)));
     assert_eq!(parameters.definition("f"), None);
-    check_problem("a = 1;; b = 2", ";", "`;` stands where the name of a parameter should stand", "");
+    check_problem("a = 1;; b = 2", ";", "expected the name of a parameter, found `;`", "");
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn statements_over_several_lines() {
     assert_eq!(parameters.definitions()[0].expression, "1 +   2");
     assert_eq!(parameters.definitions()[0].span, Span::new(SourceId::ROOT, 0, 12));
     // A word does not go over the end of a line.
-    check_problem("a = 1\\\n2", "2", "`2` stands where an operator should stand", "");
+    check_problem("a = 1\\\n2", "2", "expected an operator, found `2`", "");
 }
 
 #[test]
@@ -249,8 +249,8 @@ fn statements_that_define_nothing() {
         "choose another name",
     );
     check_problem("a = 1 if 2 else 3", "if", "the word `if` of Python is not understood", "only arithmetic is");
-    check_problem("a 0.3", "a", "no `=` stands behind `a`", "write `name = expression`");
-    check_problem("a", "a", "no `=` stands behind `a`", "write `name = expression`");
+    check_problem("a 0.3", "a", "expected `=` after `a`", "write `name = expression`");
+    check_problem("a", "a", "expected `=` after `a`", "write `name = expression`");
     check_problem("a == 5", "==", "`==` compares and defines nothing", "write one `=`");
     check_problem("a *= 5", "*=", "`*=` is not understood", "write it in full, as in `a = a + 1`");
     check_problem(
@@ -264,11 +264,11 @@ fn statements_that_define_nothing() {
         "a = b = 1",
         "b",
         "`b` is used before it is defined",
-        "define it further up: every statement is executed where it stands",
+        "define it further up: statements are executed in their order",
     );
     check_problem("a = 1 = 2", "=", "a second `=` is not understood", "define one parameter in a statement");
-    check_problem("1 = a", "1", "`1` stands where the name of a parameter should stand", "");
-    check_problem("a =", "", "the statement ends where a value should stand", "");
+    check_problem("1 = a", "1", "expected the name of a parameter, found `1`", "");
+    check_problem("a =", "", "expected a value, found the end of the statement", "");
     check_problem(
         "a[0] = 1",
         "[",
@@ -307,20 +307,20 @@ fn expressions_that_are_none() {
         "a parameter is used by its bare name here, without `<` and `>`",
     );
     check_problem("a = 5 €", "€", "the character `€` is not understood in an expression", "");
-    check_problem("a = 1 +", "", "the statement ends where a value should stand", "");
-    check_problem("a = * 2", "*", "`*` stands where a value should stand", "");
-    check_problem("a = 2 MPa", "MPa", "`MPa` stands where an operator should stand", "");
-    check_problem("a = 2)", ")", "`)` stands where an operator should stand", "");
-    check_problem("a = ()", ")", "`)` stands where a value should stand", "");
-    check_problem("a = (1 2)", "2", "`2` stands where an operator or `)` should stand", "");
-    check_problem("a = 'b' 'c'", "'c'", "`'c'` stands where an operator should stand", "");
-    check_problem("a = max(1, ,2)", ",", "`,` stands where a value should stand", "");
+    check_problem("a = 1 +", "", "expected a value, found the end of the statement", "");
+    check_problem("a = * 2", "*", "expected a value, found `*`", "");
+    check_problem("a = 2 MPa", "MPa", "expected an operator, found `MPa`", "");
+    check_problem("a = 2)", ")", "expected an operator, found `)`", "");
+    check_problem("a = ()", ")", "expected a value, found `)`", "");
+    check_problem("a = (1 2)", "2", "expected an operator or `)`, found `2`", "");
+    check_problem("a = 'b' 'c'", "'c'", "expected an operator, found `'c'`", "");
+    check_problem("a = max(1, ,2)", ",", "expected a value, found `,`", "");
     check_problem("a = 1 \\ 2", "\\", "the character `\\` is not understood in an expression", "");
     check_problem(
         "a = a.b",
         "a",
         "`a` is used before it is defined",
-        "define it further up: every statement is executed where it stands",
+        "define it further up: statements are executed in their order",
     );
 }
 

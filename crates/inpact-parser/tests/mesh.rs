@@ -297,7 +297,7 @@ fn what_is_not_read_is_named() {
     );
     assert_eq!(
         said(&format!("*SYSTEM\n1., 0., 0.\n{}", cubes(FACES)))[0],
-        "nodes of which some stand behind *SYSTEM are not read"
+        "nodes of which some follow *SYSTEM are not read"
     );
     let short =
         CUBES.replace("2, 11, 12, 13, 14, 15, 16, 17, 18", "7, 11, 12\n2, 11, 12, 13, 14, 15, 16, 17, 18\n8, 11,");

@@ -286,7 +286,7 @@ impl<'a> Evaluator<'a> {
             None if function(name).is_some() => {
                 complaint.help(format!("call the function with its arguments: `{text}(…)`"))
             }
-            None => complaint.help("define it further up: every statement is executed where it stands"),
+            None => complaint.help("define it further up: statements are executed in their order"),
         }
     }
 
@@ -334,12 +334,12 @@ impl<'a> Evaluator<'a> {
             Token::UnterminatedText => {
                 Complaint::new(format!("the text {shown} is not closed")).help("add the quote at its end")
             }
-            Token::End => Complaint::new(format!("the statement ends where {expected} should stand")),
+            Token::End => Complaint::new(format!("expected {expected}, found the end of the statement")),
             Token::Name if is_reserved(word) => {
                 Complaint::new(format!("the word {shown} of Python is not understood")).help("only arithmetic is")
             }
             Token::Unknown => unknown(word),
-            _ => Complaint::new(format!("{shown} stands where {expected} should stand")),
+            _ => Complaint::new(format!("expected {expected}, found {shown}")),
         };
         Stop::Complaint { at: self.range.clone(), complaint }
     }

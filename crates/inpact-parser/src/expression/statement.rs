@@ -119,7 +119,7 @@ fn no_assignment(evaluator: &Evaluator<'_>, name: Range<usize>) -> Result<Value,
         Token::Equal => stop(found, Complaint::new("`==` compares and defines nothing").help("write one `=`")),
         Token::Unknown | Token::MalformedNumber | Token::UnterminatedText => Err(evaluator.unexpected("`=`")),
         _ => {
-            let complaint = Complaint::new(format!("no `=` stands behind {}", quoted(&evaluator.text[name.clone()])));
+            let complaint = Complaint::new(format!("expected `=` after {}", quoted(&evaluator.text[name.clone()])));
             stop(name, complaint.help("write `name = expression`"))
         }
     }

@@ -186,7 +186,7 @@ impl Data {
         }
         let columns = || self.head.iter().chain(&self.columns);
         if let Some(name) = first_repeated(columns().map(|column| column.name.as_str())) {
-            return Some(format!("column `{name}` stands twice"));
+            return Some(format!("duplicate column `{name}`"));
         }
         let of_columns = columns().flat_map(|column| [&column.with, &column.without]).flatten();
         let of_counted = self.counted.iter().map(|counted| &counted.count);

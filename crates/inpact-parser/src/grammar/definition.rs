@@ -267,10 +267,10 @@ impl Definition {
             );
         }
         if self.levels.is_empty() {
-            return Some("it may stand nowhere".to_owned());
+            return Some("no level allows it".to_owned());
         }
         if let Some(name) = first_repeated(self.parameters.iter().map(|parameter| parameter.name.as_str())) {
-            return Some(format!("parameter `{name}` stands twice"));
+            return Some(format!("duplicate parameter `{name}`"));
         }
         let has_parameter = |name: &str| self.parameter(name).is_some();
         let of_parameters = self.parameters.iter().find_map(|parameter| {

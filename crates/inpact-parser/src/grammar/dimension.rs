@@ -104,7 +104,7 @@ impl FromStr for Dimension {
             }
             let exponent = &mut dimension.exponents[base as usize];
             if *exponent != 0 {
-                return Err(error("a quantity stands in it once"));
+                return Err(error("expected each quantity once"));
             }
             *exponent = power;
         }

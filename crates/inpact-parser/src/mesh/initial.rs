@@ -97,7 +97,7 @@ impl Reader<'_, '_> {
         };
         let elsewhere = ["FILE", "INPUT", "USER", "STEP", "INTERPOLATE"];
         if let Some(name) = elsewhere.into_iter().find(|name| option.parameter(name).is_some()) {
-            self.note(option.span(), format!("initial conditions that stand elsewhere ({name}) are not read"));
+            self.note(option.span(), format!("initial conditions with {name} are not read"));
             return None;
         }
         Some(quantity)
@@ -128,7 +128,7 @@ impl Reader<'_, '_> {
                 (InitialQuantity::PorePressure, &[Some(value)]) => value,
                 (InitialQuantity::Temperature | InitialQuantity::FieldVariable(_), &[Some(value), ref others @ ..]) => {
                     if !others.is_empty() {
-                        more.push((span, format!("the initial values of `{target}` behind the first")));
+                        more.push((span, format!("the initial values of `{target}` after the first")));
                     }
                     value
                 }

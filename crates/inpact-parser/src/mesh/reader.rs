@@ -196,7 +196,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             let selected = if let Some(maker) =
                 self.mover(instance).filter(|_| !wanted.labels.is_empty() || !selections.is_empty())
             {
-                self.note(maker, "nodes of which some stand behind *SYSTEM are not read".to_owned());
+                self.note(maker, "nodes of which some follow *SYSTEM are not read".to_owned());
                 vec![Vec::new(); selections.len()]
             } else {
                 self.read_nodes(instance, &mut wanted, &selections)?

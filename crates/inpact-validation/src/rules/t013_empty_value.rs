@@ -49,7 +49,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
         report
             .at(problem.span, format!("{column} is left empty and reads as 0"))
-            .label(format!("the {column} should stand here"))
+            .label(format!("expected the {column} here"))
             .note("an item that is left empty means 0")
             .help("give the value, or write `0.`");
     }

@@ -406,7 +406,7 @@ fn unique_keys<'de, D: Deserializer<'de>, V: Deserialize<'de>>(
             let mut map = IndexMap::new();
             while let Some(key) = entries.next_key::<String>()? {
                 if map.contains_key(&key) {
-                    return Err(serde::de::Error::custom(format_args!("the key `{key}` stands twice")));
+                    return Err(serde::de::Error::custom(format_args!("duplicate key `{key}`")));
                 }
                 map.insert(key, entries.next_value()?);
             }

@@ -35,13 +35,13 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
     for (key, interaction) in document.interactions {
         let path = format!("interactions.{key}");
         if Name::new(&key) != Name::new(&interaction.name) {
-            let message = format!("`{}` is not the name it stands under", interaction.name);
+            let message = format!("expected the name of its key, found `{}`", interaction.name);
             return Err(JsonError::new(format!("{path}.name"), message));
         }
         let mut interaction = interaction.into_model(&path)?;
         interaction.name = Name::in_dialect(interaction.name.written(), dialect);
         if model.interactions.contains_key(&interaction.name) {
-            return Err(JsonError::new(path, "an interaction of that name stands there already"));
+            return Err(JsonError::new(path, "duplicate interaction"));
         }
         model.interactions.insert(interaction.name.clone(), interaction);
     }
