@@ -1,75 +1,56 @@
-//! Evaluates the laws of a plan, row by row, in batches.
+//! Evaluates the laws of a plan over batches of rows: tables and, where it can be, current and heat in columns, everything else row by row.
 //!
 //! Rows of one node under one interaction are increments of its history, in the order they come in; a node's first row starts it unless
-//! [`Choices::history_start`](crate::plan::Choices::history_start) says otherwise (C-25):
+//! [`Choices::history_start`] says otherwise (C-25):
 //! its time integrals are 0, the jump of potential at its start is its own, the rate of its clearance is 0 unless given.
-//! Results depend on the rows alone and not on how they are cut into batches.
+//! Results depend on the rows alone: not on how they are cut into batches, nor on the number of threads that share them.
+//! Rows that stand alone are shared out by batches, those of histories by their nodes; a user's routine is asked by one thread, in the order of the rows.
 //!
 //! A row that lacks a number which a law needs has no results of that law and is no increment of its history;
 //! the next increment then begins at the last row that had them all.
 //! Opens no file: batches in, batches out.
 
-mod conductances;
 mod coordinates;
-mod electrical;
-mod pore;
+mod laws;
+mod part;
+mod pipeline;
+mod shard;
 mod tally;
-mod thermal;
 mod totals;
-mod user;
+mod worker;
 
 pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
+pub use pipeline::RunFailure;
 pub use tally::{AxisTally, InteractionTally, RemarkedRows, Tally, UserFaultInRow};
 pub use totals::Totals;
-pub(crate) use totals::summed;
 
-use self::conductances::Conductances;
-use self::electrical::Scratch;
-use crate::compile::{CompiledTables, ConductanceSource, InteractionLaws, Laws};
-use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
+pub(crate) use laws::Binder;
+pub(crate) use part::{Part, Row, mean_mass_flow_of};
+pub(crate) use tally::{PERMEABILITY, THERMAL_CONDUCTANCE, VIEW_FACTOR};
+
+use self::laws::Laws;
+use self::shard::{Shard, ShardResults, Waiting};
+use self::worker::Worker;
 use crate::law::contact::ContactState;
-use crate::nodes::{Batch, HistoryOrder, NodeIndex};
-use crate::plan::{ContactPlaces, History, Plan, RowInteractions, Source};
+use crate::nodes::Batch;
+use crate::plan::{Choices, Plan};
 use crate::results::{ResultBatch, Status};
+use crate::spread;
 use inpact_parser::model::Model;
 
 /// An evaluation under way: the laws, the histories of the nodes so far, and a count of what happened.
 #[derive(Debug)]
 pub struct Evaluation<'a> {
-    laws: &'a Laws,
-    interactions: RowInteractions<'a>,
-    nodes: NodeIndex,
-    histories: Vec<NodeHistory>,
+    laws: Laws,
+    workers: Vec<Worker<'a>>,
+    shards: Vec<Shard>,
+    /// The rows and the totals; workers and shards count the rest.
     tally: Tally,
-    /// The interaction and the state of each row of a batch; `None` where there is no interaction with a law.
-    governed: Vec<Option<(usize, Option<ContactState>)>>,
-    conductances: Conductances,
-    scratch: Scratch,
-}
-
-/// What a node's rows so far add up to.
-#[derive(Debug, Clone)]
-struct NodeHistory {
-    electrical: ElectricalHistory,
-    thermal: ThermalHistory,
-    pore: PoreHistory,
-}
-
-/// A row of a batch, with what both laws need of it.
-#[derive(Clone, Copy)]
-struct Row<'a> {
-    batch: &'a Batch,
-    index: usize,
-    state: ContactState,
-    clearance: Option<f64>,
-    pressure: Option<f64>,
-    /// The time, where the row is part of a history.
-    time: Option<f64>,
 }
 
 /// What came of a law in a row.
 #[derive(Debug, Clone, PartialEq)]
-enum Outcome {
+pub(crate) enum Outcome {
     /// The row lacks a number that the law needs.
     Incomplete,
     /// It was evaluated, and this is the row's status as far as it goes.
@@ -78,190 +59,111 @@ enum Outcome {
     Faulty(Option<UserFaultInRow>),
 }
 
-impl NodeHistory {
-    /// One that has not begun.
-    fn of(laws: &Laws) -> Self {
+impl<'a> Evaluation<'a> {
+    /// Begins an evaluation of a plan that was made from this model and these choices.
+    pub fn new(model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
+        Self::shared_by(1, model, plan, choices)
+    }
+
+    /// The same, shared by the threads of rayon's current pool where feature `threads` is on.
+    pub fn on_all_threads(model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
+        Self::shared_by(spread::threads(), model, plan, choices)
+    }
+
+    /// The same, cut into so many shares, one at least; what comes out is the same.
+    pub fn shared_by(shares: usize, model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
+        let laws = Laws::of(model, plan, choices);
+        let shares = if laws.asks_user { 1 } else { shares.max(1) };
+        let tally = Tally::new(plan, &laws, model.interactions.len());
         Self {
-            electrical: ElectricalHistory::new(laws.history_start, laws.closing_heat),
-            thermal: ThermalHistory::new(laws.history_start),
-            pore: PoreHistory::new(laws.history_start),
+            workers: (0..shares).map(|_| Worker::new(model, plan, &laws, tally.clone())).collect(),
+            shards: (0..shares).map(|_| Shard::new(plan, tally.clone())).collect(),
+            tally,
+            laws,
         }
     }
-}
 
-impl<'a> Evaluation<'a> {
-    /// Begins an evaluation of `laws`, compiled from this model and plan.
-    pub fn new(model: &'a Model, plan: &Plan, laws: &'a Laws) -> Self {
-        Self {
-            laws,
-            interactions: RowInteractions::new(model, plan.governed_by, laws.interaction),
-            nodes: match plan.order {
-                HistoryOrder::ByNode => NodeIndex::by_node(),
-                HistoryOrder::Interleaved => NodeIndex::default(),
-            },
-            histories: Vec::new(),
-            tally: Tally::new(plan, laws, model.interactions.len()),
-            governed: Vec::new(),
-            conductances: Conductances::default(),
-            scratch: Scratch::default(),
-        }
+    /// How many batches [`Self::evaluate_all`] should be given at a time to keep every share at work.
+    pub fn batches_at_a_time(&self) -> usize {
+        /// Of each share.
+        const BATCHES: usize = 4;
+        if self.workers.len() == 1 { 1 } else { BATCHES * self.workers.len() }
     }
 
     /// Evaluates the rows of a batch, which go on where the batch before ended.
     pub fn evaluate(&mut self, batch: &Batch, results: &mut ResultBatch) {
-        results.reset(batch.rows, self.laws.result_columns);
-        self.find_conductances(batch);
-        for row in 0..batch.rows {
-            self.evaluate_row(batch, row, results);
-        }
-        self.add_up(batch, results);
-        self.tally.rows += batch.rows as u64;
+        self.evaluate_all(std::slice::from_ref(batch), std::slice::from_mut(results));
     }
 
-    /// Adds the rows to the totals of their interactions.
-    fn add_up(&mut self, batch: &Batch, results: &ResultBatch) {
-        let summed = &self.laws.summed;
-        if summed.is_empty() {
-            return;
+    /// Evaluates the rows of some batches, each of which goes on where the one before ended.
+    ///
+    /// # Panics
+    /// Where there are not as many results as batches.
+    pub fn evaluate_all(&mut self, batches: &[Batch], results: &mut [ResultBatch]) {
+        assert_eq!(batches.len(), results.len(), "results for every batch");
+        let Self { laws, workers, shards, .. } = self;
+        for (batch, results) in batches.iter().zip(&mut *results) {
+            results.reset(batch.rows, laws.result_columns);
         }
-        for (row, governed) in self.governed.iter().enumerate() {
-            let Some((interaction, _)) = governed else { continue };
-            let time = self.laws.time.and_then(|place| batch.numbers[place].get(row));
-            self.tally.interactions[*interaction].totals.take(time, summed, results, row);
+        match (&mut workers[..], &mut shards[..]) {
+            ([worker], [shard]) => {
+                for (batch, results) in batches.iter().zip(&mut *results) {
+                    worker.evaluate(laws, batch, Some(&mut *shard), 1, results);
+                }
+            }
+            _ => evaluate_shared(laws, workers, shards, batches, results),
+        }
+        for (batch, results) in batches.iter().zip(results) {
+            self.tally.rows += batch.rows as u64;
+            self.workers[0].add_up(&self.laws, batch, results, &mut self.tally);
         }
     }
 
     /// What was counted.
-    pub fn finish(self) -> Tally {
+    pub fn finish(mut self) -> Tally {
+        let parts =
+            self.workers.into_iter().map(|worker| worker.tally).chain(self.shards.into_iter().map(|shard| shard.tally));
+        parts.for_each(|part| self.tally.merge(part));
         self.tally
     }
-
-    /// Finds interaction, contact and conductance of every row: the tables are evaluated over columns.
-    fn find_conductances(&mut self, batch: &Batch) {
-        let interactions = &self.laws.interactions;
-        self.conductances.begin(batch.rows, interactions.len());
-        self.governed.clear();
-        for index in 0..batch.rows {
-            let interaction = self.interactions.of_row(batch, index);
-            let laws = interaction.and_then(|interaction| Some((interaction, interactions[interaction].as_ref()?)));
-            let Some((interaction, laws)) = laws else {
-                self.governed.push(None);
-                continue;
-            };
-            let state = laws.contact.state(batch, index);
-            self.governed.push(Some((interaction, state)));
-            if let (Some(law), Some(state)) = (laws.conductance_tables(), state) {
-                self.conductances.take(interaction, law, Row::new(batch, index, state, laws.contact, self.laws.time));
-            }
-        }
-        let tallies = &mut self.tally.interactions;
-        self.conductances.finish(|interaction| interactions[interaction].as_ref()?.conductance_tables(), tallies);
-    }
-
-    fn evaluate_row(&mut self, batch: &Batch, index: usize, results: &mut ResultBatch) {
-        let Some((interaction, state)) = self.governed[index] else { return };
-        let Some(laws) = &self.laws.interactions[interaction] else { return };
-        let tally = &mut self.tally.interactions[interaction];
-        tally.rows += 1;
-        tally.closed += u64::from(state == Some(ContactState::Closed));
-        tally.open += u64::from(state == Some(ContactState::Open));
-        let Some(state) = state else {
-            tally.incomplete += 1;
-            return;
-        };
-        let row = Row::new(batch, index, state, laws.contact, self.laws.time);
-        let keeps_history = laws.electrical.as_ref().is_some_and(|law| law.history == History::ByTime)
-            || laws.thermal.as_ref().is_some_and(|law| law.history == History::ByTime)
-            || laws.pore.as_ref().is_some_and(|law| law.history == History::ByTime);
-        let mut history = match self.laws.node.filter(|_| keeps_history && row.time.is_some()) {
-            Some(node) => {
-                let slot = self.nodes.enter(interaction, batch.labels[node].get(index));
-                if slot.number == self.histories.len() {
-                    self.histories.push(NodeHistory::of(self.laws));
-                } else if slot.is_first {
-                    self.histories[slot.number] = NodeHistory::of(self.laws);
-                }
-                Some(&mut self.histories[slot.number])
-            }
-            None => None,
-        };
-        let scratch = &mut self.scratch;
-        let mut outcomes = [None, None, None];
-        let mut heat_of_current = None;
-        if let Some(law) = &laws.electrical {
-            let history = history.as_mut().map(|history| &mut history.electrical);
-            let conductance = self.conductances.of_row(index);
-            let evaluated = electrical::evaluate(law, row, conductance, history, scratch, results, tally);
-            heat_of_current = evaluated.1;
-            outcomes[0] = Some(evaluated.0);
-        }
-        if let Some(law) = &laws.thermal {
-            let history = history.as_mut().map(|history| &mut history.thermal);
-            let scratch = (&mut scratch.variables, &mut scratch.slopes);
-            outcomes[2] = Some(thermal::evaluate(law, row, heat_of_current, history, scratch, results, tally));
-        }
-        if let Some(law) = &laws.pore {
-            let history = history.as_mut().map(|history| &mut history.pore);
-            outcomes[1] =
-                Some(pore::evaluate(law, row, history, (&mut scratch.variables, &mut scratch.slopes), results, tally));
-        }
-        tally.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
-        if let Some(Outcome::Faulty(Some(told))) = &outcomes[0] {
-            self.tally.user_faults.push(told.clone());
-        }
-        let [electrical, pore, thermal] = outcomes.map(|outcome| outcome.and_then(Outcome::status));
-        tally.count_statuses([electrical, pore, thermal]);
-        results.status[index] = electrical.max(pore).max(thermal);
-        results.status_by_law.electrical[index] = electrical;
-        results.status_by_law.thermal[index] = thermal;
-        results.status_by_law.pore[index] = pore;
-    }
 }
 
-impl InteractionLaws {
-    /// The tables of the electrical conductance, where tables give it.
-    fn conductance_tables(&self) -> Option<&CompiledTables> {
-        match &self.electrical.as_ref()?.conductance {
-            ConductanceSource::Tables(tables) => Some(tables),
-            ConductanceSource::User(_) => None,
+/// Batches are shared out among the workers; rows with a history wait until all are through, and are shared out by their nodes.
+fn evaluate_shared(
+    laws: &Laws,
+    workers: &mut [Worker<'_>],
+    shards: &mut [Shard],
+    batches: &[Batch],
+    results: &mut [ResultBatch],
+) {
+    let (share, shard_count) = (batches.len().div_ceil(workers.len()).max(1), shards.len());
+    let shares = workers.iter_mut().zip(batches.chunks(share)).zip(results.chunks_mut(share));
+    let waiting: Vec<Vec<Waiting<'_>>> = spread::map(shares, |((worker, batches), results)| {
+        let each = batches.iter().zip(results);
+        each.map(|(batch, results)| worker.evaluate(laws, batch, None, shard_count, results)).collect::<Vec<_>>()
+    })
+    .into_iter()
+    .flatten()
+    .collect();
+    if waiting.iter().all(Vec::is_empty) {
+        return;
+    }
+    let found: Vec<Vec<ShardResults>> =
+        spread::map(shards.iter_mut().enumerate(), |(number, shard)| shard.evaluate(laws, number, &waiting));
+    let mut of_batches: Vec<Vec<ShardResults>> = Vec::new();
+    of_batches.resize_with(batches.len(), Vec::new);
+    for of_shard in found.into_iter().flatten() {
+        of_batches[of_shard.batch].push(of_shard);
+    }
+    spread::for_each(of_batches.into_iter().zip(results), |(found, results)| {
+        for ShardResults { rows, results: own, .. } in &found {
+            own.scatter(rows, results);
         }
-    }
-}
-
-impl Outcome {
-    fn status(self) -> Option<Status> {
-        match self {
-            Self::Incomplete | Self::Faulty(_) => None,
-            Self::Evaluated(status) => status,
-        }
-    }
-}
-
-impl<'a> Row<'a> {
-    fn new(batch: &'a Batch, index: usize, state: ContactState, contact: ContactPlaces, time: Option<usize>) -> Self {
-        let number = |place: Option<usize>| batch.numbers[place?].get(index);
-        let (clearance, pressure) = (number(contact.clearance), number(contact.pressure));
-        Self { batch, index, state, clearance, pressure, time: number(time) }
-    }
-
-    fn number(&self, place: usize) -> Option<f64> {
-        self.batch.numbers[place].get(self.index)
-    }
-
-    /// The number of a source; `combine` makes one of slave and master.
-    #[inline]
-    fn fetch(&self, source: &Source<usize>, combine: impl Fn(f64, f64) -> f64) -> Option<f64> {
-        let sides = |slave, master| Some(combine(self.number(slave)?, self.number(master)?));
-        match *source {
-            Source::Cell(cell) => self.number(cell),
-            Source::Sides(slave, master) => sides(slave, master),
-            Source::CellOrSides(cell, slave, master) => self.number(cell).or_else(|| sides(slave, master)),
-        }
-    }
+    });
 }
 
 /// The status of a row as far as contact goes; `None` where it cannot be told.
-fn contact_status(state: ContactState) -> Option<Status> {
+pub(crate) fn contact_status(state: ContactState) -> Option<Status> {
     match state {
         ContactState::Closed => Some(Status::Closed),
         ContactState::Open => Some(Status::Open),

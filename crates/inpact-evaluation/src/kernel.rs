@@ -15,6 +15,7 @@
 )]
 
 mod axis;
+#[cfg(feature = "threads")]
 pub mod blocks;
 pub mod electrical;
 mod instruction_set;
@@ -23,6 +24,7 @@ mod pieces;
 #[cfg(target_arch = "x86_64")]
 mod registers;
 mod search;
+#[cfg(feature = "threads")]
 pub mod total;
 
 pub use instruction_set::InstructionSet;

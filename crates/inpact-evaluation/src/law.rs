@@ -13,7 +13,10 @@
 //! - [`heat`]: how generated heat is shared between the two sides (*GAP HEAT GENERATION);
 //! - [`conductance`]: the clearance and pressure branches every conductance law shares;
 //! - [`user`]: the conductance that a routine of the user's gives (*GAP ELECTRICAL CONDUCTANCE, USER, semantics 7.1);
-//! - [`contact`]: the quantities at a point of contact and whether it is closed.
+//! - [`contact`]: the quantities at a point of contact and whether it is closed;
+//! - [`interface`]: all laws of an interaction, for those who ask them point by point.
+//!
+//! A law's `columns` evaluate it over the rows of a batch, with the tables in columns.
 
 pub mod calculix;
 pub mod conductance;
@@ -21,6 +24,7 @@ pub mod contact;
 pub mod electrical;
 pub mod friction;
 pub mod heat;
+pub mod interface;
 pub mod pore;
 pub mod radiation;
 pub mod thermal;

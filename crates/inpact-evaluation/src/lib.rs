@@ -6,8 +6,8 @@
 //! [`kernel`] evaluates tables over whole columns, vectorised, with the bits of the functions above.
 //! None of these knows a file or the parser's model.
 //!
-//! Around them: [`nodes`] reads node tables, [`plan`] puts a deck's model and a node table together, [`compile`] turns a plan into laws,
-//! [`evaluate`] runs them over batches of rows, [`results`] writes what comes out.
+//! Around them: [`nodes`] reads node tables, [`plan`] puts a deck's model and a node table together,
+//! [`evaluate`] runs a plan over batches of rows, [`results`] writes what comes out.
 //! No file is opened here: streams in, streams out.
 
 pub mod numbers;
@@ -30,6 +30,6 @@ pub mod results;
 
 pub mod plan;
 
-pub mod compile;
-
 pub mod evaluate;
+
+mod spread;

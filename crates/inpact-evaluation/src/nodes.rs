@@ -8,6 +8,7 @@
 //! Knows no law and no deck: what a column is needed for is the plan's business.
 
 mod batch;
+mod cells;
 mod column;
 #[cfg(feature = "columnar")]
 mod columnar;
@@ -29,6 +30,7 @@ mod spill;
 mod wait;
 
 pub use batch::{Batch, LabelColumn, NumberColumn};
+pub(crate) use cells::Cells;
 pub(crate) use column::coordinates;
 pub use column::{Column, Direction, Part};
 #[cfg(feature = "columnar")]

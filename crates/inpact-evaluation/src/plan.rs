@@ -1,7 +1,7 @@
 //! The plan of an evaluation: which laws, tables, columns and outputs a deck and a node table need, and what is left out and why.
 //!
 //! A [`Survey`] reads the node table once: which columns have numbers in the rows of which interaction, and between which bounds.
-//! [`make`] puts deck and survey together. A [`Plan`] is a plain value that can be printed; [`compile`](crate::compile) turns it into laws.
+//! [`make`] puts deck and survey together. A [`Plan`] is a plain value that can be printed; [`Evaluation`](crate::evaluate::Evaluation) runs it.
 //!
 //! Decisions (section 9.2, C-24, P-01, P-03, U-3, Q-1 to Q-6 of the semantics):
 //!

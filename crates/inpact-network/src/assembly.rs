@@ -6,7 +6,7 @@ use crate::knowledge::{Guess, Knowledge};
 use crate::linear::{LinearNetwork, Link, NONE, Sets, Store};
 use crate::problem::FieldNodes;
 use crate::scene::{Field, SceneInterface};
-use inpact_evaluation::compile::InterfaceLaws;
+use inpact_evaluation::law::interface::InterfaceLaws;
 use inpact_evaluation::law::user::UserFault;
 use inpact_evaluation::numbers::DoubleDouble;
 

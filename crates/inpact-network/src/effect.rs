@@ -142,7 +142,7 @@ impl Problem<'_> {
         let Some(laws) = self.laws_of(row).filter(|_| of.field_variables.iter().any(|value| !value.is_nan())) else {
             return false;
         };
-        if matches!(laws.electrical, Some(inpact_evaluation::compile::ElectricalSource::User(..))) {
+        if matches!(laws.electrical, Some(inpact_evaluation::law::interface::ElectricalSource::User(..))) {
             return false;
         }
         let reads = |field: Field| {

@@ -9,13 +9,12 @@ use arrow::datatypes::SchemaRef;
 use arrow::error::ArrowError;
 use inpact_diagnostics::{Diagnostic, Findings, Severity};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::compile::compile;
-use inpact_evaluation::evaluate::Evaluation;
+use inpact_evaluation::evaluate::{Evaluation, RunFailure};
 use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::law::user::{UserConductance, UserLaw};
 use inpact_evaluation::nodes::{KeptRows, NodeReader, RecordBatches};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, concerning, make, survey_keeping};
-use inpact_evaluation::results::{Output, ResultBatch, ResultRecords};
+use inpact_evaluation::results::{Output, ResultRecords};
 use inpact_parser::model::{Name, Regime};
 use std::ops::ControlFlow;
 
@@ -207,7 +206,7 @@ impl Deck {
         &self,
         (schema, batches): (SchemaRef, RecordBatches),
         choices: &Choices,
-        mut take: impl FnMut(u64, RecordBatch) -> ControlFlow<()>,
+        mut take: impl FnMut(u64, RecordBatch) -> ControlFlow<()> + Send,
     ) -> Result<EvaluatedTo, Error> {
         if self.model.interactions.is_empty() {
             return Err(Error::data(format!("`{}` defines no *SURFACE INTERACTION", self.name())));
@@ -227,20 +226,22 @@ impl Deck {
         if plan.outputs.is_empty() {
             return Err(self.nothing_to_evaluate(&plan));
         }
-        let laws = compile(&self.model, &plan, choices);
         let mut rows = rows.give_back(&plan.selection).map_err(|error| unreadable(&error))?;
-        let mut evaluation = Evaluation::new(&self.model, &plan, &laws);
+        let mut evaluation = Evaluation::on_all_threads(&self.model, &plan, choices);
         let mut records = ResultRecords::new(plan.keys(), &plan.outputs);
-        let (mut results, mut done) = (ResultBatch::default(), 0);
-        while let Some(mut batch) = rows.next_batch().map_err(|error| unreadable(&error))? {
-            plan.name_rows(&mut batch);
-            evaluation.evaluate(&batch, &mut results);
-            let records = records.record_batch(&batch, &mut results).map_err(|error| unreadable(&error))?;
+        let mut done = 0;
+        let ran = evaluation.run(&mut rows, &plan, |batch, results| {
+            let records = records.record_batch(batch, results).map_err(|error| unreadable(&error))?;
             done += batch.rows as u64;
             if take(done, records).is_break() {
                 return Err(Failure::Usage(format!("stopped after {done} rows")).into());
             }
-        }
+            Ok(())
+        });
+        ran.map_err(|failure| match failure {
+            RunFailure::Reading(error) => unreadable(&error),
+            RunFailure::Writing(error) => error,
+        })?;
         let tally = evaluation.finish();
         let mut findings = Findings::new(TABLE);
         tally.report_user_faults(&mut findings);

@@ -1,6 +1,5 @@
 //! A deck and a node table through the library: what `inpact eval` does, without files.
 
-use inpact_evaluation::compile::{Laws, compile};
 use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Plan, make, survey};
@@ -14,7 +13,7 @@ use inpact_validation::{Severity, check};
 pub(super) struct Scene {
     pub(super) model: Model,
     pub(super) plan: Plan,
-    pub(super) laws: Laws,
+    choices: Choices,
     /// The findings about the node table that are no errors, as `D003 non-finite`.
     pub(super) warnings: Vec<String>,
 }
@@ -50,8 +49,7 @@ impl Scene {
         let Some(surveyed) = surveyed.filter(|_| errors.is_empty()) else { return Err(errors) };
         let warnings = warnings.iter().map(|found| format!("{} {}", found.code, found.name)).collect();
         let plan = make(&model, &surveyed, &choices);
-        let laws = compile(&model, &plan, &choices);
-        Ok(Self { model, plan, laws, warnings })
+        Ok(Self { model, plan, choices, warnings })
     }
 
     /// Evaluates a node table with the columns the scene was made with.
@@ -64,7 +62,7 @@ impl Scene {
 
     /// Evaluates batches as long as `next` fills one.
     pub(super) fn evaluate_batches(&self, mut next: impl FnMut(&mut Batch) -> bool) -> Results {
-        let mut evaluation = Evaluation::new(&self.model, &self.plan, &self.laws);
+        let mut evaluation = Evaluation::new(&self.model, &self.plan, &self.choices);
         let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
         let mut last = Vec::new();
         let mut status = None;

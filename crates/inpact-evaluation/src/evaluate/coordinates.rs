@@ -3,12 +3,14 @@
 //! They are the points an evaluation would read it at, kept for whoever measures tables on a user's own rows.
 //! View factors of radiation and the curves of CalculiX are not among them: they are evaluated in one form only.
 
-use super::{Row, thermal};
-use crate::compile::{CompiledPore, Laws, MASS_FLOW, Needs};
-use crate::law::contact::ContactState;
+use super::laws::Laws;
+use super::worker::Worker;
+use super::{Part, Tally};
+use crate::evaluator::Evaluator;
+use crate::law::conductance::Branch;
+use crate::law::conductance::columns::Gathered;
 use crate::nodes::Batch;
-use crate::numbers::mean;
-use crate::plan::{Plan, RowInteractions};
+use crate::plan::{Choices, Plan};
 use crate::results::Along;
 use crate::table::PiecewiseTable;
 use inpact_parser::model::Model;
@@ -42,51 +44,46 @@ pub enum TabulatedQuantity {
 /// Coordinates in the making.
 #[derive(Debug)]
 pub struct Coordinates<'a> {
-    laws: &'a Laws,
-    interactions: RowInteractions<'a>,
+    laws: Laws,
+    worker: Worker<'a>,
     reads: Vec<TableReads>,
 }
 
 impl<'a> Coordinates<'a> {
-    /// Begins with no row; the laws are compiled from this model and plan.
-    pub fn new(model: &'a Model, plan: &Plan, laws: &'a Laws) -> Self {
-        let interactions = RowInteractions::new(model, plan.governed_by, laws.interaction);
-        Self { laws, interactions, reads: Vec::new() }
+    /// Begins with no row, for a plan that was made from this model and these choices.
+    pub fn new(model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
+        let laws = Laws::of(model, plan, choices);
+        let tally = Tally::new(plan, &laws, model.interactions.len());
+        let worker = Worker::new(model, plan, &laws, tally);
+        Self { laws, worker, reads: Vec::new() }
     }
 
-    /// Takes a row of a batch: for each table it reaches its coordinates, if it has them all.
-    pub fn take(&mut self, batch: &Batch, index: usize) {
-        let Some(interaction) = self.interactions.of_row(batch, index) else { return };
-        let Some(laws) = &self.laws.interactions[interaction] else { return };
-        let Some(state) = laws.contact.state(batch, index) else { return };
-        let row = Row::new(batch, index, state, laws.contact, None);
-        if let Some(law) = laws.conductance_tables()
-            && let Some((against, needs)) = law.needs(state)
-            && let Some(form) = if against == Along::Pressure { &law.pressure_form } else { &law.clearance_form }
-        {
-            let variable = |index: usize| row.fetch(law.variables.get(index)?.as_ref()?, mean);
-            let of = (interaction, TabulatedQuantity::ElectricalConductance, against);
-            self.keep(of, form.table(), needs, of_contact(row, against), variable);
-        }
-        if let Some(law) = laws.thermal.as_ref().and_then(|law| law.conduction.as_ref())
-            && let Some((against, needs)) = law.needs(state)
-            && let Some(form) = law.form(against)
-        {
-            let variable = |index: usize| match (index, law.mass_flow) {
-                (MASS_FLOW, Some(source)) => thermal::mass_flow(source, row),
-                _ => row.fetch(law.variables.get(index)?.as_ref()?, mean),
-            };
-            let of = (interaction, TabulatedQuantity::ThermalConductance, against);
-            self.keep(of, form.table(), needs, of_contact(row, against), variable);
-        }
-        if let Some(law) = &laws.pore
-            && let Some(form) = &law.form
-        {
-            // While open the table is read at zero pressure (P-34).
-            let pressure = if state == ContactState::Open { Some(0.0) } else { row.pressure };
-            let variable = |index: usize| pore_variable(law, row, index);
-            let of = (interaction, TabulatedQuantity::Permeability, Along::Pressure);
-            self.keep(of, form.table(), &law.needs, pressure, variable);
+    /// Takes one of so many rows of the table: for each table it reaches its coordinates, if it has them all.
+    pub fn take(&mut self, batch: &Batch, one_of: u64) {
+        for part in self.worker.parts(&self.laws, batch) {
+            let Some(of) = &self.laws.interactions[part.interaction] else { continue };
+            let mut found: Vec<(TabulatedQuantity, Along, &Evaluator, Gathered<'_>)> = Vec::new();
+            let electrical = of.electrical.as_ref().and_then(|law| law.tables());
+            let thermal = of.thermal.as_ref().and_then(|law| law.tables());
+            for (quantity, columns) in [
+                (TabulatedQuantity::ElectricalConductance, electrical),
+                (TabulatedQuantity::ThermalConductance, thermal),
+            ] {
+                let Some(columns) = columns else { continue };
+                for (branch, gathered) in columns.points(&part) {
+                    let against = if branch == Branch::Pressure { Along::Pressure } else { Along::Clearance };
+                    found.extend(columns.form(branch).map(|form| (quantity, against, form, gathered)));
+                }
+            }
+            let pore = of.pore.as_ref().and_then(|law| law.points(&part));
+            found.extend(
+                pore.map(|(form, gathered)| (TabulatedQuantity::Permeability, Along::Pressure, form, gathered)),
+            );
+            for (quantity, against, form, gathered) in found {
+                keep(&mut self.reads, (&part, quantity, against), form.table(), &gathered, |row| {
+                    part.place(row).row.is_some_and(|number| (number - 1).is_multiple_of(one_of))
+                });
+            }
         }
     }
 
@@ -95,50 +92,33 @@ impl<'a> Coordinates<'a> {
         self.reads.sort_by_key(|reads| (reads.interaction, reads.quantity, reads.against == Along::Pressure));
         self.reads
     }
+}
 
-    fn keep(
-        &mut self,
-        (interaction, quantity, against): (usize, TabulatedQuantity, Along),
-        table: &PiecewiseTable,
-        needs: &Needs,
-        abscissa: Option<f64>,
-        variable: impl Fn(usize) -> Option<f64>,
-    ) {
-        let first = needs.abscissa.then_some((0, abscissa));
-        let others = needs.variables.iter().map(|&index| (index + 1, variable(index)));
-        let point = first.into_iter().chain(others).map(|(axis, found)| Some((axis, found.filter(|x| !x.is_nan())?)));
-        let Some(point) = point.collect::<Option<Vec<(usize, f64)>>>().filter(|point| !point.is_empty()) else {
-            return;
-        };
-        let is_same = |reads: &&mut TableReads| {
-            (reads.interaction, reads.quantity, reads.against) == (interaction, quantity, against)
-        };
-        let columns = if let Some(reads) = self.reads.iter_mut().find(is_same) {
-            &mut reads.columns
-        } else {
-            let columns = vec![Vec::new(); table.axes().len()];
-            self.reads.push(TableReads { interaction, quantity, against, table: table.clone(), columns });
-            let last = self.reads.len() - 1;
-            &mut self.reads[last].columns
-        };
-        for (axis, coordinate) in point {
-            columns[axis].push(coordinate);
+/// Keeps the coordinates of the rows that are chosen and have no NaN among them.
+fn keep(
+    reads: &mut Vec<TableReads>,
+    (part, quantity, against): (&Part<'_>, TabulatedQuantity, Along),
+    table: &PiecewiseTable,
+    gathered: &Gathered<'_>,
+    is_chosen: impl Fn(usize) -> bool,
+) {
+    let read: Vec<usize> = (0..gathered.columns.len()).filter(|axis| !gathered.columns[*axis].is_empty()).collect();
+    for place in 0..gathered.count {
+        let row = gathered.rows.as_ref().map_or(place, |rows| rows[place] as usize);
+        let has_nan = || read.iter().any(|axis| gathered.columns[*axis][place].is_nan());
+        if read.is_empty() || part.states[row].is_none() || !is_chosen(row) || has_nan() {
+            continue;
         }
-    }
-}
-
-/// The first coordinate of a conductance table.
-fn of_contact(row: Row<'_>, against: Along) -> Option<f64> {
-    match against {
-        Along::Pressure => row.pressure,
-        _ => row.state.table_clearance(row.clearance),
-    }
-}
-
-/// Of a permeability, variable 0 is the mean pore pressure.
-fn pore_variable(law: &CompiledPore, row: Row<'_>, index: usize) -> Option<f64> {
-    match index.checked_sub(1) {
-        None => law.pressures.and_then(|(slave, master)| Some(mean(row.number(slave)?, row.number(master)?))),
-        Some(index) => row.fetch(law.variables.get(index)?.as_ref()?, mean),
+        let of = (part.interaction, quantity, against);
+        let known = reads.iter().position(|reads| (reads.interaction, reads.quantity, reads.against) == of);
+        let index = known.unwrap_or_else(|| {
+            let columns = vec![Vec::new(); table.axes().len()];
+            let interaction = part.interaction;
+            reads.push(TableReads { interaction, quantity, against, table: table.clone(), columns });
+            reads.len() - 1
+        });
+        for axis in &read {
+            reads[index].columns[*axis].push(gathered.columns[*axis][place]);
+        }
     }
 }

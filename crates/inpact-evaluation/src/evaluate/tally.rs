@@ -1,7 +1,7 @@
 //! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
+use super::laws::Laws;
 use super::{Row, Totals};
-use crate::compile::Laws;
 use crate::evaluator::SeenError;
 use crate::nodes::{BEYOND_TABLE, CONTRADICTORY_RATE, Findings, HEAT_OF_CLOSING, Place, USER_FAULT};
 use crate::plan::{InteractionPlan, Plan, TablePlan};
@@ -11,13 +11,13 @@ use inpact_diagnostics::Severity;
 use inpact_parser::model::Name;
 
 /// The place of the permeability table among the tables of an interaction; 0 is conductance against clearance, 1 against pressure.
-pub(super) const PERMEABILITY: usize = 2;
+pub(crate) const PERMEABILITY: usize = 2;
 
 /// The place of the table of thermal conductance against clearance; that against pressure follows.
-pub(super) const THERMAL_CONDUCTANCE: usize = 3;
+pub(crate) const THERMAL_CONDUCTANCE: usize = 3;
 
 /// The place of the table of view factors.
-pub(super) const VIEW_FACTOR: usize = 5;
+pub(crate) const VIEW_FACTOR: usize = 5;
 
 /// Counts over all rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,10 +100,23 @@ pub struct RemarkedRows {
 
 impl RemarkedRows {
     /// Counts a row; `what` is said of the first.
-    pub(super) fn count(&mut self, row: Row<'_>, what: impl FnOnce() -> String) {
+    pub(crate) fn count(&mut self, row: Row<'_, '_>, what: impl FnOnce() -> String) {
         self.rows += 1;
         if self.first.is_none() {
-            self.first = Some((row.batch.place(row.index, None), what()));
+            self.first = Some((row.part.place(row.index), what()));
+        }
+    }
+}
+
+impl RemarkedRows {
+    /// Takes those of another thread as well: what is said is said of the first of all.
+    fn merge(&mut self, other: Self) {
+        self.rows += other.rows;
+        let row = |first: &Option<(Place, String)>| {
+            first.as_ref().map_or(u64::MAX, |(place, _)| place.row.unwrap_or(u64::MAX))
+        };
+        if row(&other.first) < row(&self.first) {
+            self.first = other.first;
         }
     }
 }
@@ -131,6 +144,15 @@ impl Tally {
             }
         }
         tally
+    }
+
+    /// Takes the counts of another thread as well; the totals are added up elsewhere.
+    pub(super) fn merge(&mut self, other: Self) {
+        self.rows += other.rows;
+        for (own, other) in self.interactions.iter_mut().zip(other.interactions) {
+            own.merge(other);
+        }
+        self.user_faults.extend(other.user_faults);
     }
 
     /// The sum of one count over all interactions.
@@ -289,6 +311,46 @@ fn tables(interaction: &InteractionPlan) -> impl Iterator<Item = (usize, &TableP
 }
 
 impl InteractionTally {
+    fn merge(&mut self, other: Self) {
+        let counts = [
+            (&mut self.rows, other.rows),
+            (&mut self.closed, other.closed),
+            (&mut self.open, other.open),
+            (&mut self.beyond_table, other.beyond_table),
+            (&mut self.cutoff, other.cutoff),
+            (&mut self.constrained, other.constrained),
+            (&mut self.incomplete, other.incomplete),
+            (&mut self.incomplete_flows, other.incomplete_flows),
+            (&mut self.needs_length, other.needs_length),
+            (&mut self.lost_digits, other.lost_digits),
+            (&mut self.unnumbered_nodes, other.unnumbered_nodes),
+            (&mut self.user_faults, other.user_faults),
+            (&mut self.incomplete_heat, other.incomplete_heat),
+            (&mut self.beyond_curves, other.beyond_curves),
+            (&mut self.below_absolute_zero, other.below_absolute_zero),
+            (&mut self.negative_friction, other.negative_friction),
+        ];
+        for (own, other) in counts {
+            *own += other;
+        }
+        self.seen_error.merge(&other.seen_error);
+        self.closing.merge(other.closing);
+        self.contradictory_rates.merge(other.contradictory_rates);
+        for (own, other) in self.axes.iter_mut().flatten().zip(other.axes.iter().flatten()) {
+            own.below += other.below;
+            own.above += other.above;
+        }
+    }
+
+    /// Counts a row whose conductance is none; true for those few that are shown.
+    #[cold]
+    pub(crate) fn count_fault(&mut self) -> bool {
+        /// How many rows are shown.
+        const MOST: u64 = 20;
+        self.user_faults += 1;
+        self.user_faults <= MOST
+    }
+
     #[inline]
     pub(super) fn count_statuses(&mut self, statuses: [Option<Status>; 3]) {
         // Most rows are within all tables.
@@ -302,7 +364,7 @@ impl InteractionTally {
     }
 
     #[cold]
-    pub(super) fn count_sides(&mut self, table: usize, sides: Sides) {
+    pub(crate) fn count_sides(&mut self, table: usize, sides: Sides) {
         for (axis, count) in self.axes[table].iter_mut().enumerate() {
             count.below += u64::from(sides.is_below(axis));
             count.above += u64::from(sides.is_above(axis));

@@ -3,8 +3,10 @@
 //! *CONTACT PRINT, TOTALS=YES prints such sums for each increment (semantics O-1); here they are those of the latest time, or of all rows where there is no time.
 //! Sums are compensated and taken in the order of the rows, so that they depend neither on threads nor on batches.
 
+use crate::nodes::NumberColumn;
 use crate::numbers::UnboundedSum;
 use crate::results::{Output, ResultBatch};
+use std::ops::Range;
 
 /// The sums of an interaction over the rows of its latest time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,8 +26,27 @@ pub(crate) fn summed(outputs: impl Iterator<Item = Output>) -> Vec<(Output, usiz
 }
 
 impl Totals {
-    /// Adds the results of a row, if it is of the latest time so far.
-    pub(super) fn take(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, row: usize) {
+    /// Adds the results of some rows, those of the latest time so far.
+    pub(super) fn take(
+        &mut self,
+        times: Option<&NumberColumn>,
+        summed: &[(Output, usize)],
+        results: &ResultBatch,
+        rows: Range<usize>,
+    ) {
+        let is_full = |(_, place): &(Output, usize)| results.numbers[*place].presence().is_none();
+        if times.is_none() && self.time.is_none() && summed.iter().all(is_full) {
+            self.sums.resize_with(summed.len(), UnboundedSum::default);
+            for (sum, (_, place)) in self.sums.iter_mut().zip(summed) {
+                results.numbers[*place].values()[rows.clone()].iter().for_each(|value| sum.add(*value));
+            }
+            self.rows += rows.len() as u64;
+            return;
+        }
+        rows.for_each(|row| self.take_row(times.and_then(|times| times.get(row)), summed, results, row));
+    }
+
+    fn take_row(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, row: usize) {
         let is_later = match (time, self.time) {
             (Some(time), Some(latest)) => latest < time,
             (Some(_), None) => true,

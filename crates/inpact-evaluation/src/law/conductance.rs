@@ -11,6 +11,8 @@
 //! Both tables may depend on the average temperature and on averaged field variables as well.
 //! The conductance jumps where the two branches meet, where a pressure table alone opens, and at the last clearance under [`crate::table::Tail::Zero`].
 
+pub(crate) mod columns;
+
 use super::contact::{Clearance, ContactPressure, ContactState};
 use crate::evaluator::FoundValue;
 use crate::table::{PiecewiseTable, Sides};
@@ -90,7 +92,7 @@ impl ConductanceTables {
     }
 
     /// [`Self::conductance`] with the tables' values as `find` gives them.
-    pub fn found_with(
+    fn found_with(
         &self,
         point: &ContactPoint<'_>,
         find: impl Fn(Branch, &PiecewiseTable, f64, &[f64]) -> FoundValue,
@@ -186,7 +188,14 @@ impl ConductanceTables {
         Some((branch, table?))
     }
 
+    /// The branch that holds in a state.
+    #[inline]
+    pub(crate) fn branch_of(&self, state: ContactState) -> Branch {
+        self.branch(state).0
+    }
+
     /// The branch and table that hold in a state.
+    #[inline]
     fn branch(&self, state: ContactState) -> (Branch, Option<&PiecewiseTable>) {
         match (self, state) {
             (Self::Clearance(table), _) | (Self::Both { clearance: table, .. }, ContactState::Open) => {

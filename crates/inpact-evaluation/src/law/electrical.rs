@@ -20,6 +20,8 @@
 //! Limits: Δφ₀ = Δφ₁ gives the steady form; σ_g = 0 no current and no heat.
 //! Source: semantics H-01 to H-08; Analysis User's Guide 37.3.1 and 37.2.1, Theory Guide 5.2.6 (6.14).
 
+pub(crate) mod columns;
+
 use super::conductance::ConductanceTables;
 use super::contact::PotentialJump;
 use super::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};

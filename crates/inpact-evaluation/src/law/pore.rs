@@ -25,6 +25,8 @@
 //! Limits: k = 0 is a sealed interface; a cutoff of 0 confines its part to the closed interface.
 //! Source: semantics P-10 to P-42; Analysis User's Guide 37.4.1, Theory Guide 5.2.2 (6.14).
 
+pub(crate) mod columns;
+
 use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
 use crate::evaluator::FoundValue;
 use crate::numbers::{Amount, Scaled, is_moderate, ratio, scaled_difference_product, two_difference};

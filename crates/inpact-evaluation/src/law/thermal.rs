@@ -20,6 +20,8 @@
 //! Limits: beyond the last clearance k is zero (K-31), beyond the pressures it is constant.
 //! Source: semantics 4.2, 5 (H-02 to H-06, H-09), 8, K-30 to K-32; Analysis User's Guide 37.2.1, Theory Guide 5.2.4 and 5.2.6 (6.14).
 
+pub(crate) mod columns;
+
 use super::calculix::CalculixConductance;
 use super::conductance::{Conductance, ConductanceSlopes, ConductanceTables, ContactPoint};
 use super::heat::HeatAmounts;

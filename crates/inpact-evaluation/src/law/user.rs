@@ -34,6 +34,8 @@
 //! let choices = Choices { user_conductance: Some(UserLaw::new(Fading { a: 5.0e7, b: 1.0e-5 })), ..Choices::default() };
 //! ```
 
+pub(crate) mod columns;
+
 use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;

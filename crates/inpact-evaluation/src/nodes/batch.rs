@@ -217,6 +217,31 @@ impl NumberColumn {
         }
     }
 
+    /// Says that no number is missing: all of them have been set.
+    pub(crate) fn set_all_present(&mut self) {
+        self.present.clear();
+    }
+
+    /// The numbers of some rows.
+    pub(crate) fn gather(&self, rows: &[u32]) -> Self {
+        Self {
+            values: rows.iter().map(|row| self.values[*row as usize]).collect(),
+            present: match self.present.as_slice() {
+                [] => Vec::new(),
+                present => rows.iter().map(|row| present[*row as usize]).collect(),
+            },
+        }
+    }
+
+    /// Puts the numbers of some rows, those that are there, into their places in `whole`.
+    pub(crate) fn scatter(&self, rows: &[u32], whole: &mut Self) {
+        for (index, row) in rows.iter().enumerate() {
+            if let Some(value) = self.get(index) {
+                whole.set(*row as usize, value);
+            }
+        }
+    }
+
     /// Makes it a column of so many missing numbers.
     pub fn reset(&mut self, rows: usize) {
         self.values.clear();
@@ -259,6 +284,20 @@ impl Batch {
     pub fn place(&self, row: usize, column: Option<String>) -> Place {
         let line = self.lines.get(row).copied();
         Place { row: Some(self.first_row + row as u64 + 1), line, column, exact: None }
+    }
+
+    /// Some of its rows as a batch, without their lines and with these columns of texts alone.
+    pub(crate) fn gather(&self, rows: &[u32], labels: &[usize]) -> Self {
+        let mut gathered = Self::with_columns(self.labels.len(), 0);
+        gathered.rows = rows.len();
+        gathered.numbers = self.numbers.iter().map(|column| column.gather(rows)).collect();
+        for place in labels {
+            let column = &mut gathered.labels[*place];
+            for row in rows {
+                column.push(self.labels[*place].get(*row as usize));
+            }
+        }
+        gathered
     }
 
     /// How many bytes of memory its rows take.

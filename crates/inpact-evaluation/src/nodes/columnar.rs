@@ -8,6 +8,7 @@ use super::header::Header;
 use super::reader::{ColumnStatistics, ReadSeek};
 use super::rules::MALFORMED_CELL;
 use super::soundness::{self, caught, unsound};
+use super::wait::{begin, wait_for};
 use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Float64Type, SchemaRef};
@@ -166,7 +167,7 @@ impl ColumnarReader {
         batch.first_row = self.rows_read;
         let (source, read) = match std::mem::replace(&mut self.rows, Rows::Ended) {
             Rows::Ended => return Ok(false),
-            Rows::UnderWay(receiver) => super::wait::wait_for(&receiver)?,
+            Rows::UnderWay(receiver) => wait_for(&receiver)?,
             Rows::Begun(source) => source.step(),
             begin => {
                 self.rows = begin;
@@ -177,7 +178,7 @@ impl ColumnarReader {
         let Some(columns) = read? else { return Ok(false) };
         self.rows = if self.reads_ahead {
             let (sender, receiver) = channel();
-            rayon::spawn_fifo(move || {
+            begin(move || {
                 // Nobody waits for it when the reader was dropped.
                 let _ = sender.send(source.step());
             });

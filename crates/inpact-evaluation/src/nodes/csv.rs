@@ -5,7 +5,7 @@ use super::decode::{Decoded, Layout, Problem, ProblemKind};
 use super::header::Header;
 use super::lines::{Cells, Piece, Pieces, end_of_row, is_blank};
 use super::rules::{MALFORMED_CELL, MISSING_COLUMN};
-use super::wait::wait_for;
+use super::wait::{begin, wait_for};
 use inpact_diagnostics::{Findings, Place};
 use std::collections::VecDeque;
 use std::io::{self, Read};
@@ -148,7 +148,7 @@ impl<'a> CsvReader<'a> {
                 Ok(true) => {
                     let layout = Arc::clone(&self.layout);
                     let (sender, receiver) = channel();
-                    rayon::spawn_fifo(move || {
+                    begin(move || {
                         layout.decode(&work.piece, &mut work.decoded);
                         // Nobody waits for it when the reader was dropped.
                         let _ = sender.send(work);

@@ -78,8 +78,8 @@ impl ColumnSurvey {
         self.present += 1;
         let is_finite = value.is_finite();
         self.non_finite += u64::from(!is_finite);
-        self.least = if is_finite & (value < self.least) { value } else { self.least };
-        self.greatest = if is_finite & (self.greatest < value) { value } else { self.greatest };
+        self.least = if is_finite && value < self.least { value } else { self.least };
+        self.greatest = if is_finite && self.greatest < value { value } else { self.greatest };
     }
 }
 
@@ -323,13 +323,10 @@ impl<'a> Surveyor<'a> {
     /// Whether [`Self::check_cells`] may find something: one look at each column.
     fn may_hold_what_it_must_not(&self, batch: &Batch) -> bool {
         let values = |place: usize| batch.numbers[place].values().iter();
-        // What is missing is NaN, which no comparison holds for.
-        let odd_state = |value: &f64| (*value < 0.0) | ((0.0 < *value) & (*value < 1.0)) | (1.0 < *value);
-        let has_nan = |place: usize| values(place).fold(false, |any, value| any | value.is_nan());
-        let below_zero = |place: usize| values(place).fold(false, |any, value| any | (*value < 0.0));
-        self.contact
-            .closed
-            .is_some_and(|place| has_nan(place) || values(place).fold(false, |any, value| any | odd_state(value)))
+        // What is missing is NaN, which is not below zero, and neither 0 nor 1.
+        let least = |least: f64, value: &f64| if *value < least { *value } else { least };
+        let below_zero = |place: usize| values(place).fold(0.0, least) < 0.0;
+        self.contact.closed.is_some_and(|place| values(place).any(|value| *value != 0.0 && *value != 1.0))
             || self.area.is_some_and(below_zero)
             || self.properties.iter().any(|(place, _)| below_zero(*place))
             || !self.counters.is_empty()

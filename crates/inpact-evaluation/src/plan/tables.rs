@@ -1,6 +1,7 @@
 //! The tables of an interaction, compiled so that it is known which variables their values depend on.
 
 use super::thermal_tables::ThermalTables;
+use crate::law::conductance::ConductanceTables;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, TableError, Tail};
 use inpact_parser::model::{Interaction, Table};
@@ -43,6 +44,12 @@ impl InteractionTables {
     pub(crate) fn electrical(&self) -> impl Iterator<Item = (Along, &PiecewiseTable)> {
         let tables = [(Along::Clearance, &self.clearance), (Along::Pressure, &self.pressure)];
         tables.into_iter().filter_map(|(against, table)| Some((against, table.as_ref()?.as_ref().ok()?)))
+    }
+
+    /// The electrical conductance of the tables that can be evaluated; `None` where there is none.
+    pub(crate) fn electrical_tables(&self) -> Option<ConductanceTables> {
+        let table = |against| self.electrical().find(|(first, _)| *first == against).map(|(_, table)| table.clone());
+        ConductanceTables::of(table(Along::Clearance), table(Along::Pressure))
     }
 
     /// What is wrong with an electrical table.

@@ -55,6 +55,18 @@ impl ResultBatch {
         }
     }
 
+    /// Puts these results, of the rows with these numbers, into their places in `whole`.
+    pub(crate) fn scatter(&self, rows: &[u32], whole: &mut Self) {
+        for (column, of_whole) in self.numbers.iter().zip(&mut whole.numbers) {
+            column.scatter(rows, of_whole);
+        }
+        let own = [&self.status, &self.status_by_law.electrical, &self.status_by_law.thermal, &self.status_by_law.pore];
+        let StatusByLaw { electrical, thermal, pore } = &mut whole.status_by_law;
+        for (own, whole) in own.into_iter().zip([&mut whole.status, electrical, thermal, pore]) {
+            own.iter().zip(rows).for_each(|(status, row)| whole[*row as usize] = *status);
+        }
+    }
+
     /// The statuses of a column of them; `None` for a column of numbers.
     pub fn statuses(&self, output: Output) -> Option<&[Option<Status>]> {
         match output {

@@ -9,7 +9,7 @@ use super::columnar::ColumnarWriter;
 use super::format::TableFormat;
 use super::output::Output;
 use crate::nodes::{Batch, Column, NumberColumn};
-use rayon::prelude::*;
+use crate::spread;
 use std::fmt;
 use std::io::{self, Write};
 
@@ -162,7 +162,7 @@ impl<'a> ResultWriter<'a> {
         }
     }
 
-    /// Writes the rows of a batch with their results; the threads of rayon's current pool share the work.
+    /// Writes the rows of a batch with their results; threads share the work where feature `threads` is on.
     ///
     /// # Errors
     /// Those of writing.
@@ -231,7 +231,7 @@ impl<'a> CsvWriter<'a> {
             self.blocks.resize_with(blocks, Vec::new);
         }
         let columns = &self.columns;
-        self.blocks[..blocks].par_iter_mut().enumerate().for_each(|(block, text)| {
+        spread::for_each(self.blocks[..blocks].iter_mut().enumerate(), |(block, text)| {
             let first = block * ROWS_OF_A_BLOCK;
             text.clear();
             for row in first..batch.rows.min(first + ROWS_OF_A_BLOCK) {

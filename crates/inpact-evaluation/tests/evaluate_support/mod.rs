@@ -2,10 +2,9 @@
 
 #![allow(dead_code, reason = "every test uses some of it")]
 
-use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Evaluation, Tally};
-use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
-use inpact_evaluation::plan::{Choices, Plan, make, survey};
+use inpact_evaluation::nodes::{Batch, Findings, KeptRows, NodeReader};
+use inpact_evaluation::plan::{Choices, Plan, make, survey, survey_keeping};
 use inpact_evaluation::results::{ResultBatch, ResultWriter};
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::{Dialect, Grammar, Release};
@@ -58,10 +57,9 @@ pub(crate) fn evaluate_with(deck: &str, nodes: &str, choices: &Choices, rows_of_
     if plan.outputs.is_empty() {
         plan.report_missing(&mut findings);
     }
-    let laws = compile(&model, &plan, choices);
     let mut reader = reader(&mut Findings::new("nodes.csv"));
     reader.select(&plan.selection);
-    let mut evaluation = Evaluation::new(&model, &plan, &laws);
+    let mut evaluation = Evaluation::new(&model, &plan, choices);
     let mut output = Vec::new();
     let mut writer = ResultWriter::new(&mut output, plan.keys(), &plan.outputs).expect("a vector takes all");
     let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
@@ -75,6 +73,35 @@ pub(crate) fn evaluate_with(deck: &str, nodes: &str, choices: &Choices, rows_of_
     tally.report(&plan, &mut findings);
     let csv = String::from_utf8_lossy(&output).into_owned();
     Run { plan: Some(plan), csv, tally: Some(tally), findings: lines(findings) }
+}
+
+/// Evaluates in batches of so many rows, in so many shares, from rows of which `room` bytes are kept in memory.
+pub(crate) fn evaluate_kept(
+    deck: &str,
+    nodes: &str,
+    choices: &Choices,
+    (rows_of_a_batch, shares, room): (usize, usize, usize),
+) -> (String, Vec<String>) {
+    let model = model_of(deck);
+    let mut findings = Findings::new("nodes.csv");
+    let mut reader = NodeReader::open(Box::new(nodes.as_bytes()), &mut findings).expect("a slice can be read");
+    reader.set_rows_of_a_batch(rows_of_a_batch);
+    let mut kept = KeptRows::new(room, Box::new(|| Ok(Box::new(std::io::Cursor::new(Vec::new())))));
+    let surveyed = survey_keeping(reader, &model, choices, &mut findings, &mut kept).expect("a slice can be read");
+    let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else { return (String::new(), lines(findings)) };
+    let plan = make(&model, &surveyed, choices);
+    let mut rows = kept.give_back(&plan.selection).expect("memory can be read");
+    let mut evaluation = Evaluation::shared_by(shares, &model, &plan, choices);
+    let mut output = Vec::new();
+    let mut writer = ResultWriter::new(&mut output, plan.keys(), &plan.outputs).expect("a vector takes all");
+    let ran = evaluation.run(&mut rows, &plan, |batch, results| writer.write(batch, results));
+    ran.expect("memory can be read and written");
+    assert_eq!(writer.finish().expect("a vector takes all"), plan.rows, "rows out are rows in");
+    let tally = evaluation.finish();
+    tally.report(&plan, &mut findings);
+    let totals = tally.interactions.iter().map(|of| format!("{:?} {:?}", of.totals, (of.rows, of.closed, of.open)));
+    let said = lines(findings).into_iter().chain(totals).collect();
+    (String::from_utf8_lossy(&output).into_owned(), said)
 }
 
 fn lines(findings: Findings) -> Vec<String> {

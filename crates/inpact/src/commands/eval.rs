@@ -11,11 +11,10 @@ use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
 use crate::settings::DeckArguments;
 use clap::Args;
-use inpact_evaluation::compile::compile;
-use inpact_evaluation::evaluate::{Evaluation, Tally};
+use inpact_evaluation::evaluate::{Evaluation, RunFailure, Tally};
 use inpact_evaluation::nodes::{Findings, GivenBack};
 use inpact_evaluation::plan::{Plan, Reason};
-use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
+use inpact_evaluation::results::{ResultWriter, TableFormat};
 use std::io::ErrorKind;
 use std::time::Instant;
 
@@ -74,19 +73,18 @@ fn evaluate(
     let nodes_path = arguments.evaluable.nodes_path();
     let unreadable = |error| Failure::read(nodes_path, error);
     let Evaluable { settings, model, plan, choices, nodes_name, rows, .. } = evaluable;
-    let laws = compile(model, plan, choices);
     let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     let mut output = ResultFile::create(arguments.output.target())?;
-    let evaluation = Evaluation::new(model, plan, &laws);
+    let evaluation = Evaluation::on_all_threads(model, plan, choices);
     let written = write(&mut rows, evaluation, plan, (&mut output, arguments.output.format()));
     let (tally, rows_out) = match written {
         Ok(counts) => counts,
-        Err(Stopped::Reading(error)) => return Err(unreadable(error)),
+        Err(RunFailure::Reading(error)) => return Err(unreadable(error)),
         // What a column of the format cannot hold is wrong in the data, not in the place it is written to.
-        Err(Stopped::Writing(error)) if error.kind() == ErrorKind::InvalidData => {
+        Err(RunFailure::Writing(error)) if error.kind() == ErrorKind::InvalidData => {
             return Err(Failure::Data(format!("`{nodes_name}` cannot be written in this format: {error}")));
         }
-        Err(Stopped::Writing(error)) => return Err(output.failure(error)),
+        Err(RunFailure::Writing(error)) => return Err(output.failure(error)),
     };
     tally.report_user_faults(findings);
     if findings.has_errors() {
@@ -98,27 +96,16 @@ fn evaluate(
     Ok((tally, rows_out))
 }
 
-/// Which end of an evaluation failed.
-enum Stopped {
-    Reading(std::io::Error),
-    Writing(std::io::Error),
-}
-
 fn write(
     rows: &mut GivenBack,
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
     (output, format): (&mut ResultFile, TableFormat),
-) -> Result<(Tally, u64), Stopped> {
+) -> Result<(Tally, u64), RunFailure<std::io::Error>> {
     let writer = ResultWriter::with_format(output, format, plan.keys(), &plan.outputs);
-    let mut writer = writer.map_err(Stopped::Writing)?;
-    let mut results = ResultBatch::default();
-    while let Some(mut batch) = rows.next_batch().map_err(Stopped::Reading)? {
-        plan.name_rows(&mut batch);
-        evaluation.evaluate(&batch, &mut results);
-        writer.write(&batch, &results).map_err(Stopped::Writing)?;
-    }
-    Ok((evaluation.finish(), writer.finish().map_err(Stopped::Writing)?))
+    let mut writer = writer.map_err(RunFailure::Writing)?;
+    evaluation.run(rows, plan, |batch, results| writer.write(batch, results))?;
+    Ok((evaluation.finish(), writer.finish().map_err(RunFailure::Writing)?))
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.

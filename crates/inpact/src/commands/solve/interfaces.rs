@@ -5,7 +5,6 @@ use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_diagnostics::{Cell, Diagnostic, Findings, Place};
-use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::Evaluation;
 use inpact_evaluation::nodes::{Batch, CONTRADICTORY_RATE, NodeReader};
 use inpact_evaluation::plan::{make, survey};
@@ -31,12 +30,11 @@ pub(super) fn write(
         return Err(Failure::Data("the interface rows of the scene cannot be evaluated".to_owned()));
     };
     let plan = make(model, &surveyed, choices);
-    let laws = compile(model, &plan, choices);
     let mut reader = NodeReader::open_any(Box::new(Cursor::new(table)), &mut findings).map_err(unreadable)?;
     reader.select(&plan.selection);
     let mut output = ResultFile::create(Some(target))?;
     let table_format = TableFormat::of_extension(target).unwrap_or_default();
-    let mut evaluation = Evaluation::new(model, &plan, &laws);
+    let mut evaluation = Evaluation::new(model, &plan, choices);
     let written = (|| -> io::Result<()> {
         let mut writer = ResultWriter::with_format(&mut output, table_format, plan.keys(), &plan.outputs)?;
         let (mut batch, mut results) = (Batch::default(), ResultBatch::default());

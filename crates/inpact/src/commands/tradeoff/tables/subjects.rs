@@ -2,7 +2,6 @@
 
 use crate::commands::evaluable::Evaluable;
 use crate::failure::Failure;
-use inpact_evaluation::compile::compile;
 use inpact_evaluation::evaluate::{Coordinates, TableReads, TabulatedQuantity};
 use inpact_evaluation::results::Along;
 use inpact_evaluation::table::PiecewiseTable;
@@ -44,15 +43,12 @@ impl Subject {
 /// Keeps, of at most `most` rows of the node table, the coordinates that tables in force are read at.
 pub(super) fn gather(evaluable: &mut Evaluable, nodes_path: &Path, most: u64) -> Result<Sample, Failure> {
     let Evaluable { model, plan, choices, rows, .. } = evaluable;
-    let laws = compile(model, plan, choices);
-    let mut coordinates = Coordinates::new(model, plan, &laws);
+    let mut coordinates = Coordinates::new(model, plan, choices);
     let one_of = plan.rows.div_ceil(most).max(1);
     let unreadable = |error| Failure::read(nodes_path, error);
     let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     while let Some(batch) = rows.next_batch().map_err(unreadable)? {
-        for row in (0..batch.rows).filter(|row| (batch.first_row + *row as u64).is_multiple_of(one_of)) {
-            coordinates.take(&batch, row);
-        }
+        coordinates.take(&batch, one_of);
     }
     let subjects = coordinates.finish().into_iter().map(|reads| subject(model, reads));
     Ok(Sample { subjects: subjects.collect(), rows: plan.rows, one_of })

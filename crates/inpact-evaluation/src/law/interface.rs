@@ -12,7 +12,6 @@ use crate::plan::{
     Choices, ConductanceRows, InteractionTables, LeftOut, RadiationFault, Reason, ThermalTables, generation_of,
     tells_of_friction, user_names,
 };
-use crate::results::Along;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, Model, Procedure};
 
@@ -116,8 +115,7 @@ fn electrical(
     if let Some(error) = tables.electrical_error() {
         return refuse(Reason::BrokenTable(error));
     }
-    let table = |against| tables.electrical().find(|(first, _)| *first == against).map(|(_, table)| table.clone());
-    match ConductanceTables::of(table(Along::Clearance), table(Along::Pressure)) {
+    match tables.electrical_tables() {
         Some(tables) => Some(ElectricalSource::Tables(Box::new(tables))),
         None => refuse(Reason::NoRows("GAP ELECTRICAL CONDUCTANCE")),
     }

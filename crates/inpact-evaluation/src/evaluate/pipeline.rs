@@ -1,0 +1,67 @@
+//! From kept rows to results: while some batches are written the next are evaluated.
+
+use super::Evaluation;
+use crate::nodes::{Batch, GivenBack};
+use crate::plan::Plan;
+use crate::results::ResultBatch;
+use crate::spread;
+use std::io;
+
+/// Which end of an evaluation failed.
+#[derive(Debug)]
+pub enum RunFailure<E> {
+    /// The rows could not be read back.
+    Reading(io::Error),
+    /// The results could not be written.
+    Writing(E),
+}
+
+/// Batches with their results.
+#[derive(Debug, Default)]
+struct Window {
+    batches: Vec<Batch>,
+    results: Vec<ResultBatch>,
+}
+
+impl Evaluation<'_> {
+    /// Evaluates all rows of a plan; `write` gets them in their order, a batch at a time.
+    ///
+    /// # Errors
+    /// Those of reading and writing; rows that were written before stay written.
+    pub fn run<E: Send>(
+        &mut self,
+        rows: &mut GivenBack,
+        plan: &Plan,
+        mut write: impl FnMut(&Batch, &mut ResultBatch) -> Result<(), E> + Send,
+    ) -> Result<(), RunFailure<E>> {
+        let (mut ready, mut next) = (Window::default(), Window::default());
+        loop {
+            let write_ready = || {
+                let mut each = ready.batches.iter().zip(&mut ready.results);
+                each.try_for_each(|(batch, results)| write(batch, results))
+            };
+            let (written, filled) = spread::join(write_ready, || next.fill(self, rows, plan));
+            written.map_err(RunFailure::Writing)?;
+            filled.map_err(RunFailure::Reading)?;
+            std::mem::swap(&mut ready, &mut next);
+            if ready.batches.is_empty() {
+                return Ok(());
+            }
+        }
+    }
+}
+
+impl Window {
+    /// Takes the next batches and evaluates them.
+    fn fill(&mut self, evaluation: &mut Evaluation<'_>, rows: &mut GivenBack, plan: &Plan) -> io::Result<()> {
+        self.batches.clear();
+        while self.batches.len() < evaluation.batches_at_a_time() {
+            let Some(mut batch) = rows.next_batch()? else { break };
+            plan.name_rows(&mut batch);
+            self.batches.push(batch);
+        }
+        self.results.resize_with(self.batches.len(), ResultBatch::default);
+        evaluation.evaluate_all(&self.batches, &mut self.results);
+        Ok(())
+    }
+}

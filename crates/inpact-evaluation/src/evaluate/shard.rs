@@ -1,0 +1,157 @@
+//! The histories of some of the nodes: their rows are gone through in their order, one after the other.
+
+use super::laws::{InteractionLaws, Laws};
+use super::worker::Found;
+use super::{Part, Row, Tally};
+use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
+use crate::nodes::{HistoryOrder, NodeIndex};
+use crate::plan::Plan;
+use crate::results::ResultBatch;
+
+/// The nodes whose labels fall to it.
+#[derive(Debug)]
+pub(super) struct Shard {
+    nodes: NodeIndex,
+    histories: Vec<NodeHistory>,
+    pub(super) tally: Tally,
+}
+
+/// What a node's rows so far add up to.
+#[derive(Debug, Clone)]
+struct NodeHistory {
+    electrical: ElectricalHistory,
+    thermal: ThermalHistory,
+    pore: PoreHistory,
+}
+
+/// A part whose rows have histories, with what was found of it in columns.
+#[derive(Debug)]
+pub(super) struct Waiting<'a> {
+    part: Part<'a>,
+    found: Found,
+    /// The shard of each row.
+    shards: Vec<u32>,
+}
+
+/// The results of the rows of one shard in a batch.
+#[derive(Debug)]
+pub(super) struct ShardResults {
+    pub(super) batch: usize,
+    /// Their numbers in the batch.
+    pub(super) rows: Vec<u32>,
+    pub(super) results: ResultBatch,
+}
+
+impl<'a> Waiting<'a> {
+    pub(super) fn new(laws: &Laws, part: Part<'a>, found: Found, shards: usize) -> Self {
+        let shard = |row| {
+            let label = laws.node.map_or(&[][..], |node| part.batch().labels[node].get(row));
+            shard_of(part.interaction, label, shards)
+        };
+        let shards = (0..part.rows()).map(shard).collect();
+        Self { part, found, shards }
+    }
+}
+
+/// The shard of a node: the same for all of its rows. Blanks around a label do not count.
+fn shard_of(interaction: usize, label: &[u8], shards: usize) -> u32 {
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    let hash = label.trim_ascii().iter().fold(0xcbf2_9ce4_8422_2325 ^ interaction as u64, step);
+    // Its upper half is mixed better; a remainder of 32 bits fits.
+    ((hash >> 32) % shards as u64) as u32
+}
+
+impl NodeHistory {
+    /// One that has not begun.
+    fn of(laws: &Laws) -> Self {
+        Self {
+            electrical: ElectricalHistory::new(laws.history_start, laws.closing_heat),
+            thermal: ThermalHistory::new(laws.history_start),
+            pore: PoreHistory::new(laws.history_start),
+        }
+    }
+}
+
+impl Shard {
+    pub(super) fn new(plan: &Plan, tally: Tally) -> Self {
+        let nodes = match plan.order {
+            HistoryOrder::ByNode => NodeIndex::by_node(),
+            HistoryOrder::Interleaved => NodeIndex::default(),
+        };
+        Self { nodes, histories: Vec::new(), tally }
+    }
+
+    /// Evaluates the rows of shard `number` among those that wait, batch by batch.
+    pub(super) fn evaluate(&mut self, laws: &Laws, number: usize, waiting: &[Vec<Waiting<'_>>]) -> Vec<ShardResults> {
+        let mut all = Vec::new();
+        for (batch, waiting) in waiting.iter().enumerate() {
+            for Waiting { part, found, shards } in waiting {
+                let Some(of) = &laws.interactions[part.interaction] else { continue };
+                let own: Vec<usize> = (0..part.rows()).filter(|row| shards[*row] as usize == number).collect();
+                let mut results = ResultBatch::default();
+                results.reset(own.len(), laws.result_columns);
+                for (to, index) in own.iter().enumerate() {
+                    if let Some(row) = part.row(*index, to) {
+                        self.evaluate_row(laws, of, row, found, &mut results);
+                    }
+                }
+                let number = |row: &usize| match &part.numbers {
+                    Some(numbers) => Some(numbers[*row]),
+                    None => u32::try_from(*row).ok(),
+                };
+                all.push(ShardResults { batch, rows: own.iter().filter_map(number).collect(), results });
+            }
+        }
+        all
+    }
+
+    /// Evaluates all rows of a part.
+    pub(super) fn evaluate_part(&mut self, laws: &Laws, part: &Part<'_>, found: &Found, results: &mut ResultBatch) {
+        let Some(of) = &laws.interactions[part.interaction] else { return };
+        for index in 0..part.rows() {
+            if let Some(row) = part.row(index, index) {
+                self.evaluate_row(laws, of, row, found, results);
+            }
+        }
+    }
+
+    fn evaluate_row(
+        &mut self,
+        laws: &Laws,
+        of: &InteractionLaws,
+        row: Row<'_, '_>,
+        found: &Found,
+        results: &mut ResultBatch,
+    ) {
+        let interaction = row.part.interaction;
+        let mut history = match laws.node.filter(|_| row.time.is_some()) {
+            Some(node) => {
+                let slot = self.nodes.enter(interaction, row.part.batch().labels[node].get(row.index));
+                if slot.number == self.histories.len() {
+                    self.histories.push(NodeHistory::of(laws));
+                } else if slot.is_first {
+                    self.histories[slot.number] = NodeHistory::of(laws);
+                }
+                Some(&mut self.histories[slot.number])
+            }
+            None => None,
+        };
+        let tally = &mut self.tally.interactions[interaction];
+        let mut heat = None;
+        let electrical = of.electrical.as_ref().map(|law| {
+            let history = history.as_mut().map(|history| &mut history.electrical);
+            let (outcome, of_current) = law.row(row, found.conductances.as_ref(), history, results, tally);
+            heat = of_current;
+            outcome
+        });
+        let thermal = of.thermal.as_ref().map(|law| {
+            let history = history.as_mut().map(|history| &mut history.thermal);
+            law.row(row, &found.thermal, heat, history, results, tally)
+        });
+        let pore = of.pore.as_ref().map(|law| {
+            let history = history.as_mut().map(|history| &mut history.pore);
+            law.row(row, &found.permeabilities, history, results, tally)
+        });
+        tally.finish_row([electrical, thermal, pore], row.to, results, &mut self.tally.user_faults);
+    }
+}

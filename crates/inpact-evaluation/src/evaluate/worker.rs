@@ -1,0 +1,196 @@
+//! What one thread does for a batch: its rows by their interaction, all tables in columns, and every law in the rows that stand alone.
+
+use super::laws::{InteractionLaws, Laws};
+use super::shard::{Shard, Waiting};
+use super::{InteractionTally, Outcome, Part, Tally, UserFaultInRow};
+use crate::evaluator::TableValues;
+use crate::law::conductance::columns::ConductanceColumn;
+use crate::law::contact::ContactState;
+use crate::law::thermal::columns::{ThermalColumns, ThermalFound};
+use crate::nodes::Batch;
+use crate::plan::{Plan, RowInteractions};
+use crate::results::ResultBatch;
+use inpact_parser::model::Model;
+
+/// The interactions that a thread has met, and what it counted.
+#[derive(Debug)]
+pub(super) struct Worker<'a> {
+    interactions: RowInteractions<'a>,
+    pub(super) tally: Tally,
+    asks_user: bool,
+}
+
+/// What is found of a part in columns, before its rows are gone through.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    pub(super) conductances: Option<ConductanceColumn>,
+    pub(super) thermal: ThermalFound,
+    pub(super) permeabilities: TableValues,
+}
+
+impl<'a> Worker<'a> {
+    pub(super) fn new(model: &'a Model, plan: &Plan, laws: &Laws, tally: Tally) -> Self {
+        let interactions = RowInteractions::new(model, plan.governed_by, laws.interaction);
+        Self { interactions, tally, asks_user: laws.asks_user }
+    }
+
+    /// The rows of a batch by the interaction that governs them, those that have laws; in the order of the rows where a user's routine sees them.
+    pub(super) fn parts<'b>(&mut self, laws: &Laws, batch: &'b Batch) -> Vec<Part<'b>> {
+        let mut groups: Vec<(usize, Vec<u32>)> = Vec::new();
+        let (mut first, mut ungoverned) = (0, 0);
+        while first < batch.rows {
+            let interaction = self.interactions.of_row(batch, first);
+            let rows = first..self.interactions.end_of_run(batch, first);
+            first = rows.end;
+            let Some(interaction) = interaction.filter(|interaction| laws.interactions[*interaction].is_some()) else {
+                ungoverned += rows.len();
+                continue;
+            };
+            let group = match groups.iter_mut().rev().find(|(met, _)| *met == interaction) {
+                Some((_, group)) if !self.asks_user => group,
+                _ => {
+                    groups.push((interaction, Vec::new()));
+                    let last = groups.len() - 1;
+                    &mut groups[last].1
+                }
+            };
+            group.extend(rows.filter_map(|row| u32::try_from(row).ok()));
+        }
+        let is_one = groups.len() == 1 && ungoverned == 0;
+        let parts = groups.into_iter().filter_map(|(interaction, rows)| {
+            let contact = laws.interactions[interaction].as_ref()?.contact;
+            let numbers = if is_one { None } else { Some(rows) };
+            Some(Part::new(batch, numbers, &laws.labels(), (interaction, contact), laws.time))
+        });
+        parts.collect()
+    }
+
+    /// Evaluates a batch; rows with a history go to the one `shard`, or wait for one of `shards` where there are several.
+    pub(super) fn evaluate<'b>(
+        &mut self,
+        laws: &Laws,
+        batch: &'b Batch,
+        mut shard: Option<&mut Shard>,
+        shards: usize,
+        results: &mut ResultBatch,
+    ) -> Vec<Waiting<'b>> {
+        let mut waiting = Vec::new();
+        for part in self.parts(laws, batch) {
+            let Some(of) = &laws.interactions[part.interaction] else { continue };
+            let tally = &mut self.tally.interactions[part.interaction];
+            tally.count_contact(&part);
+            let found = of.find(&part, tally);
+            let has_histories = of.keeps_history && laws.node.is_some() && laws.time.is_some();
+            if has_histories && shard.is_none() {
+                waiting.push(Waiting::new(laws, part, found, shards));
+                continue;
+            }
+            let mut own = None;
+            let results_of_part = match &part.numbers {
+                None => &mut *results,
+                Some(numbers) => {
+                    let own: &mut ResultBatch = own.insert(ResultBatch::default());
+                    own.reset(numbers.len(), laws.result_columns);
+                    own
+                }
+            };
+            match &mut shard {
+                Some(shard) if has_histories => shard.evaluate_part(laws, &part, &found, results_of_part),
+                _ => of.evaluate_rows(&part, &found, results_of_part, tally, &mut self.tally.user_faults),
+            }
+            if let (Some(own), Some(numbers)) = (own, &part.numbers) {
+                own.scatter(numbers, results);
+            }
+        }
+        waiting
+    }
+
+    /// Adds the results of a batch to the totals of its interactions, in the order of the rows.
+    pub(super) fn add_up(&mut self, laws: &Laws, batch: &Batch, results: &ResultBatch, tally: &mut Tally) {
+        if laws.summed.is_empty() {
+            return;
+        }
+        let mut first = 0;
+        while first < batch.rows {
+            let interaction = self.interactions.of_row(batch, first);
+            let rows = first..self.interactions.end_of_run(batch, first);
+            first = rows.end;
+            let Some(interaction) = interaction.filter(|interaction| laws.interactions[*interaction].is_some()) else {
+                continue;
+            };
+            let totals = &mut tally.interactions[interaction].totals;
+            totals.take(laws.time.map(|place| &batch.numbers[place]), &laws.summed, results, rows);
+        }
+    }
+}
+
+impl InteractionLaws {
+    /// Evaluates the tables over a part.
+    pub(super) fn find(&self, part: &Part<'_>, tally: &mut InteractionTally) -> Found {
+        Found {
+            conductances: self.electrical.as_ref().and_then(|law| law.conductances(part, tally)),
+            thermal: self.thermal.as_ref().map(|law| law.find(part)).unwrap_or_default(),
+            permeabilities: self.pore.as_ref().map(|law| law.permeabilities(part)).unwrap_or_default(),
+        }
+    }
+
+    /// Every law in the rows of a part, none of which has a history.
+    fn evaluate_rows(
+        &self,
+        part: &Part<'_>,
+        found: &Found,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+        faults: &mut Vec<UserFaultInRow>,
+    ) {
+        let takes_heat = self.thermal.as_ref().is_some_and(ThermalColumns::takes_heat_of_current);
+        let (mut electrical, heats) = match &self.electrical {
+            Some(law) => law.rows(part, found.conductances.as_ref(), takes_heat, results, tally),
+            None => Default::default(),
+        };
+        for index in 0..part.rows() {
+            let Some(row) = part.row(index, index) else { continue };
+            let of_current = electrical.get_mut(index).map(|outcome| std::mem::replace(outcome, Outcome::Incomplete));
+            let heat = heats.get(index).copied().flatten();
+            let thermal = self.thermal.as_ref().map(|law| law.row(row, &found.thermal, heat, None, results, tally));
+            let pore = self.pore.as_ref().map(|law| law.row(row, &found.permeabilities, None, results, tally));
+            tally.finish_row([of_current, thermal, pore], row.to, results, faults);
+        }
+    }
+}
+
+impl InteractionTally {
+    /// Counts the rows of a part, and how many are closed and open.
+    fn count_contact(&mut self, part: &Part<'_>) {
+        let count = |state| part.states.iter().filter(|found| **found == state).count() as u64;
+        self.rows += part.rows() as u64;
+        self.closed += count(Some(ContactState::Closed));
+        self.open += count(Some(ContactState::Open));
+        self.incomplete += count(None);
+    }
+
+    /// Counts a row and sets its status: the outcomes of electrical, thermal and pore fluid law.
+    #[inline]
+    pub(super) fn finish_row(
+        &mut self,
+        outcomes: [Option<Outcome>; 3],
+        row: usize,
+        results: &mut ResultBatch,
+        faults: &mut Vec<UserFaultInRow>,
+    ) {
+        self.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
+        let [electrical, thermal, pore] = outcomes.map(|outcome| match outcome? {
+            Outcome::Incomplete => None,
+            Outcome::Evaluated(status) => status,
+            Outcome::Faulty(fault) => {
+                faults.extend(fault);
+                None
+            }
+        });
+        self.count_statuses([electrical, pore, thermal]);
+        results.status[row] = electrical.max(pore).max(thermal);
+        results.status_by_law.electrical[row] = electrical;
+        results.status_by_law.thermal[row] = thermal;
+        results.status_by_law.pore[row] = pore;
+    }
+}

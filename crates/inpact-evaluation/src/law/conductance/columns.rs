@@ -1,0 +1,318 @@
+//! A conductance over the rows of a part: its rows are gathered by the table that they read, each table is evaluated over columns, and the values go back to their rows.
+
+use super::{Branch, ConductanceTables, value_without_table};
+use crate::accuracy::Wanted;
+use crate::evaluate::{Binder, Part, Row, mean_mass_flow_of};
+use crate::evaluator::{Evaluator, SeenError, TableValues};
+use crate::law::contact::ContactState;
+use crate::nodes::{Cells, Column};
+use crate::numbers::mean;
+use crate::plan::{MassFlow, Source, TablePlan};
+use crate::results::Along;
+use crate::table::{PiecewiseTable, Sides};
+use std::borrow::Cow;
+
+/// The two branches of a conductance with the columns they read.
+#[derive(Clone, Debug)]
+pub(crate) struct BranchColumns {
+    pub(crate) tables: ConductanceTables,
+    /// The tables as they are evaluated: against clearance, against contact pressure.
+    forms: [Option<Evaluator>; 2],
+    needs: [Needs; 2],
+    /// The variables behind clearance or contact pressure.
+    pub(crate) variables: Vec<Option<Variable>>,
+}
+
+/// What a table needs of a row.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Needs {
+    /// Its first variable, clearance or contact pressure.
+    pub(crate) abscissa: bool,
+    /// Others, by their place among the variables.
+    pub(crate) variables: Vec<usize>,
+}
+
+/// Where a variable of a table comes from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Variable {
+    /// The mean of both sides.
+    Mean(Source<usize>),
+    /// The mean of the magnitudes of the mass flow rates of both sides (K-32).
+    MassFlow(MassFlow<usize>),
+}
+
+/// A conductance, row by row.
+#[derive(Debug, Default)]
+pub(crate) struct ConductanceColumn {
+    pub(crate) values: Vec<f64>,
+    /// What rounding took away; empty or NaN where that is not known.
+    pub(crate) rests: Vec<f64>,
+    /// Where each row lies outside its table.
+    pub(crate) sides: Vec<Sides>,
+    /// Which rows have all that their table needs; empty where all of them do.
+    known: Vec<bool>,
+}
+
+/// The rows that read a table, and their coordinates.
+#[derive(Debug, Default)]
+pub(crate) struct Gathered<'a> {
+    /// `None` where all rows read it.
+    pub(crate) rows: Option<Vec<u32>>,
+    pub(crate) count: usize,
+    /// One column an axis of the table; empty where it is not read.
+    pub(crate) columns: Vec<Cow<'a, [f64]>>,
+}
+
+/// Which table a row reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reads {
+    Branch(Branch),
+    /// The row lacks a number.
+    Nothing,
+}
+
+impl Needs {
+    /// The variables that a table depends on.
+    pub(crate) fn of(table: &PiecewiseTable) -> Self {
+        let axes = table.axes();
+        let matters = |axis: usize| axes[axis].matters();
+        Self {
+            abscissa: !axes.is_empty() && matters(0),
+            variables: (1..axes.len()).filter(|axis| matters(*axis)).map(|axis| axis - 1).collect(),
+        }
+    }
+}
+
+impl Variable {
+    /// The variable in all rows of a part.
+    pub(crate) fn cells<'a>(&self, part: &'a Part<'_>) -> Cells<'a> {
+        match self {
+            Self::Mean(source) => Cells::of_source(part.batch(), source, mean),
+            Self::MassFlow(of) => {
+                let found: Vec<Option<f64>> = (0..part.rows()).map(|row| mean_mass_flow_of(*of, part, row)).collect();
+                Cells {
+                    values: found.iter().map(|found| found.unwrap_or(f64::NAN)).collect(),
+                    present: Some(found.iter().map(Option::is_some).collect()),
+                }
+            }
+        }
+    }
+
+    /// The variable in a row.
+    #[inline]
+    pub(crate) fn in_row(&self, row: Row<'_, '_>) -> Option<f64> {
+        match self {
+            Self::Mean(source) => row.fetch(source, mean),
+            Self::MassFlow(of) => mean_mass_flow_of(*of, row.part, row.index),
+        }
+    }
+}
+
+impl<'a> Gathered<'a> {
+    /// The columns of some rows: `abscissa` and the variables that a table needs, in the order of its axes.
+    pub(crate) fn new(
+        rows: Option<Vec<u32>>,
+        all: usize,
+        needs: &Needs,
+        abscissa: Option<Cow<'a, [f64]>>,
+        variables: &[Option<Cells<'a>>],
+    ) -> Self {
+        let mut columns = vec![Cow::Borrowed(&[][..]); variables.len() + 1];
+        let count = rows.as_ref().map_or(all, Vec::len);
+        let chosen = |column: Cow<'a, [f64]>| match &rows {
+            None => column,
+            Some(rows) => rows.iter().map(|row| column[*row as usize]).collect(),
+        };
+        if count > 0 {
+            if let Some(abscissa) = abscissa {
+                columns[0] = chosen(abscissa);
+            }
+            for place in &needs.variables {
+                if let Some(cells) = variables.get(*place).and_then(Option::as_ref) {
+                    columns[place + 1] = chosen(cells.values.clone());
+                }
+            }
+        }
+        Self { rows, count, columns }
+    }
+
+    /// Its columns as an evaluator takes them.
+    pub(crate) fn slices(&self) -> Vec<&[f64]> {
+        self.columns.iter().map(|column| &**column).collect()
+    }
+}
+
+impl BranchColumns {
+    /// The branches of the tables that there are; those that the plan has in use as it folded them.
+    pub(crate) fn new(
+        tables: ConductanceTables,
+        planned: &[TablePlan],
+        accuracy: Wanted,
+        variables: Vec<Option<Variable>>,
+    ) -> Self {
+        let evaluator = |branch| {
+            let against = if branch == Branch::Pressure { Along::Pressure } else { Along::Clearance };
+            planned.iter().find(|planned| planned.against == against).and_then(TablePlan::evaluator)
+        };
+        let tables = tables.map(|branch, table| evaluator(branch).map_or(table, |evaluator| evaluator.table().clone()));
+        let branches = [Branch::Clearance, Branch::Pressure];
+        // A table that no row reaches stays as it is: it says what kind of conductance this is.
+        let forms = branches.map(|branch| {
+            let table = tables.table(branch)?;
+            Some(evaluator(branch).cloned().unwrap_or_else(|| Evaluator::new(table, accuracy)))
+        });
+        let needs = branches.map(|branch| tables.table(branch).map(Needs::of).unwrap_or_default());
+        Self { tables, forms, needs, variables }
+    }
+
+    /// The table of a branch as it is evaluated.
+    pub(crate) fn form(&self, branch: Branch) -> Option<&Evaluator> {
+        self.forms[place(branch)].as_ref()
+    }
+
+    /// What the rows of a part read: for each branch the rows and their coordinates.
+    fn gather<'a>(&self, part: &'a Part<'_>) -> (Vec<Reads>, [Gathered<'a>; 2]) {
+        let is_needed = |variable: usize| self.needs.iter().any(|needs| needs.variables.contains(&variable));
+        let variables = self.variables.iter().enumerate();
+        let variables: Vec<Option<Cells<'a>>> =
+            variables.map(|(index, variable)| variable.filter(|_| is_needed(index)).map(|of| of.cells(part))).collect();
+        let reads: Vec<Reads> = (0..part.rows()).map(|row| self.read_by(part, row, &variables)).collect();
+        let gathered = [Branch::Clearance, Branch::Pressure].map(|branch| {
+            let is_read = |read: &Reads| *read == Reads::Branch(branch);
+            let rows = if reads.iter().all(is_read) {
+                None
+            } else {
+                let rows = (0_u32..).zip(&reads).filter(|(_, read)| is_read(read)).map(|(row, _)| row);
+                Some(rows.collect())
+            };
+            let needs = &self.needs[place(branch)];
+            let abscissa = needs.abscissa.then(|| abscissae(branch, part));
+            Gathered::new(rows, part.rows(), needs, abscissa, &variables)
+        });
+        (reads, gathered)
+    }
+
+    /// The points at which the tables are read, for whoever measures them there.
+    pub(crate) fn points<'a>(&self, part: &'a Part<'_>) -> [(Branch, Gathered<'a>); 2] {
+        let [clearance, pressure] = self.gather(part).1;
+        [(Branch::Clearance, clearance), (Branch::Pressure, pressure)]
+    }
+
+    #[inline]
+    fn read_by(&self, part: &Part<'_>, row: usize, variables: &[Option<Cells<'_>>]) -> Reads {
+        let Some(state) = part.states[row] else { return Reads::Nothing };
+        let branch = self.tables.branch_of(state);
+        if branch == Branch::Neither {
+            return Reads::Branch(branch);
+        }
+        let needs = &self.needs[place(branch)];
+        if needs.abscissa && !part.has_abscissa(branch, state, row) {
+            return Reads::Nothing;
+        }
+        let has = |variable: &usize| variables[*variable].as_ref().is_some_and(|cells| cells.has(row));
+        if needs.variables.iter().all(has) { Reads::Branch(branch) } else { Reads::Nothing }
+    }
+
+    /// The conductance of every row; some of the values are compared with the reference, where that is wanted.
+    pub(crate) fn evaluate(&self, part: &Part<'_>, mut seen: Option<&mut SeenError>) -> ConductanceColumn {
+        let (reads, gathered) = self.gather(part);
+        let mut column = ConductanceColumn::default();
+        let mut found = TableValues::default();
+        for (gathered, form) in gathered.iter().zip(&self.forms) {
+            let Some(form) = form.as_ref().filter(|_| gathered.count > 0) else { continue };
+            let slices = gathered.slices();
+            form.evaluate(&slices, gathered.count, &mut found);
+            if let Some(seen) = seen.as_deref_mut() {
+                form.compare(&slices, &found.values, seen);
+            }
+            let Some(rows) = &gathered.rows else {
+                let TableValues { values, rests, sides } = found;
+                return ConductanceColumn { values, rests, sides, known: Vec::new() };
+            };
+            column.make_room(reads.len());
+            for (place, row) in rows.iter().enumerate() {
+                let row = *row as usize;
+                (column.values[row], column.sides[row]) = (found.values[place], found.sides[place]);
+                if let Some(rest) = found.rests.get(place) {
+                    column.rests.resize(reads.len(), f64::NAN);
+                    column.rests[row] = *rest;
+                }
+            }
+        }
+        column.make_room(reads.len());
+        for (row, read) in reads.iter().enumerate() {
+            match (read, part.states[row]) {
+                (Reads::Branch(Branch::Neither), Some(state)) => column.values[row] = value_without_table(state),
+                (Reads::Nothing, _) | (_, None) => {
+                    column.known.resize(reads.len(), true);
+                    column.known[row] = false;
+                }
+                _ => {}
+            }
+        }
+        column
+    }
+}
+
+impl ConductanceColumn {
+    fn make_room(&mut self, rows: usize) {
+        self.values.resize(rows, f64::NAN);
+        self.sides.resize(rows, Sides::default());
+    }
+
+    /// A conductance found row by row; `None` for a row that lacks a number.
+    pub(crate) fn of_rows(found: impl Iterator<Item = Option<(f64, Sides)>>) -> Self {
+        let mut column = Self::default();
+        for found in found {
+            let (value, sides) = found.unwrap_or((f64::NAN, Sides::default()));
+            column.values.push(value);
+            column.sides.push(sides);
+            column.known.push(found.is_some());
+        }
+        column
+    }
+
+    /// Whether a row has all that its table needs.
+    #[inline]
+    pub(crate) fn is_known(&self, row: usize) -> bool {
+        self.known.is_empty() || self.known[row]
+    }
+
+    /// Whether every row has.
+    pub(crate) fn is_full(&self) -> bool {
+        self.known.iter().all(|known| *known)
+    }
+
+    /// What rounding took away in a row, where that is known.
+    #[inline]
+    pub(crate) fn rest(&self, row: usize) -> Option<f64> {
+        self.rests.get(row).copied().filter(|rest| !rest.is_nan())
+    }
+}
+
+impl Binder<'_> {
+    /// Where the mean temperature and the field variables of a conductance stand in a batch.
+    pub(crate) fn means(self, sources: &[Option<Source<Column>>]) -> Vec<Option<Variable>> {
+        sources.iter().map(|source| self.source(*source).map(Variable::Mean)).collect()
+    }
+}
+
+/// The place of a branch among the two.
+fn place(branch: Branch) -> usize {
+    usize::from(branch == Branch::Pressure)
+}
+
+/// The first coordinates of a branch's table; NaN where a row has none.
+fn abscissae<'a>(branch: Branch, part: &'a Part<'_>) -> Cow<'a, [f64]> {
+    if branch == Branch::Pressure {
+        return part.pressures();
+    }
+    let clearances = part.clearances();
+    let states = part.states.iter().zip(&*clearances);
+    let read = states.map(|(state, clearance)| match state {
+        Some(ContactState::Closed) => 0.0,
+        Some(state) => state.table_clearance(Some(*clearance)).unwrap_or(f64::NAN),
+        None => f64::NAN,
+    });
+    read.collect()
+}

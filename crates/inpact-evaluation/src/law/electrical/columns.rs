@@ -1,0 +1,447 @@
+//! The electrical law over the rows of a part: conductances in columns, and current and heat in columns too where no history and no extreme number is in the way.
+
+use super::{Dissipation, ExactFlow, flow};
+use crate::accuracy::Wanted;
+use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, contact_status};
+use crate::history::{ElectricalHistory, ElectricalIncrement};
+use crate::kernel::InstructionSet;
+use crate::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs};
+use crate::law::conductance::columns::{BranchColumns, ConductanceColumn};
+use crate::law::conductance::{Branch, ContactPoint};
+use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
+use crate::law::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
+use crate::law::user::columns::UserColumns;
+use crate::nodes::Cells;
+use crate::numbers::{Amount, is_moderate};
+use crate::plan::{Choices, ElectricalPlan, History, InteractionTables, Source};
+use crate::results::{Along, Output, ResultBatch, Status};
+use crate::table::Sides;
+use inpact_parser::model::Regime;
+use std::ops::Range;
+
+/// Below this share of the potentials their difference has lost its digits.
+const LOST_DIGITS: f64 = 1e-8;
+
+/// Rows whose inputs are looked at together before the kernel takes them.
+const CHUNK: usize = 256;
+
+/// The electrical law with the columns it reads and fills.
+#[derive(Debug, Clone)]
+pub(crate) struct ElectricalColumns {
+    conductance: ConductanceSource,
+    heat_generation: HeatGeneration,
+    accuracy: Wanted,
+    regime: Regime,
+    jump: Option<Source<usize>>,
+    area: Option<usize>,
+    pub(crate) history: History,
+    slots: Slots,
+    slopes: Vec<(usize, Along)>,
+    set: InstructionSet,
+}
+
+/// What gives the electrical conductance.
+#[derive(Debug, Clone)]
+enum ConductanceSource {
+    /// Tables of the deck.
+    Tables(Box<BranchColumns>),
+    /// A routine of the user's.
+    User(Box<UserColumns>),
+}
+
+/// Where the results go.
+#[derive(Debug, Clone, Copy)]
+struct Slots {
+    ecd: Option<usize>,
+    ecda: Option<usize>,
+    ecdt: Option<usize>,
+    ecdta: Option<usize>,
+    sjd: Option<usize>,
+    sjda: Option<usize>,
+    sjdt: Option<usize>,
+    sjdta: Option<usize>,
+    weight: Option<usize>,
+    conductance: Option<usize>,
+    heat_slave: Option<usize>,
+    heat_master: Option<usize>,
+}
+
+impl ElectricalColumns {
+    /// The law of a plan; `None` where the plan has no table that holds.
+    pub(crate) fn bind(
+        binder: Binder<'_>,
+        plan: &ElectricalPlan,
+        tables: &InteractionTables,
+        choices: &Choices,
+    ) -> Option<Self> {
+        let conductance = match (&plan.user, &choices.user_conductance) {
+            (Some(user), Some(law)) => ConductanceSource::User(Box::new(UserColumns::bind(binder, user, law)?)),
+            _ => {
+                let variables = binder.means(&plan.variables);
+                let columns =
+                    BranchColumns::new(tables.electrical_tables()?, &plan.tables, choices.accuracy, variables);
+                ConductanceSource::Tables(Box::new(columns))
+            }
+        };
+        let slot = |output| binder.slot(output);
+        Some(Self {
+            conductance,
+            heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
+            accuracy: choices.accuracy,
+            regime: plan.regime.regime,
+            jump: binder.source(plan.jump),
+            area: plan.area.and_then(|column| binder.place(column)),
+            history: plan.history,
+            slots: Slots {
+                ecd: slot(Output::Ecd),
+                ecda: slot(Output::Ecda),
+                ecdt: slot(Output::Ecdt),
+                ecdta: slot(Output::Ecdta),
+                sjd: slot(Output::Sjd),
+                sjda: slot(Output::Sjda),
+                sjdt: slot(Output::Sjdt),
+                sjdta: slot(Output::Sjdta),
+                weight: slot(Output::Weight),
+                conductance: slot(Output::Conductance),
+                heat_slave: slot(Output::HeatSlave),
+                heat_master: slot(Output::HeatMaster),
+            },
+            slopes: binder.slopes(|output| match output {
+                Output::ConductanceSlope(along) => Some(along),
+                _ => None,
+            }),
+            set: InstructionSet::best(),
+        })
+    }
+
+    /// The tables of the conductance, where tables give it.
+    pub(crate) fn tables(&self) -> Option<&BranchColumns> {
+        match &self.conductance {
+            ConductanceSource::Tables(tables) => Some(tables),
+            ConductanceSource::User(_) => None,
+        }
+    }
+
+    /// The conductances of a part by tables; none of a user's routine, which is asked row by row.
+    pub(crate) fn conductances(&self, part: &Part<'_>, tally: &mut InteractionTally) -> Option<ConductanceColumn> {
+        Some(self.tables()?.evaluate(part, Some(&mut tally.seen_error)))
+    }
+
+    /// The law in a row; gives its status and the heat of the current, where the row has a jump of potential.
+    pub(crate) fn row(
+        &self,
+        row: Row<'_, '_>,
+        conductances: Option<&ConductanceColumn>,
+        history: Option<&mut ElectricalHistory>,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+    ) -> (Outcome, Option<HeatAmounts>) {
+        let index = row.index;
+        let (value, rest, sides) = match (&self.conductance, conductances) {
+            (ConductanceSource::Tables(_), Some(found)) if found.is_known(index) => {
+                (found.values[index], found.rest(index).unwrap_or(0.0), found.sides[index])
+            }
+            (ConductanceSource::User(routine), _) => match routine.conductance(row, tally) {
+                Some(Ok(value)) => {
+                    // The plan asks for no other slope.
+                    for (slot, _) in &self.slopes {
+                        results.set(Some(*slot), row.to, Some(value.slope_along_mean_temperature()));
+                    }
+                    (value.conductance, 0.0, Sides::default())
+                }
+                Some(Err(fault)) => {
+                    let is_shown = tally.count_fault();
+                    return (Outcome::Faulty(is_shown.then(|| routine.fault_in_row(row, &fault))), None);
+                }
+                None => return (Outcome::Incomplete, None),
+            },
+            _ => return (Outcome::Incomplete, None),
+        };
+        results.set(self.slots.conductance, row.to, Some(value));
+        results.set(self.slots.weight, row.to, Some(self.heat_generation.slave_weight));
+        self.set_slopes(row, results);
+        let heat = self.flow_of_row(row, (value, rest), history, results, tally);
+        (Outcome::Evaluated(self.status(row, sides, tally)), heat)
+    }
+
+    /// The law in all rows of a part, none of which has a history; gives the outcomes, and the heat of the current where the thermal law `takes_heat`.
+    pub(crate) fn rows(
+        &self,
+        part: &Part<'_>,
+        found: Option<&ConductanceColumn>,
+        takes_heat: bool,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+    ) -> (Vec<Outcome>, Vec<Option<HeatAmounts>>) {
+        let count = part.rows();
+        let jump = self.jump.map(|source| {
+            Cells::of_source(part.batch(), &source, |slave, master| PotentialJump::between(slave, master).0)
+        });
+        let area = self.area.map(|place| Cells::at(part.batch(), place));
+        let is_full = found.is_some_and(ConductanceColumn::is_full)
+            && part.states.iter().all(Option::is_some)
+            && jump.as_ref().is_none_or(Cells::is_full)
+            && area.as_ref().is_none_or(Cells::is_full);
+        let (mut outcomes, mut heats) = (Vec::with_capacity(count), Vec::new());
+        if takes_heat {
+            heats.reserve(count);
+        }
+        let mut first = 0;
+        while first < count {
+            let rows = first..count.min(first + CHUNK);
+            first = rows.end;
+            let plain =
+                found.filter(|found| is_full && self.are_plain(found, jump.as_ref(), area.as_ref(), rows.clone()));
+            let Some(found) = plain else {
+                for index in rows {
+                    let (outcome, heat) = match part.row(index, index) {
+                        Some(row) => self.row(row, found, None, results, tally),
+                        // Where contact cannot be told no law is asked.
+                        None => (Outcome::Incomplete, None),
+                    };
+                    outcomes.push(outcome);
+                    heats.extend(takes_heat.then_some(heat));
+                }
+                continue;
+            };
+            self.plain_flows(
+                found,
+                jump.as_ref(),
+                area.as_ref(),
+                rows.clone(),
+                results,
+                takes_heat.then_some(&mut heats),
+            );
+            for index in rows {
+                let Some(row) = part.row(index, index) else { continue };
+                self.set_slopes(row, results);
+                if let (Some(jump), Some(source)) = (&jump, &self.jump) {
+                    tally.lost_digits += u64::from(has_lost_digits(source, row, jump.values[index]));
+                }
+                outcomes.push(Outcome::Evaluated(self.status(row, found.sides[index], tally)));
+            }
+        }
+        if is_full {
+            let columns = [self.slots.conductance, self.slots.weight].into_iter().chain(self.slots.of_flow());
+            let is_given =
+                |slot: &usize| jump.is_some() || [self.slots.conductance, self.slots.weight].contains(&Some(*slot));
+            for slot in columns.flatten().filter(is_given) {
+                results.numbers[slot].set_all_present();
+            }
+        }
+        (outcomes, heats)
+    }
+
+    /// Whether rows can be evaluated by plain arithmetic: no number is missing, extreme, or wanted in twice the precision.
+    fn are_plain(
+        &self,
+        found: &ConductanceColumn,
+        jump: Option<&Cells<'_>>,
+        area: Option<&Cells<'_>>,
+        rows: Range<usize>,
+    ) -> bool {
+        let are_moderate =
+            |values: &[f64]| values[rows.clone()].iter().fold(true, |all, value| all & is_moderate(*value));
+        !self.accuracy.is_reference()
+            && is_moderate(self.heat_generation.fraction)
+            && are_moderate(&found.values)
+            && jump.is_none_or(|jump| are_moderate(&jump.values))
+            && area.is_none_or(|area| are_moderate(&area.values))
+    }
+
+    /// Conductance, current and heat of some rows by plain arithmetic.
+    fn plain_flows(
+        &self,
+        found: &ConductanceColumn,
+        jump: Option<&Cells<'_>>,
+        area: Option<&Cells<'_>>,
+        rows: Range<usize>,
+        results: &mut ResultBatch,
+        heats: Option<&mut Vec<Option<HeatAmounts>>>,
+    ) {
+        let conductance = &found.values[rows.clone()];
+        let generation = self.heat_generation;
+        if let Some(slot) = self.slots.conductance {
+            results.numbers[slot].values_mut()[rows.clone()].copy_from_slice(conductance);
+        }
+        if let Some(slot) = self.slots.weight {
+            results.numbers[slot].values_mut()[rows.clone()].fill(generation.slave_weight);
+        }
+        let Some(jump) = jump else {
+            if let Some(heats) = heats {
+                heats.extend(rows.map(|_| None));
+            }
+            return;
+        };
+        let jump = &jump.values[rows.clone()];
+        let area = area.map(|area| &area.values[rows.clone()]);
+        let mut columns = [[0.0; CHUNK]; 6];
+        let count = rows.len();
+        let [current_density, current, heat, heat_of_area, slave, master] =
+            columns.each_mut().map(|column| &mut column[..count]);
+        let inputs = ElectricalInputs {
+            jump,
+            // Without a history an increment starts as it ends (C-25).
+            jump_at_start: (self.regime == Regime::Transient).then_some(jump),
+            area,
+        };
+        let mut outputs = ElectricalOutputs {
+            current_density: Some(&mut *current_density),
+            current: area.map(|_| &mut *current),
+            heat: Some(&mut *heat),
+            heat_of_area: area.map(|_| &mut *heat_of_area),
+            heat_slave: Some(&mut *slave),
+            heat_master: Some(&mut *master),
+        };
+        electrical_outputs(self.set, generation, conductance, &inputs, &mut outputs);
+        if let Some(heats) = heats {
+            let shared = heat.iter().zip(&*slave).zip(&*master);
+            heats.extend(shared.map(|((total, slave), master)| {
+                Some(HeatAmounts::from(GeneratedHeat { total: *total, slave: *slave, master: *master }))
+            }));
+        }
+        let slots = &self.slots;
+        let area_of = |slot: Option<usize>| slot.filter(|_| area.is_some());
+        let written = [
+            (slots.ecd, &*current_density),
+            (area_of(slots.ecda), &*current),
+            (slots.sjd, &*heat),
+            (area_of(slots.sjda), &*heat_of_area),
+            (slots.heat_slave, &*slave),
+            (slots.heat_master, &*master),
+        ];
+        for (slot, values) in written {
+            let Some(slot) = slot else { continue };
+            let column = &mut results.numbers[slot].values_mut()[rows.clone()];
+            // No current is 0, not −0.
+            column.iter_mut().zip(values).for_each(|(cell, value)| *cell = value + 0.0);
+        }
+    }
+
+    /// The slopes of the conductance by tables, one column each.
+    fn set_slopes(&self, row: Row<'_, '_>, results: &mut ResultBatch) {
+        let Some(tables) = self.tables().filter(|_| !self.slopes.is_empty()) else { return };
+        let variables: Vec<f64> =
+            tables.variables.iter().map(|of| of.and_then(|of| of.in_row(row)).unwrap_or(f64::NAN)).collect();
+        let mut slopes = vec![0.0; variables.len()];
+        let point = ContactPoint {
+            clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
+            pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
+            state: row.state,
+            variables: &variables,
+        };
+        let along_contact = tables.tables.slopes(&point, &mut slopes);
+        for (slot, along) in &self.slopes {
+            let slope = match along {
+                Along::Clearance => Some(along_contact.clearance),
+                Along::Pressure => Some(along_contact.pressure),
+                Along::Temperature => slopes.first().copied(),
+                Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
+                Along::PorePressure | Along::MassFlow => None,
+            };
+            results.set(Some(*slot), row.to, slope);
+        }
+    }
+
+    /// Current and heat, where the row has a jump of potential, for a conductance and what rounding took away from it.
+    fn flow_of_row(
+        &self,
+        row: Row<'_, '_>,
+        (value, rest): (f64, f64),
+        history: Option<&mut ElectricalHistory>,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+    ) -> Option<HeatAmounts> {
+        let source = self.jump.as_ref()?;
+        let Some(jump) = row.fetch(source, |slave, master| PotentialJump::between(slave, master).0) else {
+            tally.incomplete_flows += 1;
+            return None;
+        };
+        tally.lost_digits += u64::from(has_lost_digits(source, row, jump));
+        let jump = PotentialJump(jump);
+        let area = self.area.and_then(|place| row.number(place));
+        let mut history = history.zip(row.time);
+        let increment: Option<ElectricalIncrement> =
+            history.as_mut().map(|(history, time)| history.begin(*time, jump, value));
+        let jump_at_start = increment.as_ref().map_or(jump, |increment| increment.jump_at_start);
+        let dissipation = match self.regime {
+            Regime::SteadyState => Dissipation::Steady,
+            Regime::Transient => Dissipation::Transient { jump_at_start },
+        };
+        let generation = self.heat_generation;
+        if let (Some(increment), Regime::Transient) = (&increment, self.regime)
+            && increment.closes_circuit
+            && generation.fraction != 0.0
+        {
+            tally.closing.count(row, || {
+                let (start, end) = (increment.jump_at_start.0, jump.0);
+                format!("the first has a jump of {end:?}, and its increment starts open with {start:?}")
+            });
+        }
+        let duration = increment.as_ref().and_then(|increment| increment.duration);
+        let needs_care = self.accuracy.is_reference() || {
+            let inputs =
+                [value, jump.0, jump_at_start.0, generation.fraction, area.unwrap_or(0.0), duration.unwrap_or(0.0)];
+            !inputs.into_iter().all(is_moderate)
+        };
+        let exact = if needs_care { ExactFlow::new((value, rest), jump, dissipation, generation) } else { None };
+        let flow = match exact {
+            Some(exact) => exact.rounded(),
+            None => flow(value, jump, dissipation, generation),
+        };
+        let current_density = exact.map_or_else(|| Amount::new(flow.current_density), |exact| exact.current_density);
+        let heat = exact.map_or_else(|| HeatAmounts::from(flow.heat), |exact| exact.heat);
+        // Of a flow out of the range of f64 the part of a small area may be within it.
+        let of_area = |amount: Amount| area.map(|area| amount.times(area));
+        let slots = &self.slots;
+        // No current is 0, not −0.
+        let mut set = |slot, value: Option<f64>| results.set(slot, row.to, value.map(|value| value + 0.0));
+        set(slots.ecd, Some(flow.current_density));
+        set(slots.ecda, of_area(current_density));
+        set(slots.sjd, Some(flow.heat.total));
+        set(slots.sjda, of_area(heat.total));
+        set(slots.heat_slave, Some(flow.heat.slave));
+        set(slots.heat_master, Some(flow.heat.master));
+        if let (Some((history, _)), Some(increment)) = (history, increment) {
+            match &exact {
+                Some(exact) => history.finish_exactly(&increment, exact, area),
+                None => history.finish(&increment, &flow, value.mul_add(jump.0, -flow.current_density), area),
+            }
+            set(slots.ecdt, Some(history.current()));
+            set(slots.ecdta, history.current_of_area());
+            set(slots.sjdt, Some(history.heat()));
+            set(slots.sjdta, history.heat_of_area());
+        }
+        Some(heat)
+    }
+
+    /// The status of a row that lies outside its table on these sides.
+    #[inline]
+    fn status(&self, row: Row<'_, '_>, sides: Sides, tally: &mut InteractionTally) -> Option<Status> {
+        if sides.is_within() {
+            return contact_status(row.state);
+        }
+        let branch = self.tables().map(|tables| tables.tables.branch_of(row.state));
+        tally.count_sides(usize::from(branch == Some(Branch::Pressure)), sides);
+        Some(Status::BeyondTable)
+    }
+}
+
+impl Slots {
+    /// Those of current and heat at one time.
+    fn of_flow(&self) -> [Option<usize>; 6] {
+        [self.ecd, self.ecda, self.sjd, self.sjda, self.heat_slave, self.heat_master]
+    }
+}
+
+/// Whether the jump is the difference of potentials so much larger that few of its digits are left.
+#[inline]
+fn has_lost_digits(source: &Source<usize>, row: Row<'_, '_>, jump: f64) -> bool {
+    let (slave, master) = match *source {
+        Source::Sides(slave, master) => (slave, master),
+        Source::CellOrSides(cell, slave, master) if row.number(cell).is_none() => (slave, master),
+        _ => return false,
+    };
+    let magnitude = |place| row.number(place).map_or(0.0, f64::abs);
+    jump.abs() < LOST_DIGITS * magnitude(slave).max(magnitude(master))
+}

@@ -1,0 +1,441 @@
+//! The thermal law over the rows of a part: conductances and view factors in columns, heat row by row.
+
+use super::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat_amount};
+use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, VIEW_FACTOR, contact_status};
+use crate::history::ThermalHistory;
+use crate::kernel::TableKernel;
+use crate::law::calculix::CalculixConductance;
+use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, Needs, Variable};
+use crate::law::conductance::{Branch, ContactPoint};
+use crate::law::contact::{Clearance, ContactPressure, ContactState};
+use crate::law::friction::{ShearStress, SlipRate, frictional_heat_amounts};
+use crate::law::heat::{HeatAmounts, HeatGeneration};
+use crate::law::radiation::RadiationLaw;
+use crate::nodes::Column;
+use crate::numbers::Amount;
+use crate::plan::{
+    Choices, ConductionPlan, CurrentHeat, FrictionPlan, History, MassFlow, SlipRateSource, ThermalPlan, ThermalTables,
+};
+use crate::results::{Along, Output, ResultBatch, Status};
+use crate::table::Sides;
+use inpact_parser::grammar::Dialect;
+
+/// The place of the mass flow rate among the variables.
+const MASS_FLOW: usize = 1;
+
+/// The thermal law with the columns it reads and fills.
+#[derive(Debug, Clone)]
+pub(crate) struct ThermalColumns {
+    conduction: Option<Conduction>,
+    radiation: Option<Radiation>,
+    friction: Option<Friction>,
+    current: CurrentHeat,
+    /// Slave and master.
+    temperatures: Option<(usize, usize)>,
+    jump: Option<usize>,
+    area: Option<usize>,
+    pub(crate) history: History,
+    slots: Slots,
+}
+
+/// Conduction with its columns.
+#[derive(Debug, Clone)]
+struct Conduction {
+    source: ConductionSource,
+    slopes: Vec<(usize, Along)>,
+}
+
+/// What gives the conductance.
+#[derive(Debug, Clone)]
+enum ConductionSource {
+    Tables(BranchColumns),
+    Calculix { curves: CalculixConductance, needs: Needs, variables: Vec<Option<Variable>> },
+}
+
+/// Radiation; it needs the clearance of open rows.
+#[derive(Debug, Clone)]
+struct Radiation {
+    law: RadiationLaw,
+    view_factor: TableKernel,
+}
+
+/// Friction with its columns.
+#[derive(Debug, Clone, Copy)]
+struct Friction {
+    shear: usize,
+    slip_rate: Speed,
+    generation: HeatGeneration,
+    /// CalculiX takes shear and slip rate by their magnitudes.
+    dialect: Dialect,
+}
+
+/// Where the slip rate comes from.
+#[derive(Debug, Clone, Copy)]
+enum Speed {
+    Place(usize),
+    Given(SlipRate),
+}
+
+/// Where the results go.
+#[derive(Debug, Clone, Copy)]
+struct Slots {
+    hfl: Option<usize>,
+    hfla: Option<usize>,
+    htl: Option<usize>,
+    htla: Option<usize>,
+    sfdr: Option<usize>,
+    sfdra: Option<usize>,
+    sfdrt: Option<usize>,
+    sfdrta: Option<usize>,
+    weight: Option<usize>,
+    conductance: Option<usize>,
+    conduction: Option<usize>,
+    radiation: Option<usize>,
+    into_slave: Option<usize>,
+    into_master: Option<usize>,
+}
+
+/// What is found of the rows of a part before the law goes through them.
+#[derive(Debug, Default)]
+pub(crate) struct ThermalFound {
+    conductances: ConductanceColumn,
+    view_factors: Vec<(f64, Sides)>,
+}
+
+impl ThermalColumns {
+    pub(crate) fn bind(binder: Binder<'_>, plan: &ThermalPlan, tables: &ThermalTables, choices: &Choices) -> Self {
+        let place = |column: Column| binder.place(column);
+        let radiation = plan.radiation.as_ref().and(tables.radiation.as_ref()).and_then(|law| law.as_ref().ok());
+        let slot = |output| binder.slot(output);
+        Self {
+            conduction: plan.conduction.as_ref().and_then(|of| Conduction::bind(binder, of, tables, choices)),
+            radiation: radiation
+                .map(|law| Radiation { law: law.clone(), view_factor: TableKernel::new(&law.view_factor) }),
+            friction: plan.friction.and_then(|friction| Friction::bind(binder, friction, plan.heat?)),
+            current: plan.current,
+            temperatures: plan.temperatures.and_then(|[slave, master]| Some((place(slave)?, place(master)?))),
+            jump: plan.jump.and_then(place),
+            area: plan.area.and_then(place),
+            history: plan.history,
+            slots: Slots {
+                hfl: slot(Output::Hfl),
+                hfla: slot(Output::Hfla),
+                htl: slot(Output::Htl),
+                htla: slot(Output::Htla),
+                sfdr: slot(Output::Sfdr),
+                sfdra: slot(Output::Sfdra),
+                sfdrt: slot(Output::Sfdrt),
+                sfdrta: slot(Output::Sfdrta),
+                weight: slot(Output::Weight),
+                conductance: slot(Output::ThermalConductance),
+                conduction: slot(Output::HeatConduction),
+                radiation: slot(Output::HeatRadiation),
+                into_slave: slot(Output::TotalHeatSlave),
+                into_master: slot(Output::TotalHeatMaster),
+            },
+        }
+    }
+
+    /// The tables of the conductance, where tables give it.
+    pub(crate) fn tables(&self) -> Option<&BranchColumns> {
+        match &self.conduction.as_ref()?.source {
+            ConductionSource::Tables(tables) => Some(tables),
+            ConductionSource::Calculix { .. } => None,
+        }
+    }
+
+    /// Whether the heat of the current is part of that of the interface.
+    pub(crate) fn takes_heat_of_current(&self) -> bool {
+        self.current == CurrentHeat::Generated
+    }
+
+    /// The conductances and view factors of a part.
+    pub(crate) fn find(&self, part: &Part<'_>) -> ThermalFound {
+        ThermalFound {
+            conductances: self.conduction.as_ref().map(|of| of.conductances(part)).unwrap_or_default(),
+            view_factors: self.radiation.as_ref().map(|of| of.view_factors(part)).unwrap_or_default(),
+        }
+    }
+
+    /// The law in a row, given the heat of the current there; gives its status.
+    pub(crate) fn row(
+        &self,
+        row: Row<'_, '_>,
+        found: &ThermalFound,
+        heat_of_current: Option<HeatAmounts>,
+        history: Option<&mut ThermalHistory>,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+    ) -> Outcome {
+        let jump = self.jump.and_then(|place| row.number(place));
+        let temperatures = self.temperatures.and_then(|(slave, master)| {
+            Some(Temperatures { slave: row.number(slave)?, master: row.number(master)?, jump })
+        });
+        let across = temperatures.or_else(|| jump.map(Temperatures::of_jump));
+        let (mut is_beyond, mut gives_something) = (false, false);
+        // A part that the plan does not have is known to be nothing.
+        let conduction = match &self.conduction {
+            None => Some(Amount::ZERO),
+            Some(part) => {
+                let conductance = self.conductance_in_row(part, row, &found.conductances, results, tally);
+                is_beyond |= conductance.is_some_and(|(.., sides)| !sides.is_within());
+                gives_something |= conductance.is_some();
+                let both = conductance.zip(across);
+                let heat = both.map(|((value, rest, _), sides)| conducted_heat_amount(value, rest, sides));
+                results.set(self.slots.conduction, row.to, heat.map(Amount::value));
+                heat
+            }
+        };
+        let radiation = match &self.radiation {
+            None => Some(Amount::ZERO),
+            Some(part) => {
+                let radiated = temperatures.and_then(|sides| part.in_row(row, found, sides, tally));
+                is_beyond |= radiated.is_some_and(|(_, sides)| !sides.is_within());
+                gives_something |= radiated.is_some();
+                let heat = radiated.map(|(heat, _)| heat);
+                results.set(self.slots.radiation, row.to, heat.map(Amount::value));
+                heat
+            }
+        };
+        let friction = self.friction.map_or(Some(HeatAmounts::ZERO), |part| part.in_row(row, tally));
+        let current = if self.takes_heat_of_current() { heat_of_current } else { Some(HeatAmounts::ZERO) };
+        let all = (|| {
+            Some(InterfaceHeat {
+                conduction: conduction?,
+                radiation: radiation?,
+                current: current?,
+                friction: friction?,
+            })
+        })();
+        let rubbed = friction.filter(|_| self.friction.is_some());
+        gives_something |= rubbed.is_some();
+        self.set_flows(row, all.as_ref(), rubbed, history, results);
+        if !gives_something {
+            return Outcome::Incomplete;
+        }
+        // Without `HFL` in the plan nothing of it is missed.
+        tally.incomplete_heat += u64::from((all.is_none() && self.slots.hfl.is_some()) || friction.is_none());
+        Outcome::Evaluated(if is_beyond { Some(Status::BeyondTable) } else { contact_status(row.state) })
+    }
+
+    /// The conductance with its slopes, what rounding took away from it where that is known, and along which axes the row lies outside its table; `None` where the row lacks a number for it.
+    fn conductance_in_row(
+        &self,
+        part: &Conduction,
+        row: Row<'_, '_>,
+        found: &ConductanceColumn,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+    ) -> Option<(f64, Option<f64>, Sides)> {
+        if !found.is_known(row.index) {
+            return None;
+        }
+        let (value, sides) = (found.values[row.index], found.sides[row.index]);
+        results.set(self.slots.conductance, row.to, Some(value));
+        part.set_slopes(row, results);
+        if !sides.is_within() {
+            match &part.source {
+                ConductionSource::Calculix { .. } => tally.beyond_curves += 1,
+                ConductionSource::Tables(columns) => {
+                    let branch = columns.tables.branch_of(row.state);
+                    tally.count_sides(THERMAL_CONDUCTANCE + usize::from(branch == Branch::Pressure), sides);
+                }
+            }
+        }
+        Some((value, found.rest(row.index), sides))
+    }
+
+    fn set_flows(
+        &self,
+        row: Row<'_, '_>,
+        all: Option<&InterfaceHeat>,
+        friction: Option<HeatAmounts>,
+        history: Option<&mut ThermalHistory>,
+        results: &mut ResultBatch,
+    ) {
+        let slots = &self.slots;
+        let area = self.area.and_then(|place| row.number(place));
+        let mut set = |slot, value| results.set(slot, row.to, value);
+        let leaving = all.map(InterfaceHeat::leaving_slave);
+        set(slots.weight, self.friction.map(|part| part.generation.slave_weight));
+        set(slots.into_slave, all.map(InterfaceHeat::into_slave));
+        set(slots.into_master, all.map(InterfaceHeat::into_master));
+        set(slots.hfl, leaving.map(Amount::value));
+        set(slots.hfla, leaving.zip(area).map(|(leaving, area)| leaving.times(area)));
+        let rubbed = friction.map(|heat| heat.total);
+        set(slots.sfdr, rubbed.map(Amount::value));
+        set(slots.sfdra, rubbed.zip(area).map(|(rubbed, area)| rubbed.times(area)));
+        let Some((history, time)) = history.zip(row.time) else { return };
+        if let Some(leaving) = leaving {
+            history.leaving.add(time, leaving, area);
+            set(slots.htl, Some(history.leaving.per_area()));
+            set(slots.htla, history.leaving.of_area());
+        }
+        if let Some(rubbed) = rubbed {
+            history.friction.add(time, rubbed, area);
+            set(slots.sfdrt, Some(history.friction.per_area()));
+            set(slots.sfdrta, history.friction.of_area());
+        }
+    }
+}
+
+impl Conduction {
+    fn bind(binder: Binder<'_>, plan: &ConductionPlan, tables: &ThermalTables, choices: &Choices) -> Option<Self> {
+        let mut variables = binder.means(&plan.variables);
+        if let Some(of) = plan.mass_flow {
+            let place = |column: Option<Column>| binder.place(column?);
+            let of = MassFlow { mean: place(of.mean), slave: place(of.slave), master: place(of.master) };
+            if let Some(variable) = variables.get_mut(MASS_FLOW) {
+                *variable = Some(Variable::MassFlow(of));
+            }
+        }
+        let source = match tables.thermal_conductance()? {
+            ThermalConductance::Tables(tables) => {
+                ConductionSource::Tables(BranchColumns::new(tables, &plan.tables, choices.accuracy, variables))
+            }
+            ThermalConductance::Calculix(curves) => {
+                ConductionSource::Calculix { needs: Needs::of(curves.rows()), curves, variables }
+            }
+        };
+        let slopes = binder.slopes(|output| match output {
+            Output::ThermalConductanceSlope(along) => Some(along),
+            _ => None,
+        });
+        Some(Self { source, slopes })
+    }
+
+    fn variables(&self) -> &[Option<Variable>] {
+        match &self.source {
+            ConductionSource::Tables(columns) => &columns.variables,
+            ConductionSource::Calculix { variables, .. } => variables,
+        }
+    }
+
+    /// The variables of a row, NaN where there is none.
+    fn variables_in_row(&self, row: Row<'_, '_>) -> Vec<f64> {
+        self.variables().iter().map(|of| of.and_then(|of| of.in_row(row)).unwrap_or(f64::NAN)).collect()
+    }
+
+    fn conductances(&self, part: &Part<'_>) -> ConductanceColumn {
+        let (curves, needs) = match &self.source {
+            ConductionSource::Tables(columns) => return columns.evaluate(part, None),
+            ConductionSource::Calculix { curves, needs, .. } => (curves, needs),
+        };
+        ConductanceColumn::of_rows((0..part.rows()).map(|index| {
+            let row = part.row(index, index)?;
+            let variables = self.variables_in_row(row);
+            let lacks_variable =
+                || needs.variables.iter().any(|index| variables[*index].is_nan() && self.lacks(row, *index));
+            if row.state == ContactState::Closed && (needs.abscissa && row.pressure.is_none() || lacks_variable()) {
+                return None;
+            }
+            let found = curves.conductance(&point(row, &variables));
+            Some((found.value, found.sides))
+        }))
+    }
+
+    /// Whether a row has no number for a variable.
+    fn lacks(&self, row: Row<'_, '_>, variable: usize) -> bool {
+        self.variables()[variable].and_then(|of| of.in_row(row)).is_none()
+    }
+
+    fn set_slopes(&self, row: Row<'_, '_>, results: &mut ResultBatch) {
+        if self.slopes.is_empty() {
+            return;
+        }
+        let variables = self.variables_in_row(row);
+        let mut slopes = vec![0.0; variables.len()];
+        let point = point(row, &variables);
+        let along_contact = match &self.source {
+            ConductionSource::Tables(columns) => columns.tables.slopes(&point, &mut slopes),
+            ConductionSource::Calculix { curves, .. } => curves.slopes(&point, &mut slopes),
+        };
+        for (slot, along) in &self.slopes {
+            let slope = match along {
+                Along::Clearance => Some(along_contact.clearance),
+                Along::Pressure => Some(along_contact.pressure),
+                Along::Temperature => slopes.first().copied(),
+                Along::MassFlow => slopes.get(MASS_FLOW).copied(),
+                Along::FieldVariable(number) => slopes.get(*number as usize + MASS_FLOW).copied(),
+                Along::PorePressure => None,
+            };
+            results.set(Some(*slot), row.to, slope);
+        }
+    }
+}
+
+/// A row as a conductance sees it.
+fn point<'v>(row: Row<'_, '_>, variables: &'v [f64]) -> ContactPoint<'v> {
+    ContactPoint {
+        clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
+        pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
+        state: row.state,
+        variables,
+    }
+}
+
+impl Radiation {
+    /// The view factor of every row; of those whose clearance is not known NaN ([`RadiationLaw::view_factor`]).
+    fn view_factors(&self, part: &Part<'_>) -> Vec<(f64, Sides)> {
+        let clearances = part.clearances();
+        let states = part.states.iter().zip(&*clearances);
+        let clearances: Vec<f64> = states
+            .map(|(state, clearance)| {
+                state.and_then(|state| state.table_clearance(Some(*clearance))).unwrap_or(f64::NAN)
+            })
+            .collect();
+        let mut values = vec![f64::NAN; clearances.len()];
+        let mut sides = vec![Sides::default(); clearances.len()];
+        self.view_factor.values_and_sides(&[&clearances], &mut values, &mut sides);
+        let found = values.into_iter().zip(sides).zip(&clearances);
+        // A table of one value does not depend on the clearance, but on whether it can be told.
+        found.map(|(found, clearance)| if clearance.is_nan() { (f64::NAN, Sides::default()) } else { found }).collect()
+    }
+
+    /// The radiated heat, and whether the clearance lies beyond the view factors; `None` for an open row without a clearance.
+    fn in_row(
+        &self,
+        row: Row<'_, '_>,
+        found: &ThermalFound,
+        temperatures: Temperatures,
+        tally: &mut InteractionTally,
+    ) -> Option<(Amount, Sides)> {
+        row.state.table_clearance(row.clearance)?;
+        let (view_factor, sides) = found.view_factors[row.index];
+        if !sides.is_within() {
+            tally.count_sides(VIEW_FACTOR, sides);
+        }
+        let zero = self.law.absolute_zero;
+        tally.below_absolute_zero += u64::from(temperatures.slave < zero || temperatures.master < zero);
+        Some((self.law.heat_amount(view_factor, temperatures), sides))
+    }
+}
+
+impl Friction {
+    fn bind(binder: Binder<'_>, plan: FrictionPlan, generation: HeatGeneration) -> Option<Self> {
+        let slip_rate = match plan.slip_rate {
+            SlipRateSource::Column => Speed::Place(binder.place(Column::SlipRate)?),
+            SlipRateSource::Given(speed) => Speed::Given(SlipRate(speed)),
+        };
+        Some(Self { shear: binder.place(plan.shear)?, slip_rate, generation, dialect: plan.dialect })
+    }
+
+    /// The heat of friction; an open row has none, whatever it says of it.
+    fn in_row(self, row: Row<'_, '_>, tally: &mut InteractionTally) -> Option<HeatAmounts> {
+        if row.state == ContactState::Open {
+            return Some(HeatAmounts::ZERO);
+        }
+        let slip_rate = match self.slip_rate {
+            Speed::Place(place) => row.number(place).map(SlipRate),
+            Speed::Given(speed) => Some(speed),
+        };
+        let (shear, slip_rate) = row.number(self.shear).map(ShearStress).zip(slip_rate)?;
+        let (shear, slip_rate) = match self.dialect {
+            Dialect::Abaqus => (shear, slip_rate),
+            Dialect::Calculix => (ShearStress(shear.0.abs()), SlipRate(slip_rate.0.abs())),
+        };
+        let heat = frictional_heat_amounts(shear, slip_rate, self.generation);
+        tally.negative_friction += u64::from(heat.total.value() < 0.0);
+        Some(heat)
+    }
+}

@@ -1,0 +1,40 @@
+//! Work that is spread over the threads of rayon's current pool, where feature `threads` is on; otherwise it is done one after the other.
+//!
+//! What comes of it is the same in either case.
+
+#[cfg(feature = "threads")]
+use rayon::prelude::*;
+
+/// How many threads share the work.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "threads")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "threads"))]
+    1
+}
+
+/// Does `work` on each of some things.
+pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync + Send) {
+    let items: Vec<T> = items.into_iter().collect();
+    #[cfg(feature = "threads")]
+    items.into_par_iter().for_each(work);
+    #[cfg(not(feature = "threads"))]
+    items.into_iter().for_each(work);
+}
+
+/// What `work` makes of each of some things, in their order.
+pub(crate) fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
+    let items: Vec<T> = items.into_iter().collect();
+    #[cfg(feature = "threads")]
+    return items.into_par_iter().map(work).collect();
+    #[cfg(not(feature = "threads"))]
+    items.into_iter().map(work).collect()
+}
+
+/// Does both.
+pub(crate) fn join<A: Send, B: Send>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B + Send) -> (A, B) {
+    #[cfg(feature = "threads")]
+    return rayon::join(one, other);
+    #[cfg(not(feature = "threads"))]
+    (one(), other())
+}
