@@ -1,9 +1,9 @@
 //! The laws that have curves, and their values at a point: what an evaluation of a node row would find there.
 
 use super::{Reach, Side};
-use inpact_evaluation::compile::{ElectricalSource, InterfaceLaws};
 use inpact_evaluation::law::conductance::{Conductance, ConductanceTables, ContactPoint};
 use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PorePressure};
+use inpact_evaluation::law::interface::{ElectricalSource, InterfaceLaws};
 use inpact_evaluation::law::pore::{Gap, Permeability, PoreLaw, PorePoint};
 use inpact_evaluation::law::radiation::RadiationLaw;
 use inpact_evaluation::law::thermal::ThermalConductance;
