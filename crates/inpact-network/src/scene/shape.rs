@@ -278,7 +278,7 @@ impl<'t> Walk<'_, 't> {
         }
         let is_cut = self.is_cut(span);
         // What is left of a scene can be read, what is left of an entry says something else.
-        is_whole &= !is_cut || std::ptr::eq(shape, &SCENE);
+        is_whole &= !is_cut || std::ptr::eq(shape, &raw const SCENE);
         let missing = shape.keys.iter().filter(|key| key.need == Need::Needed && !seen.contains(&key.name));
         for key in missing {
             is_whole = false;
@@ -313,7 +313,6 @@ impl<'t> Walk<'_, 't> {
         match (kind, value.get_ref()) {
             (Kind::Number, _) => self.number(&value).then_some(value),
             (Kind::Text, DeValue::String(_)) | (Kind::Flag, DeValue::Boolean(_)) => Some(value),
-            (Kind::Text | Kind::Flag, _) => self.other_kind(&value, &kind.expected()),
             (Kind::Word(words), DeValue::String(word)) if words.contains(&word.as_ref()) => Some(value),
             (Kind::Word(words), DeValue::String(word)) => {
                 let message = format!("`{word}` is none of {}", listed(words));
@@ -321,12 +320,10 @@ impl<'t> Walk<'_, 't> {
                 self.report(span.start, message, help);
                 None
             }
-            (Kind::Word(_), _) => self.other_kind(&value, &kind.expected()),
             (Kind::Numbers, DeValue::Array(numbers)) => {
                 let is_right = numbers.iter().map(|number| self.number(number)).fold(true, |all, one| all & one);
                 is_right.then_some(value)
             }
-            (Kind::Numbers, _) => self.other_kind(&value, &kind.expected()),
             (Kind::Course, DeValue::Array(points)) => {
                 let is_point = |point: &Spanned<DeValue<'_>>| match point.get_ref() {
                     DeValue::Array(pair) => pair.len() == 2 && pair.iter().all(is_number),
@@ -340,7 +337,6 @@ impl<'t> Walk<'_, 't> {
                 is_right.then_some(value)
             }
             (Kind::Course, _) if is_number(&value) => self.number(&value).then_some(value),
-            (Kind::Course, _) => self.other_kind(&value, &kind.expected()),
             (Kind::TwoNames, DeValue::Array(names)) => {
                 let other = names.iter().find(|name| name.get_ref().as_str().is_none());
                 match other.filter(|_| names.len() == 2) {
@@ -352,14 +348,12 @@ impl<'t> Walk<'_, 't> {
                     None => self.other_kind(&value, file::TWO_NAMES),
                 }
             }
-            (Kind::TwoNames, _) => self.other_kind(&value, &kind.expected()),
             (Kind::Table(shape), DeValue::Table(_)) => {
                 let DeValue::Table(table) = value.into_inner() else { return None };
                 let before = self.problems.len();
                 let table = self.table(table, &span, shape)?;
                 (self.problems.len() == before).then(|| Spanned::new(span, DeValue::Table(table)))
             }
-            (Kind::Table(_), _) => self.other_kind(&value, &kind.expected()),
             (Kind::Entries(shape), DeValue::Array(_)) => {
                 let DeValue::Array(entries) = value.into_inner() else { return None };
                 let right: DeArray<'t> = entries.into_iter().filter_map(|entry| self.entry(entry, shape)).collect();
@@ -369,6 +363,7 @@ impl<'t> Walk<'_, 't> {
                 self.lacks_nodes |= shape.defines_nodes;
                 self.other_kind(&value, &kind.expected())
             }
+            _ => self.other_kind(&value, &kind.expected()),
         }
     }
 

@@ -31,7 +31,7 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
         return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
     }
     let mut model = Model { parameters: parameters(&document.parameters)?, ..Model::default() };
-    let dialect = dialect_of(document.interactions.iter().map(|(key, _)| key.as_str()));
+    let dialect = dialect_of(&document.interactions.iter().map(|(key, _)| key.as_str()));
     for (key, interaction) in document.interactions {
         let path = format!("interactions.{key}");
         if Name::new(&key) != Name::new(&interaction.name) {
@@ -54,7 +54,7 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
 }
 
 /// The dialect whose names these are: JSON does not say which, and only CalculiX tells `"SI"` and `SI` apart (CX-02).
-fn dialect_of<'key>(keys: impl Iterator<Item = &'key str> + Clone) -> Dialect {
+fn dialect_of<'key>(keys: &(impl Iterator<Item = &'key str> + Clone)) -> Dialect {
     let is_told_apart = |dialect| {
         let mut names = HashSet::new();
         keys.clone().all(|key| names.insert(Name::in_dialect(key, dialect)))
