@@ -18,6 +18,6 @@ pub use contract::{OUTPUT_PAGES, OutputPage};
 pub use format::TableFormat;
 pub use output::{Along, Output};
 #[cfg(feature = "columnar")]
-pub use records::ResultRecords;
+pub use records::{ResultRecords, node_record_batch};
 pub(crate) use writer::number_text;
 pub use writer::{ResultWriter, push_number, rounded_up};

@@ -15,8 +15,8 @@ pub(crate) mod tradeoff;
 
 pub(crate) mod evaluable;
 pub(crate) mod findings;
-mod job_results;
+pub(crate) mod job_results;
 mod laws;
-mod meshed;
+pub(crate) mod meshed;
 pub(crate) mod solvable;
 mod table_output;

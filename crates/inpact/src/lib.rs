@@ -41,6 +41,8 @@ mod fixing;
 mod input;
 mod json_deck;
 mod laws;
+#[cfg(feature = "columnar")]
+mod node_table;
 mod page;
 mod progress;
 mod reach;
@@ -61,11 +63,14 @@ pub use fixes::{Fixed, FixedFile, Fixes};
 pub use inpact_diagnostics::{Diagnostic, Edit, Extent, Fix, FixKind, FixSafety, Label, Rule, Severity, span};
 pub use inpact_evaluation::accuracy::{Accuracy, Tolerance};
 pub use inpact_evaluation::history::HistoryStart;
+pub use inpact_evaluation::law::user;
 pub use inpact_network::linear::Method;
 pub use inpact_network::scene::Field;
 pub use inpact_parser::grammar::{Dialect, Release};
-pub use inpact_parser::model::{Model, Regime};
+pub use inpact_parser::model::{Model, Name, Regime};
 pub use laws::{Against, ContactColumns, GapConductance};
+#[cfg(feature = "columnar")]
+pub use node_table::NodeTable;
 pub use render::Format;
 pub use scene::{Scene, Solution, SolveOptions, SolvedState};
 pub use settings::{ReadOptions, RelativeTo};

@@ -364,6 +364,11 @@ impl Settings {
         if self.overlay.is_empty() { None } else { self.overlay.get(&files::whole_path(path)) }
     }
 
+    /// Whether the content of any file is known without reading it.
+    pub(crate) fn has_known_content(&self) -> bool {
+        !self.overlay.is_empty()
+    }
+
     /// Changes severities as configured, and leaves out what is switched off or ignored for this file.
     pub(crate) fn apply(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         if self.levels.is_empty() && self.ignores.is_empty() {

@@ -163,7 +163,7 @@ pub(super) fn status_array(statuses: &[Option<super::Status>]) -> ArrayRef {
     Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
 }
 
-fn number_array(column: &NumberColumn) -> ArrayRef {
+pub(super) fn number_array(column: &NumberColumn) -> ArrayRef {
     let nulls = column.presence().map(NullBuffer::from).filter(|nulls| nulls.null_count() > 0);
     Arc::new(Float64Array::new(ScalarBuffer::from(column.values().to_vec()), nulls))
 }

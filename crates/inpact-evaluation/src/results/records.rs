@@ -1,7 +1,7 @@
 //! Results in memory as Arrow record batches.
 
 use super::batch::ResultBatch;
-use super::columnar::{key_array, of_arrow, status_array};
+use super::columnar::{key_array, number_array, of_arrow, status_array};
 use super::output::Output;
 use crate::nodes::{Batch, Column};
 use arrow::array::{ArrayRef, Float64Array, RecordBatch};
@@ -75,4 +75,19 @@ impl ResultRecords {
         self.schema = Some(Arc::clone(&schema));
         schema
     }
+}
+
+/// The rows of a batch of a node table: key columns, which are its labels, then columns of numbers.
+///
+/// # Errors
+/// A key that its column cannot hold.
+pub fn node_record_batch(keys: &[Column], numbers: &[Column], batch: &Batch) -> io::Result<RecordBatch> {
+    let mut arrays: Vec<ArrayRef> = Vec::with_capacity(keys.len() + numbers.len());
+    for (key, label) in keys.iter().zip(&batch.labels) {
+        arrays.push(key_array(*key, label, batch)?);
+    }
+    arrays.extend(batch.numbers.iter().map(number_array));
+    let names = keys.iter().chain(numbers).map(ToString::to_string);
+    let fields = names.zip(&arrays).map(|(name, array)| Field::new(name, array.data_type().clone(), true));
+    RecordBatch::try_new(Arc::new(Schema::new(fields.collect::<Vec<_>>())), arrays).map_err(of_arrow)
 }

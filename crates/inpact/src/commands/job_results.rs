@@ -36,19 +36,25 @@ impl JobResultArguments {
 
     /// Reads the files and joins them with the mesh, after saying what could not be used.
     pub(crate) fn states(&self, meshed: &MeshedDeck, format: FindingFormat) -> Result<States, Failure> {
-        if self.results.is_empty() || meshed.mesh.pairs.is_empty() {
-            return Ok(States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() });
-        }
-        let mut join = Join::new(&meshed.mesh, &meshed.model);
-        let failed = |error: JoinError| Failure::Data(error.to_string());
-        for path in &self.results {
-            join.add(&path.display().to_string(), &read(path)?).map_err(failed)?;
-        }
-        let joined = join.finish();
-        let Joined { states, files, notes } = joined.map_err(failed)?;
+        let (states, notes) = join(&self.results, meshed)?;
         say_notes(&notes, format);
-        Ok(States { states, files })
+        Ok(states)
     }
+}
+
+/// Reads result files and joins them with the mesh; gives what could not be used as well.
+pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, Vec<ResultNote>), Failure> {
+    if results.is_empty() || meshed.mesh.pairs.is_empty() {
+        return Ok((States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() }, Vec::new()));
+    }
+    let mut join = Join::new(&meshed.mesh, &meshed.model);
+    let failed = |error: JoinError| Failure::Data(error.to_string());
+    for path in results {
+        join.add(&path.display().to_string(), &read(path)?).map_err(failed)?;
+    }
+    let joined = join.finish();
+    let Joined { states, files, notes } = joined.map_err(failed)?;
+    Ok((States { states, files }, notes))
 }
 
 fn read(path: &Path) -> Result<Results, Failure> {

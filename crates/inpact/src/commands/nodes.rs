@@ -67,8 +67,16 @@ pub(crate) fn rows<'a>(
     states: &[State],
     format: FindingFormat,
 ) -> Result<NodeRows<'a>, Failure> {
+    meshed.say_notes(&meshed.mesh.notes, format)?;
+    let rows = rows_of_pairs(meshed, states)?;
+    meshed.say_notes(rows.notes(), format)?;
+    refuse_none(meshed, &rows)?;
+    Ok(rows)
+}
+
+/// The rows of a deck's pairs in these states; an error where it has no pair.
+pub(crate) fn rows_of_pairs<'a>(meshed: &'a MeshedDeck, states: &[State]) -> Result<NodeRows<'a>, Failure> {
     let MeshedDeck { name, model, mesh, .. } = meshed;
-    meshed.say_notes(&mesh.notes, format)?;
     if mesh.pairs.is_empty() {
         let has_none = model.contact_pairs.is_empty() && model.property_assignments.is_empty();
         return Err(Failure::Data(if has_none {
@@ -79,12 +87,15 @@ pub(crate) fn rows<'a>(
             format!("no contact pair of `{name}` has both of its surfaces in the mesh")
         }));
     }
-    let rows = NodeRows::new(mesh, model, states).map_err(|error| Failure::Data(error.to_string()))?;
-    meshed.say_notes(rows.notes(), format)?;
+    NodeRows::new(mesh, model, states).map_err(|error| Failure::Data(error.to_string()))
+}
+
+/// Refuses pairs without a node.
+pub(crate) fn refuse_none(MeshedDeck { name, .. }: &MeshedDeck, rows: &NodeRows<'_>) -> Result<(), Failure> {
     if rows.nodes() == 0 {
         return Err(Failure::Data(format!("no contact pair of `{name}` has a slave node with a place in the mesh")));
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// Which end of making a table failed.
