@@ -294,7 +294,7 @@ fn cx_02_names_that_quotes_tell_apart_survive_json() {
     // Names that neither dialect tells apart stay refused.
     folder.write("m.json", &json.replace("\"\\\"PAD\\\"\"", "\"pad\""));
     let refused = folder.inpact(&["inp", "m.json"]);
-    assert!(refused.code == 1 && refused.errors.contains("stands there already"), "{}", refused.errors);
+    assert!(refused.code == 1 && refused.errors.contains("duplicate interaction"), "{}", refused.errors);
 }
 
 /// K-06, CX-11: of two interactions of one name the first counts.

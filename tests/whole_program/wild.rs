@@ -114,10 +114,10 @@ fn invisible_characters_are_named_and_mended() {
     let (code, found) = check(INVISIBLE);
     assert_eq!(code, 1);
     for (code, said) in [
-        ("K001", "a no-break space (U+00A0) stands in `*SURFACE INTERACTION`"),
-        ("K004", "a no-break space (U+00A0) stands in the parameter `NAME`"),
-        ("S006", "a minus sign that is not `-` (U+2212) stands in the number `1.e-3`"),
-        ("S021", "a byte order mark (U+FEFF) stands in front of `*SURFACE INTERACTION`"),
+        ("K001", "a no-break space (U+00A0) in `*SURFACE INTERACTION`"),
+        ("K004", "a no-break space (U+00A0) in the parameter `NAME`"),
+        ("S006", "a minus sign that is not `-` (U+2212) in the number `1.e-3`"),
+        ("S021", "a byte order mark (U+FEFF) in front of `*SURFACE INTERACTION`"),
     ] {
         let line = format!("error[{code}] {said}");
         assert!(found.iter().any(|found| found.contains(&line)), "{line}: {found:#?}");
@@ -128,11 +128,11 @@ fn invisible_characters_are_named_and_mended() {
 }
 
 #[test]
-fn a_comment_behind_data_is_called_one() {
+fn a_comment_after_data_is_recognised() {
     let deck = "*SURFACE INTERACTION, NAME=G\n*GAP CONDUCTANCE\n3000., 0.   ** closed\n0., 0.1 ! open\n";
     let folder = Folder::with(&[("d.inp", deck)]);
     let run = folder.inpact(&["check", "--isolated", "--format", "json", "d.inp"]);
-    assert_eq!(run.output.matches("a comment stands on a line of its own").count(), 2, "{}", run.output);
+    assert_eq!(run.output.matches("a comment has a line of its own").count(), 2, "{}", run.output);
 }
 
 #[test]

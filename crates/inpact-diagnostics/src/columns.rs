@@ -24,7 +24,7 @@ impl ColumnUnit {
         text.iter().map(|byte| self.units_at(*byte)).sum()
     }
 
-    /// The byte of a line that so many units stand before.
+    /// The byte of a line that has so many units before it.
     ///
     /// A number of units that ends inside a character means the start of that character, one that goes beyond the line the end of it.
     pub fn offset(self, line: &[u8], units: u64) -> usize {

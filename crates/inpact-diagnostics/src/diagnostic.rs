@@ -31,7 +31,7 @@ pub struct Diagnostic {
     pub fix: Option<Fix>,
 }
 
-/// A place in a file with a few words about it.
+/// A place in a file with a short text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
     /// The name of the file in messages; empty until line and column are known.
@@ -57,7 +57,7 @@ pub enum Extent {
     File,
 }
 
-/// A cell of a table as its header and the count of its rows tell it; what does not apply is `None`.
+/// A cell of a table by its header and the count of its rows; `None` for parts that do not apply.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Cell {
     /// The row, counted from 1 below the header.
@@ -93,7 +93,7 @@ impl Diagnostic {
         std::iter::once(&mut self.primary).chain(&mut self.secondary)
     }
 
-    /// Says a few words at the place itself.
+    /// Adds a short text at the place itself.
     pub fn label(&mut self, text: impl Into<String>) -> &mut Self {
         self.primary.text = text.into();
         self

@@ -13,7 +13,7 @@ pub struct Fix {
     pub edits: Vec<Edit>,
 }
 
-/// Whether a fix may be applied without being asked for by name.
+/// Classes of fixes: applied by default, or only by the code of their rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FixSafety {
     /// The deck means the same afterwards.

@@ -26,7 +26,7 @@ pub enum FixKind {
     None,
     /// A fix that changes no meaning: applied by `--fix`.
     Safe,
-    /// A fix that changes the meaning: applied only when asked for by code.
+    /// A fix that changes the meaning: applied only by its code.
     ChangesMeaning,
 }
 

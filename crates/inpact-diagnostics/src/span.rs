@@ -7,7 +7,7 @@
 pub struct SourceId(pub u32);
 
 impl SourceId {
-    /// The file that was asked for; every other source was included by it.
+    /// The deck itself; every other source was included by it.
     pub const ROOT: Self = Self(0);
 }
 

@@ -16,7 +16,7 @@ use crate::quadrature::rule;
 use crate::vector::norm;
 use crate::{Face, FaceId, GeometryError};
 
-/// How a face's area is shared among its nodes.
+/// Sharing of a face's area among its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shares {
     /// Equal shares: NODE TO SURFACE.
@@ -25,7 +25,7 @@ pub enum Shares {
     ShapeFunctions,
 }
 
-/// What makes an area of a face.
+/// The extent of a face across the mesh, by which its length becomes an area.
 #[derive(Clone, Copy, Debug)]
 pub enum Extent<'a> {
     /// Faces are areas in space.
@@ -53,7 +53,7 @@ pub enum Extent<'a> {
 ///
 /// # Errors
 ///
-/// Where the extent does not suit the faces, where there is not one thickness a face, and where a radius is negative.
+/// The extent does not suit the faces, there is not one thickness a face, or a radius is negative.
 pub fn node_areas(placed: &Placed<'_>, shares: Shares, extent: Extent<'_>) -> Result<Vec<f64>, GeometryError> {
     suits(placed, extent)?;
     let surface = placed.surface();

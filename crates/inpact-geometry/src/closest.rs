@@ -9,30 +9,30 @@ use crate::patch::Patch;
 use crate::vector::{add, dot, norm, scale, sub};
 use crate::{Point, Vector};
 
-/// How often a face is cut in four at most. Where a face is so wildly bent, or folded, that a 32nd of it has two minima, the better of those found is taken:
+/// The most subdivisions of a face. On a face so wildly bent, or folded, that a 32nd of it has two minima, the better of those found is taken:
 /// no proof is given then that it is the least.
 const CUTS: u32 = 5;
 
 /// Newton steps at most; it takes four to six where the face is nearly flat.
 const STEPS: u32 = 60;
 
-/// Rounds of trials at most, where derivatives tell nothing.
+/// The most rounds of trials where derivatives decide nothing.
 const MOST_TRIALS: u32 = 1000;
 
-/// How many places are tried further at most, where derivatives tell nothing.
+/// The most further starts where derivatives decide nothing.
 const MOST_ROUGH: usize = 32;
 
-/// How near to an edge (in ξ and η, which are of size 1) a place is on it: what clipping a step loses by rounding.
+/// The distance from an edge (in ξ and η, which are of size 1) within which a place is on it: the rounding of a clipped step.
 const ON_EDGE: f64 = 1e-14;
 
 /// The closest point of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// Where on the face, in its own coordinates.
+    /// The place on the face, in its own coordinates ξ and η.
     pub place: [f64; 2],
-    /// Where in space.
+    /// The point in space (L).
     pub point: Point,
-    /// How far from the given point (L).
+    /// The distance from the given point (L).
     pub distance: f64,
 }
 
@@ -48,7 +48,7 @@ impl Patch {
     ///
     /// # Panics
     ///
-    /// Where a coordinate of the point or of the face is no number, or its square is not finite.
+    /// A coordinate of the point or of the face is no number, or its square is not finite.
     pub fn closest(&self, point: Point) -> Closest {
         self.closest_within(point, f64::INFINITY).expect("a distance below infinity")
     }
@@ -78,7 +78,7 @@ impl Patch {
                 parts.extend(part.quarters().into_iter().map(|quarter| (quarter, cuts + 1)));
             }
         }
-        // Where derivatives have proved nothing, all that come near to the best are tried further, the nearest first.
+        // Where derivatives have decided nothing, all starts close to the best are tried further, the nearest first.
         rough.sort_by(|a, b| a.1.total_cmp(&b.1));
         for (place, distance) in rough.into_iter().take(MOST_ROUGH) {
             let Some((_, least)) = best.filter(|(_, least)| distance <= 1.01 * least) else { break };
@@ -158,7 +158,7 @@ impl Part {
     }
 }
 
-/// What is known of a part before it is searched.
+/// Bounds of a part, before it is searched.
 struct About {
     /// No point of it is nearer than this.
     below: f64,
@@ -174,7 +174,7 @@ struct Search<'a> {
     curvature: [f64; 3],
     /// By how much these differ over the whole face, a unit of ξ and η together.
     variation: f64,
-    /// What a difference of points can be wrong by.
+    /// The rounding error of a difference of points.
     rounding: f64,
 }
 
@@ -279,7 +279,7 @@ impl<'a> Search<'a> {
         self.patch.shape.clamp(place)
     }
 
-    /// Goes on from a place by trying places around it, nearer and nearer: where a face is folded to a point or a line, derivatives vanish there and tell
+    /// Goes on from a place by trying places around it, nearer and nearer: where a face is folded to a point or a line, derivatives vanish there and say
     /// nothing of the way down.
     fn by_trial(&self, place: [f64; 2], distance: f64) -> ([f64; 2], f64) {
         const AROUND: [[f64; 2]; 8] =
@@ -301,7 +301,7 @@ impl<'a> Search<'a> {
         (place, distance)
     }
 
-    /// Where to go from a place; `None` where it is a minimum.
+    /// The direction of descent from a place; `None` at a minimum.
     fn direction(
         &self,
         place: [f64; 2],

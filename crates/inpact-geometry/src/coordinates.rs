@@ -27,7 +27,7 @@ impl<'a> Placed<'a> {
     ///
     /// # Errors
     ///
-    /// Where a node has no point, or a coordinate whose square is no finite number.
+    /// A node has no point, or the square of a coordinate is not finite.
     pub fn new(surface: &'a Surface, points: &'a [Point]) -> Result<Self, GeometryError> {
         for node in surface.nodes() {
             let point = points.get(node.index()).ok_or(GeometryError::NoPoint { node: *node, points: points.len() })?;
@@ -36,7 +36,7 @@ impl<'a> Placed<'a> {
         Ok(Self { surface, points })
     }
 
-    /// Which faces and nodes it has.
+    /// The surface.
     pub fn surface(&self) -> &'a Surface {
         self.surface
     }

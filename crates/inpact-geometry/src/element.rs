@@ -10,7 +10,7 @@ use crate::FaceShape;
 use std::fmt;
 use std::str::FromStr;
 
-/// Which face of an element.
+/// A face of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FaceLabel {
     /// A face of a solid, or an edge of a plane element, by number from 1.
@@ -54,7 +54,7 @@ impl FromStr for FaceLabel {
 /// A face of an element: its label, its shape, and which of the element's nodes it has (from 0), in the order of the shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LocalFace {
-    /// What it is called.
+    /// Its label.
     pub label: FaceLabel,
     /// Its shape.
     pub shape: FaceShape,
@@ -100,7 +100,7 @@ pub enum ElementShape {
 }
 
 impl ElementShape {
-    /// How many nodes it has.
+    /// The number of nodes.
     pub fn nodes(self) -> usize {
         match self {
             Self::Line2 => 2,

@@ -2,7 +2,7 @@
 
 use crate::ElementShape;
 
-/// What space an element is in, and so what makes an area of its faces.
+/// The space of an element, which gives the extent of its faces across the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ElementSpace {
     /// In space.
@@ -61,7 +61,7 @@ struct Family {
     space: ElementSpace,
     /// By the number that follows.
     shapes: &'static [(&'static str, ElementShape)],
-    /// What may follow the number: reduced and hybrid integration, incompatible modes, temperature, electric potential, pore pressure, …
+    /// Letters that may follow the number: reduced and hybrid integration, incompatible modes, temperature, electric potential, pore pressure, …
     suffixes: &'static str,
 }
 

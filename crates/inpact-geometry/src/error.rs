@@ -1,17 +1,17 @@
-//! What makes a mesh one that has no geometry.
+//! Errors of meshes without geometry.
 
 use crate::NodeId;
 
-/// Why a geometry cannot be found; each names what is wrong with which values.
+/// Reasons why a geometry cannot be found, with the values concerned.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
     /// A face has another number of nodes than its shape.
     #[error("expected {expected} nodes of a face, found {found}")]
     NodesOfFace {
-        /// What the shape has.
+        /// The number of nodes of the shape.
         expected: usize,
-        /// What was given.
+        /// The number of nodes given.
         found: usize,
     },
     /// Segments and areas in one surface.
@@ -25,7 +25,7 @@ pub enum GeometryError {
     NoPoint {
         /// The node.
         node: NodeId,
-        /// How many points there are.
+        /// The number of points.
         points: usize,
     },
     /// A coordinate is no number, infinite, or so large that its square is infinite.
@@ -50,11 +50,11 @@ pub enum GeometryError {
     /// Another number of values than of faces or nodes.
     #[error("expected {expected} values of `{what}`, found {found}")]
     Values {
-        /// Which values.
+        /// The name of the values.
         what: &'static str,
-        /// How many are needed.
+        /// The number needed.
         expected: usize,
-        /// How many were given.
+        /// The number given.
         found: usize,
     },
 }

@@ -3,10 +3,10 @@
 //! Every shape function of every shape is a sum of the eight monomials 1, ξ, η, ξ², ξη, η², ξ²η, ξη² (Zienkiewicz and Taylor, The Finite Element Method,
 //! chapter on shape functions), so that one table a shape says everything, and a face is a polynomial with eight coefficients.
 
-/// How many nodes a face has at most.
+/// The most nodes of a face.
 pub const MAX_NODES: usize = 8;
 
-/// How many monomials there are.
+/// The number of monomials.
 pub(crate) const MONOMIALS: usize = 8;
 
 /// The shape of a face.
@@ -32,12 +32,12 @@ pub enum FaceShape {
 }
 
 impl FaceShape {
-    /// How many nodes it has.
+    /// The number of nodes.
     pub fn nodes(self) -> usize {
         self.functions().len()
     }
 
-    /// How many of its nodes are corners (ends, for a segment).
+    /// The number of its corners (ends, for a segment).
     pub fn corners(self) -> usize {
         match self {
             Self::Segment2 | Self::Segment3 => 2,
@@ -56,7 +56,7 @@ impl FaceShape {
         self.corners() < self.nodes()
     }
 
-    /// Where its corners are, in ξ and η.
+    /// The places of its corners, in ξ and η.
     pub fn corner_places(self) -> &'static [[f64; 2]] {
         match self.corners() {
             2 => &[[-1.0, 0.0], [1.0, 0.0]],

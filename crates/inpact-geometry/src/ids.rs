@@ -1,4 +1,4 @@
-//! Which node, which face: positions in the arrays of the caller, never labels of a deck.
+//! Nodes and faces by their positions in the arrays of the caller, never by labels of a deck.
 
 /// A node: its position in the caller's array of points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

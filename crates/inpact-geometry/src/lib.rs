@@ -3,7 +3,7 @@
 //! Numbers in, numbers out: nothing here knows a deck, a law or a file. Nodes and faces are positions in arrays ([`NodeId`], [`FaceId`]).
 //! Lengths have the unit of the coordinates (L), areas its square (L²); weights, normals and places on faces have none.
 //!
-//! What is symbolic is apart from what is numeric:
+//! Topology is apart from numbers:
 //!
 //! | | symbolic: which | numeric: where |
 //! |---|---|---|

@@ -31,7 +31,7 @@ pub fn node_normal(placed: &Placed<'_>, node: NodeId) -> Option<Vector> {
     unit(sum)
 }
 
-/// Where a shape's node is, in its own coordinates.
+/// The place of a shape's node, in its own coordinates.
 pub(crate) fn place_of(shape: FaceShape, local: usize) -> [f64; 2] {
     let corners = shape.corner_places();
     if let Some(place) = corners.get(local) {

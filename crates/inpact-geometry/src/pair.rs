@@ -8,22 +8,22 @@ use crate::search::Master;
 use crate::sheet::node_shifts;
 use crate::{GeometryError, NodeId, Point, Vector};
 
-/// How the geometry of a pair is to be found.
+/// Options of the geometry of a pair.
 #[derive(Clone, Copy, Debug)]
 pub struct PairOptions<'a> {
-    /// How the area of a slave face is shared among its nodes.
+    /// Sharing of a slave face's area among its nodes.
     pub shares: Shares,
-    /// What makes an area of a slave face.
+    /// The extent of a slave face across the mesh.
     pub extent: Extent<'a>,
-    /// How far each slave face lies from its nodes along its normal (L), by face; empty where all are solids.
+    /// The distance of each slave face from its nodes along its normal (L), by face; empty where all are solids.
     pub slave_shifts: &'a [f64],
     /// The same of the master.
     pub master_shifts: &'a [f64],
-    /// How far, as a share of an edge, a node may lie beyond the master's outer edge.
+    /// The most that a node may lie beyond the master's outer edge, as a share of an edge.
     pub extension: f64,
 }
 
-/// What a contact pair gives one slave node.
+/// Contact geometry of one slave node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactNode {
     /// The node.
@@ -32,7 +32,7 @@ pub struct ContactNode {
     pub area: f64,
     /// The averaged unit normal of the slave there; `None` where there is none.
     pub normal: Option<Vector>,
-    /// What is across; `None` where the master has no face. Thickness of sheets is taken off the clearance (not off the distance).
+    /// The projection onto the master; `None` where the master has no face. Thickness of sheets is taken off the clearance (not off the distance).
     pub across: Option<Projection>,
 }
 

@@ -27,7 +27,7 @@ impl Patch {
     ///
     /// # Panics
     ///
-    /// Where there are fewer or more nodes than the shape has.
+    /// The number of nodes is not that of the shape.
     pub fn new(shape: FaceShape, nodes: &[Point]) -> Self {
         assert_eq!(nodes.len(), shape.nodes(), "nodes of a face");
         let corners = &nodes[..shape.corners()];

@@ -1,4 +1,4 @@
-//! What a point has across from it on the master surface: clearance, face, weights.
+//! Projection of a point onto the master surface: clearance, face, weights.
 //!
 //! The closest point of the master's faces decides.
 //! Inside a face, and at an edge or corner where faces meet, the point lies on the master's normal (at an edge or corner: on one of the directions between the
@@ -12,21 +12,21 @@ use crate::vector::{add, dot, norm, scale, sub, unit};
 use crate::{FaceId, FaceShape, NodeId, Point, Vector};
 use rayon::prelude::*;
 
-/// How near to an edge, in ξ and η, a closest point is on it.
+/// The distance from an edge, in ξ and η, within which a closest point is on it.
 const ON_EDGE: f64 = 1e-12;
 
-/// How far, as a share of the longest edge of the nearest face, a point may lie beyond the outer edge of the master and yet be across from it: what Abaqus
-/// extends the edges of a master surface by, if *CONTACT PAIR, EXTENSION ZONE says nothing.
+/// The most that a point may lie beyond the outer edge of the master and yet project onto it, as a share of the longest edge of the nearest face: the length by which Abaqus
+/// extends the edges of a master surface, unless *CONTACT PAIR, EXTENSION ZONE gives another.
 pub const DEFAULT_EXTENSION: f64 = 0.1;
 
-/// What a point has across from it.
+/// Projection of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projection {
     /// The face of the master that is closest.
     pub face: FaceId,
-    /// Where on the face, in its own coordinates.
+    /// The place on the face, in its own coordinates ξ and η.
     pub place: [f64; 2],
-    /// Where in space.
+    /// The point in space (L).
     pub point: Point,
     /// The distance to it (L), never negative.
     pub distance: f64,
@@ -34,9 +34,9 @@ pub struct Projection {
     pub clearance: f64,
     /// The master's unit normal there; zero where its faces have none.
     pub normal: Vector,
-    /// How far the point lies beside the master (L): 0 but beyond its outer edge.
+    /// The distance of the point beside the master (L): 0 but beyond its outer edge.
     pub overhang: f64,
-    /// Whether the point is across from the master: the overhang is no more than the extension times the longest edge of the face.
+    /// The point projects onto the master: the overhang is no more than the extension times the longest edge of the face.
     pub projects: bool,
 }
 
@@ -48,7 +48,7 @@ impl Projection {
 }
 
 impl Master<'_> {
-    /// What a point has across from it; `None` where the master has no face or a coordinate of the point is not finite. `extension` is a share of an edge, [`DEFAULT_EXTENSION`] where nothing is said.
+    /// The projection of a point; `None` where the master has no face or a coordinate of the point is not finite. `extension` is a share of an edge, [`DEFAULT_EXTENSION`] unless given.
     ///
     /// ```
     /// use inpact_geometry::{DEFAULT_EXTENSION, Face, FaceShape, Master, NodeId, Placed, Surface};
@@ -125,7 +125,7 @@ impl Master<'_> {
     }
 }
 
-/// What part of a face a place is on.
+/// The part of a face that a place is on: inside, edge or corner.
 enum Spot {
     Inside,
     Edge(usize),
@@ -134,7 +134,7 @@ enum Spot {
 
 impl Spot {
     fn of(shape: FaceShape, [x, y]: [f64; 2]) -> Self {
-        // How far each edge is, in the order of edges.
+        // The distance of each edge, in the order of edges.
         let edges: &[f64] = match shape.corners() {
             2 => &[1.0 + x, 1.0 - x],
             3 => &[y, 1.0 - x - y, x],

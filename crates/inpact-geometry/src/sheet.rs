@@ -2,7 +2,7 @@
 
 use crate::{FaceLabel, GeometryError, Surface};
 
-/// How far (L) the side of a shell lies from its nodes, along the normal of that side.
+/// The distance (L) of the side of a shell from its nodes, along the normal of that side.
 ///
 /// The nodes lie on the surface of reference, `offset` times the thickness from the middle, positive towards the shell's normal (*SHELL SECTION, OFFSET; SPOS is
 /// 0.5, SNEG is −0.5). A clearance between two sides is the clearance between their surfaces of reference less the shift of each.
@@ -26,7 +26,7 @@ pub fn sheet_shift(side: FaceLabel, thickness: f64, offset: f64) -> f64 {
 ///
 /// # Errors
 ///
-/// Where there is not one shift a face.
+/// There is not one shift a face.
 pub fn node_shifts(surface: &Surface, of_faces: &[f64]) -> Result<Vec<f64>, GeometryError> {
     if of_faces.len() != surface.len() {
         return Err(GeometryError::Values { what: "shift", expected: surface.len(), found: of_faces.len() });

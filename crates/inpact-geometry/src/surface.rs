@@ -1,4 +1,4 @@
-//! Which faces a surface has and which meet: nothing of coordinates.
+//! The faces of a surface and their neighbours: nothing of coordinates.
 
 use crate::{FaceId, FaceShape, GeometryError, NodeId};
 
@@ -27,12 +27,12 @@ pub struct Face<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Surface {
     shapes: Vec<FaceShape>,
-    /// Where each face's nodes begin in `connectivity`, and where the last one's end.
+    /// The first node of each face in `connectivity`, and the end of the last one's.
     starts: Vec<u32>,
     connectivity: Vec<NodeId>,
     /// All nodes, ascending.
     nodes: Vec<NodeId>,
-    /// Where each node's faces begin in `around`, and where the last one's end.
+    /// The first face of each node in `around`, and the end of the last one's.
     around_starts: Vec<u32>,
     around: Vec<FaceId>,
 }
@@ -42,7 +42,7 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// Where a face has not its shape's number of nodes, where lines and areas are mixed, and where there are more than 2³² faces or nodes of faces.
+    /// A face has not its shape's number of nodes, lines and areas are mixed, or there are more than 2³² faces or nodes of faces.
     pub fn new<'a>(faces: impl IntoIterator<Item = Face<'a>>) -> Result<Self, GeometryError> {
         let mut surface = Self { starts: vec![0], ..Self::default() };
         for Face { shape, nodes } in faces {
@@ -79,7 +79,7 @@ impl Surface {
         self.around_starts.push(position(self.around.len()));
     }
 
-    /// How many faces there are.
+    /// The number of faces.
     pub fn len(&self) -> usize {
         self.shapes.len()
     }
@@ -103,7 +103,7 @@ impl Surface {
     ///
     /// # Panics
     ///
-    /// Where it has no such face.
+    /// It has no such face.
     pub fn face(&self, face: FaceId) -> Face<'_> {
         let i = face.index();
         Face { shape: self.shapes[i], nodes: &self.connectivity[self.starts[i] as usize..self.starts[i + 1] as usize] }
@@ -114,7 +114,7 @@ impl Surface {
         &self.nodes
     }
 
-    /// Where a node stands among [`Surface::nodes`].
+    /// The index of a node in [`Surface::nodes`].
     pub fn position_of(&self, node: NodeId) -> Option<usize> {
         self.nodes.binary_search(&node).ok()
     }

@@ -107,7 +107,7 @@ fn a_sphere_is_approached_with_the_order_of_its_faces() {
     }
 }
 
-/// What the rule leaves out on a warped face: halving it in both directions changes nothing that matters.
+/// The error of the rule on a warped face: halving it in both directions changes nothing that matters.
 #[test]
 fn the_rule_is_far_finer_than_a_warped_face() {
     for (shape, warp, tolerance) in [

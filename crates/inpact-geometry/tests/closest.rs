@@ -137,7 +137,7 @@ fn weights_are_one_at_their_own_node_and_none_at_the_others() {
     }
 }
 
-/// Where the hyperbolic paraboloid z = xy is closest to (0, 0, z) for |z| ≤ 1 is its middle; above, there are two closest points off it.
+/// The closest point of the hyperbolic paraboloid z = xy to (0, 0, z) is its middle for |z| ≤ 1; above, there are two closest points off it.
 #[test]
 fn a_saddle_has_one_closest_point_below_its_radius_of_curvature_and_two_above() {
     let nodes = [[-1.0, -1.0, 1.0], [1.0, -1.0, -1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, -1.0]];

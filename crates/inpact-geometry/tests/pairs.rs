@@ -82,7 +82,7 @@ fn a_sphere_on_a_plane() {
     }
 }
 
-/// From above a ridge the clearance is the distance to it; the side is told by both faces, not by the one that was found first.
+/// From above a ridge the clearance is the distance to it; the side follows from both faces, not by the one that was found first.
 #[test]
 fn the_ridge_and_the_corner_of_a_block() {
     // The three outer faces of a unit cube's corner at the origin, normals pointing away from the cube in x, y, z < 0.
@@ -241,7 +241,7 @@ proptest! {
             let found = tree.project(slave.points[node.index()], DEFAULT_EXTENSION).expect("a face");
             let again = tree_2.project(slave_2.points[node.index()], DEFAULT_EXTENSION).expect("a face");
             close(found.distance, again.distance, 1e-13);
-            // Where a point is equally far from two places, either may be found; its side is then not certain.
+            // At equal distance from two places either may be found; its side is then not certain.
             if norm(sub(moved(found.point, axis, angle, shift), again.point)) <= 1e-6 {
                 close(found.clearance, again.clearance, 1e-12);
             }

@@ -3,7 +3,7 @@
 use crate::results::{Column, Field, Name, NotRead, Region, Rows};
 use std::collections::HashMap;
 
-/// What a row is of.
+/// Subjects of rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Row {
     Node(i64),
@@ -49,7 +49,7 @@ pub(crate) fn push(field: &mut Field, row: Row, values: &[f64]) {
     }
 }
 
-/// What was passed over, counted by name.
+/// Parts passed over, counted by name.
 #[derive(Debug, Default)]
 pub(crate) struct PassedOver {
     found: Vec<NotRead>,

@@ -13,14 +13,14 @@ use crate::problem::{Problem, Read, ended, shown};
 use crate::recognise::Format;
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 
-const CUT: &str = "the file is cut short, or the job has not ended yet; what stands before is read";
-const DAMAGED: &str = "the file is damaged here, or is no .dat of CalculiX; what stands before is read";
+const CUT: &str = "the file is cut short, or the job has not ended yet; the part before is read";
+const DAMAGED: &str = "the file is damaged here, or is no .dat of CalculiX; the part before is read";
 
 /// Reads printed output of CalculiX: relative contact displacements (CDIS), contact stresses (CSTR), contact energy (CELS),
 /// statistics of contact pairs (CF) with their area, displacements, reaction forces, temperatures and heat of nodes.
 ///
 /// # Errors
-/// Where a row of a table that is read is none, or the last line has no end.
+/// A row of a table that is read is malformed, or the last line has no end.
 pub fn read_dat(bytes: &[u8]) -> Read {
     let mut reader = Reader {
         results: Results::new(Format::Dat),
@@ -40,7 +40,7 @@ pub(crate) fn is_header(text: &[u8]) -> bool {
     title(text).is_some()
 }
 
-/// What a table is of, and its time.
+/// The quantity of a table, and its time.
 fn title(text: &[u8]) -> Option<(&str, f64)> {
     if !text.starts_with(b" ") || !text.get(1)?.is_ascii_alphabetic() {
         return None;

@@ -1,7 +1,7 @@
 //! Results files of Abaqus in ASCII, `.fil` (`*FILE FORMAT, ASCII` with `*NODE FILE` and `*CONTACT FILE`).
 //!
 //! Source: Abaqus Output Reference, "Results file output format".
-//! Nodes are numbered anew by the solver where a model has parts and instances; record 1901 tells where they are.
+//! Nodes are numbered anew by the solver where a model has parts and instances; record 1901 gives their coordinates.
 
 mod quantities;
 mod words;
@@ -20,7 +20,7 @@ use words::{CUT, Record, Records, Word};
 /// Components of vectors are named by the active degrees of freedom (record 1902).
 ///
 /// # Errors
-/// Where the stream of words breaks off or is none; what stands before is given with it.
+/// The stream of words breaks off or is malformed; the part before is given with the error.
 /// An increment without its end, record 2001, is such a break, and so is a file without increments.
 pub fn read_fil(bytes: &[u8]) -> Read {
     let mut reader = Reader::new();
@@ -44,7 +44,7 @@ struct Reader {
     pair: usize,
     node: Option<i64>,
     freedoms: Vec<usize>,
-    /// Names that are longer than a word, by the number that stands for them.
+    /// Names longer than a word, by their numbers.
     labels: HashMap<i64, Name>,
     passed_over: PassedOver,
     /// The values of the record that is being read.
@@ -93,7 +93,7 @@ impl Reader {
         for surface in &mut self.results.surfaces {
             surface.name = resolved(&surface.name, &self.labels);
         }
-        // The labels of names may stand behind what uses them.
+        // The labels of names may occur after what uses them.
         for field in self.results.frames.iter_mut().flat_map(|frame| &mut frame.fields) {
             for name in [&mut field.region.slave, &mut field.region.master, &mut field.region.set].into_iter().flatten()
             {
@@ -242,7 +242,7 @@ fn trimmed(name: &str) -> Name {
     name.trim().into()
 }
 
-/// The name that a number stands for, or the name itself.
+/// The name of a number, or the name itself.
 fn resolved(name: &Name, labels: &HashMap<i64, Name>) -> Name {
     name.parse().ok().and_then(|number: i64| labels.get(&number)).unwrap_or(name).clone()
 }
@@ -263,7 +263,7 @@ fn real(record: &Record<'_>, at: usize) -> Result<f64, Problem> {
     attribute(record, at, "a number", Word::real)
 }
 
-/// A name; numbers stand for long names.
+/// A name; long names are given by numbers.
 fn text(record: &Record<'_>, at: usize) -> Result<Name, Problem> {
     let name = |word: Word| word.text().or_else(|| word.integer().map(|number| number.to_string()));
     attribute(record, at, "a name", name).map(|name| trimmed(&name))
@@ -272,5 +272,5 @@ fn text(record: &Record<'_>, at: usize) -> Result<Name, Problem> {
 fn misplaced(record: &Record<'_>, expected: &str) -> Problem {
     let place: Place = record.place;
     let message = format!("record {}: expected {expected}", record.key);
-    Problem::new(place, message, "the file is damaged here; what stands before is read")
+    Problem::new(place, message, "the file is damaged here; the part before is read")
 }

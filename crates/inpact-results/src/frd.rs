@@ -12,8 +12,8 @@ use crate::problem::{Place, Problem, Read, ended, shown};
 use crate::recognise::Format;
 use crate::results::{Field, Frame, Region, Results};
 
-const CUT: &str = "the file is cut short, or the job has not ended yet; what stands before is read";
-const DAMAGED: &str = "the file is damaged here, or is no .frd of CalculiX; what stands before is read";
+const CUT: &str = "the file is cut short, or the job has not ended yet; the part before is read";
+const DAMAGED: &str = "the file is damaged here, or is no .frd of CalculiX; the part before is read";
 const BINARY: &str = "use `*NODE FILE`, `*EL FILE` and `*CONTACT FILE` in place of `*NODE OUTPUT`, `*ELEMENT OUTPUT` and \
                       `*CONTACT OUTPUT`, which write binary numbers";
 
@@ -27,7 +27,7 @@ const VALUES: usize = 6;
 /// Coordinates of nodes and all blocks of values at nodes are read; elements are passed over.
 ///
 /// # Errors
-/// Where a line is none of the format, numbers are binary, or the file ends before its last line, `9999`.
+/// A line is malformed, numbers are binary, or the file ends before its last line, `9999`.
 pub fn read_frd(bytes: &[u8]) -> Read {
     let mut reader =
         Reader { results: Results::new(Format::Frd), step: None, frame: None, passed_over: PassedOver::default() };
@@ -47,7 +47,7 @@ struct Reader {
     passed_over: PassedOver,
 }
 
-/// How wide labels are, from the format flag of a block.
+/// Widths of labels, from the format flag of a block.
 #[derive(Clone, Copy)]
 enum Width {
     Short,
@@ -147,7 +147,7 @@ fn head_of_values(lines: &mut Lines<'_>) -> Result<Field, Problem> {
         if !line.text.starts_with(b" -5") {
             return Err(expected("the name of a component, ` -5`", &line));
         }
-        // What is to be computed, such as the size of a vector, has no values.
+        // Components that are to be computed, such as the size of a vector, have no values.
         if columns(line.text, 33, 38) != b"1" {
             names.push(String::from_utf8_lossy(columns(line.text, 5, 13)).into_owned());
         }
@@ -236,7 +236,7 @@ fn width(head: &Line<'_>, flag: &[u8]) -> Result<Width, Problem> {
     }
 }
 
-/// What stands in these columns, without blanks.
+/// The text in these columns, without blanks.
 fn columns(text: &[u8], from: usize, to: usize) -> &[u8] {
     text.get(from.min(text.len())..to.min(text.len())).unwrap_or_default().trim_ascii()
 }

@@ -3,7 +3,7 @@
 //! Nothing here knows a deck or a law, and no file is opened: bytes come in, values go out.
 //! Values are in the units of the file, which are those of its deck: lengths (L), times (T), temperatures (θ), potentials (φ).
 //!
-//! | file | of | how it is asked for | read by |
+//! | file | of | how it is requested | read by |
 //! |---|---|---|---|
 //! | `.fil` in ASCII | Abaqus | `*FILE FORMAT, ASCII`, `*CONTACT FILE`, `*NODE FILE` | [`read_fil`] |
 //! | `.rpt` | Abaqus/Viewer | Report, Field Output or XY | [`read_rpt`] |
@@ -12,7 +12,7 @@
 //! | `.vtu` | inpact, ParaView | | [`read_vtu`], [`vtu::read_grid`] |
 //!
 //! [`read`] finds out which of them bytes are.
-//! A file that is cut short or damaged is an [`Incomplete`]: the problem with its place and what to do, and what stands before it.
+//! A file that is cut short or damaged is an [`Incomplete`]: the problem with its place and what to do, and the part before it.
 //!
 //! ```
 //! let text = "\n relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time 0.5\n\n    \
@@ -52,7 +52,7 @@ pub use vtu::read_vtu;
 /// Reads a result file of any kind that is known, which is found out by what it holds.
 ///
 /// # Errors
-/// Where it is of no kind that is read, binary or in another encoding, or where it could not be read to its end.
+/// A file of unknown kind, binary or in another encoding, or one that cannot be read to its end.
 pub fn read(bytes: &[u8]) -> Read {
     match recognise(bytes).map_err(|problem| Box::new(Incomplete::nothing(problem)))? {
         Format::Fil => read_fil(bytes),

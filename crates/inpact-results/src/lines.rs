@@ -10,7 +10,7 @@ pub(crate) struct Line<'a> {
     pub(crate) end: LineEnd,
 }
 
-/// What a line ends with.
+/// Ends of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LineEnd {
     /// An end of line.
@@ -30,7 +30,7 @@ impl<'a> Line<'a> {
         self.text.trim_ascii().is_empty()
     }
 
-    /// What stands between blanks, with the column where it begins.
+    /// The cells between blanks, with their columns.
     pub(crate) fn cells(&self) -> impl Iterator<Item = (usize, &'a [u8])> + use<'a> {
         let (text, mut at) = (self.text, 0);
         std::iter::from_fn(move || {
@@ -56,7 +56,7 @@ impl<'a> Lines<'a> {
         Self { bytes, next: Place { byte: begin, line: 1 } }
     }
 
-    /// Where the next line begins.
+    /// The start of the next line.
     pub(crate) fn place(&self) -> Place {
         self.next
     }

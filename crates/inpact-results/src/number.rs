@@ -3,7 +3,7 @@
 /// The most characters of a number: Fortran's widest formats stay far below.
 const MOST: usize = 64;
 
-/// A real number: with an exponent behind E or D or, as Fortran prints exponents of three digits, behind its sign alone
+/// A real number: with an exponent after E or D or, as Fortran prints exponents of three digits, after its sign alone
 /// (`1.5-100`); `NaN` and `Infinity`, which a solver prints where it has none.
 pub(crate) fn real(text: &[u8]) -> Option<f64> {
     let mut copy = [0; MOST];

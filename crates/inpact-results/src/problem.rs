@@ -1,4 +1,4 @@
-//! What is wrong with a result file, where, and what to do.
+//! Problems of a result file: fault, place and remedy.
 
 use crate::Results;
 use std::fmt;
@@ -12,14 +12,14 @@ pub struct Place {
     pub line: u64,
 }
 
-/// Why reading ended before the end of a file.
+/// The reason why reading ended before the end of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// What is wrong, with the values in it.
+    /// The fault, with the values in it.
     pub message: String,
     /// Where.
     pub place: Place,
-    /// What to do.
+    /// The remedy.
     pub help: String,
 }
 
@@ -35,13 +35,13 @@ impl fmt::Display for Problem {
     }
 }
 
-/// A file that could not be read to its end: the problem, and what stands before it.
+/// A file that could not be read to its end: the problem, and the part before it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{problem}")]
 pub struct Incomplete {
-    /// Why reading ended.
+    /// The reason why reading ended.
     pub problem: Problem,
-    /// What could be read before; nothing where the file is of no kind that is read.
+    /// The part read before; `None` where the file is of no kind that is read.
     pub read: Option<Box<Results>>,
 }
 

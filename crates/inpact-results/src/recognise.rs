@@ -1,4 +1,4 @@
-//! Which kind of file bytes are, by what they hold, never by a name.
+//! The kind of a file by its bytes, never by a name.
 
 use crate::lines::Lines;
 use crate::problem::{Place, Problem};
@@ -31,13 +31,13 @@ impl fmt::Display for Format {
     }
 }
 
-/// How much of a file is looked at.
+/// The number of bytes examined.
 const HEAD: usize = 1 << 16;
 
 /// Of which kind a file is.
 ///
 /// # Errors
-/// Where it is of none that is read: what it is instead, if that can be seen, and how to get one that is.
+/// A file of no kind that is read: the kind it seems to be, and how to get one that is read.
 pub fn recognise(bytes: &[u8]) -> Result<Format, Problem> {
     let head = &bytes[..bytes.len().min(HEAD)];
     if let Some((message, help)) = foreign(head) {
@@ -74,7 +74,7 @@ fn contains(text: &[u8], part: &[u8]) -> bool {
     memchr::memmem::find(text, part).is_some()
 }
 
-/// What is surely of another kind, by its first bytes.
+/// A kind that is not read, recognised by its first bytes.
 fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
     const READ: &str =
         "what is read: .fil in ASCII and .rpt of Abaqus, .frd in ASCII and .dat of CalculiX, .vtu of ParaView";
@@ -109,7 +109,7 @@ fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
     None
 }
 
-/// What a text seems to be that is of no kind that is read.
+/// The likely kind of a text that is not read.
 fn other_text(begin: &[u8]) -> (&'static str, &'static str) {
     if begin.starts_with(b"*") {
         return (

@@ -1,4 +1,4 @@
-//! What every result file becomes: frames of fields, each a set of columns over the same rows.
+//! The common form of result files: frames of fields, each a set of columns over the same rows.
 //!
 //! Values are those of the file, in its units, in its order; nothing is interpolated, merged or sorted.
 //! Columns have the identifiers of Abaqus where the quantity has one, whichever program wrote it: `U1`, `NT11`, `COPEN`, `CPRESS`.
@@ -9,21 +9,21 @@ use std::sync::Arc;
 /// A name that frames and fields share.
 pub type Name = Arc<str>;
 
-/// What a result file holds.
+/// Content of a result file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
     /// Of which kind the file is.
     pub format: Format,
     /// The coordinates that nodes began with (L), where the file has them: field `COORD`, columns `COOR1` to `COOR3`.
     ///
-    /// They tell which node of a deck a label is, where labels are those that the solver gave: a `.fil` numbers the nodes
+    /// They identify the node of a deck of a label, where labels are those that the solver gave: a `.fil` numbers the nodes
     /// of all instances anew.
     pub coordinates: Option<Field>,
     /// Surfaces and their faces, where the file has them (`.fil`).
     pub surfaces: Vec<Surface>,
     /// The increments, in the order of the file.
     pub frames: Vec<Frame>,
-    /// What stands in the file and was passed over, by the file's own name for it, in the order it was met first.
+    /// The parts passed over, by the file's own name for them, in the order they were met first.
     pub not_read: Vec<NotRead>,
 }
 
@@ -46,14 +46,14 @@ pub struct Frame {
     pub total_time: Option<f64>,
     /// The time from the beginning of the step (T).
     pub step_time: Option<f64>,
-    /// What was written of this state.
+    /// The fields of this state.
     pub fields: Vec<Field>,
 }
 
 impl Frame {
     /// The first field that has a column of this name, and that column, without regard to case.
     ///
-    /// A frame has several where several pairs, sets or parts were asked for: see [`Frame::columns`].
+    /// A frame has several where several pairs, sets or parts were requested: see [`Frame::columns`].
     pub fn column(&self, name: &str) -> Option<(&Field, &Column)> {
         self.fields.iter().find_map(|field| field.column(name).map(|column| (field, column)))
     }
@@ -69,9 +69,9 @@ impl Frame {
 pub struct Field {
     /// The identifier of the quantity, such as `U`, `CDISP` or `CPRESS`.
     pub name: Name,
-    /// What part of the model it was written for.
+    /// The part of the model it was written for.
     pub region: Region,
-    /// What the rows are of.
+    /// The subjects of its rows.
     pub rows: Rows,
     /// The components; each has as many values as there are rows.
     pub columns: Vec<Column>,
@@ -93,7 +93,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// What part of the model a field was written for.
+/// The part of the model that a field was written for.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Region {
     /// The slave (secondary) surface of a contact pair.
@@ -104,7 +104,7 @@ pub struct Region {
     pub set: Option<Name>,
 }
 
-/// What the rows of a field are of, by the labels of the file.
+/// Subjects of the rows of a field, by the labels of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rows {
     /// Nodes.
@@ -123,7 +123,7 @@ pub enum Rows {
 }
 
 impl Rows {
-    /// How many there are.
+    /// The number of rows.
     pub fn len(&self) -> usize {
         match self {
             Self::Nodes(labels) | Self::Elements(labels) | Self::FacePoints { elements: labels, .. } => labels.len(),
@@ -159,7 +159,7 @@ pub struct Surface {
 pub struct SurfaceFace {
     /// The element it is a face of.
     pub element: i64,
-    /// Which face: 1 to 6 are S1 to S6, 7 is SPOS, 8 is SNEG.
+    /// The face: 1 to 6 are S1 to S6, 7 is SPOS, 8 is SNEG.
     pub face: i64,
     /// Its nodes.
     pub nodes: Vec<i64>,
@@ -170,6 +170,6 @@ pub struct SurfaceFace {
 pub struct NotRead {
     /// The file's own name for it.
     pub what: String,
-    /// How many there are.
+    /// The number of them.
     pub count: u64,
 }

@@ -3,7 +3,7 @@
 //! Source: Abaqus/CAE User's Guide, "Generating tabular data reports"; read from real files.
 //! A field report says the time within its step; a row of XY data has the time of its `X`, which the Viewer counts from the
 //! beginning of the analysis unless its user chose otherwise.
-//! Numbers stand in columns of equal width, in fixed, scientific or engineering form (`644.116E-06`, `125.E-03`, `0.`).
+//! Numbers are in columns of equal width, in fixed, scientific or engineering form (`644.116E-06`, `125.E-03`, `0.`).
 
 mod names;
 mod table;
@@ -25,7 +25,7 @@ use table::Table;
 /// `Contact pressure: CPRESS ASSEMBLY_S/ASSEMBLY_M PI: PART-1-1 Node 12`; others have one row, under their name.
 ///
 /// # Errors
-/// Where a row has other columns than its table, or where the file may be cut short: a table has no blank line behind its last
+/// A row has other columns than its table, or the file may be cut short: a table has no blank line after its last
 /// row, or the last line has no end.
 pub fn read_rpt(bytes: &[u8]) -> Read {
     let mut reader = Reader {
@@ -84,7 +84,7 @@ impl Reader {
         Ok(())
     }
 
-    /// What a line says of the tables behind it.
+    /// Takes the context of the next tables from a line.
     fn context(&mut self, line: &Line<'_>) {
         let text = String::from_utf8_lossy(line.text);
         let text = text.trim();
@@ -108,13 +108,13 @@ impl Reader {
     fn field(&mut self, lines: &mut Lines<'_>, head: &[Line<'_>]) -> Result<(), Problem> {
         let begins_with = |line: &Line<'_>, word: &[u8]| line.cells().next().is_some_and(|(_, cell)| cell == word);
         let Some(from) = head.iter().position(|line| begins_with(line, b"Node")) else {
-            // Under the number of a source stands a rule as well.
+            // Under the number of a source is a rule as well.
             if let Some(line) = head.first().filter(|line| !begins_with(line, b"Source")) {
                 self.passed_over.count(&format!("table `{}`", shown(line.text.trim_ascii())));
             }
             return Ok(());
         };
-        // Under the names of columns stands where they are from; names that are long go on in the next line.
+        // Under the names of columns is their source; names that are long go on in the next line.
         let head = &head[from..];
         let to = head.iter().position(|line| begins_with(line, b"Label")).unwrap_or(head.len());
         let mut table = Table::default();

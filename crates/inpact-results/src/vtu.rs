@@ -1,7 +1,7 @@
 //! Pictures for ParaView: unstructured grids of VTK in XML, `.vtu`, and their order in time, `.pvd`.
 //!
 //! Source: VTK User's Guide, "VTK XML formats".
-//! What is written has its numbers inline in base64, without compression: VTK, ParaView and meshio all read that.
+//! Numbers are written inline in base64, without compression: VTK, ParaView and meshio all read that.
 
 mod numbers;
 mod read;
@@ -29,7 +29,7 @@ pub struct Grid {
 /// A face by its points.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// What it is.
+    /// Its kind.
     pub kind: CellKind,
     /// Its points, as places in [`Grid::points`]: corners in order, then the nodes between them.
     pub points: Vec<usize>,
@@ -54,7 +54,7 @@ impl Cell {
     }
 }
 
-/// Whether faces are lines or areas.
+/// Space of the faces: lines or areas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// Plane and axisymmetric models: faces are lines.
@@ -123,7 +123,7 @@ impl CellKind {
 pub struct Array {
     /// Its name.
     pub name: String,
-    /// How many values a point or a cell has; 1 or more.
+    /// The number of values of a point or a cell; 1 or more.
     pub components: usize,
     /// The values, point by point.
     pub values: Values,
@@ -151,7 +151,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// How many.
+    /// The number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Reals(values) => values.len(),

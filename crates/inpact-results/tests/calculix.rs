@@ -50,7 +50,7 @@ fn an_unfinished_frd_gives_what_it_has() {
     let failure = read_frd(text.as_bytes()).expect_err("cut");
     assert!(failure.problem.message.contains("9999"), "{failure}");
     assert_eq!(failure.problem.place.byte, text.len() as u64);
-    assert_eq!(failure.read.expect("what stands before").frames.len(), 2);
+    assert_eq!(failure.read.expect("the part before").frames.len(), 2);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_row_that_is_none_has_its_place() {
     let text = dat().replacen("-1.044770E-04", "-1.04477oE-04", 1);
     let failure = read_dat(text.as_bytes()).expect_err("damaged");
     assert_eq!(failure.problem.place.byte, text.find("-1.04477oE-04").expect("there") as u64);
-    let read = failure.read.expect("what stands before");
+    let read = failure.read.expect("the part before");
     assert_eq!(values(&read.frames[0], "COPEN"), [-1.047_481e-4]);
 }
 

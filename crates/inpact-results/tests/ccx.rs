@@ -1,11 +1,11 @@
-//! What CalculiX itself writes of a deck of ours: its two files say the same, number by number.
+//! Both result files of CalculiX for a deck of ours agree, number by number.
 //!
 //! Without ccx the comparison does nothing and says so; where `INPACT_REQUIRE_CCX` is set, as in the gate, it fails instead.
 
 use inpact_results::{Format, Results, read};
 use std::process::Command;
 
-/// What `.frd` and `.dat` hold after a run of `tests/data/pair.inp`; `None` without ccx.
+/// Content of `.frd` and `.dat` after a run of `tests/data/pair.inp`; `None` without ccx.
 #[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that nothing was compared")]
 fn run() -> Option<[Vec<u8>; 2]> {
     let folder = tempfile::tempdir().expect("a folder");

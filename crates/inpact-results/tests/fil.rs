@@ -115,7 +115,7 @@ fn an_increment_without_an_end_is_a_problem_and_is_given() {
     fil.begin(1, 3, 1.0, 1.0).record(201, &[W::I(4), W::D(300.0)]);
     let failure = read_fil(&fil.bytes()).expect_err("cut");
     assert!(failure.problem.message.contains("increment 3 of step 1 has no end"), "{failure}");
-    let read = failure.read.expect("what stands before");
+    let read = failure.read.expect("the part before");
     assert_eq!(read.frames[0].column("NT11").expect("there").1.values, [300.0]);
 }
 
@@ -135,7 +135,7 @@ fn a_damaged_word_has_its_place() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
-    /// Every value comes back to the 16 digits that stand there, whatever its exponent.
+    /// Every value comes back to the 16 digits that are written, whatever its exponent.
     #[test]
     fn every_value_comes_back(
         rows in prop::collection::vec((1..999_999_999_i64, any::<f64>(), any::<f64>()), 1..20),

@@ -1,4 +1,4 @@
-//! Files that are cut, damaged or of another kind: a problem with its place, what stands before it unchanged, never a panic.
+//! Files that are cut, damaged or of another kind: a problem with its place, the part before it unchanged, never a panic.
 
 mod common;
 
@@ -89,7 +89,7 @@ fn a_cut_changes_no_value() {
             }
             assert!(found.as_ref().is_none_or(rectangular), "{} cut at {end}", expected.format);
             if let Some(found) = found.filter(|found| found.format == expected.format) {
-                // The time of a picture stands in an array, which may come behind the cut.
+                // The time of a picture is in an array, which may come after the cut.
                 let pictures = expected.format == inpact_results::Format::Vtu;
                 assert!(pictures || unchanged(&found, &expected), "{} cut at {end}", expected.format);
             }

@@ -9,7 +9,7 @@ use inpact_parser::grammar::nearest_names;
 use inpact_parser::model::Name;
 use std::collections::{HashMap, HashSet};
 
-/// What a dotted name may go through.
+/// Names that dotted names refer to.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
     /// The name of the assembly.
@@ -43,9 +43,9 @@ impl Assembly {
         assembly
     }
 
-    /// Whether something is defined under a dotted name: `INSTANCE.SURFACE`, or either with the assembly in front.
+    /// Whether a dotted name is defined: `INSTANCE.SURFACE`, or either with the assembly in front.
     ///
-    /// In a deck without instances nobody can tell what the parts of a name are: its last one decides.
+    /// In a deck without instances the parts of a name are unknown: its last one decides.
     pub(crate) fn has(&self, name: &Name, definitions: &Definitions) -> bool {
         let parts = components(name);
         let Some((last, [first, ..])) = parts.split_last() else { return false };
@@ -70,7 +70,7 @@ impl Assembly {
             .any(|place| self.surfaces.contains(&(place.clone(), surface.clone())))
     }
 
-    /// What is wrong with a dotted name: its instance, or the surface in it.
+    /// The fault of a dotted name: its instance, or the surface in it.
     pub(crate) fn help(&self, name: &Name, definitions: &Definitions) -> Option<String> {
         let parts = components(name);
         let [.., instance, surface] = parts.as_slice() else { return None };
@@ -89,7 +89,7 @@ impl Assembly {
     }
 }
 
-/// Whether the deck has a mesh, and all of what it has.
+/// Whether the deck has a mesh, and the whole of it.
 pub(crate) fn defines_its_mesh(context: &Context<'_>) -> bool {
     has_mesh(context) && is_whole(context)
 }
@@ -99,7 +99,7 @@ pub(crate) fn has_mesh(context: &Context<'_>) -> bool {
     keywords(context).any(|(name, _)| matches!(name, "NODE" | "ELEMENT"))
 }
 
-/// Whether nothing of the deck comes from elsewhere: an imported part, an instance of a library, a restart.
+/// Whether the whole deck is in its files: no imported part, instance of a library or restart.
 pub(crate) fn is_whole(context: &Context<'_>) -> bool {
     keywords(context).all(|(name, line)| {
         let is_given = |name: &[u8]| {

@@ -19,13 +19,13 @@ pub(crate) struct Ignore {
 pub(crate) struct IgnoredCode {
     /// The code as it is written.
     pub(crate) code: String,
-    /// Where it stands.
+    /// Its place.
     pub(crate) span: Span,
     /// Whether it silenced anything.
     pub(crate) is_used: bool,
 }
 
-/// What a directive says.
+/// Directives.
 #[derive(Debug)]
 pub(crate) enum Directive {
     /// `ignore CODE, …`.
@@ -86,7 +86,7 @@ impl IgnoredCode {
 }
 
 impl Ignore {
-    /// Whether the comment silences a finding; remembers that it did.
+    /// Whether the comment silences a finding; it is then marked as used.
     pub(crate) fn silences(&mut self, found: &Diagnostic) -> bool {
         let span = found.primary.span;
         if !self.block.iter().flatten().any(|part| part.contains(span)) {

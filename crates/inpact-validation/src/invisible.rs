@@ -5,23 +5,21 @@ use std::ops::Range;
 /// A character that is not what it looks like.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Hidden {
-    /// Where it begins in the text.
     pub(crate) start: usize,
-    /// Where it ends.
     pub(crate) end: usize,
-    /// What it is called, with its number.
+    /// Its name and number.
     pub(crate) name: String,
-    /// What is meant in its place.
+    /// The plain text meant by it.
     pub(crate) plain: &'static str,
 }
 
 impl Hidden {
-    /// Where it stands in the text.
+    /// Its range in the text.
     pub(crate) fn range(&self) -> Range<usize> {
         self.start..self.end
     }
 
-    /// What to do about it.
+    /// The help of findings.
     pub(crate) fn help(&self) -> &'static str {
         match self.plain {
             "" => "take the character away",

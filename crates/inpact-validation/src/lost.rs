@@ -1,6 +1,6 @@
-//! Keyword lines that have lost their asterisk, and what follows from that in the block they stand in.
+//! Keyword lines that have lost their asterisk, and what follows from that in their block.
 //!
-//! They are rows of the option above, and so are the rows behind them: what is wrong with these has one cause (S021).
+//! They are rows of the option above, and so are the rows after them: what is wrong with these has one cause (S021).
 
 use crate::invisible;
 use inpact_parser::deck::{DataLine, Deck, items};
@@ -13,7 +13,7 @@ use inpact_parser::span::Span;
 pub struct LostLine<'a> {
     /// The row.
     pub(crate) span: Span,
-    /// The keyword line of the block it stands in; an empty span before the first.
+    /// The keyword line of its block; an empty span before the first.
     pub(crate) keyword: Span,
     /// The keyword that is meant.
     pub(crate) meant: &'a str,
@@ -36,7 +36,7 @@ pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<
     lost
 }
 
-/// The problems that are not such a row's, nor those of rows behind one.
+/// The problems that are not such a row's, nor those of rows after one.
 pub(crate) fn without_consequences(problems: &[Problem], lost: &[LostLine<'_>]) -> Vec<Problem> {
     let follows = |problem: &Problem| {
         let of_block = lost.iter().filter(|line| line.keyword == problem.keyword);
@@ -47,7 +47,7 @@ pub(crate) fn without_consequences(problems: &[Problem], lost: &[LostLine<'_>]) 
     problems.iter().filter(|problem| !follows(problem)).cloned().collect()
 }
 
-/// The keyword that a row would mean with an asterisk in front: its words in full, and parameters of it alone behind them.
+/// The keyword that a row would mean with an asterisk in front: its name in full, and parameters of it alone after them.
 fn meant_by<'a>(grammar: &'a Grammar, line: DataLine<'_>) -> Option<&'a str> {
     let text = line.text.trim_ascii_start();
     let is_hidden = !text.first()?.is_ascii();

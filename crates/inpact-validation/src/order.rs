@@ -1,4 +1,4 @@
-//! How the rows of a table ascend, and which of them form a group (T-01 to T-11).
+//! Order and groups of the rows of a table (T-01 to T-11).
 //!
 //! A row with a cell that is no number (a parameter without a value, something malformed) takes no part: it has a finding
 //! of its own, and its other cells may not be what they seem. What is left of an ascending table by leaving rows out
@@ -10,7 +10,7 @@ use inpact_parser::model::Table;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Where a table falls that should rise.
+/// The falls in a table that should ascend.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Falls {
     /// The row before the first fall.
@@ -19,7 +19,7 @@ pub(crate) struct Falls {
     pub(crate) row: usize,
     /// The column of the value.
     pub(crate) column: usize,
-    /// How many rows fall.
+    /// The number of rows that fall.
     pub(crate) count: usize,
 }
 
@@ -28,10 +28,10 @@ pub(crate) struct Falls {
 pub(crate) struct Group {
     /// The rows; some of those inside may take no part.
     pub(crate) rows: Range<usize>,
-    /// Whether every row takes part and none falls: the group can be judged as a curve.
+    /// Every row takes part and none falls: the group can be judged as a curve.
     pub(crate) is_curve: bool,
-    /// Whether it is known that the group starts with its first row: no row that takes no part stands before it, and none
-    /// behind it is lower.
+    /// The group is known to start with its first row: no row that takes no part precedes it, and none
+    /// after it is lower.
     pub(crate) start_is_known: bool,
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn falls(table: &Table, is_meant: impl Fn(usize) -> bool) -> Option<F
     falls
 }
 
-/// The steps between rows that take part: the one row, the next, how they stand, and the column in which they differ.
+/// The steps between rows that take part: the one row, the next, their order, and the column in which they differ.
 pub(crate) fn steps(table: &Table) -> impl Iterator<Item = (usize, usize, Ordering, usize)> {
     let mut before = None;
     table.row_values().enumerate().filter(|(_, row)| takes_part(row)).filter_map(move |(index, row)| {
@@ -58,7 +58,7 @@ pub(crate) fn steps(table: &Table) -> impl Iterator<Item = (usize, usize, Orderi
     })
 }
 
-/// How a row stands to the one before: by the slowest independent variable in which they differ (T-02, T-09).
+/// The order of a row after the one before: by the slowest independent variable in which they differ (T-02, T-09).
 ///
 /// `Equal` is always that of column 1.
 pub(crate) fn step(before: &[f64], row: &[f64]) -> (Ordering, usize) {
@@ -79,7 +79,7 @@ fn takes_part(row: &[f64]) -> bool {
 pub(crate) fn groups(table: &Table) -> impl Iterator<Item = Group> {
     let count = if falls(table, |column| column > 1).is_some() { 0 } else { table.row_count() };
     let mut next = 0;
-    // Whether a row that takes no part stands between the group before and the next one: it may belong to either.
+    // A row that takes no part, between the group before and the next one: it may belong to either.
     let mut gap = false;
     std::iter::from_fn(move || {
         while next < count && !takes_part(table.row(next)) {
@@ -121,7 +121,7 @@ pub(crate) fn curves(table: &Table) -> impl Iterator<Item = Range<usize>> {
 
 /// The rows with which groups start, where that is known.
 ///
-/// The only row for a value of the field variables is left out: T012 asks for more of them.
+/// The only row for a value of the field variables is left out: T012 reports it.
 pub(crate) fn starts(table: &Table) -> impl Iterator<Item = usize> {
     let known = groups(table).filter(|group| group.start_is_known).map(|group| group.rows.start);
     known.filter(|row| table.row_count() == 1 || !is_alone(table, *row))
@@ -164,7 +164,7 @@ mod tests {
         Table { columns: columns.into(), values: rows.concat(), ..Table::default() }
     }
 
-    /// The groups as `first..end`, with `~` behind those that are no curve and `?` before those with an unknown start.
+    /// The groups as `first..end`, with `~` after those that are no curve and `?` before those with an unknown start.
     fn shown(rows: &[[f64; 3]]) -> String {
         let table = table(rows);
         let groups = groups(&table).map(|group| {
@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn rows_are_grouped_by_the_outer_variables() {
         assert_eq!(shown(&[[3.0, 0.0, 300.0], [2.0, 1.0, 300.0], [4.0, 0.0, 400.0]]), "0..2 2..3");
-        // A fall inside a group, behind its first row and below it.
+        // A fall inside a group, after its first row and below it.
         assert_eq!(shown(&[[3.0, 0.0, 300.0], [2.0, 2.0, 300.0], [1.0, 1.0, 300.0]]), "0..3~");
         assert_eq!(shown(&[[3.0, 1.0, 300.0], [2.0, 0.0, 300.0], [4.0, 0.0, 400.0]]), "?0..2~ 2..3");
         // An outer variable that falls leaves no group.

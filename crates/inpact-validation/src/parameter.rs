@@ -15,11 +15,11 @@ use std::borrow::Cow;
 /// A parameter that the keyword has, as it is given.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GivenParameter<'a> {
-    /// The block on whose keyword line it stands.
+    /// The block of its keyword line.
     pub(crate) block: DefinedBlock<'a>,
-    /// How it is given.
+    /// The parameter as given.
     pub(crate) parameter: &'a Parameter,
-    /// What the grammar says of it.
+    /// Its definition in the grammar.
     pub(crate) definition: &'a ParameterDefinition,
 }
 
@@ -36,12 +36,12 @@ pub(crate) fn given(block: DefinedBlock<'_>) -> impl Iterator<Item = GivenParame
     })
 }
 
-/// Whether what is known of the keyword is that of Abaqus while the deck is for CalculiX, whose words and bounds may differ.
+/// Whether the definition of the keyword is that of Abaqus while the deck is for CalculiX, whose names and bounds may differ.
 pub(crate) fn is_borrowed(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     context.grammar.dialect() == Dialect::Calculix && !block.definition.parameters_complete
 }
 
-/// The parameters of a keyword line without those that stand there before, of which there may be any number (K009).
+/// The parameters of a keyword line without those that occur earlier, of which there may be any number (K009).
 pub(crate) fn given_once(block: DefinedBlock<'_>) -> Vec<GivenParameter<'_>> {
     let mut is_there = vec![false; block.definition.parameters.len()];
     let first = |given: &GivenParameter<'_>| {
@@ -55,7 +55,7 @@ pub(crate) fn given_as<'a>(block: DefinedBlock<'a>, name: &str) -> Option<GivenP
     given(block).find(|given| given.definition.name == name)
 }
 
-/// Whether the line gives the parameter of that full name, or something that is likely a misspelling of it.
+/// Whether the line gives the parameter of that full name, or a likely misspelling of it.
 pub(crate) fn may_be_given(context: &Context<'_>, block: DefinedBlock<'_>, name: &str) -> bool {
     // CalculiX passes over a misspelt parameter (CX-04): then the one that is meant is not given.
     given_as(block, name).is_some()
@@ -75,7 +75,7 @@ pub(crate) fn may_be_given(context: &Context<'_>, block: DefinedBlock<'_>, name:
 }
 
 impl GivenParameter<'_> {
-    /// The value; `None` where there is none, or nothing behind the `=`.
+    /// The value; `None` where there is none, or nothing after the `=`.
     pub(crate) fn value(&self) -> Option<Span> {
         self.parameter.value.filter(|value| !value.is_empty())
     }
@@ -125,7 +125,7 @@ pub(crate) fn substituted<'a>(context: &Context<'a>, span: Span) -> Option<Cow<'
     Some(Cow::Owned(replaced.into_bytes()))
 }
 
-/// Reads an integer, and tells one that is too large from what is none.
+/// Reads an integer; distinguishes one that is too large from what is none.
 fn integer(text: &[u8]) -> Result<f64, NumberError> {
     let digits = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
     match read_integer(text) {

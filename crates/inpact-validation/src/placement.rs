@@ -1,4 +1,4 @@
-//! Keywords that stand at a wrong place, run by run: a sub-option goes where the keyword before it goes.
+//! Misplaced keywords, run by run: a sub-option goes where the keyword before it goes.
 //!
 //! Shared by the rules on places (K012, K013), so that a block at a wrong place gives one finding and not one a keyword.
 
@@ -8,12 +8,12 @@ use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::Span;
 use std::collections::HashMap;
 
-/// A keyword at a wrong place, and the sub-options behind it that are there because of it.
+/// A keyword at a wrong place, and the sub-options after it that are there because of it.
 #[derive(Debug)]
 pub(crate) struct Run<'a> {
     /// The first of them.
     pub(crate) first: &'a Problem,
-    /// How many sub-options at a wrong place follow it.
+    /// The number of misplaced sub-options after it.
     pub(crate) further: usize,
     /// The last keyword line above that is no sub-option.
     pub(crate) above: Option<&'a KeywordLine>,
@@ -27,7 +27,7 @@ pub(crate) fn runs<'a>(context: &Context<'a>, is_meant: impl Fn(&ProblemKind) ->
     if problems.is_empty() {
         return runs;
     }
-    // Whether a sub-option would belong to the last run.
+    // A sub-option would belong to the last run.
     let mut is_open = false;
     let mut above = None;
     for keyword in context.keyword_lines() {

@@ -1,4 +1,4 @@
-//! What the reader met, block by block: a fault that all rows of a block share is one finding.
+//! The reader's problems, block by block: a fault that all rows of a block share is one finding.
 
 use crate::rule::{Context, DefinedBlock};
 use crate::tables::columns_are_unclear;
@@ -13,7 +13,7 @@ pub(crate) struct FirstOfBlock<'a> {
     pub(crate) problem: &'a Problem,
     /// Its place in the list of problems.
     pub(crate) index: usize,
-    /// How many more of the kind the block has.
+    /// The number of further ones of the kind in the block.
     pub(crate) more: usize,
     /// The block, when the grammar defines its keyword.
     pub(crate) block: Option<DefinedBlock<'a>>,

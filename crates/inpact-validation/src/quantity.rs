@@ -1,4 +1,4 @@
-//! How messages write the numbers and columns of tables.
+//! Numbers and columns of tables in messages.
 
 use inpact_parser::model::{Table, TableKind};
 use std::borrow::Cow;
@@ -9,7 +9,7 @@ pub(crate) fn number(value: f64) -> String {
     if magnitude == 0.0 || (1e-4..1e6).contains(&magnitude) { value.to_string() } else { format!("{value:e}") }
 }
 
-/// What a column of a table is called in a sentence.
+/// The name of a column of a table in a sentence.
 pub(crate) fn column_name(column: &str) -> Cow<'_, str> {
     match column {
         "temp" => "temperature".into(),
@@ -24,9 +24,9 @@ pub(crate) fn column_name(column: &str) -> Cow<'_, str> {
     }
 }
 
-/// Which group of the table a row belongs to, as the end of a sentence: ` at temperature 300, field variable 1 = 2`.
+/// The group of a row in its table, as the end of a sentence: ` at temperature 300, field variable 1 = 2`.
 ///
-/// Outer variables that are 0 are left out: mostly nothing stands in their columns.
+/// Outer variables that are 0 are left out: their columns are mostly empty.
 pub(crate) fn group_label(table: &Table, row: &[f64]) -> String {
     let outer = table.columns.iter().zip(row).skip(2).filter(|(_, value)| **value != 0.0);
     let values: Vec<String> = outer
@@ -38,7 +38,7 @@ pub(crate) fn group_label(table: &Table, row: &[f64]) -> String {
     if values.is_empty() { String::new() } else { format!(" at {}", values.join(", ")) }
 }
 
-/// What the dependent value of a table is called.
+/// The name of the dependent value of a table.
 pub(crate) fn value_name(kind: TableKind) -> &'static str {
     match kind {
         TableKind::ElectricalClearance | TableKind::ElectricalPressure => "electrical conductance",

@@ -1,4 +1,4 @@
-//! Which interactions and surfaces a deck defines, and where it names them, for the rules on references.
+//! Definitions and uses of interactions and surfaces, for the rules on references.
 
 use crate::parameter::given_as;
 use crate::rule::Context;
@@ -15,7 +15,7 @@ const MOST_COMPARED: usize = 10_000;
 /// The most findings of a rule that come with a suggestion: finding one is a comparison with every name.
 const MOST_SUGGESTIONS: usize = 20;
 
-/// What a deck defines under names of one kind.
+/// The definitions of names of one kind.
 #[derive(Debug, Default)]
 pub(crate) struct Definitions {
     by_name: HashMap<Name, Span>,
@@ -25,7 +25,7 @@ pub(crate) struct Definitions {
     compared: Vec<String>,
 }
 
-/// What a name refers to.
+/// Result of looking up a reference.
 #[derive(Debug)]
 pub(crate) enum Found<'a> {
     /// Something that is defined.
@@ -74,7 +74,7 @@ impl Definitions {
         self.by_name.entry(name).or_insert(span);
     }
 
-    /// What a misspelt keyword defines may be what is meant: the keyword has a finding of its own.
+    /// Adds the definitions of misspelt keywords: these have findings of their own.
     fn add_possible(&mut self, context: &Context<'_>) {
         // CalculiX passes over it.
         if context.is_for_calculix() {
@@ -94,12 +94,12 @@ impl Definitions {
         }
     }
 
-    /// Whether something is defined under that name.
+    /// Whether a name is defined.
     pub(crate) fn has(&self, name: &Name) -> bool {
         self.by_name.contains_key(name)
     }
 
-    /// What a name refers to.
+    /// Looks up a reference.
     pub(crate) fn find(&self, name: &Name) -> Found<'_> {
         if self.by_name.contains_key(name) {
             return Found::Defined;
@@ -139,9 +139,9 @@ fn folded(name: &Name) -> String {
 pub(crate) struct Use {
     /// The name.
     pub(crate) name: Name,
-    /// Where it stands.
+    /// Its place.
     pub(crate) span: Span,
-    /// The keyword it stands under.
+    /// Its keyword.
     pub(crate) keyword: &'static str,
 }
 
@@ -150,14 +150,14 @@ impl Use {
         Self { name: reference.name.clone(), span: reference.span, keyword }
     }
 
-    /// Whether it is not known what is named: a `<parameter>` without a value (S-62), or no name at all but `X=Y`, the
+    /// Whether the reference is unknown: a `<parameter>` without a value (S-62), or no name at all but `X=Y`, the
     /// parameters of a keyword line that does not continue (S003).
     pub(crate) fn is_unclear(&self) -> bool {
         self.name.written().contains('<') || (!self.name.is_quoted() && self.name.written().contains('='))
     }
 }
 
-/// Where *CONTACT PAIR, *CONTACT PROPERTY ASSIGNMENT and *CHANGE FRICTION name interactions.
+/// The interactions that *CONTACT PAIR, *CONTACT PROPERTY ASSIGNMENT and *CHANGE FRICTION name.
 pub(crate) fn uses_of_interactions(context: &Context<'_>) -> Vec<Use> {
     let pairs = context.model.contact_pairs.iter().filter_map(|pair| pair.interaction.as_ref());
     let pairs = pairs.map(|reference| Use::of(reference, "CONTACT PAIR"));
@@ -170,7 +170,7 @@ pub(crate) fn uses_of_interactions(context: &Context<'_>) -> Vec<Use> {
     pairs.chain(assignments).chain(changes).collect()
 }
 
-/// Where *CONTACT PAIR and *CONTACT PROPERTY ASSIGNMENT name surfaces.
+/// The surfaces that *CONTACT PAIR and *CONTACT PROPERTY ASSIGNMENT name.
 pub(crate) fn uses_of_surfaces(context: &Context<'_>) -> Vec<Use> {
     let pairs = context.model.contact_pairs.iter().flat_map(|pair| &pair.pairs);
     let pairs = pairs.flat_map(|pair| [Some(&pair.slave), pair.master.as_ref()]).flatten();
@@ -190,7 +190,7 @@ pub(crate) fn components(name: &Name) -> Vec<Name> {
     name.written().split(is_dot).map(Name::new).collect()
 }
 
-/// The names that are not defined, each where it stands first, and how often it stands again.
+/// The names that are not defined, each at its first place, and the number of further ones.
 pub(crate) fn missing<'a>(uses: &'a [Use], definitions: &Definitions) -> Vec<(&'a Use, usize)> {
     let mut found: Vec<(&Use, usize)> = Vec::new();
     let mut places: HashMap<&Name, usize> = HashMap::new();

@@ -1,4 +1,4 @@
-//! What a rule is, what it sees, and how it reports.
+//! Rules: what they see, and how they report.
 
 use crate::lost::LostLine;
 use crate::tables::trimmed;
@@ -34,16 +34,16 @@ macro_rules! declare_rule {
 }
 pub(crate) use declare_rule;
 
-/// What a rule sees.
+/// The input of rules.
 #[derive(Debug)]
 pub struct Context<'a> {
-    /// The deck as it stands in its files.
+    /// The deck as it is in its files.
     pub deck: &'a Deck,
     /// The keyword language.
     pub grammar: &'a Grammar,
     /// The typed model.
     pub model: &'a Model,
-    /// What the reader met.
+    /// The problems that the reader found.
     pub problems: &'a [Problem],
     /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
     pub tables: Vec<TableOf<'a>>,
@@ -60,7 +60,7 @@ pub struct DefinedBlock<'a> {
     pub keyword: &'a KeywordLine,
     /// The keyword in full.
     pub name: &'a str,
-    /// What the grammar says of it.
+    /// Its definition in the grammar.
     pub definition: &'a Definition,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// Whether the deck is for CalculiX, which is judged by what ccx does with it (semantics, section 12).
+    /// Whether the deck is for CalculiX, and judged as ccx reads it (semantics, section 12).
     pub fn is_for_calculix(&self) -> bool {
         self.grammar.dialect() == Dialect::Calculix
     }
@@ -111,7 +111,7 @@ impl<'a> Context<'a> {
         let (first_line, following) = self.items_on_lines(of);
         let (Some(first), second) = (lines.next(), lines.next()) else { return row_span };
         let found = match (column.checked_sub(first_line), second) {
-            // A row that stands on one line although it should go over several (K-53) has all its items there.
+            // A row on one line although it should go over several (K-53) has all its items there.
             (None, _) | (_, None) => first.items().nth(column),
             (Some(offset), Some(second)) => {
                 let mut further = std::iter::once(second).chain(lines);
@@ -121,7 +121,7 @@ impl<'a> Context<'a> {
         found.unwrap_or(row_span)
     }
 
-    /// How many items of a row stand on its first line and on every further one (K-52).
+    /// The number of items on the first line of a row and on every further one (K-52).
     fn items_on_lines(&self, of: &TableOf<'_>) -> (usize, usize) {
         let width = of.table.width();
         let definition = self.grammar.id_of(of.keyword).and_then(|id| self.grammar.keyword(id).definition());
@@ -132,7 +132,7 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// Whether the deck includes files that were not read: what it does not define may be defined in one of them.
+    /// Whether the deck includes files that were not read: they may define any name.
     pub fn has_unread_files(&self) -> bool {
         let included = self.defined_blocks().filter(|block| block.name == "INCLUDE").count();
         let read = self.deck.includes().iter().filter(|include| matches!(include.outcome, IncludeOutcome::Read(_)));
@@ -190,7 +190,7 @@ impl<'a> Report<'a> {
         &mut self.diagnostics[last]
     }
 
-    /// Whether further findings are only counted: nobody sees a suggestion that is dear to find.
+    /// Whether further findings are only counted: a costly suggestion would not be shown.
     pub(crate) fn is_full(&self) -> bool {
         self.reported >= self.most
     }

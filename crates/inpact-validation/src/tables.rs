@@ -1,4 +1,4 @@
-//! What the rules on tables share: which tables to judge, and how they must start.
+//! Shared parts of the rules on tables: the tables to judge, and how they must start.
 //!
 //! A table is judged by its numbers only where they can be trusted to be what was meant: a row with too many items, a
 //! misspelt parameter or an unreadable DEPENDENCIES has a finding of its own, and what follows from it has none.
@@ -25,7 +25,7 @@ pub(crate) fn sound_tables<'a, 'deck>(context: &'a Context<'deck>) -> impl Itera
 
 /// The keyword lines whose rows hold something else than their columns say.
 fn misread(context: &Context<'_>) -> HashSet<Span> {
-    // CalculiX passes over items behind those it reads.
+    // CalculiX passes over items after those it reads.
     let is_misread = |kind: &ProblemKind| match kind {
         ProblemKind::TooManyItems { .. } => !context.is_for_calculix(),
         ProblemKind::IncompleteRow { .. } => true,
@@ -39,7 +39,7 @@ fn misread(context: &Context<'_>) -> HashSet<Span> {
     of_rows.map(|problem| problem.keyword).chain(of_lines.map(|block| block.keyword.span)).collect()
 }
 
-/// Whether the keyword line has a parameter that nobody can tell, or leaves open how many columns there are.
+/// Whether the keyword line has an unknown parameter, or leaves the number of columns open.
 pub(crate) fn columns_are_unclear(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     if block.definition.parameters_complete && !context.is_for_calculix() && has_unclear_parameters(block.keyword) {
         return true;
@@ -51,7 +51,7 @@ pub(crate) fn columns_are_unclear(context: &Context<'_>, block: DefinedBlock<'_>
     counts.next().is_some() || !number.is_some_and(fits)
 }
 
-/// Whether a parameter of the line is unknown or ambiguous: K004 and K005 say so.
+/// Whether a parameter of the line is unknown or ambiguous: K004 and K005 report it.
 pub(crate) fn has_unclear_parameters(keyword: &KeywordLine) -> bool {
     keyword.parameters.iter().any(|parameter| parameter.index().is_none())
 }
@@ -70,10 +70,10 @@ pub(crate) fn starts_as_it_must(of: &TableOf<'_>, abscissa: f64) -> bool {
     }
 }
 
-/// Whether something is written in a cell; an empty one reads as 0.
+/// Whether a cell is not empty; an empty one reads as 0.
 pub(crate) fn is_written(context: &Context<'_>, of: &TableOf<'_>, row: usize, column: usize) -> bool {
     let cell = context.cell(of, row, column);
-    // The row itself stands for a cell that is not there; but a row of one item is its first cell.
+    // The row itself marks a cell that is not there; but a row of one item is its first cell.
     !cell.is_empty() && (column == 0 || cell != of.table.row_span(row))
 }
 
@@ -109,7 +109,7 @@ pub(crate) fn radiation_tables(deck: &Deck, grammar: &Grammar, model: &Model) ->
     tables.filter(|table| table.row_count() > 0).collect()
 }
 
-/// The number in an item, a `<parameter>` replaced by its value: 0 where nothing stands (S-32), NaN where it is no number.
+/// The number in an item, a `<parameter>` replaced by its value: 0 for an empty item (S-32), NaN where it is no number.
 pub(crate) fn number_in(deck: &Deck, parameters: &Parameters, item: Span) -> f64 {
     if item.is_empty() {
         return 0.0;

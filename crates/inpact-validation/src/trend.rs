@@ -1,4 +1,4 @@
-//! How the value of a conductance table goes along its first independent variable, for P005 and P006.
+//! Trend of the value of a conductance table along its first independent variable, for P005 and P006.
 
 use crate::order::curves;
 use crate::rule::Context;
@@ -6,16 +6,16 @@ use crate::tables::{is_against_clearance, is_written, sound_tables, starts_as_it
 use inpact_parser::model::{TableKind, TableOf};
 use std::ops::Range;
 
-/// Where a table first goes the way it should not.
+/// The first step in the wrong direction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Trend {
     /// The row before.
     pub(crate) before: usize,
     /// The row that goes the wrong way.
     pub(crate) row: usize,
-    /// How many steps go the wrong way.
+    /// The number of steps in the wrong direction.
     pub(crate) wrong: usize,
-    /// How many steps there are.
+    /// The number of steps.
     pub(crate) total: usize,
 }
 

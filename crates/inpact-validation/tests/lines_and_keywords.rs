@@ -1,4 +1,4 @@
-//! What the pages of the rules on lines and keywords cannot show: line ends, encodings, dialects, and one finding a fault.
+//! Cases of the rules on lines and keywords beyond their pages: line ends, encodings, dialects, and one finding a fault.
 
 use inpact_parser::deck::{Deck, Keep, ScanOptions, Scanner};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
@@ -128,7 +128,7 @@ fn s006_sees_what_a_parameter_becomes() {
         found[0].message,
         "`<x>`, which is `1.5-3`, as the value of `PAD THICKNESS` has an exponent without its letter"
     );
-    assert!(found.iter().all(|found| found.fix.is_none()), "the number does not stand where the finding is");
+    assert!(found.iter().all(|found| found.fix.is_none()), "the number is not where the finding is");
 }
 
 #[test]
@@ -181,7 +181,7 @@ fn k001_helps_with_what_is_meant() {
     assert!(help("*\n").contains("`**`"));
     assert!(help("*5e8,0\n").contains("`**`"));
     assert_eq!(help("*GAP CONDUCTANS\n"), "did you mean `*GAP CONDUCTANCE`?");
-    assert_eq!(help("*STEP NLGEOM=YES\n"), "put a comma behind the keyword: `*STEP, NLGEOM=YES`");
+    assert_eq!(help("*STEP NLGEOM=YES\n"), "put a comma after the keyword: `*STEP, NLGEOM=YES`");
     assert!(only(b"*FLUID SECTION\n", "K001").message.contains("CalculiX"));
     let hostile = only(b"*\x1B[31mred\n", "K001");
     assert!(!hostile.message.contains('\u{1B}'), "{}", hostile.message);
@@ -228,7 +228,7 @@ fn k004_mends_only_into_what_is_legal() {
     };
     assert_eq!(fix("PRESURE").as_deref(), Some("write `PRESSURE`"));
     assert_eq!(fix("PRESURE=1"), None, "a flag has no value");
-    assert_eq!(fix("PRESSURE, PRESURE"), None, "it would stand twice");
+    assert_eq!(fix("PRESSURE, PRESURE"), None, "it would be a duplicate");
 }
 
 #[test]
@@ -249,7 +249,7 @@ fn k013_gives_one_finding_for_a_block() {
     check(format!("*STEP\n*STATIC\n{block}*END STEP\n"), &["K013"]);
     check(format!("*PART, NAME=P\n{block}*END PART\n"), &["K013"]);
     let found = only(format!("*PART, NAME=P\n{block}*END PART\n").as_bytes(), "K013");
-    assert!(found.message.ends_with("stand inside a `*PART`") || found.message.ends_with("stands inside a `*PART`"));
+    assert!(found.message.ends_with("are inside a `*PART`") || found.message.ends_with("is inside a `*PART`"));
     // legal below *GAP in a part.
     check("*PART, NAME=P\n*GAP, ELSET=E\n0.,\n*GAP CONDUCTANCE, PRESSURE\n1., 0.\n2., 1.\n*END PART\n", &[]);
 }

@@ -28,7 +28,7 @@ fn electrical(parameters: &str, rows: &str) -> String {
     format!("*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE{parameters}\n{rows}\n")
 }
 
-/// What the fixes of all findings of a rule make of the deck.
+/// The deck after the fixes of all findings of a rule.
 fn fixed(deck: &str, code: &str) -> String {
     let edits: Vec<_> =
         findings(deck).into_iter().filter(|found| found.code == code).filter_map(|found| found.fix).collect();
@@ -87,7 +87,7 @@ fn cells_without_a_number_take_no_part() {
     check(&electrical(", PRESSURE", "1, 0\n2, 1.5-3\n3, 20"), "");
     check(&electrical("", "3, 0\n2, x\n0, 20"), "");
     check(&electrical("", "x, 0\n2, 1\n0, 20"), "");
-    // What is left must ascend all the same.
+    // The other rows must ascend all the same.
     check(&electrical(", PRESSURE", "1, 0\n2, x\n3, 20\n4, 10"), "T001@6");
     check(&electrical("", "3, 0.5\n2, x\n0, 20"), "T004@3");
     check(&electrical("", "3, x\n2, 0.5\n0, 20"), "");
@@ -148,7 +148,7 @@ fn a_row_over_lines_is_one_row() {
     check(&deck, "T001@6");
     let sorted = electrical(parameters, "1,0,20,1,2,3,4,5\n6\n2,9,20,1,2,3,4,5\n** of row 1\n6");
     assert_eq!(fixed(&deck, "T001"), sorted);
-    // The value of field 6 falls: it stands on the second line of the row.
+    // The value of field 6 falls: it is on the second line of the row.
     check(&electrical(parameters, "1,0,20,1,2,3,4,5\n7\n2,9,20,1,2,3,4,5\n7\n1,0\n6\n2,9\n6"), "T003@8");
 }
 
@@ -246,12 +246,12 @@ fn references() {
     check(&deck(", NAME=\"A\"", ", INTERACTION=a"), "");
     check(&deck(", NAME=a b", ", INTERACTION=\"A b\""), "R006@2");
     check(&deck(", NAME=\"a b\"", ", INTERACTION=\"A b\""), "R001@2");
-    // What is misspelt elsewhere has its finding there.
+    // A misspelt name elsewhere has its finding there.
     check(&deck(", NMAE=A", ", INTERACTION=A"), "");
     check(&deck(", NAME=A", ", INTERATCION=A"), "");
     check("*SURFACE INTERACTON, NAME=A\n*CONTACT PAIR, INTERACTION=A\nS, M\n", "");
     check("*INCLUDE, INPUT=x\n*CONTACT PAIR, INTERACTION=A\nS, M\n", "");
-    // One name that is not defined is one finding, however often it stands.
+    // One name that is not defined is one finding, however often it occurs.
     check("*CONTACT PAIR, INTERACTION=A\nS, M\n*CONTACT PAIR, INTERACTION=A\nS, N\n", "R001@1");
     check("*CONTACT PROPERTY ASSIGNMENT\n, , A\n", "R001@2");
     check("*SURFACE INTERACTION, NAME=A\n*CONTACT PROPERTY ASSIGNMENT\n, , \n", "R002@1");

@@ -1,20 +1,20 @@
-//! What the keys of records mean.
+//! Quantities by keys of records.
 //!
 //! Source: Abaqus Output Reference, "Results file output format", records written for any node file output request (101 to
 //! 237) and for any contact surface file output request (1511 to 1578); the manual's order gives 1530 as HTL.
 
-/// What a record's values are of.
+/// Quantities of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A node: the first attribute is its label.
     Nodal,
-    /// A slave node: its label stands in the header before, record 1504.
+    /// A slave node: its label is in the header before, record 1504.
     Contact,
     /// A contact pair as a whole.
     Pair,
 }
 
-/// How the components of a quantity are named.
+/// Names of the components of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Components {
     /// By active degrees of freedom: the names before 1 to 3 and before 4 to 6.
@@ -55,7 +55,7 @@ impl Quantity {
     }
 }
 
-/// What a record of this key holds, if it is one of nodes or of contact.
+/// The quantity of a record of this key, if it is one of nodes or of contact.
 pub(super) fn quantity(key: i64) -> Option<Quantity> {
     use Components::{Freedoms, From, Names};
     use Kind::{Contact, Nodal, Pair};

@@ -10,8 +10,8 @@ const LINE: usize = 80;
 const MOST_WORDS: i64 = 1 << 20;
 
 pub(super) const CUT: &str =
-    "the file is cut short: copy it again, or let the job run to its end; what stands before is read";
-const FOREIGN: &str = "the file is damaged here, or is no results file of Abaqus in ASCII; what stands before is read";
+    "the file is cut short: copy it again, or let the job run to its end; the part before is read";
+const FOREIGN: &str = "the file is damaged here, or is no results file of Abaqus in ASCII; the part before is read";
 
 /// One word of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ impl<'a> Records<'a> {
         Self { lines, line, column: 0, words: Vec::new() }
     }
 
-    /// Where reading is.
+    /// The current place.
     pub(super) fn place(&self) -> Place {
         self.line.map_or(self.lines.place(), |line| line.at(self.column.min(line.text.len())))
     }

@@ -59,7 +59,7 @@ fn node_of_database(name: &str) -> Option<(&str, i64)> {
     Some((text, node))
 }
 
-/// A variable and the pair of surfaces behind it.
+/// A variable and the pair of surfaces after it.
 fn of_pair(text: &str) -> (&str, Region) {
     let text = text.trim();
     match text.split_once(char::is_whitespace) {

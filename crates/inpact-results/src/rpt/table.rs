@@ -1,12 +1,12 @@
-//! A table of numbers in columns of equal width, from its first row to the blank line behind it.
+//! A table of numbers in columns of equal width, from its first row to the blank line after it.
 
 use crate::lines::{Line, LineEnd, Lines};
 use crate::number;
 use crate::problem::{Place, Problem, shown};
 
-pub(super) const DAMAGED: &str = "the report is damaged here or was changed by hand; what stands before is read";
+pub(super) const DAMAGED: &str = "the report is damaged here or was changed by hand; the part before is read";
 pub(super) const CUT: &str =
-    "the report is cut short: write it again, or end it with a blank line if it is whole; what stands before is read";
+    "the report is cut short: write it again, or end it with a blank line if it is whole; the part before is read";
 
 /// A table that is being read.
 #[derive(Debug, Default)]
@@ -14,7 +14,7 @@ pub(super) struct Table {
     columns: Vec<Vec<f64>>,
     /// The first column with the places of its cells: labels, or values of X.
     labels: Vec<(f64, Place)>,
-    /// Where each column ends, from the first row.
+    /// The end of each column, from the first row.
     ends: Vec<usize>,
 }
 
@@ -30,7 +30,7 @@ impl Table {
             }
             self.row(&line)?;
         }
-        Err(Problem::new(lines.place(), "the table has no blank line behind its last row", CUT))
+        Err(Problem::new(lines.place(), "the table has no blank line after its last row", CUT))
     }
 
     fn row(&mut self, line: &Line<'_>) -> Result<(), Problem> {
@@ -73,7 +73,7 @@ impl Table {
 
     /// The names of the columns, from the lines above them.
     ///
-    /// A name may hold blanks: where a line has other cells than there are columns, what stands above a column is its name.
+    /// A name may hold blanks: where a line has other cells than there are columns, the text above a column is its name.
     pub(super) fn names(&self, head: &[Line<'_>]) -> Vec<String> {
         let mut names = vec![String::new(); self.columns.len()];
         for line in head {

@@ -48,7 +48,7 @@ enum Order {
     Big,
 }
 
-/// How a file stores bytes.
+/// Storage of bytes in a file.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Encoding {
     order: Order,
@@ -64,7 +64,7 @@ impl Default for Encoding {
 }
 
 impl Encoding {
-    /// What the attributes of `VTKFile` say.
+    /// The encoding that the attributes of `VTKFile` give.
     pub(super) fn of(tag: &Tag<'_>) -> Result<Self, String> {
         let order = match tag.attribute("byte_order").as_deref() {
             Some("BigEndian") => Order::Big,
@@ -116,7 +116,7 @@ impl Encoding {
         Ok(all)
     }
 
-    /// The length that stands at this place among lengths.
+    /// The length at this place among lengths.
     fn length_at(&self, source: &[u8], at: usize) -> Result<usize, String> {
         let begin = at.checked_mul(self.length);
         let bytes = begin.and_then(|begin| source.get(begin..)).and_then(|rest| rest.get(..self.length));

@@ -90,7 +90,7 @@ fn appended(bytes: &[u8]) -> Option<&[u8]> {
     memchr::memmem::find(&bytes[begin..mark], b"raw").map(|_| &bytes[mark + 1..])
 }
 
-/// What the arrays that come are of.
+/// The section that the next arrays belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Section {
     Elsewhere,
@@ -105,7 +105,7 @@ struct Reader<'a> {
     grid: Grid,
     encoding: Encoding,
     appended: Option<&'a [u8]>,
-    /// How many points the piece has, once it began.
+    /// The number of points of the piece, once it began.
     points: Option<usize>,
     cells: usize,
     connectivity: Vec<i64>,
@@ -131,7 +131,7 @@ impl Reader<'_> {
                     self.cells(tags)?;
                 }
                 b"DataArray" if section != Section::Elsewhere => self.array(tags, &tag, section)?,
-                // Behind it stand bytes that are no XML.
+                // After it come bytes that are no XML.
                 b"AppendedData" | b"/VTKFile" => return self.end(tags),
                 _ => (),
             }
@@ -262,7 +262,7 @@ impl Reader<'_> {
         for (offset, kind) in self.offsets.iter().zip(&self.types) {
             let end = usize::try_from(*offset).ok();
             let Some(of_cell) = end.and_then(|end| self.connectivity.get(begin..end)) else {
-                return Err(wrong(format!("offset {offset} is none behind {begin}")));
+                return Err(wrong(format!("expected an offset after {begin}, found {offset}")));
             };
             begin += of_cell.len();
             let kind = u8::try_from(*kind).map_err(|_| wrong(format!("{kind} is no type")))?;

@@ -19,7 +19,7 @@ pub struct Moment {
 /// Whole numbers are written as `Int64` and all others as `Float64`, in little-endian order, so every bit comes back.
 ///
 /// # Errors
-/// Where writing fails; and [`io::ErrorKind::InvalidInput`] where a column has another number of values than there are points
+/// Writing fails; or, as [`io::ErrorKind::InvalidInput`], a column has another number of values than there are points
 /// or cells, or a cell names a point that is not there.
 pub fn write_grid(grid: &Grid, out: &mut impl Write) -> io::Result<()> {
     sound(grid)?;
@@ -59,7 +59,7 @@ pub fn write_grid(grid: &Grid, out: &mut impl Write) -> io::Result<()> {
 /// Writes a `.pvd`: which `.vtu` is of which time.
 ///
 /// # Errors
-/// Where writing fails.
+/// Writing fails.
 pub fn write_collection(moments: &[Moment], out: &mut impl Write) -> io::Result<()> {
     writeln!(out, r#"<?xml version="1.0"?>"#)?;
     writeln!(out, r#"<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">"#)?;
@@ -73,7 +73,7 @@ pub fn write_collection(moments: &[Moment], out: &mut impl Write) -> io::Result<
 /// A column in its element.
 fn column(out: &mut impl Write, array: &Array) -> io::Result<()> {
     let name = escaped(&array.name);
-    // Where it says 1, meshio makes a matrix with one column.
+    // For 1 component meshio would make a matrix with one column.
     let components = match array.components {
         1 => String::new(),
         several => format!(r#" NumberOfComponents="{several}""#),

@@ -2,8 +2,8 @@
 
 use crate::problem::{Place, Problem, shown};
 
-pub(super) const CUT: &str = "the file is cut short: copy it again, or let its program end; what stands before is read";
-pub(super) const DAMAGED: &str = "the file is damaged here, or is no .vtu; what stands before is read";
+pub(super) const CUT: &str = "the file is cut short: copy it again, or let its program end; the part before is read";
+pub(super) const DAMAGED: &str = "the file is damaged here, or is no .vtu; the part before is read";
 
 /// An element's begin or end.
 #[derive(Debug)]
@@ -12,7 +12,7 @@ pub(super) struct Tag<'a> {
     pub(super) name: &'a [u8],
     attributes: &'a [u8],
     pub(super) at: usize,
-    /// Whether nothing stands in the element: `<A/>`.
+    /// The element is empty: `<A/>`.
     pub(super) empty: bool,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Tags<'a> {
     }
 }
 
-/// The first `>` that stands in no value.
+/// The first `>` outside of values.
 fn end_of_tag(text: &[u8]) -> Option<usize> {
     let mut quote = None;
     text.iter().position(|byte| {

@@ -36,7 +36,7 @@ pub(crate) fn d22(value: f64) -> String {
     format!("{:>22}", format!("{mantissa}{letter}{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs()))
 }
 
-/// What [`d22`] says.
+/// The value of [`d22`].
 pub(crate) fn of_d22(value: f64) -> f64 {
     format!("{value:.15e}").parse().expect("a number")
 }

@@ -47,7 +47,7 @@ declare_rule! {
 
 /// A field with the properties that need it.
 struct Field {
-    /// What the field is called.
+    /// The name of the field.
     name: &'static str,
     is_solved: fn(&Procedure) -> bool,
     /// The keyword lines of the properties in an interaction.

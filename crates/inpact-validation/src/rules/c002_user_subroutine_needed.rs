@@ -72,7 +72,7 @@ fn user_alone(law: &ElectricalConductance) -> Option<Span> {
     law.user.filter(|_| law.clearance.is_none() && law.pressure.is_none())
 }
 
-/// Whether the block has what counts for nothing beside one of its parameters.
+/// Whether the block has an option that one of its parameters disables.
 fn is_unclear(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     let is_given = |name: &String| given_as(block, name).is_some();
     given(block).any(|parameter| parameter.definition.ignored_with.iter().any(is_given))
@@ -80,7 +80,7 @@ fn is_unclear(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
             && context.deck.data_lines(block.block).any(|line| !line.is_blank()))
 }
 
-/// Where the keyword line of a block begins.
+/// The start of the keyword line of a block.
 fn start(block: DefinedBlock<'_>) -> (SourceId, u64) {
     (block.keyword.span.source, block.keyword.span.start)
 }

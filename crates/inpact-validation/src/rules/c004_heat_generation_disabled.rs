@@ -4,7 +4,7 @@ use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::model::Interaction;
 
 declare_rule! {
-    /// *GAP HEAT GENERATION stands in a *SURFACE INTERACTION with `USER`; in a deck for CalculiX, its speed is 0 or absent.
+    /// *GAP HEAT GENERATION is in a *SURFACE INTERACTION with `USER`; in a deck for CalculiX, its speed is 0 or absent.
     ///
     /// ## Why
     /// User subroutines UINTER and VUINTER give the whole interaction, its heat included.

@@ -5,7 +5,7 @@ use inpact_parser::model::{Interaction, Name};
 use std::collections::HashSet;
 
 declare_rule! {
-    /// *GAP HEAT GENERATION stands in an interaction without friction and without electrical conductance.
+    /// *GAP HEAT GENERATION is in an interaction without friction and without electrical conductance.
     ///
     /// ## Why
     /// Heat comes from energy that friction or electric current dissipates at the interface.

@@ -38,7 +38,7 @@ declare_rule! {
     "C006", "radiation-constants-missing", Error, fix: None, source: "2.6, T-42, H-06"
 }
 
-/// What radiation needs.
+/// The constants of radiation.
 const CONSTANTS: [&str; 2] = ["ABSOLUTE ZERO", "STEFAN BOLTZMANN"];
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {

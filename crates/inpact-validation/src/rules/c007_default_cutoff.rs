@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// ## Why
     /// A cutoff that is not given is the characteristic element length of the surfaces.
-    /// How Abaqus computes that length is not documented, and it changes with the mesh.
+    /// The computation of that length by Abaqus is not documented, and it changes with the mesh.
     /// To evaluate the law by inpact the length must be given: by the column `char_length` or by `--char-length`.
     ///
     /// ## What to do

@@ -1,4 +1,4 @@
-//! K001: keyword lines whose words mean no keyword.
+//! K001: unknown keywords.
 
 use super::k015_not_in_release::keyword_of_other_release;
 use inpact_diagnostics::{Diagnostic, Edit, FixSafety, Severity};
@@ -10,7 +10,7 @@ use inpact_parser::grammar::{Dialect, Grammar, Lookup};
 use inpact_parser::span::Span;
 
 declare_rule! {
-    /// The words behind an asterisk are no keyword of Abaqus, nor the beginning of one.
+    /// The name after an asterisk is no keyword of Abaqus, nor the beginning of one.
     ///
     /// Case and blanks do not count.
     ///
@@ -67,7 +67,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             found
         } else if name.is_empty() {
             let found = report.at(keyword.visible_span(context.deck), "an asterisk without a keyword");
-            found.label("nothing stands behind it").help(COMMENT)
+            found.label("nothing follows it").help(COMMENT)
         } else {
             let stranger = stranger(context, keyword);
             // A suggestion costs a comparison with every name, and a finding that is only counted shows none.
@@ -103,12 +103,12 @@ fn say_hidden<'r>(
     };
     let edits = invisible::all(written).map(|hidden| Edit::new(place(&hidden), hidden.plain)).collect();
     let plain = String::from_utf8_lossy(&plain).into_owned();
-    let found = report.at(place(&first), format!("{} stands in `*{plain}`, which is no keyword so", first.name));
+    let found = report.at(place(&first), format!("{} in `*{plain}` makes it an unknown keyword", first.name));
     found.label("not what it looks like").help(first.help());
     Some(found.fix(FixSafety::ChangesMeaning, format!("write `*{plain}`"), edits))
 }
 
-/// What to do about a line that has one asterisk by mistake.
+/// The help for a line that has one asterisk by mistake.
 const COMMENT: &str = "if it is a comment, begin it with two asterisks: `**`";
 
 /// A keyword of another dialect.
@@ -140,7 +140,7 @@ fn help(context: &Context<'_>, keyword: &KeywordLine, name: &str) -> String {
         return COMMENT.to_owned();
     }
     if let Some((known, rest)) = split_after_keyword(grammar, name) {
-        return format!("put a comma behind the keyword: `*{known}, {rest}`");
+        return format!("put a comma after the keyword: `*{known}, {rest}`");
     }
     let near = grammar.nearest_keywords(&context.deck.shown(keyword.name), 8);
     let there = near.into_iter().filter(|name| grammar.id_of(name).is_some_and(|id| grammar.has(id)));
@@ -148,7 +148,7 @@ fn help(context: &Context<'_>, keyword: &KeywordLine, name: &str) -> String {
     did_you_mean(there.iter().map(String::as_str)).unwrap_or_else(|| format!("check the spelling; {COMMENT}"))
 }
 
-/// Cuts `STEP NLGEOM=YES` behind the words that are a keyword in full, where parameters seem to follow.
+/// Cuts `STEP NLGEOM=YES` after a keyword in full, where parameters seem to follow.
 fn split_after_keyword<'name>(grammar: &Grammar, name: &'name str) -> Option<(&'name str, &'name str)> {
     let parameters = name.find('=')?;
     let blanks = name[..parameters].match_indices(' ').map(|(at, _)| at);

@@ -6,11 +6,11 @@ use inpact_parser::grammar::Lookup;
 use inpact_parser::number::read_float;
 
 declare_rule! {
-    /// The words behind an asterisk are the beginning of several keywords.
+    /// The name after an asterisk is the beginning of several keywords.
     ///
     /// ## Why
     /// A keyword may be cut short as long as what is left begins no other keyword.
-    /// Which one is meant cannot be told here, so the line and its rows are kept and not read.
+    /// The keyword cannot be determined, so the line and its rows are kept and not read.
     ///
     /// ## What to do
     /// Write the keyword in full.

@@ -41,7 +41,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let name = context.shown(keyword.name);
         let found = report.at(keyword.name, format!("`*{name}` is short for `*{full}`"));
         found.label("cut short").help(format!("write `*{full}`"));
-        // Where something else may be meant, there is no fix.
+        // Without certainty there is no fix.
         if context.grammar.is_calculix_keyword(context.deck.text(keyword.name)) {
             found.note(format!("CalculiX has a keyword `*{name}` of its own"));
         } else if let Some(singular) = singular(context.grammar, &name) {

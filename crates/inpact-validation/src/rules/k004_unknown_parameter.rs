@@ -77,7 +77,7 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
             let place = Span::new(parameter.name.source, at(first.start), at(first.end));
             let plain = String::from_utf8_lossy(plain).into_owned();
             report
-                .at(place, format!("{} stands in the parameter `{plain}` of `*{keyword}`", first.name))
+                .at(place, format!("{} in the parameter `{plain}` of `*{keyword}`", first.name))
                 .label("not what it looks like")
                 .help(first.help())
                 .fix(FixSafety::ChangesMeaning, format!("write `{plain}`"), vec![Edit::new(parameter.name, plain)]);
@@ -108,7 +108,7 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
     }
 }
 
-/// A parameter that the keyword does not have, and that stands for one that it has in decks that ran all the same.
+/// A parameter that the keyword does not have, and that decks use for one that it has, which ran all the same.
 fn say_other_name(report: &mut Report<'_>, given: &GivenParameter<'_>, meant: &str) {
     let (name, keyword) = (&given.definition.name, given.block.name);
     report

@@ -11,7 +11,7 @@ declare_rule! {
     ///
     /// ## Why
     /// A parameter may be cut short as long as what is left begins no other parameter of the keyword.
-    /// Which one is meant cannot be told here, so it is left out.
+    /// The parameter cannot be determined, so it is left out.
     ///
     /// ## What to do
     /// Write the parameter in full.

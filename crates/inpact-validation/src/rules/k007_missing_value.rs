@@ -6,7 +6,7 @@ use inpact_parser::grammar::ValueUse;
 use inpact_parser::span::Span;
 
 declare_rule! {
-    /// A parameter stands without the value that it needs, or with nothing behind its `=`.
+    /// A parameter lacks the value that it needs, or nothing follows its `=`.
     ///
     /// ## Why
     /// `DEPENDENCIES` alone does not say how many field variables there are.
@@ -50,7 +50,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .label("a value is missing")
             .note(format!("`{name}`: {}", given.definition.description))
             .help(match value_use {
-                ValueUse::Optional => format!("write a value behind `=`, or `{name}` alone"),
+                ValueUse::Optional => format!("write a value after `=`, or `{name}` alone"),
                 _ => format!("write `{name}=…`"),
             });
     }

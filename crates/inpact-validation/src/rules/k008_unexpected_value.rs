@@ -5,7 +5,7 @@ use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ValueUse;
 
 declare_rule! {
-    /// A parameter that only stands or does not stand is given a value.
+    /// A parameter that takes no value is given one.
     ///
     /// ## Why
     /// The value has no meaning: `PRESSURE=0` means just what `PRESSURE` means.
@@ -41,7 +41,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         report
             .at(given.parameter.span(), format!("`{name}` of `*{keyword}` takes no value, yet `{shown}` is given"))
             .label("the value means nothing")
-            .note(format!("`{name}` holds whenever it stands there, whatever its value"))
+            .note(format!("`{name}` holds whenever it is given, whatever its value"))
             .help(format!("write `{name}` alone, or leave it out"));
     }
 }

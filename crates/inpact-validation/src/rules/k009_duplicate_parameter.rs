@@ -1,4 +1,4 @@
-//! K009: parameters that stand twice on one line.
+//! K009: duplicate parameters on one line.
 
 use crate::parameter::given;
 use crate::rule::{Context, Report, declare_rule};
@@ -27,7 +27,7 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks().filter(|block| block.keyword.parameters.len() > 1) {
-        // Where a parameter stood last, by its place in the definition.
+        // The last place of each parameter, by its index in the definition.
         let mut earlier = vec![None; block.definition.parameters.len()];
         for given in given(block) {
             let Some(index) = given.parameter.index() else { continue };

@@ -36,7 +36,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         report
             .at(given.parameter.span(), format!("`{name}` of `*{}` is ignored beside `{other_name}`", given.block.name))
             .label("ignored")
-            .also(other.parameter.span(), format!("`{other_name}` stands here"))
+            .also(other.parameter.span(), format!("`{other_name}` is here"))
             .note(format!("`{other_name}`: {}", other.definition.description))
             .help(format!("take `{name}` away"));
     }

@@ -8,16 +8,16 @@ use inpact_parser::grammar::Lookup;
 use inpact_parser::problem::ProblemKind;
 
 declare_rule! {
-    /// A sub-option stands where no *SURFACE INTERACTION is open.
+    /// A sub-option is where no *SURFACE INTERACTION is open.
     ///
     /// The block of a *SURFACE INTERACTION ends at the first keyword that is none of its sub-options.
     ///
     /// ## Why
-    /// A sub-option belongs to the contact property whose block it stands in.
+    /// A sub-option belongs to the contact property whose block it is in.
     /// Outside of one it belongs to none; Abaqus refuses it.
     ///
     /// ## What to do
-    /// Move it, with its rows, behind the *SURFACE INTERACTION that it belongs to.
+    /// Move it, with its rows, after the *SURFACE INTERACTION that it belongs to.
     ///
     /// ```inp,expect
     /// *SURFACE INTERACTION, NAME=A
@@ -31,7 +31,7 @@ declare_rule! {
     ///
     /// ```inp
     /// *HEADING
-    /// The block of A comes behind
+    /// The block of A comes after
     /// *SURFACE INTERACTION, NAME=A
     /// 1.,
     /// *GAP ELECTRICAL CONDUCTANCE, PRESSURE
@@ -56,14 +56,14 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let entry = context.grammar.keyword(keyword);
         let name = &entry.name;
         let message = match run.further {
-            0 => format!("`*{name}` stands outside a `*SURFACE INTERACTION`"),
-            1 => format!("`*{name}` and the sub-option behind it stand outside a `*SURFACE INTERACTION`"),
-            more => format!("`*{name}` and {more} sub-options behind it stand outside a `*SURFACE INTERACTION`"),
+            0 => format!("`*{name}` is outside a `*SURFACE INTERACTION`"),
+            1 => format!("`*{name}` and the sub-option after it are outside a `*SURFACE INTERACTION`"),
+            more => format!("`*{name}` and {more} sub-options after it are outside a `*SURFACE INTERACTION`"),
         };
         let found = report.at(run.first.span, message);
-        found.help("move it behind the `*SURFACE INTERACTION` that it belongs to");
+        found.help("move it after the `*SURFACE INTERACTION` that it belongs to");
         match closed_by {
-            None => found.label("no `*SURFACE INTERACTION` stands above"),
+            None => found.label("no `*SURFACE INTERACTION` is above"),
             Some(span) => {
                 found.label("belongs to no contact property");
                 found.also(visible(context, span), "the last `*SURFACE INTERACTION` ends here")

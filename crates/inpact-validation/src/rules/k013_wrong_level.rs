@@ -1,4 +1,4 @@
-//! K013: keywords in a part of the deck where they may not stand.
+//! K013: keywords in a part of the deck where they may not occur.
 
 use crate::placement::{runs, visible};
 use crate::rule::{Context, Report, declare_rule};
@@ -6,14 +6,14 @@ use inpact_parser::grammar::Level;
 use inpact_parser::problem::ProblemKind;
 
 declare_rule! {
-    /// A keyword stands inside a *STEP, *PART, *INSTANCE or *ASSEMBLY, where it may not stand.
+    /// A keyword is inside a *STEP, *PART, *INSTANCE or *ASSEMBLY, where it may not occur.
     ///
     /// ## Why
-    /// In Abaqus/Standard contact properties are model data: they stand before the first *STEP, and outside parts, instances and the assembly.
+    /// In Abaqus/Standard contact properties are model data: they come before the first *STEP, and outside parts, instances and the assembly.
     /// Abaqus refuses them elsewhere.
     ///
     /// ## What to do
-    /// Move the block before the first *STEP, and behind *END ASSEMBLY when the deck has an assembly.
+    /// Move the block before the first *STEP, and after *END ASSEMBLY when the deck has an assembly.
     ///
     /// ```inp,expect
     /// *STEP
@@ -42,21 +42,21 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let allowed = entry.definition().map(|definition| &definition.levels[..]).unwrap_or_default();
         let (name, place_here) = (&entry.name, place(level));
         let message = match run.further {
-            0 => format!("`*{name}` stands {place_here}"),
-            1 => format!("`*{name}` and the sub-option behind it stand {place_here}"),
-            more => format!("`*{name}` and {more} sub-options behind it stand {place_here}"),
+            0 => format!("`*{name}` is {place_here}"),
+            1 => format!("`*{name}` and the sub-option after it are {place_here}"),
+            more => format!("`*{name}` and {more} sub-options after it are {place_here}"),
         };
         let found = report.at(run.first.span, message);
-        found.label("may not stand here");
+        found.label("not allowed here");
         if let Some(opened_by) = opened_by {
             found.also(visible(context, opened_by), format!("{} begins here", begin(level)));
         }
         let places: Vec<&str> = allowed.iter().map(|level| place(*level)).collect();
-        found.note(format!("it may stand {}", places.join(", ")));
+        found.note(format!("it may be {}", places.join(", ")));
         found.help(match (level, allowed.contains(&Level::Model)) {
             (Level::Step, true) => "move it before the first `*STEP`",
             (_, true) => "move it out of the part, instance or assembly, and before the first `*STEP`",
-            (_, false) => "move it to where it may stand",
+            (_, false) => "move it to where it is allowed",
         });
     }
 }

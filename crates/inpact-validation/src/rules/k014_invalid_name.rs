@@ -54,7 +54,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// What is wrong with a name.
+/// The fault of a name.
 struct Fault {
     what: &'static str,
     help: &'static str,
@@ -66,7 +66,7 @@ fn fault(text: &[u8]) -> Option<Fault> {
     match text {
         [b'"', inner @ .., b'"'] if !inner.contains(&b'"') => fault_of_quoted(inner),
         _ if text.contains(&b'"') => {
-            Some(Fault { what: "a quote stands inside it", help: "put the quotes around the whole name" })
+            Some(Fault { what: "it has a quote inside", help: "put the quotes around the whole name" })
         }
         _ => fault_of_unquoted(text),
     }

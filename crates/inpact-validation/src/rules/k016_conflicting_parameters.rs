@@ -1,4 +1,4 @@
-//! K016: parameters that must not stand beside one another.
+//! K016: parameters that must not occur beside one another.
 
 use crate::parameter::{given_once, is_borrowed};
 use crate::rule::{Context, Report, declare_rule};
@@ -7,7 +7,7 @@ declare_rule! {
     /// Two parameters of a keyword line exclude each other.
     ///
     /// ## Why
-    /// Each asks for something else, as ROUGH (no slip at all) and SLIP TOLERANCE (a little) do; Abaqus refuses the line.
+    /// Each means something else, as ROUGH (no slip at all) and SLIP TOLERANCE (a little) do; Abaqus refuses the line.
     ///
     /// ## What to do
     /// Take one of the two away.
@@ -35,7 +35,7 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     check_options(context, report);
     for block in context.defined_blocks().filter(|block| !is_borrowed(context, *block)) {
-        // Each finding is about a parameter and one that stands before it, so that a pair is found once.
+        // Each finding is about a parameter and an earlier one, so that a pair is found once.
         let given = given_once(block);
         for (place, later) in given.iter().enumerate() {
             let excluded = given[..place].iter().find(|earlier| {
@@ -46,8 +46,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             let (name, other) = (&later.definition.name, &earlier.definition.name);
             report
                 .at(later.parameter.span(), format!("`{name}` and `{other}` of `*{}` exclude each other", block.name))
-                .label(format!("must not stand beside `{other}`"))
-                .also(earlier.parameter.span(), format!("`{other}` stands here"))
+                .label(format!("conflicts with `{other}`"))
+                .also(earlier.parameter.span(), format!("`{other}` is here"))
                 .note(format!("`{name}`: {}", later.definition.description))
                 .help("take one of them away");
         }
@@ -64,9 +64,9 @@ fn check_options(context: &Context<'_>, report: &mut Report<'_>) {
             for option in interaction.other.iter().filter(|option| known.excludes_options.contains(&option.keyword)) {
                 let (keyword, name) = (&option.keyword, &given.name);
                 report
-                    .at(option.span, format!("`*{keyword}` must not stand in an interaction with `{name}`"))
+                    .at(option.span, format!("`*{keyword}` conflicts with `{name}` of its interaction"))
                     .label(format!("excluded by `{name}`"))
-                    .also(given.span, format!("`{name}` stands here"))
+                    .also(given.span, format!("`{name}` is here"))
                     .note(format!("`{name}`: {}", known.description))
                     .help(format!("take `*{keyword}` out, or `{name}`"));
             }

@@ -4,7 +4,7 @@ use crate::parameter::{given_once, is_borrowed, may_be_given};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
-    /// A parameter stands without another that it needs.
+    /// A parameter lacks another that it needs.
     ///
     /// DEPVAR, PROPERTIES and UNSYMM of *SURFACE INTERACTION, for three, say something about a user subroutine: they need USER.
     ///

@@ -10,7 +10,7 @@ declare_rule! {
     ///
     /// ## Why
     /// CalculiX stops at a *GAP CONDUCTANCE that is the first of its interaction, and at a contact pair by penalty whose interaction has no *SURFACE BEHAVIOR.
-    /// The order counts: a *SURFACE BEHAVIOR behind the *GAP CONDUCTANCE comes too late.
+    /// The order counts: a *SURFACE BEHAVIOR after the *GAP CONDUCTANCE comes too late.
     ///
     /// ## What to do
     /// Give *SURFACE BEHAVIOR as the first option of the interaction.
@@ -82,7 +82,7 @@ fn check_order(context: &Context<'_>, report: &mut Report<'_>) -> HashSet<Span> 
                 interaction = Some(block.keyword.visible_span(context.deck));
                 is_first = true;
             }
-            // Any of these is enough for ccx here; the pair asks for the *SURFACE BEHAVIOR itself.
+            // Any of these is enough for ccx here; the pair needs the *SURFACE BEHAVIOR itself.
             "SURFACE BEHAVIOR" | "FRICTION" | "GAP HEAT GENERATION" | "CONTACT DAMPING" => is_first = false,
             "GAP CONDUCTANCE" if is_first => {
                 let Some(interaction) = interaction else { continue };

@@ -43,7 +43,7 @@ declare_rule! {
     "P007", "jump-at-contact", Note, fix: None, source: "4.2, T-21"
 }
 
-/// How far apart the two values may be.
+/// The largest ratio of the two values.
 const FACTOR: f64 = 10.0;
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
@@ -101,7 +101,7 @@ fn groups_in_both<'a>(open: &'a Table, closed: &'a Table) -> impl Iterator<Item 
             let ordering = if comparable {
                 step(&closed.row(b.start)[1..], &open.row(a.start)[1..]).0
             } else {
-                // One of the laws depends on more than the other: only two plain tables can be told to meet.
+                // One of the laws depends on more than the other: only two plain tables can be seen to meet.
                 Ordering::Equal
             };
             match ordering {

@@ -13,7 +13,7 @@ declare_rule! {
     /// ## Why
     /// The manual disagrees with itself on what holds beyond the last clearance.
     /// The text of 37.3.1 says that the conductance stays constant; its figure, and Abaqus/CAE, let it drop to zero.
-    /// inpact follows the text unless told otherwise (`--clearance-tail zero`).
+    /// inpact follows the text by default (`--clearance-tail zero`).
     /// *GAP CONDUCTANCE always drops to zero there.
     ///
     /// ## What to do
@@ -37,7 +37,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    // What one row means beyond its clearance is what T008 asks.
+    // The meaning of one row beyond its clearance is the subject of T008.
     let of_kind = |kind| kind == TableKind::ElectricalClearance;
     for of in sound_tables(context).filter(|of| of_kind(of.kind) && of.table.row_count() > 1) {
         let table = of.table;

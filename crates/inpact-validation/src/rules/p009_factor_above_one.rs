@@ -43,7 +43,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .at(context.cell(of, index, 0), format!("view factor {} is above 1", number(row[0])))
             .label("should be from 0 to 1")
             .note(format!("a surface cannot see more than the whole of another{more}"))
-            .help("check the value, and that the view factor stands before the clearance");
+            .help("check the value, and that the view factor precedes the clearance");
     }
     for block in context.defined_blocks().filter(|block| block.name == RADIATION) {
         let head = context.deck.data_lines(block.block).find(|line| !line.is_blank());

@@ -45,7 +45,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         return;
     }
     let uses = all_uses(context);
-    // Where a name is wrong or missing (R001, R005) the interaction that is meant seems unused.
+    // A wrong or missing name (R001, R005) makes the intended interaction seem unused.
     let definitions = Definitions::interactions(context);
     let is_open = |used: &Use| used.is_unclear();
     if uses.iter().any(is_open)
@@ -70,7 +70,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The uses of interactions that every keyword may have: a parameter INTERACTION is taken for one wherever it stands.
+/// The uses of interactions that every keyword may have: a parameter INTERACTION is taken for one anywhere.
 fn all_uses(context: &Context<'_>) -> Vec<Use> {
     let mut uses = uses_of_interactions(context);
     for keyword in context.keyword_lines() {

@@ -60,7 +60,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Whether the deck has surfaces or a mesh, and all of what it has.
+/// Whether the deck has surfaces or a mesh, and the whole of it.
 fn says_what_its_surfaces_are(context: &Context<'_>) -> bool {
     let is_surface = |block: &DefinedBlock<'_>| block.name == "SURFACE";
     let surfaces = context.defined_blocks().filter(is_surface).count();

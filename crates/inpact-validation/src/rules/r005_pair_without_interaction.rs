@@ -50,7 +50,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Whether the line has INTERACTION, or something that may be meant by it.
+/// Whether the line has INTERACTION, or a parameter that may mean it.
 fn names_interaction(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     if context.is_for_calculix() {
         return given_as(block, "INTERACTION").is_some_and(|given| given.value().is_some());

@@ -10,7 +10,7 @@ declare_rule! {
     /// ## Why
     /// Quotes keep case and blanks; without them a name is read in upper case and without blanks.
     /// So `"Steel Gap"` and `Steel Gap` are two names.
-    /// Abaqus asks for the quotes wherever a name that was defined with them is used.
+    /// Abaqus needs the quotes wherever a name that was defined with them is used.
     ///
     /// ## What to do
     /// Write the name in the same way in both places.

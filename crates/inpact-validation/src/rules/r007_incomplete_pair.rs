@@ -51,7 +51,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             report
                 .at(keyword, "contact pair without surfaces")
                 .label("a row should follow")
-                .help("write `SLAVE, MASTER` behind it");
+                .help("write `SLAVE, MASTER` after it");
         }
     }
 }

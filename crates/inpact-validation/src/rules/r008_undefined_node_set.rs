@@ -13,7 +13,7 @@ use inpact_parser::number::{read_float, read_fortran};
 declare_rule! {
     /// `ADJUST` of a *CONTACT PAIR names a node set that the deck does not define.
     ///
-    /// What `ADJUST` gives is a distance where it reads as a number, and the name of a set otherwise.
+    /// The value of `ADJUST` is a distance where it reads as a number, and the name of a set otherwise.
     /// Reported only in decks that define nodes, and that are complete: without files that could not be read, imported parts or a restart.
     /// Of a dotted name such as `Plate-1.Top` only the last part is looked for.
     ///

@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     if !has_step || !has_mesh(context) {
         return;
     }
-    // What is unknown and names an interaction was likely meant to be the pair.
+    // An unknown keyword that names an interaction was likely meant to be the pair.
     let meant = context.keyword_lines().filter(|line| line.id().is_none()).find(|line| {
         line.parameters.iter().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(b"INTERACTION"))
     });

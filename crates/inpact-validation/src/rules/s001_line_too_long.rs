@@ -9,7 +9,7 @@ declare_rule! {
     /// A keyword line or data line has more than 256 characters.
     ///
     /// Trailing blanks do not count, and comments may be as long as they like.
-    /// One finding stands for all long lines of a block.
+    /// One finding covers all long lines of a block.
     ///
     /// ## Why
     /// Abaqus reads 256 characters of a line; what it does with the rest is not documented.

@@ -12,14 +12,14 @@ declare_rule! {
     /// A keyword line or data line has a character that is not ASCII, such as `é`, `µ` or a blank that does not break.
     ///
     /// Comments, headings and quoted names may hold any character.
-    /// One finding stands for all such lines of a block.
+    /// One finding covers all such lines of a block.
     ///
     /// ## Why
     /// Abaqus supports 7-bit ASCII and nothing else.
     /// Two programs that read the deck with different encodings see different names.
     ///
     /// ## What to do
-    /// Replace the character, or quote the name it stands in.
+    /// Replace the character, or quote the name it is in.
     ///
     /// ```inp,expect
     /// *SURFACE INTERACTION, NAME=Dübel
@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
         let why = "Abaqus supports 7-bit ASCII only, outside comments, headings and quoted names";
         let diagnostic = report.at(found.span, format!("{} is not an ASCII character", found.name));
-        diagnostic.label("not ASCII").help("replace the character, or quote the name it stands in");
+        diagnostic.label("not ASCII").help("replace the character, or quote the name it is in");
         match note.lines {
             1 => diagnostic.note(why),
             lines => {
@@ -64,7 +64,7 @@ struct NonAscii {
     name: String,
 }
 
-/// The first character of the line that is not ASCII and stands outside quotes.
+/// The first character of the line that is not ASCII and is outside quotes.
 fn first_non_ascii(context: &Context<'_>, note: &LineNote) -> Option<NonAscii> {
     let line = context.deck.text(note.span);
     let mut quoted = false;
@@ -83,7 +83,7 @@ fn first_non_ascii(context: &Context<'_>, note: &LineNote) -> Option<NonAscii> {
     Some(NonAscii { span: Span::new(note.span.source, start, start + length), name })
 }
 
-/// The words with such characters that another rule finds wrong as a whole, in order.
+/// The names with such characters that another rule finds wrong as a whole, in order.
 fn judged_elsewhere(context: &Context<'_>) -> Vec<Span> {
     let unknown_names = context.keyword_lines().filter(|line| line.resolved == Lookup::Unknown).map(|line| line.name);
     let blocks = context.defined_blocks().filter(|block| block.definition.parameters_complete);

@@ -8,7 +8,7 @@ use inpact_parser::span::Span;
 declare_rule! {
     /// A keyword line ends in a comma, and the next line does not read as its continuation.
     ///
-    /// A continuation has `=` in it, or its words are flags of the keyword.
+    /// A continuation has `=` in it, or its fields are flags of the keyword.
     ///
     /// ## Why
     /// A comma at the end of a keyword line says that the next line goes on with its parameters.
@@ -39,7 +39,7 @@ declare_rule! {
     ///  CUTOFF GAP FILL=0.2
     /// ```
     ///
-    /// So is one behind which a flag may stand, of a keyword whose parameters inpact does not know:
+    /// So is one after which a flag may occur, of a keyword whose parameters inpact does not know:
     ///
     /// ```inp
     /// *ELSET, ELSET=LEFT,
@@ -76,7 +76,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Whether the line behind the comma reads as parameters.
+/// Whether the line after the comma reads as parameters.
 fn is_meant_to_go_on(context: &Context<'_>, comma: Span) -> bool {
     let blocks = context.deck.blocks().iter();
     let mut of_comma = blocks.filter(|block| block.keyword.as_ref().is_some_and(|keyword| keyword.span.contains(comma)));

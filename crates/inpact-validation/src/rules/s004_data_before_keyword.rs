@@ -1,13 +1,13 @@
-//! S004: rows that no keyword line stands before.
+//! S004: rows before the first keyword line.
 
 use super::s011_not_a_deck::{Reading, leading_lines, reading};
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
-    /// Rows stand before the first keyword line of the deck.
+    /// Rows come before the first keyword line of the deck.
     ///
     /// ## Why
-    /// A row means something only behind the keyword line it belongs to.
+    /// A row means something only after the keyword line it belongs to.
     /// inpact keeps these rows and reads nothing from them.
     ///
     /// ## What to do
@@ -20,7 +20,7 @@ declare_rule! {
     /// ```
     ///
     /// ```inp
-    /// ** A comment may stand first.
+    /// ** A comment may occur first.
     /// *SURFACE INTERACTION, NAME=A
     /// 1.,
     /// ```

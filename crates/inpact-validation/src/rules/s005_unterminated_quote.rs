@@ -8,7 +8,7 @@ declare_rule! {
     /// A quote opens and does not close before the line ends.
     ///
     /// ## Why
-    /// Everything behind the quote becomes part of the name, commas and parameters too.
+    /// Everything after the quote becomes part of the name, commas and parameters too.
     /// A quoted name cannot hold a quote itself.
     ///
     /// ## What to do
@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Where in a text the quote stands that does not close.
+/// The offset of the quote that does not close.
 pub(super) fn open_quote(text: &[u8]) -> Option<usize> {
     let is_open = text.iter().fold(false, |open, byte| open ^ (*byte == b'"'));
     if is_open { text.iter().rposition(|byte| *byte == b'"') } else { None }

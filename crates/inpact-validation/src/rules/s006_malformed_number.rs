@@ -13,7 +13,7 @@ use inpact_parser::span::Span;
 declare_rule! {
     /// An item is no number where the option wants one.
     ///
-    /// A number is a sign, digits with at most one point, and an exponent behind `E` or `D`: `12`, `.5`, `-1.2E-3`, `1.D6`.
+    /// A number is a sign, digits with at most one point, and an exponent after `E` or `D`: `12`, `.5`, `-1.2E-3`, `1.D6`.
     /// Hexadecimal digits, digits in groups, `nan` and `inf` are no numbers, and nothing above 1.797E308 is.
     ///
     /// ## Why
@@ -122,13 +122,13 @@ fn say_hidden(report: &mut Report<'_>, span: Span, hidden: &Hidden, written: &[u
     });
     let mended = invisible::plain(written).escape_ascii().to_string();
     report
-        .at(place, format!("{} stands in the number `{mended}`", hidden.name))
+        .at(place, format!("{} in the number `{mended}`", hidden.name))
         .label("not what it looks like")
         .help(hidden.help())
         .fix(FixSafety::ChangesMeaning, format!("write `{mended}`"), edits.collect());
 }
 
-/// Whether a number stands in front, and behind it what is a comment in some language.
+/// Whether the text is a number followed by a comment of some language.
 fn has_comment(text: &[u8]) -> bool {
     const MARKS: [&[u8]; 6] = [b"**", b"!", b"#", b"//", b"$", b";"];
     let Some(end) = text.iter().position(|byte| byte.is_ascii_whitespace() || b"*!#/$;".contains(byte)) else {
@@ -138,7 +138,7 @@ fn has_comment(text: &[u8]) -> bool {
     read_float(&text[..end]).is_ok() && MARKS.iter().any(|mark| after.starts_with(mark))
 }
 
-/// What may be meant by something that is no number.
+/// The help for a text that is no number.
 fn help(text: &[u8]) -> &'static str {
     let unsigned = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
     let is_one_of = |names: &[&[u8]]| names.iter().any(|name| unsigned.eq_ignore_ascii_case(name));
@@ -147,7 +147,7 @@ fn help(text: &[u8]) -> &'static str {
     } else if unsigned.first_chunk().is_some_and(|start: &[u8; 2]| start.eq_ignore_ascii_case(b"0x")) {
         "write the number in decimal digits"
     } else if has_comment(text) {
-        "a comment stands on a line of its own that begins with `**`: move it there"
+        "a comment has a line of its own that begins with `**`: move it there"
     } else if text.iter().any(u8::is_ascii_whitespace) {
         "put a comma between the items"
     } else if text.contains(&b'_') && text.iter().any(u8::is_ascii_digit) {
@@ -155,6 +155,6 @@ fn help(text: &[u8]) -> &'static str {
     } else if text.contains(&b'<') || text.contains(&b'>') {
         "write a parameter as `<name>`, with nothing around it"
     } else {
-        "write digits with at most one point, and an exponent behind `E` or `D`"
+        "write digits with at most one point, and an exponent after `E` or `D`"
     }
 }

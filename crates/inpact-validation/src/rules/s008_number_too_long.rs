@@ -12,13 +12,13 @@ declare_rule! {
     /// A number has more characters than Abaqus allows: 20 for a float with sign, point and exponent, 9 digits for an integer.
     ///
     /// inpact reads the number in full.
-    /// One finding stands for all such numbers of a block.
+    /// One finding covers all such numbers of a block.
     ///
     /// ## Why
-    /// Abaqus may read another number than the one that stands there.
+    /// Abaqus may read another number than the one written.
     ///
     /// ## What to do
-    /// Write fewer digits: 17 significant digits tell any two numbers apart.
+    /// Write fewer digits: 17 significant digits distinguish any two numbers.
     ///
     /// ```inp,expect
     /// *SURFACE INTERACTION, NAME=A

@@ -1,4 +1,4 @@
-//! S009: comments that stand behind blanks.
+//! S009: comments after blanks.
 
 use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
@@ -8,13 +8,13 @@ use inpact_parser::grammar::RowShape;
 use inpact_parser::span::{SourceId, Span};
 
 declare_rule! {
-    /// A comment stands behind blanks: its `**` is not in the first two columns.
+    /// A comment begins after blanks: its `**` is not in the first two columns.
     ///
-    /// One finding stands for all such comments of a block.
+    /// One finding covers all such comments of a block.
     ///
     /// ## Why
     /// By the manual a comment has its asterisks in columns 1 and 2.
-    /// Behind blanks the first asterisk begins a keyword line, and Abaqus may refuse it as an unknown keyword.
+    /// After blanks the first asterisk begins a keyword line, and Abaqus may refuse it as an unknown keyword.
     /// inpact takes it for the comment that it is meant to be.
     ///
     /// ## What to do
@@ -68,7 +68,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
         let blanks = indentation(context.deck.text(note.span));
         let start = note.span.start + blanks as u64;
-        let found = report.at(Span::new(note.span.source, start, note.span.end), "comment behind blanks");
+        let found = report.at(Span::new(note.span.source, start, note.span.end), "comment after blanks");
         found.label("begins in the first column only").help("take the blanks before `**` away");
         if matches!(place, Place::Rows) {
             found.fix(FixSafety::Safe, "take the blanks away", edits(context, note, block));
@@ -76,19 +76,19 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         match note.lines {
             1 => found
                 .note("by the manual this is a keyword line, which Abaqus may refuse; it is read as a comment here"),
-            lines => found.note(format!("{lines} comments of this block stand behind blanks; this is the first")),
+            lines => found.note(format!("{lines} comments of this block begin after blanks; this is the first")),
         };
     }
 }
 
-/// What the lines around a comment are.
+/// Kinds of the lines around a comment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     /// Rows of items, among which it is a comment.
     Rows,
     /// The title of the analysis or of a step: free text, which only an asterisk in the first column ends (S-70, S-72).
     Title,
-    /// Statements of *PARAMETER, where `**` behind blanks may go on with an expression (S-60), or rows that go on from
+    /// Statements of *PARAMETER, where `**` after blanks may go on with an expression (S-60), or rows that go on from
     /// another file, of which nobody knows here what they are.
     Unclear,
 }

@@ -9,7 +9,7 @@ use inpact_parser::span::Span;
 use std::collections::HashSet;
 
 declare_rule! {
-    /// An empty line stands among the rows of a table, or behind the last of them.
+    /// An empty line is among the rows of a table, or after the last of them.
     ///
     /// ## Why
     /// An empty line is no comment.
@@ -39,7 +39,7 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let ends_in_comma = |keyword: &&KeywordLine| context.deck.text(keyword.span).trim_ascii_end().ends_with(b",");
     let open: HashSet<Span> = context.keyword_lines().filter(ends_in_comma).map(|keyword| keyword.span).collect();
-    // Behind the comma of a keyword line the line that comes up would become its continuation (S-19).
+    // After the comma of a keyword line the line that comes up would become its continuation (S-19).
     let holds_off = |problem: &Problem| {
         let keyword = problem.keyword;
         let is_here = open.contains(&keyword) && keyword.source == problem.span.source;
@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     };
     for problem in context.problems.iter().filter(|problem| problem.kind == ProblemKind::BlankRow) {
         let line = problem.span;
-        // The line end stands behind the span of the line; the longest is CR LF.
+        // The line end follows the span of the line; the longest is CR LF.
         let after = context.deck.text(Span::new(line.source, line.end, line.end + 2));
         let whole = Span::new(line.source, line.start, line.end + next_line(after, 0) as u64);
         let found = report.at(line, "empty line among the rows of a table");

@@ -13,7 +13,7 @@ declare_rule! {
     /// A file of rows alone may be meant for *INCLUDE: that is S004.
     ///
     /// ## Why
-    /// A deck consists of keyword lines, which begin with `*`, and of the rows behind them.
+    /// A deck consists of keyword lines, which begin with `*`, and of the rows after them.
     /// A file without either is something else: a git-lfs pointer, a table of columns, a picture, a compressed file.
     ///
     /// ## What to do
@@ -32,16 +32,16 @@ declare_rule! {
     "S011", "not-a-deck", Error, fix: None, source: "S-03, S-31"
 }
 
-/// What the lines before the first keyword line read as.
+/// Readings of the lines before the first keyword line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reading {
-    /// Rows, or a deck has keyword lines behind them.
+    /// Rows, or a deck has keyword lines after them.
     Rows,
     /// There is no keyword line, and most of the lines are no rows.
     NoDeck,
 }
 
-/// The most bytes that are looked at to tell what a file is.
+/// The most bytes examined to recognise a file.
 const LOOKED_AT: u64 = 64 * 1024;
 
 /// The lines before the first keyword line, comments and blank lines left out.
@@ -57,7 +57,7 @@ pub(super) fn leading_lines<'a>(context: &Context<'a>) -> impl Iterator<Item = D
     looked_at.flat_map(|rows| deck.data_lines_in(rows)).filter(|line| !line.is_blank())
 }
 
-/// What the file reads as.
+/// The reading of the file.
 pub(super) fn reading(context: &Context<'_>) -> Reading {
     if context.keyword_lines().next().is_some() || !context.lost_lines.is_empty() {
         return Reading::Rows;
@@ -77,7 +77,7 @@ fn is_row(line: &[u8]) -> bool {
     })
 }
 
-/// Whether an item reads as a name: a letter or underscore, then what names consist of, and no blank.
+/// Whether an item reads as a name: a letter or underscore, then bytes of names, and no blank.
 fn is_name(item: &[u8]) -> bool {
     let is_first = |byte: &u8| byte.is_ascii_alphabetic() || *byte == b'_';
     let is_further = |byte: &u8| byte.is_ascii_alphanumeric() || b"_-.+\"".contains(byte);

@@ -11,7 +11,7 @@ declare_rule! {
     ///
     /// ## Why
     /// Abaqus stops at a file that it cannot read.
-    /// What the file holds is missing here too: a reference to it may be reported as undefined.
+    /// The content of the file is missing: a reference to it may be reported as undefined.
     ///
     /// ## What to do
     /// Correct the name: it is relative to the folder of the deck, not to that of the including file.

@@ -7,7 +7,7 @@ declare_rule! {
     /// An *INCLUDE has a PASSWORD: the file is encrypted, and inpact does not read it.
     ///
     /// ## Why
-    /// What the file holds is missing here: a reference to it may be reported as undefined.
+    /// The content of the file is missing: a reference to it may be reported as undefined.
     ///
     /// ## What to do
     /// Check the deck where the file is at hand in plain text.

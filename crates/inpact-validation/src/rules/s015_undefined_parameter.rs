@@ -5,7 +5,7 @@ use inpact_parser::grammar::Dialect;
 use inpact_parser::problem::ProblemKind;
 
 declare_rule! {
-    /// `<name>` stands where a value is due, and no *PARAMETER defines the name.
+    /// `<name>` is in place of a value, and no *PARAMETER defines the name.
     ///
     /// All definitions of a deck count, also those further down; upper and lower case differ.
     ///

@@ -6,7 +6,7 @@ use crate::rule::{Context, Report, declare_rule};
 declare_rule! {
     /// A comment for inpact silences nothing, or says something that inpact does not know.
     ///
-    /// `** inpact: ignore T005, P008 -- reason` silences the rules it names for the next block: the next keyword line and the rows behind it.
+    /// `** inpact: ignore T005, P008 -- reason` silences the rules it names for the next block: the next keyword line and the rows after it.
     ///
     /// ## Why
     /// A comment that was right once and silences nothing any more hides the next finding of that rule.

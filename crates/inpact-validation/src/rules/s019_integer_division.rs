@@ -10,7 +10,7 @@ declare_rule! {
     ///
     /// ## Why
     /// Up to release 2023 Abaqus carries Python 2, where 5/4 is 1; from 2024 on it carries Python 3, where 5/4 is 1.25.
-    /// inpact takes the release that it is asked for with `--release`, the newest one by default.
+    /// inpact takes the release given by `--release`, the newest one by default.
     /// The manual of 2024 still prints the old text, so the same deck is read in two ways.
     ///
     /// ## What to do
@@ -72,7 +72,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Writes a point behind one of two integers; where neither is written as one, makes the dividend a real number.
+/// Writes a point after one of two integers; where neither is written as one, makes the dividend a real number.
 ///
 /// `None` where the statement goes over lines of several files.
 fn with_point(context: &Context<'_>, division: &IntegerDivision) -> Option<Vec<Edit>> {

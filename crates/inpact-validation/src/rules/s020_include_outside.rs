@@ -11,7 +11,7 @@ declare_rule! {
     ///
     /// ## Why
     /// A deck from elsewhere may name any file, and findings quote what they are about:
-    /// where decks of strangers are checked, in a pull request for example, the secrets of the machine would stand in the log.
+    /// where decks of strangers are checked, in a pull request for example, the secrets of the machine would be in the log.
     /// `--format github` and `--format sarif`, which are made for that, read nothing outside of the repository (the nearest folder
     /// above the deck that has `.git`), or of the deck's folder where there is none, unless `--include-root` says otherwise.
     ///

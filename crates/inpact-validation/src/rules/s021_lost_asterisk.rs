@@ -9,10 +9,10 @@ use inpact_parser::span::Span;
 declare_rule! {
     /// A row reads exactly as a keyword line, and has no asterisk, or an invisible character in front of it.
     ///
-    /// The words are a keyword in full, and all that follows are parameters of it.
+    /// The line begins with a keyword in full, and all that follows are parameters of it.
     ///
     /// ## Why
-    /// Without an asterisk in front the line is a row of the option above, and so are the rows behind it.
+    /// Without an asterisk in front the line is a row of the option above, and so are the rows after it.
     /// Nothing is left of the option that was meant.
     ///
     /// ## What to do
@@ -43,14 +43,14 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             report
                 .at(span, format!("`{shown}` reads as the keyword line `*{meant}`, and is a row"))
                 .label("an asterisk is missing")
-                .note("the rows behind it are taken for rows of the option above")
+                .note("the rows after it are taken for rows of the option above")
                 .help("write `*` in front of it")
                 .fix(FixSafety::ChangesMeaning, "write the asterisk", vec![Edit::new(Span::new(span.source, span.start, span.start), "*")]);
             continue;
         };
         let place = Span::new(span.source, span.start, span.start + hidden.end as u64);
         report
-            .at(place, format!("{} stands in front of `*{meant}`, which is a row so", hidden.name))
+            .at(place, format!("{} in front of `*{meant}` makes it a row", hidden.name))
             .label("an invisible character")
             .note("a keyword line begins with its asterisk, or with blanks")
             .help("take the character away")

@@ -89,7 +89,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .label("should be greater than the value before")
             .also(context.cell(of, fall.before, 1), "the row before");
         let more = and_more(fall.count - 1, "row of this table falls", "rows of this table fall");
-        found.note(format!("within a group the rows must stand in ascending order of the {name}{more}"));
+        found.note(format!("within a group the rows must be in ascending order of the {name}{more}"));
         match sort_edits(context, table) {
             Some(edits) => {
                 let help = "put the rows in ascending order";

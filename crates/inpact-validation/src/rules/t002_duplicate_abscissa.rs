@@ -44,12 +44,12 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             debug_assert!(ordering.is_eq());
             let values = table.row(row);
             let name = column_name(&table.columns[1]);
-            let message = format!("{name} {} stands twice{}", number(values[1]), group_label(table, values));
+            let message = format!("{name} {} occurs twice{}", number(values[1]), group_label(table, values));
             let found = report.at(context.cell(of, row, 1), message);
             found
                 .label("the same value again")
                 .also(context.cell(of, before, 1), "the value of the row before")
-                .note("rows must stand in strictly ascending order; a jump is possible only where contact closes")
+                .note("rows must be in strictly ascending order; a jump is possible only where contact closes")
                 .help("take one of the two rows out, or correct its value");
         }
     }

@@ -1,4 +1,4 @@
-//! T003: groups of rows that do not stand in ascending order.
+//! T003: groups of rows in other than ascending order.
 
 use inpact_diagnostics::FixSafety;
 use crate::order::{falls, sort_edits};
@@ -9,7 +9,7 @@ use crate::tables::{is_written, sound_tables};
 declare_rule! {
     /// A temperature, a field variable or another outer variable of a table falls from one row to the next.
     ///
-    /// Behind the clearance or pressure stand the outer variables, each slower than the one before it.
+    /// After the clearance or pressure come the outer variables, each slower than the one before it.
     /// A new group of rows begins when one of them increases; a faster one may then begin anew, the slowest may never fall.
     ///
     /// ## Why
@@ -66,7 +66,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .label(if empty { "left empty, which reads as 0" } else { "should not be less than the value before" })
             .also(context.cell(of, fall.before, fall.column), "the row before");
         let more = and_more(fall.count - 1, "row of this table falls", "rows of this table fall");
-        found.note(format!("groups of rows must stand in ascending order, the last column slowest{more}"));
+        found.note(format!("groups of rows must be in ascending order, the last column slowest{more}"));
         if empty {
             found.help(format!("give the {name} in every row"));
         } else {

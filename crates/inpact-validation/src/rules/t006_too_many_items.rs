@@ -19,7 +19,7 @@ declare_rule! {
     /// inpact leaves out what is too much and does not judge the table any further.
     ///
     /// ## What to do
-    /// For field variables behind the temperature, give their number: `DEPENDENCIES=1` makes room for one.
+    /// For field variables after the temperature, give their number: `DEPENDENCIES=1` makes room for one.
     /// A row that goes over several lines has eight items at most on a line.
     ///
     /// ```inp,expect
@@ -55,7 +55,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     // No item at all is allowed on a row that has no place: that is T017.
     let surplus = |kind: &ProblemKind| matches!(kind, ProblemKind::TooManyItems { allowed, .. } if *allowed > 0);
-    // Where rows are too much as well, a keyword is missing in front of all of them: T017 says so.
+    // Surplus rows mean that a keyword is missing in front of all of them: T017 reports it.
     let other = first_of_each_block(context, has_no_place);
     let other: HashSet<Span> = other.iter().map(|first| first.problem.keyword).collect();
     let found =
@@ -74,7 +74,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
         found.label("too much").also(context.trimmed(first.problem.keyword), "the option");
         let more = and_more(first.more, "row of this block has too many", "rows of this block have too many");
-        found.note(format!("only the items of the option may stand in a row; inpact leaves out the rest{more}"));
+        found.note(format!("a row has only the items of the option; inpact leaves out the rest{more}"));
         found.help(match first.block {
             Some(block) if lines == 1 && has_no_dependencies(block) => {
                 format!("give `DEPENDENCIES={}` if these are field variables, or take them out", given - allowed)
@@ -87,7 +87,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Whether the option could have field variables and its line does not say how many.
+/// Whether the option could have field variables and its line does not give their number.
 fn has_no_dependencies(block: DefinedBlock<'_>) -> bool {
     block.definition.parameter("DEPENDENCIES").is_some() && given_as(block, "DEPENDENCIES").is_none()
 }

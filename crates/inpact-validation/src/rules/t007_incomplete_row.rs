@@ -11,8 +11,8 @@ declare_rule! {
     /// A line holds at most eight items, so with many field variables a row goes on in the next line.
     ///
     /// ## Why
-    /// Abaqus takes as many lines for a row as `DEPENDENCIES` asks for, whatever stands on them.
-    /// When a line is missing anywhere in the table, every row behind it is read wrongly.
+    /// Abaqus takes as many lines for a row as `DEPENDENCIES` gives, whatever is on them.
+    /// If a line is missing anywhere in the table, every row after it is read wrongly.
     ///
     /// ## What to do
     /// Look for the row that lacks a line, which need not be the last one, and check `DEPENDENCIES`.
@@ -44,7 +44,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .at(context.trimmed(problem.span), format!("`PROPERTIES={stated}`, and {} given", are(given)))
                 .label("the properties end here")
                 .also(context.trimmed(problem.keyword), format!("{} should follow", count(stated, "value")))
-                .note("eight values stand on a line; without an Explicit step the thickness has the first line for itself")
+                .note("a line has eight values; without an Explicit step the thickness has the first line for itself")
                 .help(format!("give {stated} values, or write `PROPERTIES={given}`"));
         }
     }

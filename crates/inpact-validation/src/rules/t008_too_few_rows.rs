@@ -15,8 +15,8 @@ declare_rule! {
     /// One row is fine for *GAP ELECTRICAL CONDUCTANCE, PRESSURE and for *CONTACT PERMEABILITY: it is a constant.
     ///
     /// ## Why
-    /// The keyword page of *GAP CONDUCTANCE asks for at least two rows, and Abaqus/CAE asks for two in every table against clearance.
-    /// From one row nobody can tell where the conductance ends.
+    /// The keyword page of *GAP CONDUCTANCE requires at least two rows, and Abaqus/CAE two in every table against clearance.
+    /// One row does not show where the conductance ends.
     ///
     /// ## What to do
     /// Add the clearance or the pressure up to which the value holds.
@@ -72,7 +72,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         found.help(format!("add a row with the {axis} up to which the value holds"));
     }
     for of in sound_tables(context).filter(|of| of.table.row_count() > 1 && is_thermal_clearance(of)) {
-        // Out of order the second row may stand elsewhere (T003), and a cell without a number may be in it (S006).
+        // Out of order the second row may occur elsewhere (T003), and a cell without a number may be in it (S006).
         if of.table.values.iter().any(|value| value.is_nan()) || falls(of.table, |column| column > 1).is_some() {
             continue;
         }

@@ -14,7 +14,7 @@ declare_rule! {
     ///
     /// ## Why
     /// A conductance without values is no law.
-    /// Only *CONTACT PERMEABILITY may stand without rows: the pore pressures of both sides are then equal.
+    /// Only *CONTACT PERMEABILITY may occur without rows: the pore pressures of both sides are then equal.
     ///
     /// ## What to do
     /// Give the rows, or `USER` where a user subroutine gives the law.
@@ -49,7 +49,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let has_unread_files = context.has_unread_files();
     let mut blocks = context.defined_blocks().peekable();
     while let Some(block) = blocks.next() {
-        // Rows may stand in a file that is included here (S-51).
+        // Rows may occur in a file that is included here (S-51).
         let goes_on = blocks.peek().is_some_and(|next| next.name == "INCLUDE" && has_unread_files);
         if !goes_on && needs_rows(context, block) && !has_rows(context, block) {
             say(context, report, block);

@@ -70,7 +70,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Where lines begin that a duplicate may come from, in ascending order: keywords that nobody knows, since one may begin
+/// The starts of lines that a duplicate may come from, in ascending order: unknown keywords, since one may begin
 /// another interaction (K001), and parameters that nobody knows, since one may be PRESSURE (K004).
 fn doubtful_lines(context: &Context<'_>) -> Vec<(SourceId, u64)> {
     let unknown = context.keyword_lines().filter(|keyword| keyword.id().is_none());
@@ -104,7 +104,7 @@ fn find_among_others<'a>(interaction: &'a Interaction, duplicates: &mut Vec<(&'a
 
 fn say(context: &Context<'_>, report: &mut Report<'_>, keyword: &str, later: Span, earlier: Span) {
     report
-        .at(later, format!("`*{keyword}` stands twice in one interaction, for the same kind of table"))
+        .at(later, format!("duplicate `*{keyword}` in one interaction, for the same kind of table"))
         .label("the second one")
         .also(context.trimmed(earlier), "the first one")
         .note("both cannot govern; inpact evaluates the last")

@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// ## Why
     /// The user subroutine gives the law; Abaqus ignores the rows.
-    /// Who reads the deck may think that they count.
+    /// Readers of the deck may think that they count.
     ///
     /// ## What to do
     /// Take the rows out, or `USER`.

@@ -11,7 +11,7 @@ declare_rule! {
     /// A table that depends on field variables has a single row for one of their values.
     ///
     /// ## Why
-    /// The manual asks for two or more rows for every value of a field variable (Analysis User's Guide 37.2.1, 37.4.1).
+    /// The manual requires two or more rows for every value of a field variable (Analysis User's Guide 37.2.1, 37.4.1).
     /// From one row the law is a constant in clearance, pressure and temperature at that value, which is seldom meant.
     ///
     /// ## What to do
@@ -41,7 +41,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // Of a thermal conductance against clearance that is an error: T008.
     for of in sound_tables(context).filter(|of| with_fields(of.table) && !is_thermal_clearance(of)) {
         let table = of.table;
-        // A row that takes no part may be the second one (S006), and out of order it may stand elsewhere (T003).
+        // A row that takes no part may be the second one (S006), and out of order it may occur elsewhere (T003).
         let is_clear = !table.values.iter().any(|value| value.is_nan()) && falls(table, |column| column > 1).is_none();
         let mut alone = (0..table.row_count()).filter(|row| is_clear && is_alone(table, *row));
         let Some(row) = alone.next() else { continue };

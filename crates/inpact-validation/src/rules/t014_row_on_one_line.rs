@@ -8,7 +8,7 @@ use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::Span;
 
 declare_rule! {
-    /// A row that should go over several lines stands on one.
+    /// A row that should go over several lines is on one.
     ///
     /// A line holds at most eight items.
     /// With many field variables a row goes on in the next line, and so for every row of the table.
@@ -18,7 +18,7 @@ declare_rule! {
     /// Abaqus may refuse it, or take the next line for its second half.
     ///
     /// ## What to do
-    /// Break the rows behind the eighth item; the fix does it.
+    /// Break the rows after the eighth item; the fix does it.
     ///
     /// ```inp,expect
     /// *SURFACE INTERACTION, NAME=SWITCH
@@ -46,7 +46,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             context.problems[first.index..].iter().take_while(|problem| problem.keyword == first.problem.keyword);
         let edits = of_block.filter(|problem| is_meant(&problem.kind)).map(|problem| breaks(context, problem));
         let more = and_more(first.more, "row of this table does", "rows of this table do");
-        let found = report.at(first.problem.span, format!("row stands on one line and should go over {lines}"));
+        let found = report.at(first.problem.span, format!("row is on one line and should go over {lines}"));
         found
             .label(format!("{on_first} items belong on the first line, {following} at most on every further one"))
             .also(context.trimmed(first.problem.keyword), "the option")
@@ -75,7 +75,7 @@ fn breaks(context: &Context<'_>, problem: &Problem) -> Option<Vec<Edit>> {
     starts.filter(|start| *start > 0).map(edit).collect()
 }
 
-/// What ends the lines of this part of the deck, and the blanks in front of the row.
+/// The line end of this part of the deck, and the blanks in front of the row.
 fn line_end_and_indentation(context: &Context<'_>, row: Span) -> Vec<u8> {
     let (start, text) = context.deck.surroundings(row);
     let offset = |position: u64| usize::try_from(position.saturating_sub(start)).unwrap_or(text.len()).min(text.len());

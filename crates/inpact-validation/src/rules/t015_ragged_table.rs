@@ -61,7 +61,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The values of the first independent variable in a group, each once: what stands twice is T002.
+/// The values of the first independent variable in a group, each once: what occurs twice is T002.
 fn abscissae<'a>(table: &'a Table, rows: &Range<usize>) -> impl Iterator<Item = f64> + 'a {
     let mut before = f64::NAN;
     let values = rows.clone().map(|row| table.row(row)[1]);

@@ -1,11 +1,11 @@
-//! T017: rows behind the only one that an option has.
+//! T017: rows after the only one that an option has.
 
 use crate::problems::{first_of_each_block, has_no_place};
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
 
 declare_rule! {
-    /// A row stands behind the first, in an option that has only one.
+    /// A row follows the first, in an option that has only one.
     ///
     /// *GAP HEAT GENERATION has one row; so has *SURFACE INTERACTION without `USER`.
     ///

@@ -12,7 +12,7 @@ declare_rule! {
     ///
     /// ## Why
     /// Between two temperatures CalculiX takes the pressures that both curves have.
-    /// Where there are none it stops, as soon as a mean temperature lies between the two.
+    /// Without a common pressure ccx stops, as soon as a mean temperature lies between the two.
     ///
     /// ## What to do
     /// Give the curves rows at the same pressures.
