@@ -154,6 +154,19 @@ fn answers_that_are_no_conductance_end_with_1_and_nothing_is_written() {
 }
 
 #[test]
+fn rows_that_went_out_before_a_routine_failed_are_counted() {
+    let Some(folder) = sample() else { return };
+    folder.write("gapelectr.f", &format!("{HEAD}      SIGMA(1) = -D\n      END\n"));
+    assert!(compile(&folder));
+    let run = folder.inpact(&EVAL);
+    assert_eq!(run.code, 1, "{}", run.errors);
+    let rows = run.output.lines().count() - 1;
+    assert!(run.errors.contains(&format!("note: {rows} rows went out before this\n")), "{}", run.errors);
+    let end = "error: the user subroutine fails, and the rows it fails in have no result\n";
+    assert!(run.errors.ends_with(end), "{}", run.errors);
+}
+
+#[test]
 fn a_routine_that_stops_is_told_and_leaves_no_result() {
     // The routine takes down which files there are when it stops.
     let stop = "      SIGMA(1) = 1\n      IF (NODE.EQ.205) THEN\n      CALL SYSTEM('ls -a > seen.txt')\n      STOP\n      END IF\n";

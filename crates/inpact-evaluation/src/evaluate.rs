@@ -56,7 +56,7 @@ pub(crate) enum Outcome {
     /// It was evaluated, and this is the row's status as far as it goes.
     Evaluated(Option<Status>),
     /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
-    Faulty(Option<UserFaultInRow>),
+    Faulty(Option<Box<UserFaultInRow>>),
 }
 
 impl<'a> Evaluation<'a> {

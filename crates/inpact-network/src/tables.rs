@@ -1,9 +1,9 @@
-//! States as tables: values by node, flows by link, and interface rows as a node table that the evaluation of a deck reads.
+//! States as tables: values by node, flows by link, and interface rows as batches of the columns that the evaluation of a deck reads.
 
 use crate::problem::Problem;
 use crate::scene::{Course, Field, SceneInterface};
 use crate::state::State;
-use inpact_evaluation::nodes::{Column, Part};
+use inpact_evaluation::nodes::{Batch, Column, Part, Selection};
 use inpact_evaluation::results::push_number;
 use inpact_parser::model::Model;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -115,7 +115,7 @@ pub fn link_rows(problem: &Problem<'_>, state: &State, times: Times, text: &mut 
 }
 
 /// The columns of numbers of a scene's interface rows as a node table, in the order of the contract.
-pub fn interface_columns(problem: &Problem<'_>) -> Vec<Column> {
+fn interface_columns(problem: &Problem<'_>) -> Vec<Column> {
     let rows = &problem.scene.interfaces;
     let has = |is_given: &dyn Fn(&SceneInterface) -> bool| rows.iter().any(is_given);
     let mut columns = BTreeSet::from([Column::Area]);
@@ -150,39 +150,62 @@ pub fn interface_columns(problem: &Problem<'_>) -> Vec<Column> {
     columns.into_iter().collect()
 }
 
-/// The header of a node table of these columns.
-pub fn interface_header(columns: &[Column], times: Times) -> String {
-    let keys = if times == Times::Many { "node,interaction,time" } else { "node,interaction" };
-    let names: Vec<String> = columns.iter().map(|column| format!(",{column}")).collect();
-    format!("{keys}{}\n", names.concat())
+/// The interface rows of states as the columns of a node table.
+#[derive(Debug)]
+pub struct InterfaceTable<'a> {
+    problem: &'a Problem<'a>,
+    model: &'a Model,
+    /// The labels of [`interface_labels`].
+    labels: Vec<String>,
+    selection: Selection,
 }
 
-/// The interface rows of a state as rows of a node table, in the order of the scene, by the labels of [`interface_labels`].
-pub fn interface_rows(
-    problem: &Problem<'_>,
-    model: &Model,
-    state: &State,
-    (columns, labels, times): (&[Column], &[String], Times),
-    text: &mut Vec<u8>,
-) {
-    for ((number, row), label) in (0..).zip(&problem.scene.interfaces).zip(labels) {
-        let mut line = Line::new(text);
-        line.text(label);
-        let interaction = model.interactions.get_index(problem.interactions[number as usize]);
-        line.text(interaction.map_or("", |(name, _)| name.written()));
-        if times == Times::Many {
-            line.number(Some(state.time));
+impl<'a> InterfaceTable<'a> {
+    /// The table of a problem whose interactions are those of `model`.
+    pub fn new(problem: &'a Problem<'a>, model: &'a Model) -> Self {
+        let (mut keys, mut numbers) = (vec![Column::Node, Column::Interaction], Vec::new());
+        if Times::of(problem) == Times::Many {
+            keys.push(Column::Time);
+            numbers.push(Column::Time);
         }
-        for &column in columns {
-            line.number(cell(problem, state, number, row, column));
+        numbers.extend(interface_columns(problem));
+        let selection = Selection { labels: keys, numbers };
+        Self { problem, model, labels: interface_labels(problem), selection }
+    }
+
+    /// Its columns: texts and numbers.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// The rows of a state, in the order of the scene, of which `before` were given so far.
+    pub fn rows(&self, state: &State, before: u64) -> Batch {
+        let mut batch = Batch::with_columns(self.selection.labels.len(), self.selection.numbers.len());
+        batch.first_row = before;
+        let mut time = Vec::new();
+        push_number(&mut time, state.time);
+        for ((number, row), label) in (0..).zip(&self.problem.scene.interfaces).zip(&self.labels) {
+            let interaction = self.model.interactions.get_index(self.problem.interactions[number as usize]);
+            let name = interaction.map_or("", |(name, _)| name.written());
+            let texts = [label.as_bytes(), name.as_bytes(), &time];
+            for (column, text) in batch.labels.iter_mut().zip(texts) {
+                column.push(text);
+            }
+            for (column, to) in self.selection.numbers.iter().zip(&mut batch.numbers) {
+                to.push(match column {
+                    Column::Time => Some(state.time),
+                    column => cell(self.problem, state, number, row, *column),
+                });
+            }
+            batch.rows += 1;
         }
-        line.end();
+        batch
     }
 }
 
 /// The names of slave nodes; where several rows of one interaction share one, with that of the master node and, from the second of the same pair on, a number,
 /// so that each row has a history of its own.
-pub fn interface_labels(problem: &Problem<'_>) -> Vec<String> {
+fn interface_labels(problem: &Problem<'_>) -> Vec<String> {
     let scene = problem.scene;
     let rows = || scene.interfaces.iter().zip(&problem.interactions);
     let (mut seen, mut shared) = (BTreeSet::new(), BTreeSet::new());

@@ -44,6 +44,11 @@ impl Failure {
         Self::Read { path: path.to_owned(), error }
     }
 
+    /// Whether whoever reads our output has seen enough, which is no fault.
+    pub(crate) fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
     /// The same of a file that is better known by another name.
     pub(crate) fn about(self, name: &Path) -> Self {
         match self {
@@ -63,7 +68,7 @@ pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::HasErrors) => ExitCode::from(1),
         // Whoever reads our output has seen enough.
-        Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
         Err(Failure::AlreadySaid) => ExitCode::from(2),
         Err(failure) => {
             say(&format!("error: {failure}"));

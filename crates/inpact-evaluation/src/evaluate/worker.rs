@@ -178,12 +178,12 @@ impl InteractionTally {
         results: &mut ResultBatch,
         faults: &mut Vec<UserFaultInRow>,
     ) {
-        self.incomplete += u64::from(outcomes.contains(&Some(Outcome::Incomplete)));
+        self.incomplete += u64::from(outcomes.iter().any(|outcome| matches!(outcome, Some(Outcome::Incomplete))));
         let [electrical, thermal, pore] = outcomes.map(|outcome| match outcome? {
             Outcome::Incomplete => None,
             Outcome::Evaluated(status) => status,
             Outcome::Faulty(fault) => {
-                faults.extend(fault);
+                faults.extend(fault.map(|fault| *fault));
                 None
             }
         });

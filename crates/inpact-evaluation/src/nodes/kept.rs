@@ -1,6 +1,7 @@
 //! The rows of one reading, kept so that the table is read once: in memory up to a limit, the rest in a file that the caller gives.
 
 use super::batch::Batch;
+use super::header::Header;
 use super::reader::Selection;
 use super::spill;
 use std::collections::VecDeque;
@@ -56,16 +57,16 @@ impl KeptRows {
         }
     }
 
-    /// The columns that the batches have.
-    pub(crate) fn begin(&mut self, selection: &Selection) {
+    /// Begins with batches that have these columns.
+    pub fn begin(&mut self, selection: &Selection) {
         selection.clone_into(&mut self.selection);
     }
 
-    /// Keeps the next rows.
+    /// Keeps the next rows, which have the columns that were begun with.
     ///
     /// # Errors
     /// Those of making and writing the file.
-    pub(crate) fn push(&mut self, batch: Batch) -> io::Result<()> {
+    pub fn push(&mut self, batch: Batch) -> io::Result<()> {
         let size = batch.size();
         if self.spilled.is_none() && self.used + size <= self.room {
             self.used += size;
@@ -95,6 +96,14 @@ impl KeptRows {
             take(&spill::read(&mut reader)?);
         }
         file.seek(SeekFrom::End(0)).map(drop)
+    }
+
+    /// The columns of the batches as the header of a table.
+    pub(super) fn header(&self) -> Header {
+        let Selection { labels, numbers } = &self.selection;
+        let others = numbers.iter().filter(|column| !labels.contains(column));
+        let names: Vec<String> = labels.iter().chain(others).map(ToString::to_string).collect();
+        Header::new(names.iter().map(String::as_str))
     }
 
     /// Gives the rows back one batch after the other, with the columns that are selected now; none stay kept.

@@ -10,6 +10,7 @@ use super::columnar::{ColumnarReader, Storage};
 use super::csv::CsvReader;
 use super::foreign;
 use super::header::Header;
+use super::kept::{GivenBack, KeptRows};
 use inpact_diagnostics::Findings;
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -29,6 +30,13 @@ enum Table<'a> {
     Csv(Box<CsvReader<'a>>),
     #[cfg(feature = "columnar")]
     Columnar(Box<ColumnarReader>),
+    Kept(Header, KeptTable),
+}
+
+/// Rows that were made as batches.
+enum KeptTable {
+    NotBegun(KeptRows),
+    Begun(GivenBack),
 }
 
 /// What a table that is stored as columns can be read from.
@@ -130,6 +138,11 @@ impl<'a> NodeReader<'a> {
         NodeReader::new(Table::Columnar(Box::new(table)))
     }
 
+    /// The rows that were kept, as a table of their columns; its batches are those that were kept.
+    pub fn of_kept(rows: KeptRows) -> Self {
+        Self::new(Table::Kept(rows.header(), KeptTable::NotBegun(rows)))
+    }
+
     fn new(table: Table<'a>) -> Self {
         Self { table, rows_of_a_batch: ROWS_OF_A_BATCH, selection: Selection::default() }
     }
@@ -140,13 +153,14 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.header(),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.header(),
+            Table::Kept(header, _) => header,
         }
     }
 
     /// What the table itself says of a column of numbers: Parquet files may, for all of their rows, until the first batch is read.
     pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
         match &self.table {
-            Table::Csv(_) => None,
+            Table::Csv(_) | Table::Kept(..) => None,
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.statistics(table.header().position(column)?),
         }
@@ -175,6 +189,7 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.set_read_ahead(pieces),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.set_reads_ahead(0 < pieces),
+            Table::Kept(..) => {}
         }
     }
 
@@ -187,6 +202,14 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.read_batch(batch, findings),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.read_batch(batch, findings),
+            Table::Kept(_, rows) => {
+                if let KeptTable::NotBegun(kept) = rows {
+                    *rows = KeptTable::Begun(kept.give_back(&self.selection)?);
+                }
+                let KeptTable::Begun(given) = rows else { return Ok(false) };
+                let next = given.next_batch()?;
+                Ok(next.map(|next| *batch = next).is_some())
+            }
         }
     }
 
@@ -199,6 +222,8 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
+            // It goes by the names of the columns, once the first batch is read.
+            Table::Kept(..) => {}
         }
     }
 }

@@ -53,8 +53,13 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         return Err(nothing_to_evaluate(&evaluable, format));
     }
     let mut findings = Findings::new(&evaluable.nodes_name);
-    let evaluated = evaluate(arguments, &mut evaluable, &mut findings);
+    let mut went_out = 0;
+    let evaluated = evaluate(arguments, &mut evaluable, &mut findings, &mut went_out);
     say_data_findings(findings.into_list(), &evaluable.settings, format);
+    if evaluated.as_ref().is_err_and(|failure| went_out > 0 && !failure.is_closed_pipe()) {
+        let rows = if went_out == 1 { "1 row".to_owned() } else { format!("{went_out} rows") };
+        say(&format!("note: {rows} went out before this"));
+    }
     let (tally, rows_out) = evaluated?;
     let summary = Summary { tally: &tally, plan: &evaluable.plan, rows_out, time: start.elapsed() };
     match format {
@@ -64,11 +69,12 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// Evaluates the node table batch by batch; gives the counts and the number of rows written.
+/// Evaluates the node table; gives the counts and the number of rows written. `went_out` is how many rows nothing takes back.
 fn evaluate(
     arguments: &EvalArguments,
     evaluable: &mut Evaluable,
     findings: &mut Findings,
+    went_out: &mut u64,
 ) -> Result<(Tally, u64), Failure> {
     let nodes_path = arguments.evaluable.nodes_path();
     let unreadable = |error| Failure::read(nodes_path, error);
@@ -76,9 +82,11 @@ fn evaluate(
     let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     let mut output = ResultFile::create(arguments.output.target())?;
     let evaluation = Evaluation::on_all_threads(model, plan, choices);
-    let written = write(&mut rows, evaluation, plan, (&mut output, arguments.output.format()));
-    let (tally, rows_out) = match written {
-        Ok(counts) => counts,
+    let mut rows_out = 0;
+    let written = write(&mut rows, evaluation, plan, (&mut output, arguments.output.format()), &mut rows_out);
+    *went_out = if output.is_stream() { rows_out } else { 0 };
+    let tally = match written {
+        Ok(tally) => tally,
         Err(RunFailure::Reading(error)) => return Err(unreadable(error)),
         // What a column of the format cannot hold is wrong in the data, not in the place it is written to.
         Err(RunFailure::Writing(error)) if error.kind() == ErrorKind::InvalidData => {
@@ -88,7 +96,8 @@ fn evaluate(
     };
     tally.report_user_faults(findings);
     if findings.has_errors() {
-        return Err(Failure::Data("the user subroutine fails, and no result is written".to_owned()));
+        let result = if output.is_stream() { "the rows it fails in have no result" } else { "no result is written" };
+        return Err(Failure::Data(format!("the user subroutine fails, and {result}")));
     }
     tally.report(plan, findings);
     refuse_configured_errors(findings.list(), settings)?;
@@ -101,11 +110,17 @@ fn write(
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
     (output, format): (&mut ResultFile, TableFormat),
-) -> Result<(Tally, u64), RunFailure<std::io::Error>> {
+    rows_out: &mut u64,
+) -> Result<Tally, RunFailure<std::io::Error>> {
     let writer = ResultWriter::with_format(output, format, plan.keys(), &plan.outputs);
     let mut writer = writer.map_err(RunFailure::Writing)?;
-    evaluation.run(rows, plan, |batch, results| writer.write(batch, results))?;
-    Ok((evaluation.finish(), writer.finish().map_err(RunFailure::Writing)?))
+    evaluation.run(rows, plan, |batch, results| {
+        writer.write(batch, results)?;
+        *rows_out = writer.rows_written();
+        Ok(())
+    })?;
+    writer.finish().map_err(RunFailure::Writing)?;
+    Ok(evaluation.finish())
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.

@@ -144,7 +144,7 @@ impl EvaluableArguments {
         let mut findings = Findings::new(&nodes_name);
         let mut reader = NodeReader::open_any(nodes.reader(&self.nodes)?, &mut findings).map_err(unreadable)?;
         reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
-        let mut rows = KeptRows::new(ROOM_FOR_ROWS, Box::new(|| Ok(Box::new(tempfile::tempfile()?))));
+        let mut rows = kept_rows();
         let surveyed = survey_keeping(reader, &model, &choices, &mut findings, &mut rows).map_err(unreadable)?;
         let mut found = findings.into_list();
         // Only a text table has lines, and cells that can be pointed at.
@@ -212,6 +212,11 @@ impl EvaluableArguments {
     pub(crate) fn nodes_path(&self) -> &Path {
         &self.nodes
     }
+}
+
+/// Room for rows that are to be evaluated, first in memory, then in a temporary file.
+pub(crate) fn kept_rows() -> KeptRows {
+    KeptRows::new(ROOM_FOR_ROWS, Box::new(|| Ok(Box::new(tempfile::tempfile()?))))
 }
 
 impl NodesInput {

@@ -107,6 +107,11 @@ impl ResultFile {
         }
     }
 
+    /// Whether what is written goes out at once, so that nothing takes it back.
+    pub(crate) fn is_stream(&self) -> bool {
+        !matches!(self, Self::File { .. })
+    }
+
     /// Writes out what is left and gives the file its name.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         match self {

@@ -151,7 +151,8 @@ impl ElectricalColumns {
                 }
                 Some(Err(fault)) => {
                     let is_shown = tally.count_fault();
-                    return (Outcome::Faulty(is_shown.then(|| routine.fault_in_row(row, &fault))), None);
+                    let shown = is_shown.then(|| Box::new(routine.fault_in_row(row, &fault)));
+                    return (Outcome::Faulty(shown), None);
                 }
                 None => return (Outcome::Incomplete, None),
             },

@@ -1,50 +1,51 @@
-//! The result table of the interfaces of a solved scene: its rows as a node table, evaluated as `eval` evaluates one.
+//! The result table of the interfaces of a solved scene: its rows as batches of columns, evaluated as `eval` evaluates those of a node table.
 
 use super::super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
+use crate::commands::evaluable::kept_rows;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_diagnostics::{Cell, Diagnostic, Findings, Place};
-use inpact_evaluation::evaluate::Evaluation;
-use inpact_evaluation::nodes::{Batch, CONTRADICTORY_RATE, NodeReader};
-use inpact_evaluation::plan::{make, survey};
-use inpact_evaluation::results::{ResultBatch, ResultWriter, TableFormat};
+use inpact_evaluation::evaluate::{Evaluation, RunFailure};
+use inpact_evaluation::nodes::{CONTRADICTORY_RATE, KeptRows, NodeReader};
+use inpact_evaluation::plan::{make, survey_keeping};
+use inpact_evaluation::results::{ResultWriter, TableFormat};
 use inpact_network::scene::Scene;
-use std::io::{self, Cursor};
 use std::path::Path;
 
-/// Evaluates rows that stand in a table of comma-separated values, and writes the result.
+/// Evaluates the rows, and writes the result.
 pub(super) fn write(
     prepared: &SolvableScene,
-    table: Vec<u8>,
+    rows: KeptRows,
     target: &Path,
     format: FindingFormat,
 ) -> Result<(), Failure> {
     let SolvableScene { settings, model, choices, name, scene, .. } = prepared;
     let unreadable = |error| Failure::read(Path::new("the interface rows"), error);
     let mut findings = Findings::new(name);
-    let reader = NodeReader::open_any(Box::new(Cursor::new(table.clone())), &mut findings).map_err(unreadable)?;
-    let surveyed = survey(reader, model, choices, &mut findings).map_err(unreadable)?;
+    let (reader, mut rows) = (NodeReader::of_kept(rows), kept_rows());
+    let surveyed = survey_keeping(reader, model, choices, &mut findings, &mut rows).map_err(unreadable)?;
     let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else {
         say_data_findings(of_scene(findings, scene), settings, format);
         return Err(Failure::Data("the interface rows of the scene cannot be evaluated".to_owned()));
     };
     let plan = make(model, &surveyed, choices);
-    let mut reader = NodeReader::open_any(Box::new(Cursor::new(table)), &mut findings).map_err(unreadable)?;
-    reader.select(&plan.selection);
+    let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     let mut output = ResultFile::create(Some(target))?;
     let table_format = TableFormat::of_extension(target).unwrap_or_default();
-    let mut evaluation = Evaluation::new(model, &plan, choices);
-    let written = (|| -> io::Result<()> {
-        let mut writer = ResultWriter::with_format(&mut output, table_format, plan.keys(), &plan.outputs)?;
-        let (mut batch, mut results) = (Batch::default(), ResultBatch::default());
-        while reader.read_batch(&mut batch, &mut findings)? {
-            evaluation.evaluate(&batch, &mut results);
-            writer.write(&batch, &results)?;
-        }
-        writer.finish().map(drop)
+    let mut evaluation = Evaluation::on_all_threads(model, &plan, choices);
+    let written = (|| {
+        let writing = RunFailure::Writing;
+        let writer = ResultWriter::with_format(&mut output, table_format, plan.keys(), &plan.outputs);
+        let mut writer = writer.map_err(writing)?;
+        evaluation.run(&mut rows, &plan, |batch, results| writer.write(batch, results))?;
+        writer.finish().map_err(writing)
     })();
-    written.map_err(|error| output.failure(error))?;
+    match written {
+        Ok(_) => {}
+        Err(RunFailure::Reading(error)) => return Err(unreadable(error)),
+        Err(RunFailure::Writing(error)) => return Err(output.failure(error)),
+    }
     let tally = evaluation.finish();
     tally.report_user_faults(&mut findings);
     tally.report(&plan, &mut findings);

@@ -3,16 +3,14 @@
 use super::super::findings::FindingFormat;
 use super::summary::balances;
 use super::{SolveArguments, interfaces};
+use crate::commands::evaluable::kept_rows;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::{ResultFile, STANDARD_STREAM};
 use clap::ValueEnum;
-use inpact_evaluation::nodes::Column;
+use inpact_evaluation::nodes::KeptRows;
 use inpact_network::scene::Field;
-use inpact_network::tables::{
-    Times, interface_columns, interface_header, interface_labels, interface_rows, link_header, link_rows, state_header,
-    state_rows,
-};
+use inpact_network::tables::{InterfaceTable, Times, link_header, link_rows, state_header, state_rows};
 use inpact_network::{Problem, State};
 use serde_json::{Map, Value, json};
 use std::io::Write;
@@ -47,19 +45,19 @@ pub(super) struct Outputs<'a> {
     appended_links: Option<Vec<u8>>,
     /// The flows of links that have a file of their own.
     link_file: Option<ResultFile>,
-    interfaces: Option<Interfaces>,
+    interfaces: Option<Interfaces<'a>>,
     /// The states as JSON.
     documents: Vec<Value>,
     /// Whether a state has been taken: before that nothing is written.
     has_begun: bool,
 }
 
-/// The rows of the interfaces as a node table, and where their results go.
-struct Interfaces {
+/// The rows of the interfaces, and where their results go.
+struct Interfaces<'a> {
     target: PathBuf,
-    columns: Vec<Column>,
-    labels: Vec<String>,
-    table: Vec<u8>,
+    table: InterfaceTable<'a>,
+    rows: KeptRows,
+    taken: u64,
 }
 
 impl<'a> Outputs<'a> {
@@ -83,9 +81,10 @@ impl<'a> Outputs<'a> {
                 None => None,
             },
             interfaces: arguments.interfaces.clone().map(|target| {
-                let columns = interface_columns(problem);
-                let table = interface_header(&columns, times).into_bytes();
-                Interfaces { target, columns, labels: interface_labels(problem), table }
+                let table = InterfaceTable::new(problem, &prepared.model);
+                let mut rows = kept_rows();
+                rows.begin(table.selection());
+                Interfaces { target, table, rows, taken: 0 }
             }),
             documents: Vec::new(),
             has_begun: false,
@@ -125,8 +124,10 @@ impl<'a> Outputs<'a> {
             link_rows(problem, state, times, &mut text);
             write(file, &text)?;
         }
-        if let Some(Interfaces { columns, labels, table, .. }) = &mut self.interfaces {
-            interface_rows(problem, &self.prepared.model, state, (columns, labels, times), table);
+        if let Some(Interfaces { table, rows, taken, target }) = &mut self.interfaces {
+            let batch = table.rows(state, *taken);
+            *taken += batch.rows as u64;
+            rows.push(batch).map_err(|error| Failure::write(target, error))?;
         }
         Ok(())
     }
@@ -150,8 +151,8 @@ impl<'a> Outputs<'a> {
         if let Some(file) = self.link_file {
             file.finish()?;
         }
-        if let Some(Interfaces { target, table, .. }) = self.interfaces {
-            interfaces::write(self.prepared, table, &target, findings)?;
+        if let Some(Interfaces { target, rows, .. }) = self.interfaces {
+            interfaces::write(self.prepared, rows, &target, findings)?;
         }
         Ok(())
     }
