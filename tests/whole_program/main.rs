@@ -9,6 +9,7 @@ mod decks;
 mod dialects;
 mod eval;
 mod eval_laws;
+mod eval_mesh;
 mod eval_modes;
 mod eval_silent;
 mod eval_tables;

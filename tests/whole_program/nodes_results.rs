@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// A block on a block: pressed on three nodes of four in the first step, lifted off in the second.
-const PRESSED: &str = "\
+pub(crate) const PRESSED: &str = "\
 *NODE, NSET=NALL
 1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.
 5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.

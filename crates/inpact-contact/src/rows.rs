@@ -150,11 +150,20 @@ impl<'a> NodeRows<'a> {
         self.pairs.iter().map(|pair| &pair.summary)
     }
 
-    /// Forgets the rows that were made, so that they can be made once more.
-    pub fn rewind(&mut self) {
-        self.rows = 0;
-        self.columns = self.numbers.iter().map(|column| ColumnSummary::new(*column)).collect();
-        self.pairs.iter_mut().for_each(|pair| pair.summary.rewind());
+    /// Leaves the column [`Column::Source`] out.
+    pub fn without_sources(&mut self) {
+        self.naming = None;
+        self.keys.retain(|key| *key != Column::Source);
+    }
+
+    /// The rows of all states one after the other, a batch a pair and state, in the order of the deck.
+    pub fn batches<'b>(
+        &'b mut self,
+        states: &'b [State],
+    ) -> impl Iterator<Item = Result<Batch, RowsError>> + use<'a, 'b> {
+        let pairs = self.pairs.len();
+        let each = states.iter().flat_map(move |state| (0..pairs).map(move |pair| (pair, state)));
+        each.map(|(pair, state)| self.batch(pair, state))
     }
 
     /// Hands the rows of a state to `take`, a batch a pair, in the order of the deck.
@@ -172,16 +181,8 @@ impl<'a> NodeRows<'a> {
         Ok(())
     }
 
-    /// How many pairs have rows.
-    pub fn pairs(&self) -> usize {
-        self.pairs.len()
-    }
-
     /// The rows of a pair, counted among those that have rows, in a state.
-    ///
-    /// # Errors
-    /// Where the nodes have moved to places that have no geometry.
-    pub fn batch(&mut self, pair: usize, state: &State) -> Result<Batch, RowsError> {
+    fn batch(&mut self, pair: usize, state: &State) -> Result<Batch, RowsError> {
         let pair = &mut self.pairs[pair];
         let contact = pair.contact(self.mesh, state)?;
         let mut summary = pair.summary.clone();

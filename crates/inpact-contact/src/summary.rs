@@ -158,12 +158,6 @@ impl PairSummary {
             Some(ContactState::Undetermined) | None => self.without_master += 1,
         }
     }
-
-    /// Forgets the rows that were counted.
-    pub(crate) fn rewind(&mut self) {
-        (self.nodes, self.area) = (0, 0.0);
-        (self.closed, self.open, self.without_master) = (0, 0, 0);
-    }
 }
 
 fn clearance_source(pair: &MeshPair) -> String {

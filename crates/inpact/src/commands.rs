@@ -17,6 +17,7 @@ pub(crate) mod evaluable;
 pub(crate) mod findings;
 pub(crate) mod job_results;
 mod laws;
+pub(crate) mod mesh_rows;
 pub(crate) mod meshed;
 pub(crate) mod solvable;
 mod table_output;

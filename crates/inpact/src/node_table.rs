@@ -1,8 +1,8 @@
 //! Node tables from the mesh of a deck, and from what its job wrote.
 
 use crate::commands::job_results::{States, join};
+use crate::commands::mesh_rows::{refuse_none, rows_of_pairs};
 use crate::commands::meshed::MeshedDeck;
-use crate::commands::nodes::{refuse_none, rows_of_pairs};
 use crate::deck::Deck;
 use crate::error::Error;
 use crate::failure::Failure;
@@ -53,7 +53,8 @@ impl Deck {
         let meshed = MeshedDeck::read(Path::new(self.name()), &self.settings)?;
         let (States { states, .. }, notes) = join(&results, &meshed)?;
         let mut rows = rows_of_pairs(&meshed, &states)?;
-        let of_mesh = |note: &MeshNote| format!("{}: {}", meshed.deck.source(note.span.source).name(), note.message);
+        let of_mesh =
+            |note: &MeshNote| format!("{}: {}", meshed.read.deck.source(note.span.source).name(), note.message);
         let mut notes: Vec<String> = notes.iter().map(|note| format!("{}: {}", note.file, note.message)).collect();
         notes.extend(meshed.mesh.notes.iter().chain(rows.notes()).map(of_mesh));
         refuse_none(&meshed, &rows)?;

@@ -11,6 +11,7 @@ use super::csv::CsvReader;
 use super::foreign;
 use super::header::Header;
 use super::kept::{GivenBack, KeptRows};
+use super::made::{MadeBatches, MadeReader};
 use inpact_diagnostics::Findings;
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -31,6 +32,7 @@ enum Table<'a> {
     #[cfg(feature = "columnar")]
     Columnar(Box<ColumnarReader>),
     Kept(Header, KeptTable),
+    Made(Box<MadeReader<'a>>),
 }
 
 /// Rows that were made as batches.
@@ -143,6 +145,11 @@ impl<'a> NodeReader<'a> {
         Self::new(Table::Kept(rows.header(), KeptTable::NotBegun(rows)))
     }
 
+    /// Opens a node table that is made while it is read: key columns, which the labels of its batches are, and columns of numbers.
+    pub fn of_made(keys: &[Column], numbers: &[Column], batches: MadeBatches<'a>) -> Self {
+        Self::new(Table::Made(Box::new(MadeReader::new(keys, numbers, batches))))
+    }
+
     fn new(table: Table<'a>) -> Self {
         Self { table, rows_of_a_batch: ROWS_OF_A_BATCH, selection: Selection::default() }
     }
@@ -154,13 +161,14 @@ impl<'a> NodeReader<'a> {
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.header(),
             Table::Kept(header, _) => header,
+            Table::Made(table) => table.header(),
         }
     }
 
     /// What the table itself says of a column of numbers: Parquet files may, for all of their rows, until the first batch is read.
     pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
         match &self.table {
-            Table::Csv(_) | Table::Kept(..) => None,
+            Table::Csv(_) | Table::Kept(..) | Table::Made(_) => None,
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.statistics(table.header().position(column)?),
         }
@@ -189,7 +197,7 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.set_read_ahead(pieces),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.set_reads_ahead(0 < pieces),
-            Table::Kept(..) => {}
+            Table::Kept(..) | Table::Made(_) => {}
         }
     }
 
@@ -210,6 +218,7 @@ impl<'a> NodeReader<'a> {
                 let next = given.next_batch()?;
                 Ok(next.map(|next| *batch = next).is_some())
             }
+            Table::Made(table) => table.read_batch(batch),
         }
     }
 
@@ -224,6 +233,7 @@ impl<'a> NodeReader<'a> {
             Table::Columnar(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
             // It goes by the names of the columns, once the first batch is read.
             Table::Kept(..) => {}
+            Table::Made(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
         }
     }
 }

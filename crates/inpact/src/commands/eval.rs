@@ -11,10 +11,12 @@ use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
 use crate::settings::DeckArguments;
 use clap::Args;
+use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::evaluate::{Evaluation, RunFailure, Tally};
 use inpact_evaluation::nodes::{Findings, GivenBack};
 use inpact_evaluation::plan::{Plan, Reason};
 use inpact_evaluation::results::{ResultWriter, TableFormat};
+use serde_json::json;
 use std::io::ErrorKind;
 use std::time::Instant;
 
@@ -65,6 +67,15 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     match format {
         FindingFormat::Concise | FindingFormat::Github => summary.text().iter().for_each(|line| say(line)),
         FindingFormat::Json => say_json(&summary.json()),
+    }
+    if let Some(made) = &evaluable.made {
+        match format {
+            FindingFormat::Concise | FindingFormat::Github => {
+                say(&visible_line(&format!("rows of the {}:", evaluable.nodes_name)));
+                made.lines.iter().for_each(|line| say(&visible_line(line)));
+            }
+            FindingFormat::Json => say_json(&json!({ "nodes": made.value }).to_string()),
+        }
     }
     Ok(Outcome::Clean)
 }

@@ -1,22 +1,24 @@
 //! A deck and a node table that can be evaluated, and the choices between them: what `eval`, `plan` and `tradeoff` have in common.
 
 use super::findings::{FindingFormat, say_data_findings, say_deck_findings};
+use super::job_results::{RESULTS_HELP, States, states};
 use super::laws::LawArguments;
+use super::mesh_rows::{RowsSummary, node_rows};
+use super::meshed::{MeshedDeck, ReadDeck};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
-use crate::input;
 use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
+use inpact_contact::RowsError;
 use inpact_diagnostics::{Extent, Findings};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, NodeReader, locate};
-use inpact_evaluation::plan::{Choices, Derivatives, Plan, make, survey_keeping};
+use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, make, survey_keeping};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
-use inpact_parser::deck::Keep;
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::{self, Model, Name, Regime};
+use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::check;
 use std::fs::File;
 use std::io::{self, BufReader, Seek, SeekFrom};
@@ -33,9 +35,11 @@ pub(crate) struct EvaluableArguments {
     /// The deck or fragment; `-` reads standard input.
     #[arg(value_name = "DECK")]
     deck: PathBuf,
-    /// The node table: comma-separated values, Parquet or Arrow, as its first bytes say; `-` reads standard input.
-    #[arg(long, value_name = "FILE")]
-    nodes: PathBuf,
+    /// The node table: comma-separated values, Parquet or Arrow, as its first bytes say; `-` reads standard input. Without it the rows are made of the mesh of the deck, as `inpact nodes` makes them.
+    #[arg(long, value_name = "FILE", conflicts_with = "results")]
+    nodes: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", help = RESULTS_HELP)]
+    results: Vec<PathBuf>,
     /// The interaction that governs every row, instead of column `interaction`.
     #[arg(long, value_name = "NAME")]
     interaction: Option<String>,
@@ -103,6 +107,22 @@ pub(crate) struct Evaluable {
     pub(crate) deck_has_errors: bool,
     /// The rows of the node table.
     pub(crate) rows: KeptRows,
+    /// What was said of rows that were made of the deck's mesh.
+    pub(crate) made: Option<RowsSummary>,
+}
+
+/// Where rows come from, with the deck.
+enum Source<'a> {
+    Table(ReadDeck, &'a Path),
+    Mesh(Box<MeshedDeck>),
+}
+
+/// Rows that were read once.
+struct Surveyed {
+    survey: Survey,
+    rows: KeptRows,
+    nodes_name: String,
+    made: Option<RowsSummary>,
 }
 
 /// A node table of which more than the next bytes can be asked for.
@@ -114,8 +134,9 @@ enum NodesInput {
 
 impl EvaluableArguments {
     /// The files that are read.
-    pub(crate) fn inputs(&self) -> [&Path; 2] {
-        [&self.deck, &self.nodes]
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
+        let paths = std::iter::once(&self.deck).chain(&self.nodes).chain(&self.results);
+        paths.map(PathBuf::as_path).collect()
     }
 
     /// Reads deck and node table and makes the plan; `None` after saying what is wrong with the node table.
@@ -126,35 +147,28 @@ impl EvaluableArguments {
         format: FindingFormat,
     ) -> Result<Option<Evaluable>, Failure> {
         let is_standard = |path: &Path| path.as_os_str() == STANDARD_STREAM;
-        if is_standard(&self.deck) && is_standard(&self.nodes) {
+        if is_standard(&self.deck) && self.nodes.as_deref().is_some_and(is_standard) {
             return Err(Failure::Usage("deck and node table cannot both be read from standard input".to_owned()));
         }
         let mut settings = reading.settings(&self.deck)?;
         format.confine(&mut settings, &self.deck);
         let grammar = settings.grammar;
-        let deck = input::read_deck(&self.deck, Keep::Interpreted, &settings)?;
-        let (model, problems) = model::read(&deck, grammar);
+        let source = match &self.nodes {
+            Some(nodes) => Source::Table(ReadDeck::read(&self.deck, &settings)?, nodes),
+            None => Source::Mesh(Box::new(MeshedDeck::read(&self.deck, &settings)?)),
+        };
+        let model = &source.deck().model;
         if model.interactions.is_empty() {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
-        let choices = self.choices(laws, &model, grammar.dialect())?;
-        let nodes_name = self.nodes.display().to_string();
-        let mut nodes = NodesInput::open(&self.nodes)?;
-        let unreadable = |error| Failure::read(&self.nodes, error);
-        let mut findings = Findings::new(&nodes_name);
-        let mut reader = NodeReader::open_any(nodes.reader(&self.nodes)?, &mut findings).map_err(unreadable)?;
-        reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
-        let mut rows = kept_rows();
-        let surveyed = survey_keeping(reader, &model, &choices, &mut findings, &mut rows).map_err(unreadable)?;
-        let mut found = findings.into_list();
-        // Only a text table has lines, and cells that can be pointed at.
-        if found.iter().any(|found| found.primary.extent == Extent::Line) {
-            let table = BufReader::new(nodes.reader(&self.nodes)?);
-            locate(table, &mut found).map_err(|error| Failure::read(&self.nodes, error))?;
-        }
-        let has_errors = say_data_findings(found, &settings, format);
-        let Some(surveyed) = surveyed.filter(|_| !has_errors) else { return Ok(None) };
-        let plan = make(&model, &surveyed, &choices);
+        let choices = self.choices(laws, model, grammar.dialect())?;
+        let surveyed = match &source {
+            Source::Table(deck, path) => survey_table(path, &deck.model, &choices, &settings, format)?,
+            Source::Mesh(meshed) => self.survey_mesh(meshed, &choices, &settings, format)?,
+        };
+        let Some(Surveyed { survey, rows, nodes_name, made }) = surveyed else { return Ok(None) };
+        let ReadDeck { deck, model, problems } = source.into_deck();
+        let plan = make(&model, &survey, &choices);
         let mut unavailable = Findings::new(&nodes_name);
         plan.report_unavailable(&choices, &mut unavailable);
         if say_data_findings(unavailable.into_list(), &settings, format) {
@@ -164,7 +178,7 @@ impl EvaluableArguments {
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), (&names, choices.regime), format);
         let deck_name = self.deck.display().to_string();
-        Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, rows }))
+        Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, rows, made }))
     }
 
     fn choices(&self, laws: &LawArguments, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
@@ -208,10 +222,92 @@ impl EvaluableArguments {
         with_threads(self.threads.map_or(0, usize::from), work)
     }
 
-    /// Where the node table is, for a failure to read it.
+    /// Where the rows come from, for a failure to read it.
     pub(crate) fn nodes_path(&self) -> &Path {
-        &self.nodes
+        self.nodes.as_deref().unwrap_or(&self.deck)
     }
+
+    /// Makes the rows of a deck's mesh and of the results of its job, and looks at them; `None` after saying what is wrong with them.
+    fn survey_mesh(
+        &self,
+        meshed: &MeshedDeck,
+        choices: &Choices,
+        settings: &Settings,
+        format: FindingFormat,
+    ) -> Result<Option<Surveyed>, Failure> {
+        if meshed.mesh.pairs.is_empty() && self.results.is_empty() {
+            meshed.say_notes(&meshed.mesh.notes, format)?;
+            let message = format!(
+                "expected a node table (`--nodes FILE`), or a deck whose mesh rows can be made of: `{}` has no contact pair with a mesh",
+                meshed.name
+            );
+            return Err(Failure::Usage(message));
+        }
+        let States { states, files } = states(&self.results, meshed, format)?;
+        let mut node_rows = node_rows(meshed, &states, format)?;
+        node_rows.without_sources();
+        let mut nodes_name = format!("mesh of {}", meshed.name);
+        for (at, file) in files.iter().enumerate() {
+            nodes_name += if at == 0 { " with " } else { ", " };
+            nodes_name += &file.file;
+        }
+        let (keys, numbers) = (node_rows.keys().to_vec(), node_rows.numbers().to_vec());
+        // A place without a geometry is wrong in the data, not in the reading of it.
+        let batches = node_rows.batches(&states).map(|batch| batch.map_err(io::Error::other));
+        let reader = NodeReader::of_made(&keys, &numbers, Box::new(batches));
+        let mut findings = Findings::new(&nodes_name);
+        let mut rows = kept_rows();
+        let failed = |error: io::Error| match error.downcast::<RowsError>() {
+            Ok(error) => Failure::Data(error.to_string()),
+            Err(error) => Failure::read(&self.deck, error),
+        };
+        let survey = survey_keeping(reader, &meshed.read.model, choices, &mut findings, &mut rows).map_err(failed)?;
+        let has_errors = say_data_findings(findings.into_list(), settings, format);
+        let made = Some(RowsSummary::of(&node_rows, &files));
+        Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed { survey, rows, nodes_name, made }))
+    }
+}
+
+impl Source<'_> {
+    fn deck(&self) -> &ReadDeck {
+        match self {
+            Self::Table(deck, _) => deck,
+            Self::Mesh(meshed) => &meshed.read,
+        }
+    }
+
+    fn into_deck(self) -> ReadDeck {
+        match self {
+            Self::Table(deck, _) => deck,
+            Self::Mesh(meshed) => meshed.read,
+        }
+    }
+}
+
+/// Reads a node table and looks at its rows; `None` after saying what is wrong with them.
+fn survey_table(
+    path: &Path,
+    model: &Model,
+    choices: &Choices,
+    settings: &Settings,
+    format: FindingFormat,
+) -> Result<Option<Surveyed>, Failure> {
+    let nodes_name = path.display().to_string();
+    let mut nodes = NodesInput::open(path)?;
+    let unreadable = |error| Failure::read(path, error);
+    let mut findings = Findings::new(&nodes_name);
+    let mut reader = NodeReader::open_any(nodes.reader(path)?, &mut findings).map_err(unreadable)?;
+    reader.set_read_ahead(READ_AHEAD * rayon::current_num_threads());
+    let mut rows = kept_rows();
+    let survey = survey_keeping(reader, model, choices, &mut findings, &mut rows).map_err(unreadable)?;
+    let mut found = findings.into_list();
+    // Only a text table has lines, and cells that can be pointed at.
+    if found.iter().any(|found| found.primary.extent == Extent::Line) {
+        let table = BufReader::new(nodes.reader(path)?);
+        locate(table, &mut found).map_err(|error| Failure::read(path, error))?;
+    }
+    let has_errors = say_data_findings(found, settings, format);
+    Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed { survey, rows, nodes_name, made: None }))
 }
 
 /// Room for rows that are to be evaluated, first in memory, then in a temporary file.

@@ -4,7 +4,6 @@ use super::findings::FindingFormat;
 use super::meshed::MeshedDeck;
 use crate::failure::{Failure, say, say_json};
 use crate::files;
-use clap::Args;
 use inpact_contact::{FileSummary, Join, JoinError, Joined, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_results::{Incomplete, Results};
@@ -15,12 +14,8 @@ use std::path::{Path, PathBuf};
 /// More notes than these of one run nobody reads.
 const MOST_NOTES: usize = 100;
 
-#[derive(Debug, Args)]
-pub(crate) struct JobResultArguments {
-    /// What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; several are joined by their times, and where two say something of a node, the one named first counts.
-    #[arg(long, value_name = "FILE")]
-    results: Vec<PathBuf>,
-}
+/// What `--results` is, for `--help`.
+pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
 /// What is known of a mesh at the times of result files, or at the beginning where there are none.
 pub(crate) struct States {
@@ -28,18 +23,11 @@ pub(crate) struct States {
     pub(crate) files: Vec<FileSummary>,
 }
 
-impl JobResultArguments {
-    /// The files that are read.
-    pub(crate) fn paths(&self) -> &[PathBuf] {
-        &self.results
-    }
-
-    /// Reads the files and joins them with the mesh, after saying what could not be used.
-    pub(crate) fn states(&self, meshed: &MeshedDeck, format: FindingFormat) -> Result<States, Failure> {
-        let (states, notes) = join(&self.results, meshed)?;
-        say_notes(&notes, format);
-        Ok(states)
-    }
+/// Reads result files and joins them with the mesh, after saying what could not be used.
+pub(crate) fn states(results: &[PathBuf], meshed: &MeshedDeck, format: FindingFormat) -> Result<States, Failure> {
+    let (states, notes) = join(results, meshed)?;
+    say_notes(&notes, format);
+    Ok(states)
 }
 
 /// Reads result files and joins them with the mesh; gives what could not be used as well.
@@ -47,7 +35,7 @@ pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, 
     if results.is_empty() || meshed.mesh.pairs.is_empty() {
         return Ok((States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() }, Vec::new()));
     }
-    let mut join = Join::new(&meshed.mesh, &meshed.model);
+    let mut join = Join::new(&meshed.mesh, &meshed.read.model);
     let failed = |error: JoinError| Failure::Data(error.to_string());
     for path in results {
         join.add(&path.display().to_string(), &read(path)?).map_err(failed)?;

@@ -9,6 +9,7 @@ use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::mesh::{self, KeptRows, Mesh, MeshNote, RowBytes, SeekableRows};
 use inpact_parser::model::{self, Model};
+use inpact_parser::problem::Problem;
 use inpact_parser::span::{Position, SourceId};
 use serde::Serialize;
 use std::cell::RefCell;
@@ -18,14 +19,32 @@ use std::path::Path;
 /// More notes than these nobody reads, and each has to be looked for in the file.
 const MOST_NOTES: usize = 100;
 
+/// A deck and its model.
+pub(crate) struct ReadDeck {
+    pub(crate) deck: Deck,
+    pub(crate) model: Model,
+    pub(crate) problems: Vec<Problem>,
+}
+
 /// A deck with its mesh.
 pub(crate) struct MeshedDeck {
     pub(crate) name: String,
-    pub(crate) deck: Deck,
-    pub(crate) model: Model,
+    pub(crate) read: ReadDeck,
     pub(crate) mesh: Mesh,
     /// The files of the deck, where their rows are read from them; otherwise the deck has kept its rows.
     files: RefCell<Option<SeekableRows<File>>>,
+}
+
+impl ReadDeck {
+    /// Reads a deck without its mesh.
+    pub(crate) fn read(path: &Path, settings: &Settings) -> Result<Self, Failure> {
+        Ok(Self::of(input::read_deck(path, Keep::Interpreted, settings)?, settings))
+    }
+
+    fn of(deck: Deck, settings: &Settings) -> Self {
+        let (model, problems) = model::read(&deck, settings.grammar);
+        Self { deck, model, problems }
+    }
 }
 
 impl MeshedDeck {
@@ -38,15 +57,15 @@ impl MeshedDeck {
         let located = input::read_located_deck(path, keep, settings, None)?;
         let mut files = if is_file { Some(open_all(&located)?) } else { None };
         let LocatedDeck { deck, .. } = located;
-        let (model, _) = model::read(&deck, settings.grammar);
+        let read = ReadDeck::of(deck, settings);
         let unreadable = |error| Failure::read(path, error);
-        let read = |rows: &mut dyn RowBytes| mesh::read(&deck, settings.grammar, &model, rows);
+        let read_mesh = |rows: &mut dyn RowBytes| mesh::read(&read.deck, settings.grammar, &read.model, rows);
         let mesh = match &mut files {
-            Some(files) => read(files),
-            None => read(&mut KeptRows(&deck)),
+            Some(files) => read_mesh(files),
+            None => read_mesh(&mut KeptRows(&read.deck)),
         };
         let mesh = mesh.map_err(unreadable)?;
-        Ok(Self { name: path.display().to_string(), deck, model, mesh, files: RefCell::new(files) })
+        Ok(Self { name: path.display().to_string(), read, mesh, files: RefCell::new(files) })
     }
 
     /// Says notes with their places.
@@ -54,8 +73,8 @@ impl MeshedDeck {
         for note in notes.iter().take(MOST_NOTES) {
             let unreadable = |error| Failure::read(Path::new(&self.name), error);
             let position = match &mut *self.files.borrow_mut() {
-                Some(files) => mesh::position(&self.deck, files, note.span),
-                None => mesh::position(&self.deck, &mut KeptRows(&self.deck), note.span),
+                Some(files) => mesh::position(&self.read.deck, files, note.span),
+                None => mesh::position(&self.read.deck, &mut KeptRows(&self.read.deck), note.span),
             };
             self.say_note(note, position.map_err(unreadable)?, format);
         }
@@ -67,7 +86,7 @@ impl MeshedDeck {
     }
 
     fn say_note(&self, note: &MeshNote, place: Position, format: FindingFormat) {
-        let file = self.deck.source(note.span.source).name();
+        let file = self.read.deck.source(note.span.source).name();
         match format {
             // A note has no code, which an annotation would need as its title.
             FindingFormat::Concise | FindingFormat::Github => {

@@ -51,9 +51,10 @@ pub(crate) struct TradeoffArguments {
 }
 
 /// What only the modes on a node table know; named one by one, so that a message names those that were given.
-const OF_TABLE: [&str; 10] = [
+const OF_TABLE: [&str; 11] = [
     "deck",
     "nodes",
+    "results",
     "interaction",
     "procedure",
     "threads",
@@ -67,6 +68,7 @@ const OF_TABLE: [&str; 10] = [
 /// Both ways to say what is measured on.
 const USAGE: &str = "\
 inpact tradeoff [OPTIONS] --nodes <FILE> <DECK>
+       inpact tradeoff [OPTIONS] [--results <FILE>]... <DECK>
        inpact tradeoff [OPTIONS] --scene <SCENE>";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
