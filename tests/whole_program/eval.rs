@@ -118,7 +118,7 @@ fn what_cannot_be_read_and_wrong_usage_end_with_2() {
 }
 
 #[test]
-fn the_summary_in_words_and_as_json() {
+fn the_summary_as_text_and_as_json() {
     let folder = scene();
     let run = folder.inpact(&["eval", "a.inp", "--nodes", "a.csv"]);
     insta::assert_snapshot!(summary(&run));

@@ -232,7 +232,7 @@ fn a_file_that_cannot_be_used_says_where_and_why() {
         &frd.replace(" 2.00000E+00\n", " 3.00000E+00\n").replace("1.00000E+00\n -1", "1.50000E+00\n -1"),
     );
     let cases = [
-        ("cut.frd", 1, "cut.frd:", "before it stand 2 states up to time 2.0, the last of which may not be whole"),
+        ("cut.frd", 1, "cut.frd:", "2 states up to time 2.0 are before it, the last of which may not be whole"),
         ("empty.frd", 1, "empty.frd:1: the file is empty", "let the job run"),
         ("job.inp", 1, "job.inp:1: the file is a deck, not results", "name the results"),
         ("nowhere.frd", 2, "cannot read `nowhere.frd`", ""),

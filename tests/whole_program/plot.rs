@@ -104,7 +104,7 @@ fn what_does_not_exist_is_refused() {
     for (arguments, message) in [
         (&["--interaction", "JOINTS"][..], "there is no interaction `JOINTS`; there are `JOINT`"),
         (&["--at", "temp"], "expected NAME=VALUE"),
-        (&["--at", "temp=warm"], "expected a number behind `temp=`, found `warm`"),
+        (&["--at", "temp=warm"], "expected a number after `temp=`, found `warm`"),
         (&["--units", "presure=MPa"], "there is no quantity `presure`"),
         (&["-o", "a.gif"], "must end in"),
         (&["-o", "a.inp"], "must end in"),
@@ -171,7 +171,7 @@ fn findings_are_marked_at_their_rows() {
     for code in ["T001", "P005", "P006", "P007", "P008"] {
         assert!(has(&marked, code), "{code}: {marked:?}");
     }
-    assert!(marked.iter().any(|text| text.starts_with("not evaluated, the rows as they stand")));
+    assert!(marked.iter().any(|text| text.starts_with("not evaluated, the rows as written")));
     let unmarked = texts(&plotted(deck, &[]).0);
     assert!(!has(&unmarked, "P005"));
     assert!(in_letters(deck, &["--findings"]).contains("! T001 at pressure 10, line 14:"));

@@ -25,7 +25,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Join<'a> {
     mesh: &'a Mesh,
-    /// Whether nodes move in the analysis that the deck asks for.
+    /// Nodes move in the analysis of the deck.
     moves: bool,
     pairs: PairNames,
     /// The slave nodes of all pairs, and those of several.
@@ -36,31 +36,31 @@ pub struct Join<'a> {
     notes: Vec<ResultNote>,
 }
 
-/// What result files say of a mesh.
+/// The content of result files on a mesh.
 #[derive(Debug)]
 pub struct Joined {
     /// A state a time, in the order of times.
     pub states: Vec<State>,
-    /// What was made of each file.
+    /// The summary of each file.
     pub files: Vec<FileSummary>,
-    /// What could not be used, and what was taken with something assumed.
+    /// Parts that could not be used, and assumptions.
     pub notes: Vec<ResultNote>,
 }
 
-/// What was made of a file.
+/// Summary of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileSummary {
     /// The file.
     pub file: Arc<str>,
     /// Of which kind it is.
     pub format: Format,
-    /// How many frames it has.
+    /// The number of its frames.
     pub frames: usize,
-    /// How many of them say something of a node of a contact surface.
+    /// The number of them with values at a node of a contact surface.
     pub used_frames: usize,
-    /// How many nodes of contact surfaces it says something of.
+    /// The number of nodes of contact surfaces with values.
     pub nodes: usize,
-    /// How its nodes were found in the mesh.
+    /// The way its nodes were found in the mesh.
     pub matched_by: MatchedBy,
 }
 
@@ -69,11 +69,11 @@ pub struct FileSummary {
 pub struct ResultNote {
     /// The file.
     pub file: Arc<str>,
-    /// What it is, for a person.
+    /// The note, for users.
     pub message: String,
 }
 
-/// Why nothing of result files can be used.
+/// The reason why nothing of result files can be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct JoinError(String);
@@ -81,8 +81,9 @@ pub struct JoinError(String);
 impl<'a> Join<'a> {
     /// Nothing yet.
     pub fn new(mesh: &'a Mesh, model: &Model) -> Self {
-        let still = ["HEAT TRANSFER", "COUPLED THERMAL-ELECTRICAL", "MASS DIFFUSION"];
-        let moves = model.procedures.iter().any(|procedure| !still.contains(&procedure.option.keyword.as_str()));
+        let without_motion = ["HEAT TRANSFER", "COUPLED THERMAL-ELECTRICAL", "MASS DIFFUSION"];
+        let moves =
+            model.procedures.iter().any(|procedure| !without_motion.contains(&procedure.option.keyword.as_str()));
         let (slaves, shared) = frames::slave_nodes(mesh);
         Self {
             mesh,
@@ -99,7 +100,7 @@ impl<'a> Join<'a> {
     /// Adds a file; what is wrong with it as a whole is an error, what of it cannot be used a note.
     ///
     /// # Errors
-    /// Where it is of another mesh: its nodes are elsewhere.
+    /// It is of another mesh: its nodes are elsewhere.
     pub fn add(&mut self, file: &str, results: &Results) -> Result<(), JoinError> {
         let file: Arc<str> = file.into();
         let (map, notes) =
@@ -229,7 +230,7 @@ impl<'a> Join<'a> {
     /// The states, completed from *INITIAL CONDITIONS.
     ///
     /// # Errors
-    /// Where no file says anything of a node of a contact surface, or where several states have no time.
+    /// No file has values at a node of a contact surface, or several states have no time.
     pub fn finish(mut self) -> Result<Joined, JoinError> {
         if self.building.is_empty() {
             let names: Vec<String> = self.files.iter().map(|file| format!("`{}`", file.file)).collect();
@@ -276,7 +277,7 @@ impl<'a> Join<'a> {
     }
 }
 
-/// What is gathered while a file is read.
+/// State of reading a file.
 struct OfFile {
     file: Arc<str>,
     format: Format,

@@ -1,4 +1,4 @@
-//! What rows are called: a history is the rows of one name under one interaction, so that no two rows of a time may share it.
+//! Names of rows: a history is the rows of one name under one interaction, so that no two rows of a time may share it.
 
 use inpact_geometry::NodeId;
 use inpact_parser::mesh::{Mesh, MeshPair};
@@ -9,8 +9,8 @@ use std::collections::HashSet;
 #[derive(Debug, Default)]
 pub(crate) struct Names {
     taken: HashSet<(Name, NodeId)>,
-    /// How many were told apart from another row of the same node.
-    pub(crate) told_apart: u64,
+    /// The number of rows renamed, as another row of the same node has the name.
+    pub(crate) renamed: u64,
 }
 
 impl Names {
@@ -20,7 +20,7 @@ impl Names {
         if self.taken.insert((interaction.clone(), node)) {
             return name;
         }
-        self.told_apart += 1;
+        self.renamed += 1;
         format!("{name}:{}", mesh.surfaces[pair.master].name.written())
     }
 }

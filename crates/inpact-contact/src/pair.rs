@@ -13,11 +13,11 @@ pub(crate) struct Pair<'a> {
     /// Its position in [`Mesh::pairs`].
     pub(crate) index: usize,
     pub(crate) start: Vec<ContactNode>,
-    /// What the rows of its nodes are called.
+    /// The names of the rows of its nodes.
     pub(crate) names: Vec<String>,
     pub(crate) summary: PairSummary,
     thickness: f64,
-    /// What ADJUST moves: it has moved before anything else, and is no rule for what follows.
+    /// The moves of ADJUST: before anything else, and no rule for later states.
     adjusted: Vec<(NodeId, Vector)>,
 }
 
@@ -72,7 +72,7 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// How ADJUST moves slave nodes onto the master before anything else: each with its way (L).
+/// The moves of slave nodes onto the master by ADJUST (L).
 fn adjusted(mesh: &Mesh, pair: &MeshPair, thickness: f64) -> Result<Vec<(NodeId, Vector)>, GeometryError> {
     let (Some(within), None) = (pair.adjust, pair.clearance) else { return Ok(Vec::new()) };
     let contact = mesh.contact(&without_start(pair), thickness)?;
@@ -92,7 +92,7 @@ fn add(point: Point, way: Vector) -> Point {
     [0, 1, 2].map(|k| point[k] + way[k])
 }
 
-/// What is across from a slave node, where it is across.
+/// The projection of a slave node, where it projects.
 pub(crate) fn across(node: &ContactNode) -> Option<&Projection> {
     node.across.as_ref().filter(|across| across.projects)
 }
@@ -123,7 +123,7 @@ pub(crate) fn interpolated<const N: usize>(
     Some(sum)
 }
 
-/// What is wrong with a geometry, with the nodes by their names.
+/// The fault of a geometry, with the nodes by their names.
 fn reason(mesh: &Mesh, error: &GeometryError) -> String {
     let name = |node: &NodeId| mesh.nodes.get(node.index()).map_or_else(String::new, ToString::to_string);
     match error {

@@ -11,7 +11,7 @@ use inpact_parser::mesh::{Mesh, MeshNote, SurfaceKind};
 use inpact_parser::model::{Model, Name};
 use std::sync::Arc;
 
-/// Why the rows of a pair cannot be made.
+/// The reason why the rows of a pair cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("the contact pair of `{slave}` and `{master}` has no geometry{}: {reason}", at(*.time))]
 pub struct RowsError {
@@ -40,11 +40,11 @@ pub struct NodeRows<'a> {
     columns: Vec<ColumnSummary>,
     notes: Vec<MeshNote>,
     rows: u64,
-    /// How cells of [`Column::Source`] are written, where there is that column.
+    /// The naming of files in cells of [`Column::Source`], where there is that column.
     naming: Option<FileNaming>,
 }
 
-/// How the file of a quantity is written in a cell.
+/// Naming of the file of a quantity in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FileNaming {
     /// Not at all: there is but one.
@@ -67,7 +67,7 @@ impl<'a> NodeRows<'a> {
     /// The rows of the pairs whose interaction the model has, with the columns that these states fill.
     ///
     /// # Errors
-    /// Where a pair has no geometry as the deck says it.
+    /// A pair has no geometry as the deck defines it.
     pub fn new(mesh: &'a Mesh, model: &'a Model, states: &[State]) -> Result<Self, RowsError> {
         let mut notes = Vec::new();
         let mut names = Names::default();
@@ -95,12 +95,12 @@ impl<'a> NodeRows<'a> {
             notes.extend(without_master(mesh, &made, states));
             pairs.push(made);
         }
-        if 0 < names.told_apart
+        if 0 < names.renamed
             && let Some(first) = pairs.first()
         {
             let message = format!(
                 "{} slave nodes belong to several pairs of one interaction: their rows of the later ones are named with the master, `12:MASTER`",
-                names.told_apart
+                names.renamed
             );
             notes.push(MeshNote { span: first.of.span, message });
         }
@@ -125,22 +125,22 @@ impl<'a> NodeRows<'a> {
         &self.numbers
     }
 
-    /// Which pairs were left out, and what else there is to know of the rows, with its place.
+    /// The pairs left out, and other notes on the rows, with their places.
     pub fn notes(&self) -> &[MeshNote] {
         &self.notes
     }
 
-    /// How many slave nodes the pairs have: a state has as many rows.
+    /// The number of slave nodes of the pairs: a state has as many rows.
     pub fn nodes(&self) -> usize {
         self.pairs.iter().map(|pair| pair.start.len()).sum()
     }
 
-    /// How many rows there are so far.
+    /// The number of rows so far.
     pub fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// Where the columns of numbers come from so far, and where they are empty.
+    /// The sources of the columns of numbers so far, and their empty cells.
     pub fn columns(&self) -> &[ColumnSummary] {
         &self.columns
     }
@@ -169,7 +169,7 @@ impl<'a> NodeRows<'a> {
     /// Hands the rows of a state to `take`, a batch a pair, in the order of the deck.
     ///
     /// # Errors
-    /// Where the nodes have moved to places that have no geometry; and those of `take`.
+    /// The nodes have moved to places that have no geometry; and errors of `take`.
     pub fn write<E: From<RowsError>>(
         &mut self,
         state: &State,
@@ -261,7 +261,7 @@ fn push_source(text: &mut String, column: Column, origin: Origin<'_>, naming: Fi
     }
 }
 
-/// How files are written in cells; `None` where no file says anything.
+/// The naming of files in cells; `None` without files.
 fn file_naming(states: &[State]) -> Option<FileNaming> {
     let sources = states.iter().flat_map(|state| {
         let fields = state.fields.iter().map(|field| &field.source);

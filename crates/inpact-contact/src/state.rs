@@ -1,4 +1,4 @@
-//! What is known of the nodes of a mesh at one time.
+//! Values at the nodes of a mesh at one time.
 
 use inpact_evaluation::nodes::{Column, Part};
 use inpact_evaluation::results::Output;
@@ -6,22 +6,22 @@ use inpact_geometry::{NodeId, Vector};
 use inpact_parser::mesh::{InitialQuantity, Mesh};
 use std::sync::Arc;
 
-/// What is known of the nodes at one time; every column of values is in the order of [`Mesh::nodes`].
+/// Values at the nodes at one time; every column is in the order of [`Mesh::nodes`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct State {
     /// When.
     pub moment: Moment,
-    /// How far the nodes have moved since the beginning; `None` where they have not, or nothing says so.
+    /// The displacements of the nodes since the beginning; `None` where they have not moved, or no source gives them.
     pub displacements: Option<Displacements>,
-    /// What is known of slave nodes as such.
+    /// The values of slave nodes as such.
     pub contact: Vec<ContactField>,
-    /// What is known of all nodes, each quantity once.
+    /// The values of all nodes, each quantity once.
     pub fields: Vec<NodeField>,
-    /// What a solver says of the interface itself: the outputs that are computed here too.
+    /// Values of a solver at the interface itself: the outputs that are computed here too.
     pub outputs: Vec<OutputField>,
 }
 
-/// When a state is.
+/// The time of a state.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Moment {
     /// The total time (T); `None` for the beginning, which is a table without times, and where nothing says it.
@@ -34,12 +34,12 @@ pub struct Moment {
     pub step_time: Option<f64>,
 }
 
-/// How far the nodes have moved.
+/// Displacements of the nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Displacements {
     /// A vector a node (L).
     pub vectors: Vec<Vector>,
-    /// Where they come from.
+    /// Their source.
     pub source: Source,
 }
 
@@ -52,11 +52,11 @@ pub struct ContactField {
     pub pair: Option<usize>,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
-    /// Where it comes from.
+    /// Its source.
     pub source: Source,
 }
 
-/// What a solver knows of slave nodes.
+/// Quantities of a solver at slave nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ContactQuantity {
     /// The clearance, open > 0 (L).
@@ -78,11 +78,11 @@ pub struct NodeField {
     pub quantity: NodeQuantity,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
-    /// Where it comes from.
+    /// Its source.
     pub source: Source,
 }
 
-/// What nodes of both sides have.
+/// Quantities of nodes of both sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum NodeQuantity {
     /// Temperature (θ).
@@ -104,11 +104,11 @@ pub struct OutputField {
     pub pair: Option<usize>,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
-    /// Where it comes from.
+    /// Its source.
     pub source: Source,
 }
 
-/// Where values come from.
+/// Sources of values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// *INITIAL CONDITIONS.

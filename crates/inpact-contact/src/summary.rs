@@ -1,4 +1,4 @@
-//! What was made of a pair: counts, and where its quantities come from.
+//! Summary of a pair: counts and sources of its quantities.
 
 use crate::state::Source;
 use crate::values::Origin;
@@ -9,23 +9,23 @@ use inpact_parser::mesh::{Mesh, MeshPair, Sliding, SurfaceKind};
 use inpact_parser::model::Name;
 use std::fmt;
 
-/// Where the areas of slave nodes come from.
+/// Sources of the areas of slave nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AreaSource {
     /// The faces of the slave, shared among their nodes.
     Faces(Shares),
     /// A surface of nodes: so many of them have an area of *SURFACE, the others this one, from the first row of the interaction.
     Nodes {
-        /// How many have their own.
+        /// The number with an own area.
         given: usize,
-        /// How many have the interaction's.
+        /// The number with the area of the interaction.
         of_interaction: usize,
         /// That of the interaction (L²).
         area: f64,
     },
 }
 
-/// What was made of a pair; rows are counted over all states, the area is that of the first.
+/// Summary of a pair; rows are counted over all states, the area is that of the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSummary {
     /// The slave surface.
@@ -34,7 +34,7 @@ pub struct PairSummary {
     pub master: Name,
     /// The interaction.
     pub interaction: Name,
-    /// How many slave nodes it has.
+    /// The number of its slave nodes.
     pub nodes: usize,
     /// The sum of their areas (L²).
     pub area: f64,
@@ -44,24 +44,24 @@ pub struct PairSummary {
     pub open: u64,
     /// Rows whose clearance nothing says, since they have no master face across.
     pub without_master: u64,
-    /// Where areas come from.
+    /// The source of areas.
     pub area_source: AreaSource,
-    /// Where clearances come from, for a person.
+    /// The source of clearances, for users.
     pub clearance_source: String,
 }
 
-/// What is to be said of a column of numbers.
+/// Summary of a column of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnSummary {
     /// The column.
     pub column: Column,
     /// In how many rows so far it is empty.
     pub empty: u64,
-    /// Where its numbers come from, and how many of them.
+    /// The sources of its numbers, and the number of each.
     origins: Vec<(Place, u64)>,
 }
 
-/// Where a number comes from, to be kept.
+/// The source of a number, to be kept.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Place {
     Mesh,
@@ -102,7 +102,7 @@ impl ColumnSummary {
         Self { column, empty: 0, origins: Vec::new() }
     }
 
-    /// Where its numbers come from, for a person; `None` where all are of the mesh, of which [`PairSummary`] says it.
+    /// The sources of its numbers, for users; `None` where all are of the mesh, of which [`PairSummary`] gives it.
     pub fn source(&self) -> Option<String> {
         match self.origins.as_slice() {
             [] | [(Place::Mesh, _)] => None,

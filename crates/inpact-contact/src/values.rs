@@ -6,14 +6,14 @@ use inpact_evaluation::nodes::{Column, Part};
 use inpact_geometry::{ContactNode, NodeId};
 use inpact_parser::mesh::Mesh;
 
-/// Where a number of a row comes from.
+/// The source of a number of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin<'a> {
     /// The mesh of the deck.
     Mesh,
     /// The mesh, moved by displacements.
     Moved(&'a Source),
-    /// What something says.
+    /// A value given by a source.
     Said(&'a Source),
 }
 

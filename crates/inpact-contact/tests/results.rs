@@ -1,4 +1,4 @@
-//! What result files say of a mesh, in rows of node tables: which nodes labels are, what counts where several things are said, and what is named as not used.
+//! Result files of a mesh in rows of node tables: nodes of labels, precedence among several values, and notes on parts not used.
 
 mod common;
 
@@ -201,7 +201,7 @@ fn fil_of_instances(first: i64, surfaces: bool, lift: f64) -> Vec<u8> {
 }
 
 #[test]
-fn nodes_of_instances_are_found_by_coordinates_and_told_apart_by_surfaces() {
+fn nodes_of_instances_are_found_by_coordinates_and_distinguished_by_surfaces() {
     let read = deck(INSTANCES);
     // Whatever the solver numbers them, and whatever the deck does.
     for first in [1, 40] {
@@ -235,7 +235,7 @@ fn nodes_at_one_place_that_nothing_tells_apart_are_named_and_not_used() {
     let open = deck(&INSTANCES.replace("*PART, NAME=UPPER\n*NODE\n1, 0., 0., 0.", lifted));
     let joined = open.join(&[("job.fil", &fil_of_instances(1, false, 0.5))]).expect("of this mesh");
     let notes = messages(&joined);
-    assert!(notes[0].contains("could not be told apart, the first of them Low-1.6:"), "{notes:?}");
+    assert!(notes[0].contains("could not be distinguished, the first of them Low-1.6:"), "{notes:?}");
     assert_eq!(joined.files[0].nodes, 2);
     assert_eq!(open.table(&joined.states).number("Up-1.1", 0, "temp_s"), 90.0);
 }

@@ -27,7 +27,7 @@ pub(crate) struct Chart {
     pub(crate) vertical: Vec<(f64, String)>,
     /// Lines of one y, each with what it means.
     pub(crate) horizontal: Vec<(f64, String)>,
-    /// What the joined points are.
+    /// The meaning of the joined points.
     pub(crate) front_title: String,
     /// Small print below.
     pub(crate) footnote: String,
@@ -39,7 +39,7 @@ pub(crate) struct Point {
     /// Above zero, as is y.
     pub(crate) x: f64,
     pub(crate) y: f64,
-    /// How far up a bar goes from it, where there is one.
+    /// The upper end of its bar, where there is one.
     pub(crate) bar_to: Option<f64>,
     pub(crate) label: String,
     /// Whether it is joined to the others of which that is true.
@@ -191,7 +191,7 @@ impl Chart {
     }
 }
 
-/// A part of the drawing that something stands in.
+/// An occupied area of the drawing.
 #[derive(Debug, Clone, Copy)]
 struct Area {
     left: f64,
@@ -215,12 +215,12 @@ impl Area {
     }
 }
 
-/// Whether nothing stands there yet, and it is within the axes.
+/// Whether an area is empty and within the axes.
 fn is_free(area: &Area, taken: &[Area]) -> bool {
     area.is_inside_the_axes() && !taken.iter().any(|other| area.meets(other))
 }
 
-/// Where a label goes: beside its point, on the side and at the height at which it meets nothing else.
+/// The place of a label: beside its point, on the side and at the height at which it meets nothing else.
 fn label_place((x, y): (f64, f64), label: &str, taken: &mut Vec<Area>) -> ((f64, f64), &'static str) {
     let width = width(label, SIZE);
     let candidates = [0.0, -16.0, 16.0, -24.0, 24.0, -32.0, 32.0, -40.0, 40.0, -48.0, 48.0, -64.0, 64.0, -80.0, 80.0]

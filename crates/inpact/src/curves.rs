@@ -1,8 +1,8 @@
-//! What is drawn of a deck's laws: curves of conductance, permeability and view factor against clearance and contact pressure.
+//! Drawings of a deck's laws: curves of conductance, permeability and view factor against clearance and contact pressure.
 //!
 //! A [`Panel`] is one law of one interaction as figure 37.3.1-1 of the Analysis User's Guide (6.14) has it: clearance to the left of contact, pressure to the right.
 //! Every value is the law's own, found as an evaluation finds it; nothing is interpolated here.
-//! Rows that form no table have no values, and are shown as they stand.
+//! Rows that form no table have no values, and are shown as they are.
 //!
 //! Knows no pixels and no files: pictures, text plots and pages are made of it.
 
@@ -22,14 +22,14 @@ pub use node_rows::{NodeRows, NodeSample};
 pub use probe::{Probe, ProbeAxis, ProbeBranch};
 pub use units::{Units, UnitsError};
 
-/// What is drawn of one deck.
+/// The drawing of one deck.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
-    /// What the deck is called.
+    /// The name of the deck.
     pub deck: String,
-    /// The laws, interaction by interaction; small multiples of one law stand together.
+    /// The laws, interaction by interaction; small multiples of one law are adjacent.
     pub panels: Vec<Panel>,
-    /// What is not drawn, and why: a line each.
+    /// The parts that are not drawn, and why: a line each.
     pub notes: Vec<String>,
 }
 
@@ -38,11 +38,11 @@ pub struct Figure {
 pub struct Panel {
     /// The name of the interaction as the deck writes it.
     pub interaction: String,
-    /// Which law it is.
+    /// Its law.
     pub law: LawKind,
-    /// What the law gives.
+    /// The value of the law.
     pub value: Quantity,
-    /// What tells the curves apart; `None` for a single curve.
+    /// The quantity that distinguishes the curves; `None` for a single curve.
     pub family: Option<Quantity>,
     /// The variables that have one value here although the rows know several.
     pub held: Vec<Held>,
@@ -52,17 +52,17 @@ pub struct Panel {
     pub closed: Half,
     /// The curves, by ascending value of the family.
     pub curves: Vec<Curve>,
-    /// How many curves there would be: more than are drawn where there are too many to tell apart.
+    /// The number of all curves: more than are drawn where there are too many to distinguish.
     pub all_curves: usize,
-    /// Why the rows cannot be evaluated, where they cannot: the curves are the rows as they stand then.
+    /// The reason why the rows cannot be evaluated, where they cannot: the curves are then the rows as written.
     pub fault: Option<String>,
-    /// The law at other values of its variables, where that was asked for; of small multiples the first has it.
+    /// The law at other values of its variables, where requested; of small multiples the first has it.
     pub probe: Option<Probe>,
     /// Findings with a place on the curves.
     pub marks: Vec<Mark>,
     /// Rows of a node table on the curves.
     pub nodes: Option<NodeRows>,
-    /// What there is to know of the panel besides: a line each.
+    /// Remarks on the panel: a line each.
     pub notes: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ pub struct Panel {
 pub struct Quantity {
     /// The name of the column in tables and node tables, such as `temp`.
     pub column: String,
-    /// What it is called in a sentence, such as `temperature`.
+    /// The name in a sentence, such as `temperature`.
     pub name: String,
     /// Its unit, or its dimension where no units are given; empty for a plain number or where nothing is known.
     pub unit: String,
@@ -80,13 +80,13 @@ pub struct Quantity {
 /// A variable that is held at one of its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
-    /// Which one.
+    /// The quantity.
     pub quantity: Quantity,
     /// At which value.
     pub at: f64,
-    /// How many values the rows have of it.
+    /// The number of its values in the rows.
     pub of: usize,
-    /// How many of these no panel shows.
+    /// The number of these that no panel shows.
     pub left_out: usize,
 }
 
@@ -99,9 +99,9 @@ pub struct Half {
     pub start: f64,
     /// The largest abscissa, beyond the last row.
     pub end: f64,
-    /// Whether abscissae mean anything: without rows or a cutoff the law is the same all along the side.
+    /// Abscissae have a meaning: without rows or a cutoff the law is the same all along the side.
     pub has_scale: bool,
-    /// How many rows its table has; `None` without a table.
+    /// The number of rows of its table; `None` without a table.
     pub rows: Option<usize>,
 }
 
@@ -121,9 +121,9 @@ pub struct Curve {
 pub struct Branch {
     /// The rows of the table that lie on it, in their order.
     pub knots: Vec<Knot>,
-    /// How many rows lie on it; more than `knots` where there are too many to tell apart.
+    /// The number of rows on it; more than `knots` where there are too many to distinguish.
     pub knot_count: usize,
-    /// The law's values, by ascending abscissa; of rows that form no table the rows as they stand.
+    /// The law's values, by ascending abscissa; of rows that form no table the rows as they are.
     pub samples: Vec<Sample>,
 }
 
@@ -134,7 +134,7 @@ pub struct Knot {
     pub x: f64,
     /// The value of the row.
     pub y: f64,
-    /// Which row of the table, from 0.
+    /// The row of the table, from 0.
     pub row: usize,
 }
 
@@ -186,7 +186,7 @@ impl Panel {
         self.curves.iter().any(|curve| !curve.branch(side).samples.is_empty())
     }
 
-    /// What the panel is about, in one line: `LAP: electrical conductance, fv1 = 2`.
+    /// The title in one line: `LAP: electrical conductance, fv1 = 2`.
     pub fn title(&self) -> String {
         let held = self.held.iter().map(|held| format!(", {} = {}", held.quantity.column, number(held.at)));
         format!("{}: {}{}", self.interaction, self.law.name(), held.collect::<String>())
@@ -241,12 +241,12 @@ pub fn number(value: f64) -> String {
 }
 
 impl Panel {
-    /// What the panel shows, in words for those who do not see it.
-    pub fn in_words(&self) -> String {
+    /// The alternative text of the panel.
+    pub fn description(&self) -> String {
         let of_half = |side: Side| {
             let half = self.half(side);
             let rows = half.rows?;
-            let words = match side {
+            let side_name = match side {
                 Side::Open => "against clearance",
                 Side::Closed => "against contact pressure",
             };
@@ -257,7 +257,7 @@ impl Panel {
                 Some((least.min(y), greatest.max(y)))
             });
             let range = range.map(|(least, greatest)| format!(", from {} to {}", number(least), number(greatest)));
-            Some(format!("{words} {rows} {}{}", if rows == 1 { "row" } else { "rows" }, range.unwrap_or_default()))
+            Some(format!("{side_name} {rows} {}{}", if rows == 1 { "row" } else { "rows" }, range.unwrap_or_default()))
         };
         let mut parts: Vec<String> = Side::BOTH.into_iter().filter_map(of_half).collect();
         if let (Some(family), true) = (&self.family, 1 < self.curves.len()) {

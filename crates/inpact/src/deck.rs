@@ -99,12 +99,12 @@ impl Deck {
         Self::read(&name, &options)
     }
 
-    /// What messages call it.
+    /// The name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Where its files are, the deck itself first.
+    /// The paths of its files, the deck itself first.
     pub fn files(&self) -> &[PathBuf] {
         self.located.places()
     }
@@ -124,7 +124,7 @@ impl Deck {
         self.settings.grammar
     }
 
-    /// What is wrong with it, in the order of the deck, with the severities of its configuration.
+    /// Its findings, in the order of the deck, with the severities of its configuration.
     pub fn check(&self) -> Vec<Diagnostic> {
         let found = inpact_validation::check(&self.located.deck, self.settings.grammar, &self.model, &self.problems);
         self.settings.apply(found)
@@ -164,12 +164,12 @@ impl Deck {
         Fixed::of(self, fixes)
     }
 
-    /// What it says, as JSON of the schema `inpact/model/1`.
+    /// Its model, as JSON of the schema `inpact/model/1`.
     pub fn to_json(&self) -> String {
         json::model::write(&self.model, &self.name)
     }
 
-    /// How it says it, line by line, as JSON of the schema `inpact/syntax/1`.
+    /// Its lines, as JSON of the schema `inpact/syntax/1`.
     ///
     /// # Errors
     /// A deck that was read without [`ReadOptions::keep_everything`].
@@ -184,7 +184,7 @@ impl Deck {
     /// A deck that says the same of the contact interfaces, in its dialect and release.
     ///
     /// # Errors
-    /// What no deck can say.
+    /// A model that no deck can contain.
     pub fn to_inp(&self) -> Result<String, Error> {
         model::print(&self.model, self.settings.grammar).map_err(|error| Error::data(error.to_string()))
     }

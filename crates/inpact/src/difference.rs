@@ -1,9 +1,9 @@
-//! What changes between two states of a file, as a unified diff.
+//! Changes between two states of a file, as a unified diff.
 
 use similar::TextDiff;
 use std::time::Duration;
 
-/// How long to look for the shortest diff; a longer one is given then. Files with a million changes need hours otherwise.
+/// The longest search for the shortest diff; a longer one is given then. Files with a million changes need hours otherwise.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The unified diff of a file; empty when nothing changes.

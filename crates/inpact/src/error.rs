@@ -5,9 +5,9 @@ use inpact_diagnostics::{Diagnostic, Severity};
 use std::error;
 use std::fmt;
 
-/// Why something could not be done: a file that cannot be read or written, wrong usage, or data with errors.
+/// A failure: a file that cannot be read or written, wrong usage, or data with errors.
 ///
-/// What is wrong with a deck that could be read is no error but a list of findings.
+/// Faults of a deck that could be read are no error but a list of findings.
 ///
 /// ```
 /// use inpact::{Deck, ReadOptions};
@@ -40,7 +40,7 @@ impl Error {
         Self { failure: Failure::Data(message), findings }
     }
 
-    /// For commands that stand on the library.
+    /// For commands built on the library.
     pub(crate) fn into_failure(self) -> Failure {
         self.failure
     }
@@ -50,7 +50,7 @@ impl Error {
         matches!(self.failure, Failure::Read { .. } | Failure::Write { .. } | Failure::Output(_))
     }
 
-    /// Whether what was asked for makes no sense, such as options that contradict one another.
+    /// Whether the request makes no sense, such as options that contradict one another.
     pub fn is_usage(&self) -> bool {
         matches!(self.failure, Failure::Usage(_))
     }
@@ -60,7 +60,7 @@ impl Error {
         matches!(self.failure, Failure::Data(_) | Failure::AlreadySaid)
     }
 
-    /// What was found in the data, where that is why.
+    /// The findings in the data, where they are the reason.
     pub fn findings(&self) -> &[Diagnostic] {
         &self.findings
     }

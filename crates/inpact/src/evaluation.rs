@@ -18,7 +18,7 @@ use inpact_evaluation::results::{Output, ResultRecords};
 use inpact_parser::model::{Name, Regime};
 use std::ops::ControlFlow;
 
-/// What is evaluated, and how exactly; the default is what deck and columns say, in full accuracy.
+/// Options of an evaluation; by default the deck and the columns decide, in full accuracy.
 #[derive(Debug, Clone, Default)]
 pub struct EvaluateOptions {
     outputs: Option<Vec<String>>,
@@ -26,7 +26,7 @@ pub struct EvaluateOptions {
     choices: Choices,
 }
 
-/// What an evaluation said beside its rows.
+/// The result of an evaluation beside its rows.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct EvaluatedTo {
@@ -34,7 +34,7 @@ pub struct EvaluatedTo {
     pub schema: SchemaRef,
     /// Warnings and notes about deck and rows.
     pub findings: Vec<Diagnostic>,
-    /// What was left out and why, a sentence each.
+    /// The parts left out and why, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -74,7 +74,7 @@ impl EvaluateOptions {
         self
     }
 
-    /// How exactly the values of tables are found.
+    /// Sets the accuracy of tables.
     #[must_use]
     pub fn accuracy(mut self, accuracy: Accuracy) -> Self {
         self.choices.accuracy = Wanted::Mode(accuracy);
@@ -102,7 +102,7 @@ impl EvaluateOptions {
         self
     }
 
-    /// Where the histories of nodes start (C-25).
+    /// Sets the start of the histories of nodes (C-25).
     #[must_use]
     pub fn history_start(mut self, start: HistoryStart) -> Self {
         self.choices.history_start = start;
@@ -166,7 +166,7 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// A deck with errors in the interactions that are used, rows with errors, an output that is asked for and cannot be given:
+    /// A deck with errors in the interactions that are used, rows with errors, a requested output that cannot be given:
     /// [`Error::findings`] says what and where.
     pub fn evaluate<I>(&self, schema: SchemaRef, batches: I, options: &EvaluateOptions) -> Result<Evaluated, Error>
     where
@@ -183,7 +183,7 @@ impl Deck {
 
     /// The same, batch by batch: `take` gets each with the number of rows that are done, and may stop.
     ///
-    /// What it has taken does not hold if the call ends with an error.
+    /// The rows given before an error are invalid.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate), and where `take` stops.
@@ -221,7 +221,7 @@ impl Deck {
         let plan = make(&self.model, &surveyed, choices);
         let mut unavailable = Findings::new(TABLE);
         plan.report_unavailable(choices, &mut unavailable);
-        found.extend(self.judged(unavailable, "an output that is asked for cannot be given")?);
+        found.extend(self.judged(unavailable, "a requested output cannot be given")?);
         found.extend(self.judged_deck(&plan, choices)?);
         if plan.outputs.is_empty() {
             return Err(self.nothing_to_evaluate(&plan));
@@ -267,7 +267,7 @@ impl Deck {
         }
     }
 
-    /// What the check says of the interactions that are used.
+    /// The findings of the check on the interactions that are used.
     fn judged_deck(&self, plan: &Plan, choices: &Choices) -> Result<Vec<Diagnostic>, Error> {
         let found = self.check();
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
@@ -298,10 +298,10 @@ impl Deck {
     }
 }
 
-/// How many bytes of the rows stay in memory; the rest waits in a temporary file.
+/// The number of bytes of the rows that stay in memory; the rest waits in a temporary file.
 const ROOM_FOR_ROWS: usize = 128 << 20;
 
-/// What messages call a table that is in memory.
+/// The name of a table in memory, in messages.
 const TABLE: &str = "<table>";
 
 fn unreadable(error: &std::io::Error) -> Error {
@@ -329,7 +329,7 @@ impl Evaluated {
         &self.findings
     }
 
-    /// What was left out and why, a sentence each.
+    /// The parts left out and why, a sentence each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }

@@ -1,4 +1,4 @@
-//! How a command ends: the exit codes, and what is said when it cannot go on.
+//! Ends of a command: exit codes, and messages when it cannot go on.
 
 use inpact_diagnostics::visible::{visible, visible_json};
 use std::borrow::Cow;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use thiserror::Error;
 
-/// How a command that could do its work ended.
+/// The end of a command that could do its work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// Done, no errors found: exit code 0.
@@ -16,7 +16,7 @@ pub(crate) enum Outcome {
     HasErrors,
 }
 
-/// Why a command could not do its work: exit code 2, but for [`Failure::Data`].
+/// A failure of a command to do its work: exit code 2, but for [`Failure::Data`].
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
     /// A file that cannot be read.
@@ -81,9 +81,9 @@ pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
 pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
     let plain = error.render().to_string();
     match visible(&plain) {
-        // Nobody is left to be told when this fails.
+        // Nobody sees a failure of this.
         Cow::Borrowed(_) => drop(error.print()),
-        // What was typed, or the name of a file, has characters that must not reach a terminal.
+        // Typed text, or the name of a file, may have characters that must not reach a terminal.
         Cow::Owned(shown) => say(shown.trim_end()),
     }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))

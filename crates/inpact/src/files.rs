@@ -1,6 +1,6 @@
 //! Decks in, results out: the only place where files are opened.
 //!
-//! What is read here is taken down, and nothing that was read is written over, but by a [`transaction`] that replaces what it was made from.
+//! Files read here are recorded, and none of them is written over, but by a [`transaction`] that replaces what it was made from.
 
 mod access;
 mod holders;
@@ -22,10 +22,10 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use whole::LONGEST_LINE;
 
-/// How much of a deck is read at a time: small enough to stay in cache.
+/// The number of bytes of a deck read at a time: few enough to stay in cache.
 const PIECE: usize = 64 * 1024;
 
-/// The name that stands for standard input and standard output.
+/// The name of standard input and standard output.
 pub(crate) const STANDARD_STREAM: &str = "-";
 
 /// Pushes a file into a scanner, piece by piece; standard input for `-`.
@@ -77,7 +77,7 @@ pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
 
 /// Refuses results that would be written over a file that this run has read, or over one another; before the work is done, since they are refused again when they are written.
 ///
-/// What is no file, such as a device, takes several results.
+/// A target that is no regular file, such as a device, takes several results.
 pub(crate) fn check_targets(targets: &[Option<&Path>]) -> Result<(), Failure> {
     let mut taken: Vec<PathBuf> = Vec::new();
     let is_file = |target: &&Path| {
@@ -99,7 +99,7 @@ pub(crate) fn name_as_inputs<P: AsRef<Path>>(paths: &[P]) {
     paths.iter().map(AsRef::as_ref).filter(|path| path.as_os_str() != STANDARD_STREAM).for_each(name_as_input);
 }
 
-/// A path by which a file is told from others, be it there or not; links are followed, also those that lead to nothing yet.
+/// A path that identifies a file, be it there or not; links are followed, also those that lead to nothing yet.
 pub(crate) fn whole_path(path: &Path) -> PathBuf {
     /// More than any system follows.
     const MOST_LINKS: usize = 40;
@@ -134,7 +134,7 @@ fn sync_file(file: &File) -> io::Result<()> {
 /// Waits until the names in a folder are stored.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
-    // A folder that may be written to but not read cannot be asked.
+    // A folder that may be written to but not read cannot be listed.
     File::open(folder).map_or(Ok(()), |folder| sync_file(&folder))
 }
 

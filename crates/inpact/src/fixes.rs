@@ -11,7 +11,7 @@ use crate::rules;
 use crate::settings::ReadOptions;
 use std::path::{Path, PathBuf};
 
-/// Which fixes are applied, and to which files.
+/// The fixes to apply, and the files.
 #[derive(Debug, Clone, Default)]
 pub struct Fixes {
     also: Vec<String>,
@@ -58,7 +58,7 @@ impl Fixes {
     }
 }
 
-/// What fixing a deck came to; nothing is written until [`write`](Self::write) is called.
+/// Result of fixing a deck; nothing is written until [`write`](Self::write) is called.
 #[derive(Debug)]
 pub struct Fixed {
     name: PathBuf,
@@ -102,12 +102,12 @@ impl Fixed {
         Ok(Self { name: name.to_owned(), options: deck.options.clone(), findings, left, files: files.collect(), held })
     }
 
-    /// How many findings it mends.
+    /// The number of findings that it mends.
     pub fn findings(&self) -> usize {
         self.findings
     }
 
-    /// What was left although it has a fix, and why, as sentences.
+    /// The findings left although they have a fix, and why, as sentences.
     pub fn left(&self) -> &[String] {
         &self.left
     }
@@ -146,12 +146,12 @@ impl Fixed {
 }
 
 impl FixedFile {
-    /// What messages call it.
+    /// The name in messages.
     pub fn name(&self) -> &Path {
         &self.name
     }
 
-    /// Where it is, links followed.
+    /// Its path, links followed.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -166,7 +166,7 @@ impl FixedFile {
         &self.after
     }
 
-    /// What changes, as a unified difference.
+    /// The changes, as a unified difference.
     pub fn difference(&self) -> String {
         difference::unified(&self.name.display().to_string(), &self.before, &self.after)
     }

@@ -16,10 +16,10 @@ use inpact_validation::{Diagnostic, Fix, FixSafety, apply, fixable};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// How often the decks are read again: a fix may bring another finding to light, but not for ever.
+/// The most rounds of reading the decks again: a fix may bring another finding to light, but not for ever.
 const MOST_ROUNDS: usize = 10;
 
-/// Which fixes are applied, and to which files.
+/// The fixes to apply, and the files.
 #[derive(Debug, Clone)]
 pub(crate) struct FixSelection {
     /// The codes whose fixes are applied although they change the meaning of the deck.
@@ -30,7 +30,7 @@ pub(crate) struct FixSelection {
     pub(crate) purpose: Purpose,
 }
 
-/// Which of the files that a deck includes are mended with it.
+/// The files to mend among those that a deck includes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FixReach {
     /// Those below its folder, and those that are named themselves.
@@ -39,7 +39,7 @@ pub(crate) enum FixReach {
     EveryIncluded,
 }
 
-/// What becomes of the mended files.
+/// Purposes of mending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Write,
@@ -50,24 +50,24 @@ pub(crate) enum Purpose {
 pub(crate) struct Subject<'a> {
     pub(crate) path: &'a Path,
     pub(crate) settings: &'a Settings,
-    /// Where its files are.
+    /// The paths of its files.
     pub(crate) places: Vec<PathBuf>,
     pub(crate) need: Need,
 }
 
-/// Whether a deck has to be looked at before another one changes its files.
+/// Whether a deck has to be checked before another one changes its files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Need {
     Mending,
     Nothing,
 }
 
-/// What mending came to.
+/// Result of mending.
 #[derive(Debug, Default)]
 pub(crate) struct Mended {
-    /// How many findings were mended.
+    /// The number of findings mended.
     pub(crate) findings: usize,
-    /// What was left although it has a fix, and why.
+    /// The findings left although they have a fix, and why.
     pub(crate) left: Vec<String>,
     /// Decks that could not be read any more, and what cannot be written back.
     pub(crate) failures: Vec<Failure>,

@@ -12,7 +12,7 @@ use inpact_parser::deck::{Deck, Excerpts, FoundFile, IncludedFiles, Keep, ScanOp
 use inpact_parser::span::SourceId;
 use std::path::{Path, PathBuf};
 
-/// A deck with the places of its files, which its own names for them need not tell: they may be no text.
+/// A deck with the places of its files, which its own names for them may not give: they may be no text.
 pub(crate) struct LocatedDeck {
     pub(crate) deck: Deck,
     /// By source, links followed.
@@ -20,12 +20,12 @@ pub(crate) struct LocatedDeck {
 }
 
 impl LocatedDeck {
-    /// Where a source file is.
+    /// The path of a source file.
     pub(crate) fn place(&self, source: SourceId) -> Option<&Path> {
         self.places.get(source.0 as usize).map(PathBuf::as_path)
     }
 
-    /// Where all source files are, the deck itself first.
+    /// The paths of all source files, the deck itself first.
     pub(crate) fn places(&self) -> &[PathBuf] {
         &self.places
     }
@@ -80,7 +80,7 @@ struct FilesOnDisk<'a> {
     own_folder: PathBuf,
     settings: &'a Settings,
     held: Option<&'a HeldFiles>,
-    /// Where the files are that were read, the deck first: in the order of their sources.
+    /// The paths of the files that were read, the deck first: in the order of their sources.
     places: Vec<PathBuf>,
 }
 
@@ -113,7 +113,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
 
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String> {
         if name.contains(char::REPLACEMENT_CHARACTER) {
-            // It stands for bytes that are no text: a file whose name has the character itself is another one.
+            // It replaces bytes that are no text: a file whose name has the character itself is another one.
             return Err("its name is not UTF-8: rename the file".to_owned());
         }
         let name = &expand(name, |variable| std::env::var(variable).ok())?;

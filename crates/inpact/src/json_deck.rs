@@ -15,7 +15,7 @@ pub(crate) struct Files {
 /// Reads JSON, either view; the model view is one file.
 ///
 /// # Errors
-/// What is wrong with the JSON, and at which path.
+/// The fault of the JSON, and its path.
 pub(crate) fn files(text: &str) -> Result<Files, String> {
     match json::view_of(text).map_err(|error| error.to_string())? {
         View::Model => {

@@ -14,13 +14,13 @@ pub struct GapConductance {
     tables: ConductanceTables,
     clearance: Option<TableKernel>,
     pressure: Option<TableKernel>,
-    /// Whether the value depends on temperature, then on each field variable.
+    /// The value depends on temperature, then on each field variable.
     depends_on: Vec<bool>,
     /// Of the tables against clearance and pressure.
     abscissae: [Vec<f64>; 2],
 }
 
-/// What a conductance is asked at, a column each; a column has one value a point.
+/// The points of a conductance, a column a variable; a column has one value a point.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ContactColumns<'a> {
     /// Clearance d, L.
@@ -129,7 +129,7 @@ impl GapConductance {
     /// The conductance at all points of some columns; the bits are those of [`at`](Self::at).
     ///
     /// # Panics
-    /// Where a column is shorter than `values`, unless no table depends on it.
+    /// A column is shorter than `values`, unless no table depends on it.
     pub fn values(&self, columns: &ContactColumns<'_>, values: &mut [f64]) {
         let mut first = 0;
         let mut clearances = [0.0; CHUNK];
@@ -193,7 +193,7 @@ impl GapConductance {
     /// `None` where there is no such table.
     ///
     /// # Panics
-    /// Where a column the table depends on is shorter than `values`.
+    /// A column the table depends on is shorter than `values`.
     pub fn table_values(&self, against: Against, columns: &[&[f64]], values: &mut [f64]) -> Option<()> {
         self.kernel(against)?.values(columns, values);
         Some(())
@@ -225,7 +225,7 @@ fn abscissae(table: &Table) -> Vec<f64> {
 
 fn point(clearance: Option<f64>, pressure: Option<f64>, variables: &[f64]) -> ContactPoint<'_> {
     let state = state_of(clearance, pressure);
-    // Where nothing is said of the pressure of a closed point, there is none.
+    // Without a pressure a closed point has none.
     let pressure = pressure.unwrap_or(0.0);
     let clearance = clearance.unwrap_or(if state == ContactState::Undetermined { f64::NAN } else { 0.0 });
     ContactPoint { clearance: Clearance(clearance), pressure: ContactPressure(pressure), state, variables }

@@ -2,7 +2,7 @@
 //!
 //! This is the front door: decks with what they include, as their configuration has it; findings and their fixes; JSON both ways; the pages of `explain`;
 //! interface laws over record batches; scenes.
-//! Each stands on a crate that does it without files and settings, and may be used by itself: `inpact-parser`, `inpact-validation`, `inpact-evaluation`,
+//! Each is built on a crate that does it without files and settings, and may be used by itself: `inpact-parser`, `inpact-validation`, `inpact-evaluation`,
 //! `inpact-contact`, `inpact-network`.
 //! The command line is [`cli::run`].
 //!

@@ -72,7 +72,7 @@ impl Deck {
     }
 }
 
-/// What making rows fails with.
+/// Failure of making rows.
 struct Failed(Failure);
 
 impl From<Failure> for Failed {
@@ -98,7 +98,7 @@ impl NodeTable {
         self.batches
     }
 
-    /// What was not read of mesh and results, and why, a sentence each.
+    /// The parts of mesh and results that were not read, and why, a sentence each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }

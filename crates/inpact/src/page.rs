@@ -24,7 +24,7 @@ pub fn of_rule(rule: &Rule) -> String {
         page += line.strip_prefix(' ').unwrap_or(line).trim_end();
         page.push('\n');
     }
-    // What the harness of the tests is told is nothing to a reader.
+    // Tags for the test harness are nothing to a reader.
     page.replace("```inp,expect", "```inp").replace("```inp,fixed", "```inp")
 }
 
@@ -153,7 +153,7 @@ fn parameter_item(parameter: &ParameterDefinition) -> String {
     facts.extend(parameter.default.as_ref().map(|default| format!("default {default}")));
     facts.extend(parameter.since.map(|release| format!("since {release}")));
     facts.extend(parameter.until.map(|release| format!("until {release}")));
-    let list = |words: &str, names: &[String]| (!names.is_empty()).then(|| format!("{words} {}", names.join(", ")));
+    let list = |title: &str, names: &[String]| (!names.is_empty()).then(|| format!("{title} {}", names.join(", ")));
     facts.extend(list("needs", &parameter.needs));
     facts.extend(list("not with", &parameter.excludes));
     facts.extend(list("ignored with", &parameter.ignored_with));

@@ -49,15 +49,15 @@ pub fn explain(what: &str) -> Result<String, Error> {
         return Ok(page::of_columns());
     }
     let grammar = Grammar::builtin();
-    let words = what.trim_start_matches('*');
-    let columns = if words == what { pages_of_columns(what) } else { String::new() };
+    let name = what.trim_start_matches('*');
+    let columns = if name == what { pages_of_columns(what) } else { String::new() };
     if !columns.is_empty() {
         // *NODE and *STEP are keywords too; what only abbreviates one means the column.
         let keyword = grammar.keywords().map(|(_, keyword)| keyword).find(|keyword| is_meant("", &keyword.name));
         let keyword = keyword.and_then(|keyword| keyword.definition()).map(page::of_keyword);
         return Ok(keyword.into_iter().chain([columns]).collect::<Vec<_>>().join("\n"));
     }
-    let keyword = grammar.keyword_named(words.as_bytes()).found().map(|id| grammar.keyword(id));
+    let keyword = grammar.keyword_named(name.as_bytes()).found().map(|id| grammar.keyword(id));
     match keyword.map(|keyword| (keyword, keyword.definition())) {
         Some((_, Some(definition))) => Ok(page::of_keyword(definition)),
         Some((keyword, None)) => {
@@ -71,7 +71,7 @@ pub fn explain(what: &str) -> Result<String, Error> {
             let columns = COLUMN_PAGES.iter().flat_map(|page| page.names).copied();
             let rules = rules.chain(columns).chain(outputs.iter().map(String::as_str));
             let rules = nearest_names(what.as_bytes(), rules, 3).into_iter().map(|rule| format!("`{rule}`"));
-            let keywords = grammar.nearest_keywords(words, 3).into_iter().map(|keyword| format!("*{keyword}"));
+            let keywords = grammar.nearest_keywords(name, 3).into_iter().map(|keyword| format!("*{keyword}"));
             let near: Vec<String> = rules.chain(keywords).collect();
             let near = if near.is_empty() {
                 "; `inpact explain --all` has every page".to_owned()

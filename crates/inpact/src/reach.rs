@@ -1,4 +1,4 @@
-//! What a deck from elsewhere may reach: which of the files that it names are read.
+//! Files that a deck from elsewhere may reach.
 //!
 //! Only regular files are: no folders, devices, pipes or sockets, and none of the files that the system makes up when they are
 //! read, such as `/proc/self/environ`, which has the secrets of a CI job. With roots (`--include-root`) nothing outside of them is
@@ -7,11 +7,11 @@
 use std::fs::Metadata;
 use std::path::{Component, Path, PathBuf};
 
-/// Where the system shows itself as files. What programs share in memory lies in `/dev/shm` and is theirs.
+/// Folders of files made up by the system. Memory that programs share lies in `/dev/shm` and is theirs.
 const OF_THE_SYSTEM: [&str; 3] = ["/proc", "/sys", "/dev"];
 const SHARED_MEMORY: &str = "/dev/shm";
 
-/// Why a file that a deck names is no file to be read; `None` for a regular one, and for one that is not there.
+/// The reason why a file that a deck names is not read; `None` for a regular one, and for one that is not there.
 pub(crate) fn irregular(path: &Path) -> Option<&'static str> {
     let found = path.metadata().ok()?;
     if found.is_dir() {
@@ -33,7 +33,7 @@ fn is_of_the_system(whole: &Path, found: &Metadata) -> bool {
 #[cfg(unix)]
 fn is_on_device_of(found: &Metadata, folders: &[&str]) -> bool {
     use std::os::unix::fs::MetadataExt;
-    // Where there is no such file system, the folder is one of the disk that everything lies on.
+    // Without such a file system the folder is one of the disk that everything lies on.
     let of_disk = Path::new("/").metadata().map(|root| root.dev()).ok();
     let device = |folder: &&str| Path::new(folder).metadata().map(|folder| folder.dev()).ok();
     folders.iter().filter_map(device).any(|device| device == found.dev() && Some(device) != of_disk)
@@ -71,7 +71,7 @@ fn without_dots(path: &Path) -> PathBuf {
     whole
 }
 
-/// Why a deck that is named is not read: it is a link that leads out of the roots, or to a file that the system makes up.
+/// The reason why a named deck is not read: it is a link that leads out of the roots, or to a file that the system makes up.
 pub(crate) fn leads_astray(deck: &Path, roots: &[PathBuf]) -> Option<String> {
     let (Ok(whole), Some(name)) = (deck.canonicalize(), deck.file_name()) else { return None };
     let named = crate::settings::folder_of_deck(deck).join(name);

@@ -31,7 +31,7 @@ pub enum Format {
     Github,
 }
 
-/// How the full format looks.
+/// Styles of the full format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Style {
     /// With colours.
@@ -65,7 +65,7 @@ pub(crate) fn diagnostics(diagnostics: &[Diagnostic], deck: &Deck, format: Forma
     }
 }
 
-/// What stands before, between and behind the texts of the decks.
+/// The texts before, between and after those of the decks.
 pub(crate) fn document(format: Format) -> Document {
     match format {
         Format::Sarif => sarif::document(),
@@ -82,7 +82,7 @@ pub(crate) struct Document {
     pub(crate) tail: String,
 }
 
-/// Where a finding was included from, the nearest first: ` (included at deck.inp:3)`; nothing for the deck itself.
+/// The chain of *INCLUDE of a finding, the nearest first: ` (included at deck.inp:3)`; empty for the deck itself.
 fn include_chain(found: &Diagnostic, deck: &Deck) -> Vec<String> {
     let chain = deck.include_chain(found.primary.span.source);
     let places = deck.positions(&chain);

@@ -20,7 +20,7 @@ pub struct Scene {
     findings: Vec<Diagnostic>,
 }
 
-/// How a scene is solved; the default is to the last digit.
+/// Options of solving; the default is to the last digit.
 #[derive(Debug, Clone, Copy)]
 pub struct SolveOptions {
     method: Method,
@@ -37,7 +37,7 @@ pub struct Solution {
     states: Vec<SolvedState>,
 }
 
-/// What is known of the nodes and links at one time.
+/// Values at the nodes and links at one time.
 #[derive(Debug, Clone)]
 pub struct SolvedState {
     /// The time; 0 in a steady scene.
@@ -60,7 +60,7 @@ impl SolveOptions {
         Self::default()
     }
 
-    /// How linear equations are solved; a solver that does not reach the tolerance is replaced by the next safer one.
+    /// Sets the solver of linear equations; one that does not reach the tolerance is replaced by the next safer one.
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
         self.method = method;
@@ -120,7 +120,7 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// What the scene lacks, or why it has no solution.
+    /// The scene lacks something, or has no solution.
     pub fn solve(&self, options: &SolveOptions) -> Result<Solution, Error> {
         self.solve_watched(options, |_| ControlFlow::Continue(()))
     }
@@ -169,7 +169,7 @@ impl Scene {
     }
 }
 
-/// Why a transient ended early.
+/// Reasons why a transient ended early.
 enum Ended {
     Failed(SolveFailure),
     Stopped,
@@ -197,7 +197,7 @@ impl Solution {
         &self.fields
     }
 
-    /// What was not solved and why, a sentence each.
+    /// The parts not solved and why, a sentence each.
     pub fn left_out(&self) -> &[String] {
         &self.left_out
     }

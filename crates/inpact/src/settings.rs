@@ -1,4 +1,4 @@
-//! How a deck is read and judged: `inpact.toml`, found upward from the deck, and the options or arguments that override it.
+//! Settings of reading and judging a deck: `inpact.toml`, found upward from the deck, and the options or arguments that override it.
 
 mod arguments;
 
@@ -21,7 +21,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The name of the configuration file.
 pub(crate) const FILE_NAME: &str = "inpact.toml";
 
-/// How a deck is read: what is not said here is as the `inpact.toml` above the deck has it, and otherwise as documented.
+/// Options of reading a deck: by default as in the `inpact.toml` above the deck, and otherwise as documented.
 ///
 /// ```
 /// use inpact::{Deck, Dialect, ReadOptions};
@@ -43,7 +43,7 @@ pub struct ReadOptions {
     pub(crate) overlay: Overlay,
 }
 
-/// Which `inpact.toml` counts.
+/// Sources of the configuration.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) enum Configuration {
     /// The nearest above the deck.
@@ -71,7 +71,7 @@ impl ReadOptions {
         self
     }
 
-    /// Which release of Abaqus the deck is for; the newest unless said otherwise.
+    /// Sets the release of Abaqus that the deck is for; the newest by default.
     #[must_use]
     pub fn release(mut self, release: Release) -> Self {
         self.release = Some(release);
@@ -92,7 +92,7 @@ impl ReadOptions {
         self
     }
 
-    /// What the names of included files are relative to (S-54); the deck unless said otherwise.
+    /// Sets the folder that the names of included files are relative to (S-54); that of the deck by default.
     #[must_use]
     pub fn relative_to(mut self, relative_to: RelativeTo) -> Self {
         self.relative_to = Some(relative_to);
@@ -147,7 +147,7 @@ impl DialectName {
     }
 }
 
-/// What the names of included files are relative to (S-54).
+/// Bases of the names of included files (S-54).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -202,7 +202,7 @@ enum Level {
     Error,
 }
 
-/// What counts for one deck.
+/// Settings of one deck.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
     pub(crate) grammar: &'static Grammar,
@@ -226,7 +226,7 @@ impl Settings {
     /// The settings for the deck at `path`: the configuration above it, overridden by the options.
     ///
     /// # Errors
-    /// When the configuration cannot be read, or says what it cannot say.
+    /// The configuration cannot be read, or has a wrong value.
     pub(crate) fn of(path: &Path, options: &ReadOptions) -> Result<Self, Failure> {
         let (file, found) = match options.configuration_of(path) {
             Some(found) => (read(&found)?, found),
@@ -352,14 +352,14 @@ fn grammar_of(dialect: Dialect, release: Release) -> &'static Grammar {
 impl Settings {
     /// Reads nothing outside of the repository of a deck, unless an argument names another root.
     ///
-    /// What `inpact.toml` says can only take away from that: it comes with the deck.
+    /// Settings in `inpact.toml` can only take away from that: it comes with the deck.
     pub(crate) fn confine_to_repository(&mut self, deck: &Path) {
         if !self.has_named_root {
             self.include_roots.push(repository_of(deck));
         }
     }
 
-    /// What is in a file, where that is known without reading it.
+    /// The content of a file, where it is known without reading.
     pub(crate) fn known_content(&self, path: &Path) -> Option<&Arc<[u8]>> {
         if self.overlay.is_empty() { None } else { self.overlay.get(&files::whole_path(path)) }
     }

@@ -1,6 +1,6 @@
 //! The threads that share the work.
 //!
-//! Where the system gives no more threads (a container's limit of processes), the work is done on the one that is there:
+//! If the system gives no more threads (a container's limit of processes), the work is done on the one that is there:
 //! results do not depend on how many there are.
 
 use rayon::ThreadPoolBuilder;

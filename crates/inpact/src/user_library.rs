@@ -28,8 +28,8 @@
 //! - The library is never unloaded, so the address of the routine stays good, and so does the code that threads of the library's own (OpenMP) run when the work is done.
 //! - The library is loaded by a thread of its own: one that was linked with `-ffast-math` switches subnormal numbers off in the thread that loads it.
 //!
-//! What the routine does beyond that (a wild address, another list of arguments) nobody can check: it is run because the user names the file, and a crash in it ends the program.
-//! A STOP in it ends the program too, and is told.
+//! Further misuse by the routine (a wild address, another list of arguments) cannot be checked: it is run because the user names the file, and a crash in it ends the program.
+//! A STOP in it ends the program too, with a message.
 
 #![allow(unsafe_code)]
 
@@ -50,7 +50,7 @@ use std::sync::{Mutex, PoisonError};
 /// The symbol of the routine.
 const SYMBOL: &str = "gapelectr_";
 
-/// How the routine is compiled, for messages.
+/// The command that compiles the routine, for messages.
 pub(crate) const COMPILE_COMMAND: &str = "gfortran -shared -fPIC -o gapelectr.so gapelectr.f";
 
 /// Room for SIGMA: its three numbers, and some to see whether the routine writes beyond them.
@@ -97,7 +97,7 @@ pub(crate) fn load(path: &Path) -> Result<UserLaw, Failure> {
     Ok(UserLaw::new(FortranRoutine { routine }))
 }
 
-/// Opens the library with all its symbols resolved, so that one that is missing is told now and not in the middle of a run; it stays loaded.
+/// Opens the library with all its symbols resolved, so that one that is missing is reported now and not in the middle of a run; it stays loaded.
 fn open_in_a_thread(path: &Path, whole: PathBuf) -> Result<&'static Library, Failure> {
     let open = move || {
         // SAFETY: initialisers of the library run here; the user names the file for that.
@@ -120,7 +120,7 @@ fn open_in_a_thread(path: &Path, whole: PathBuf) -> Result<&'static Library, Fai
     opened.map_err(|error| cannot_load(path, &error))
 }
 
-/// What the loader of the system says, and what to do.
+/// The message of the system's loader, and the remedy.
 fn cannot_load(path: &Path, error: &libloading::Error) -> Failure {
     let said = std::error::Error::source(error).map_or_else(|| error.to_string(), ToString::to_string);
     let cure = match said.split_once("undefined symbol: ") {
@@ -138,7 +138,7 @@ fn cannot_load(path: &Path, error: &libloading::Error) -> Failure {
 
 /// The library has no GAPELECTR; what it has instead, as far as that can be guessed.
 fn without_symbol(path: &Path, library: &Library) -> Failure {
-    // SAFETY: the address is only asked for, never used.
+    // SAFETY: the address is only looked up, never used.
     let has = |symbol: &str| unsafe { library.get::<*const ()>(symbol) }.is_ok();
     let cure = if ["gapelectr", "GAPELECTR"].into_iter().any(has) {
         "it has one without the underscore: compile it without `-fno-underscoring`, or with gfortran".to_owned()
@@ -202,7 +202,7 @@ fn integer(value: i64) -> i64 {
     if cfg!(target_endian = "big") { value << 32 } else { value }
 }
 
-/// What the routine left in SIGMA, which was zero.
+/// The value that the routine left in SIGMA, which was zero.
 fn value(sigma: [f64; ROOM_OF_SIGMA]) -> Result<UserConductanceValue, UserFault> {
     if let Some(beyond) = (3..ROOM_OF_SIGMA).find(|index| sigma[*index].to_bits() != 0) {
         return Err(UserFault::Refused(format!("writes SIGMA({}), but SIGMA has three items", beyond + 1)));

@@ -10,14 +10,14 @@ use inpact_results::{Format, Frame};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// How far two values of one node in two files may be from each other, as a share of the larger: reports have four digits or more.
+/// The largest difference of two values of one node in two files, as a share of the larger: reports have four digits or more.
 const SAME: f64 = 1e-3;
 
 /// A state in the making.
 #[derive(Debug)]
 pub(super) struct Building {
     pub(super) moment: Moment,
-    /// How far the time may be off because of the digits of the file, as a share of it.
+    /// The relative error of the time because of the digits of the file.
     digits: f64,
     files: Vec<Arc<str>>,
     nodes: usize,
@@ -33,7 +33,7 @@ struct Said {
     values: Vec<Option<f64>>,
 }
 
-/// When a frame is; an error where it is no state.
+/// The time of a frame; an error where it is no state.
 pub(super) fn moment(frame: &Frame, steps: &[Option<Name>]) -> Result<Moment, String> {
     let named = frame.step_name.as_ref().and_then(|name| step_number(name, steps));
     let step = frame.step.or(named);
@@ -139,7 +139,7 @@ impl Building {
         ))
     }
 
-    /// How far two of them are in time, where they are of one state.
+    /// The difference of two of them in time, where they are of one state.
     pub(super) fn distance(&self, other: &Self) -> Option<f64> {
         let of = |moment: &Moment| moment.step.zip(moment.increment);
         if let (Some(own), Some(others)) = (of(&self.moment), of(&other.moment)) {
@@ -252,7 +252,7 @@ impl Building {
         (state, missing)
     }
 
-    /// How far nodes have moved; an error where that is not known of all of them, nothing where it is known of none.
+    /// The displacements of the nodes; an error where not all are known, nothing where none is.
     fn displacements(&self, mesh: &Mesh) -> Option<Result<Displacements, String>> {
         let source = self.source_of(|quantity| matches!(quantity, Quantity::Displacement(_)))?;
         let is_flat =
@@ -279,7 +279,7 @@ impl Building {
 }
 
 impl Said {
-    /// Where another says something else of a node.
+    /// A node at which another differs.
     fn disagreement(&self, other: &Self, mesh: &Mesh) -> Option<String> {
         let differs = |(own, others): (&Option<f64>, &Option<f64>)| {
             let (own, others) = ((*own)?, (*others)?);

@@ -1,9 +1,9 @@
-//! Which node of the mesh a label of a result file is.
+//! The node of the mesh of a label of a result file.
 //!
 //! In a deck without instances labels are those of the deck, which coordinates of the file confirm where it has them.
-//! A deck with instances has a label several times, and Abaqus numbers its nodes anew: there coordinates tell, else the instance that a report names, else the
+//! A deck with instances has a label several times, and Abaqus numbers its nodes anew: there coordinates identify them, else the instance that a report names, else the
 //! slave surface of the pair that a value is of.
-//! Nodes at one place, which touching surfaces that share a mesh have many of, are told apart by the surfaces of the file.
+//! Nodes at one place, which touching surfaces that share a mesh have many of, are distinguished by the surfaces of the file.
 
 use inpact_geometry::{NodeId, Point};
 use inpact_parser::mesh::{Mesh, SurfaceKind};
@@ -11,7 +11,7 @@ use inpact_results::{Field, Format, Region, Results, Rows};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
 
-/// How nodes of a file were found in the mesh.
+/// Ways of finding the nodes of a file in the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MatchedBy {
     /// By their labels.
@@ -46,7 +46,7 @@ pub(super) enum NodeMap {
 }
 
 impl NodeMap {
-    /// How the labels of a file are to be read, and what there is to say of it; an error where its nodes are not those of the mesh.
+    /// The reading of the labels of a file, with notes on it; an error where its nodes are not those of the mesh.
     pub(super) fn new(mesh: &Mesh, results: &Results) -> Result<(Self, Vec<String>), String> {
         let instances = mesh.nodes.iter().any(|node| node.instance.is_some());
         let coordinates = results.coordinates.as_ref().and_then(|field| Places::of(field, results.format, mesh));
@@ -138,7 +138,7 @@ impl NodeMap {
         let (count, all) = (1 + without.count(), mesh.nodes.len());
         let hint = match self {
             Self::Instances { instances, .. } if 1 < instances.len() => {
-                "; labels are told apart by the instance that a report names, or by coordinates in the file"
+                "; labels are distinguished by the instance that a report names, or by coordinates in the file"
             }
             _ => "",
         };
@@ -168,12 +168,12 @@ pub(super) fn nodes_of(kind: &SurfaceKind) -> Vec<NodeId> {
     }
 }
 
-/// Where the nodes of a file are, beside a mesh.
+/// The places of the nodes of a file, beside a mesh.
 struct Places<'a> {
     mesh: &'a Mesh,
     labels: &'a [i64],
     points: Vec<Point>,
-    /// How many units of a coordinate it may differ by, as a share of its size, because of its digits.
+    /// The relative difference of coordinates because of their digits.
     relative: f64,
     /// The same whatever its size (L).
     absolute: f64,
@@ -207,9 +207,9 @@ impl<'a> Places<'a> {
         (0..3).all(|k| (point[k] - other[k]).abs() <= self.tolerance(point[k]))
     }
 
-    /// Why the labels cannot be those of the mesh: a node that is elsewhere in the file.
+    /// The reason why the labels cannot be those of the mesh: a node that is elsewhere in the file.
     fn contradiction(&self, nodes: &HashMap<i64, NodeId>) -> Option<String> {
-        // What ADJUST has moved is where the deck does not say.
+        // Nodes moved by ADJUST are where the deck does not say.
         let adjusted = self.mesh.pairs.iter().filter(|pair| pair.adjust.is_some());
         let adjusted: HashSet<NodeId> =
             adjusted.flat_map(|pair| nodes_of(&self.mesh.surfaces[pair.slave].kind)).collect();
@@ -225,7 +225,7 @@ impl<'a> Places<'a> {
         (found == 0).then(|| "none of its labels is that of a node of a contact surface".to_owned())
     }
 
-    /// The nodes of the mesh by label, and what could not be told apart.
+    /// The nodes of the mesh by label, and those that could not be distinguished.
     fn nodes(&self, results: &Results) -> (HashMap<i64, NodeId>, Vec<String>) {
         let mut candidates = self.candidates();
         let surfaces = FileSurfaces::of(results);
@@ -267,7 +267,7 @@ impl<'a> Places<'a> {
             });
             let first = first.map_or_else(String::new, |node| self.mesh.nodes[node].to_string());
             notes.push(format!(
-                "nodes at one place could not be told apart, the first of them {first}: their values are not used (surfaces in the file tell them apart: *CONTACT FILE)"
+                "nodes at one place could not be distinguished, the first of them {first}: their values are not used (surfaces in the file distinguish them: *CONTACT FILE)"
             ));
         }
         (nodes.into_iter().filter_map(|(label, node)| Some((label, node?))).collect(), notes)

@@ -1,4 +1,4 @@
-//! Which pair of the deck the pair of a result file is.
+//! The pair of the deck of a pair of a result file.
 //!
 //! Abaqus writes names of surfaces in capitals, with the assembly and the instance before them: `ASSEMBLY_PLATE-1_TOP` for `Plate-1.Top`.
 
@@ -10,7 +10,7 @@ use inpact_results::Region;
 #[derive(Debug)]
 pub(super) struct PairNames(Vec<[String; 2]>);
 
-/// Which pair a region is.
+/// The pair of a region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PairOf {
     /// This one.

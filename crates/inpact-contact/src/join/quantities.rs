@@ -1,11 +1,11 @@
-//! What the columns of result files are for a node table.
+//! Quantities of node tables in the columns of result files.
 
 use crate::state::{ContactQuantity, NodeQuantity};
 use inpact_evaluation::results::Output;
 use inpact_results::Format;
 use std::sync::Arc;
 
-/// What a column says.
+/// Quantities of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     /// A component of the displacement, from 0.
@@ -18,7 +18,7 @@ pub(super) enum Quantity {
     Shear(usize),
     /// A component of the accumulated slip, from 0.
     Slip(usize),
-    /// What is computed of the interface here too.
+    /// An output that is computed here too.
     Output(Output),
 }
 
@@ -28,7 +28,7 @@ impl Quantity {
         !matches!(self, Self::Displacement(_) | Self::Node(..))
     }
 
-    /// What the file calls it.
+    /// The name in the file.
     pub(super) fn name(self) -> Arc<str> {
         match self {
             Self::Displacement(_) => "U".into(),
@@ -41,7 +41,7 @@ impl Quantity {
     }
 }
 
-/// What a column of a result file is for a node table; `None` where it has no place there.
+/// The quantity of a column of a result file; `None` where it has no place in a node table.
 pub(super) fn of_column(name: &str, format: Format) -> Option<Quantity> {
     let name = name.to_ascii_uppercase();
     let known = match name.as_str() {

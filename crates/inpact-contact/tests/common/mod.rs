@@ -89,7 +89,7 @@ pub(crate) fn messages(joined: &Joined) -> Vec<String> {
     joined.notes.iter().map(|note| format!("{}: {}", note.file, note.message)).collect()
 }
 
-/// Two blocks of one element each; the upper one, a quarter as long, stands 0.25 above the lower one.
+/// Two blocks of one element each; the upper one, a quarter as long, is 0.25 above the lower one.
 pub(crate) const FLAT: &str = "\
 *NODE
 1, 0., 0., 0.\n2, 2., 0., 0.\n3, 2., 1., 0.\n4, 0., 1., 0.

@@ -6,7 +6,7 @@ pub(super) struct Axis {
     /// The decimal logarithms of its ends.
     least: f64,
     greatest: f64,
-    /// Where its ends are drawn.
+    /// The positions of its ends, px.
     start: f64,
     end: f64,
 }
@@ -42,7 +42,7 @@ impl Axis {
         Self { least: least - room, greatest: greatest + room, start, end }
     }
 
-    /// Where a number above zero is drawn.
+    /// The position of a number above zero.
     pub(super) fn place(&self, number: f64) -> f64 {
         let part = (number.log10() - self.least) / (self.greatest - self.least);
         self.start + part * (self.end - self.start)

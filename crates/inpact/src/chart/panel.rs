@@ -9,7 +9,7 @@ use inpact_diagnostics::Severity;
 use inpact_diagnostics::visible::visible_line;
 use std::collections::BTreeSet;
 
-/// Which axes are logarithmic.
+/// The logarithmic axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Scales {
     pub(crate) x: ScaleKind,
@@ -25,13 +25,13 @@ const RIGHT: f64 = WIDTH - 128.0;
 const TOP: f64 = 66.0;
 const BOTTOM: f64 = HEIGHT - 84.0;
 
-/// What a side without rows takes of the width.
+/// The width of a side without rows, as a part of the whole.
 const STUB: f64 = 0.16;
 
 /// The most curves that have a line of the legend each.
 const MOST_LEGEND: usize = 10;
 
-/// How many bars a histogram has along a whole axis.
+/// The number of bars of a histogram along a whole axis.
 const BARS: usize = 40;
 
 /// The length of the longest bar.
@@ -40,7 +40,7 @@ const BAR: f64 = 26.0;
 /// A panel with its axes in place.
 pub(super) struct Plot<'a> {
     panel: &'a Panel,
-    /// Where its left upper corner is.
+    /// Its left upper corner.
     corner: (f64, f64),
     y: Scale,
     halves: [HalfPlot; 2],
@@ -49,7 +49,7 @@ pub(super) struct Plot<'a> {
 /// One side of contact in place.
 #[derive(Debug, Clone, Copy)]
 struct HalfPlot {
-    /// Where its axis begins, at contact, and ends.
+    /// The ends of its axis, from contact.
     from: f64,
     to: f64,
     scale: Scale,
@@ -76,7 +76,7 @@ impl<'a> Plot<'a> {
         self.halves[usize::from(side == Side::Closed)]
     }
 
-    /// Where a value is drawn.
+    /// The position of a value.
     fn place(&self, side: Side, x: f64, y: f64) -> (f64, f64) {
         (self.across(side, x), self.up(y))
     }
@@ -141,7 +141,7 @@ impl<'a> Plot<'a> {
                 let x = self.across(side, tick) - self.corner.0;
                 let is_at_contact = (x - half.from).abs() < 1.0;
                 drawing.line(self.at(x, BOTTOM), self.at(x, BOTTOM + 5.0), "tick-line");
-                // At contact both sides have the same zero: one label is enough, and that of the right side stands.
+                // At contact both sides have the same zero: one label is enough, and that of the right side stays.
                 let is_crowded = (x - before).abs() < 7.5 * label.chars().count() as f64 + 6.0;
                 if is_crowded || (is_at_contact && side == Side::Open && self.panel.closed.has_scale) {
                     continue;
@@ -153,7 +153,7 @@ impl<'a> Plot<'a> {
                 before = x;
             }
         }
-        let title = if of.has_scale { of.quantity.title() } else { side_words(side).to_owned() };
+        let title = if of.has_scale { of.quantity.title() } else { side_name(side).to_owned() };
         let most = whole((width / 7.2).floor());
         drawing.text(
             self.at(f64::midpoint(half.from, half.to), BOTTOM + 39.0),
@@ -176,8 +176,8 @@ impl<'a> Plot<'a> {
             }
             for knot in &branch.knots {
                 let quantity = &self.panel.half(side).quantity.column;
-                let words = format!("{quantity} {}: {}", number(knot.x), number(knot.y));
-                drawing.mark(self.place(side, knot.x, knot.y), index, colour, &words);
+                let title = format!("{quantity} {}: {}", number(knot.x), number(knot.y));
+                drawing.mark(self.place(side, knot.x, knot.y), index, colour, &title);
             }
         }
         let ends = Side::BOTH.map(|side| curve.branch(side).samples.first().filter(|sample| sample.x <= 0.0));
@@ -225,9 +225,9 @@ impl<'a> Plot<'a> {
                 Severity::Warning => "warning",
                 Severity::Note => "remark",
             };
-            let words = format!("{} {}: line {}: {}", mark.severity, mark.code, mark.line, mark.message);
-            drawing.ring((x, y), look, &visible_line(&words));
-            // Several findings at one row stand one above another.
+            let title = format!("{} {}: line {}: {}", mark.severity, mark.code, mark.line, mark.message);
+            drawing.ring((x, y), look, &visible_line(&title));
+            // Several findings at one row are one above another.
             let mut label = (x, y - 14.0);
             while taken.iter().any(|other| (other.0 - label.0).abs() < 36.0 && (other.1 - label.1).abs() < 13.0) {
                 label.1 -= 13.0;
@@ -275,7 +275,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// What the panel has to say, in two lines below the axes.
+    /// Draws the remarks of the panel, in two lines below the axes.
     fn draw_footnotes(&self, drawing: &mut Drawing) {
         let is_linear = matches!(self.y, Scale::Linear { .. });
         let notes = remarks(self.panel, if is_linear { ScaleKind::Linear } else { ScaleKind::Logarithmic });
@@ -286,24 +286,24 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// What there is to say of a panel: why it is not evaluated, where its nodes are, what is not drawn.
+/// The remarks of a panel: why it is not evaluated, where its nodes are, what is not drawn.
 pub(super) fn remarks(panel: &Panel, kind: ScaleKind) -> Vec<String> {
-    let fault = panel.fault.iter().map(|fault| format!("not evaluated, the rows as they stand: {fault}"));
+    let fault = panel.fault.iter().map(|fault| format!("not evaluated, the rows as written: {fault}"));
     let nodes = panel.nodes.iter().map(|nodes| format!("node table: {}", nodes.summary()));
     let decades = panel.decades().filter(|decades| 3.0 < *decades && kind == ScaleKind::Linear);
     let decades = decades.map(|decades| format!("values over {decades:.0} decades: `--log` tells them apart"));
     fault.chain(nodes).chain(panel.notes.iter().cloned()).chain(decades).collect()
 }
 
-/// What a side without a scale is called.
-fn side_words(side: Side) -> &'static str {
+/// The name of a side without a scale.
+fn side_name(side: Side) -> &'static str {
     match side {
         Side::Open => "open",
         Side::Closed => "closed",
     }
 }
 
-/// Where contact is: in the middle where both sides have a scale, otherwise near the side that has none.
+/// The position of contact: in the middle where both sides have a scale, otherwise near the side that has none.
 fn contact(panel: &Panel) -> f64 {
     let part = match (panel.open.has_scale, panel.closed.has_scale) {
         (true, false) => 1.0 - STUB,

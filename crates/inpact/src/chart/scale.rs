@@ -2,7 +2,7 @@
 
 use crate::curves::number;
 
-/// How numbers are laid along an axis.
+/// Scales of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scale {
     /// Evenly.
@@ -12,12 +12,12 @@ pub(crate) enum Scale {
         /// The smallest and the largest magnitude.
         least: f64,
         greatest: f64,
-        /// Which signs there are.
+        /// The signs of its numbers.
         signs: Signs,
     },
 }
 
-/// Which signs the numbers of a logarithmic axis have.
+/// Signs of the numbers of a logarithmic axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Signs {
     Positive,
@@ -32,7 +32,7 @@ pub(crate) enum ScaleKind {
     Logarithmic,
 }
 
-/// What part of a logarithmic axis belongs to zero.
+/// The part of a logarithmic axis around zero.
 const ZERO_PART: f64 = 0.08;
 
 impl Scale {
@@ -86,7 +86,7 @@ impl Scale {
         }
     }
 
-    /// Where a number is, as a part of the length of the axis: 0 at its start, 1 at its end.
+    /// The position of a number, as a part of the length of the axis: 0 at its start, 1 at its end.
     pub(crate) fn part(self, number: f64) -> f64 {
         match self {
             Self::Linear { least, greatest } => {

@@ -9,13 +9,13 @@ use inpact_diagnostics::visible::visible_line;
 /// The room around panels.
 const MARGIN: f64 = 14.0;
 
-/// What the title of a sheet takes.
+/// The height of the title of a sheet.
 const TITLE: f64 = 44.0;
 
-/// What a line below the panels takes.
+/// The height of a line below the panels.
 const LINE: f64 = 18.0;
 
-/// How many panels of one deck stand side by side.
+/// The number of panels of one deck side by side.
 const COLUMNS: usize = 2;
 
 /// The figures of decks as one SVG document.
@@ -82,7 +82,7 @@ fn held_key(panel: &Panel) -> String {
     panel.held.iter().map(|held| format!("{}={:e};", held.quantity.column, held.at)).collect()
 }
 
-/// What is not drawn, in lines.
+/// The parts that are not drawn, in lines.
 fn notes(figures: &[Figure], width: usize) -> Vec<String> {
     let notes = figures.iter().flat_map(|figure| figure.notes.iter().map(move |note| (figure, note)));
     let lines = notes.flat_map(|(figure, note)| {
@@ -92,10 +92,10 @@ fn notes(figures: &[Figure], width: usize) -> Vec<String> {
     lines.collect()
 }
 
-/// What the sheet shows, in words for those who do not see it.
+/// The alternative text of the sheet.
 fn alternative(figures: &[Figure]) -> String {
     let decks = figures.iter().map(|figure| {
-        let panels: Vec<String> = figure.panels.iter().map(Panel::in_words).collect();
+        let panels: Vec<String> = figure.panels.iter().map(Panel::description).collect();
         visible_line(&format!("{}: {}", figure.deck, panels.join("; "))).into_owned()
     });
     decks.collect::<Vec<_>>().join(". ")

@@ -10,7 +10,7 @@ pub(super) struct Drawing {
     text: String,
 }
 
-/// How shapes of a kind look: attributes of SVG.
+/// Attributes of SVG by kind of shape.
 const LOOKS: &[(&str, &str)] = &[
     ("grid", r##"stroke="#cfd6dd" stroke-width="1""##),
     ("fine", r##"stroke="#edf0f3" stroke-width="1""##),
@@ -30,7 +30,7 @@ const LOOKS: &[(&str, &str)] = &[
     ("level-label", r##"fill="#5b6b7a" font-size="12""##),
 ];
 
-/// How shapes of panels of curves look.
+/// Attributes of SVG by kind of shape in panels of curves.
 const PANEL_LOOKS: &[(&str, &str)] = &[
     ("panel-title", r##"fill="#16202a" font-size="15" font-weight="bold""##),
     ("axis-title", r##"fill="#16202a" font-size="13""##),
@@ -98,8 +98,8 @@ impl Drawing {
         self.add(&format!(r#"<polyline points="{}" {look}/>"#, corners.join(" ")));
     }
 
-    /// A mark of curve `index`: circle, square, triangle, diamond in turn, so that curves are told apart without colours; it says `words` when pointed at.
-    pub(super) fn mark(&mut self, (x, y): (f64, f64), index: usize, colour: &str, words: &str) {
+    /// A mark of curve `index`: circle, square, triangle, diamond in turn, so that curves are distinguished without colours; `title` is shown when pointed at.
+    pub(super) fn mark(&mut self, (x, y): (f64, f64), index: usize, colour: &str, title: &str) {
         let look = format!(r##"fill="{colour}" stroke="#ffffff" stroke-width="0.8""##);
         let polygon = |corners: &[(f64, f64)]| {
             let corners: Vec<String> =
@@ -112,20 +112,20 @@ impl Drawing {
             2 => polygon(&[(0.0, -4.8), (4.4, 3.4), (-4.4, 3.4)]),
             _ => polygon(&[(0.0, -5.2), (4.6, 0.0), (0.0, 5.2), (-4.6, 0.0)]),
         };
-        if words.is_empty() {
+        if title.is_empty() {
             self.add(&format!("{shape}/>"));
         } else {
             let tag = if shape.starts_with("<circle") { "circle" } else { "polygon" };
-            self.add(&format!("{shape}><title>{}</title></{tag}>", escaped(words)));
+            self.add(&format!("{shape}><title>{}</title></{tag}>", escaped(title)));
         }
     }
 
-    /// A ring around a place of note; it says `words` when pointed at.
-    pub(super) fn ring(&mut self, (x, y): (f64, f64), look: &str, words: &str) {
+    /// A ring around a place of note; `title` is shown when pointed at.
+    pub(super) fn ring(&mut self, (x, y): (f64, f64), look: &str, title: &str) {
         let colour = looks(look).split('"').nth(1).unwrap_or("#000000");
         let at = format!(r#"cx="{}" cy="{}""#, short(x), short(y));
         let look = format!(r#"fill="none" stroke="{colour}" stroke-width="2""#);
-        self.add(&format!(r#"<circle {at} r="9" {look}><title>{}</title></circle>"#, escaped(words)));
+        self.add(&format!(r#"<circle {at} r="9" {look}><title>{}</title></circle>"#, escaped(title)));
     }
 
     /// A small point among many.

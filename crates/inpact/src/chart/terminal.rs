@@ -43,7 +43,7 @@ pub(crate) fn text(figures: &[Figure], scales: Scales) -> String {
 struct Screen<'a> {
     panel: &'a Panel,
     y: Scale,
-    /// How many columns the left side has.
+    /// The number of columns of the left side.
     middle: usize,
     halves: [Scale; 2],
     cells: Vec<Vec<char>>,
@@ -205,15 +205,15 @@ impl<'a> Screen<'a> {
         cells.into_iter().collect()
     }
 
-    /// What both sides are.
+    /// The names of both sides.
     fn sides(&self) -> String {
         let title = |side: Side| {
             let half = self.panel.half(side);
-            let words = match side {
+            let name = match side {
                 Side::Open => "open",
                 Side::Closed => "closed",
             };
-            if half.has_scale { half.quantity.title() } else { words.to_owned() }
+            if half.has_scale { half.quantity.title() } else { name.to_owned() }
         };
         let (left, right) = (title(Side::Open), title(Side::Closed));
         let left = if self.panel.open.has_scale { format!("<- {left}") } else { left };

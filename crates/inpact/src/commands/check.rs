@@ -63,13 +63,13 @@ pub(crate) struct CheckArguments {
     reading: DeckArguments,
 }
 
-/// What came of one deck.
+/// Result of checking one deck.
 struct Checked<'a> {
     path: &'a Path,
     settings: Settings,
     text: String,
     tally: Tally,
-    /// Where its files are.
+    /// The paths of its files.
     places: Vec<PathBuf>,
     need: Need,
     /// The files of a deck that needs mending.
@@ -77,7 +77,7 @@ struct Checked<'a> {
 }
 
 impl CheckArguments {
-    /// Which fixes to apply; `None` where nothing is to be mended.
+    /// The fixes to apply; `None` without `--fix` and `--diff`.
     fn selection(&self) -> Option<FixSelection> {
         let is_wanted = self.fix || self.diff || self.fix_included || !self.fix_also.is_empty();
         is_wanted.then(|| FixSelection {
@@ -185,7 +185,7 @@ fn check_deck<'a>(
     Ok(Checked { path, settings, text, tally, places: deck.places().to_vec(), need, held })
 }
 
-/// What there is to say of a deck.
+/// The findings of a deck.
 fn judge(
     LocatedDeck { deck, .. }: &LocatedDeck,
     settings: &Settings,

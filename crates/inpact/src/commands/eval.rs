@@ -46,7 +46,7 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let format = arguments.format;
     let prepared = arguments.evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
     let Some(mut evaluable) = prepared else { return Ok(Outcome::HasErrors) };
-    // What the deck includes is known now.
+    // The included files are known now.
     files::check_targets(&[arguments.output.target()])?;
     if evaluable.deck_has_errors {
         return Ok(Outcome::HasErrors);
@@ -99,7 +99,7 @@ fn evaluate(
     let tally = match written {
         Ok(tally) => tally,
         Err(RunFailure::Reading(error)) => return Err(unreadable(error)),
-        // What a column of the format cannot hold is wrong in the data, not in the place it is written to.
+        // A value that a column of the format cannot hold is a fault of the data, not of the file that is written.
         Err(RunFailure::Writing(error)) if error.kind() == ErrorKind::InvalidData => {
             return Err(Failure::Data(format!("`{nodes_name}` cannot be written in this format: {error}")));
         }

@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 /// For each thread, how many pieces of a node table are decoded ahead.
 const READ_AHEAD: usize = 2;
 
-/// How many bytes of the rows of a node table stay in memory; the rest waits in a temporary file.
+/// The number of bytes of the rows of a node table that stay in memory; the rest waits in a temporary file.
 const ROOM_FOR_ROWS: usize = 128 << 20;
 
 #[derive(Debug, Args)]
@@ -95,23 +95,23 @@ enum AccuracyChoice {
 
 /// A node table that can be evaluated, with its deck and plan.
 pub(crate) struct Evaluable {
-    /// How findings are judged.
+    /// Severities of findings.
     pub(crate) settings: Settings,
     pub(crate) model: Model,
     pub(crate) choices: Choices,
     pub(crate) plan: Plan,
-    /// The names of deck and node table, as they were asked for.
+    /// The names of deck and node table, as given.
     pub(crate) deck_name: String,
     pub(crate) nodes_name: String,
     /// Whether the deck is wrong where the plan needs it.
     pub(crate) deck_has_errors: bool,
     /// The rows of the node table.
     pub(crate) rows: KeptRows,
-    /// What was said of rows that were made of the deck's mesh.
+    /// The summary of rows that were made of the deck's mesh.
     pub(crate) made: Option<RowsSummary>,
 }
 
-/// Where rows come from, with the deck.
+/// Sources of rows, with the deck.
 enum Source<'a> {
     Table(ReadDeck, &'a Path),
     Mesh(Box<MeshedDeck>),
@@ -125,10 +125,10 @@ struct Surveyed {
     made: Option<RowsSummary>,
 }
 
-/// A node table of which more than the next bytes can be asked for.
+/// A node table that can be read beyond the next bytes.
 enum NodesInput {
     File(PathBuf),
-    /// What came from a stream, in a temporary file.
+    /// Spooled from a stream to a temporary file.
     Spooled(File),
 }
 
@@ -211,7 +211,7 @@ impl EvaluableArguments {
         }
     }
 
-    /// Slopes are planned where they are asked for in general or by name.
+    /// Slopes are planned where they are requested in general or by name.
     fn derivatives(&self) -> Derivatives {
         let by_name = self.outputs.as_ref().is_some_and(|outputs| outputs.iter().any(|output| output.is_slope()));
         if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
@@ -222,7 +222,7 @@ impl EvaluableArguments {
         with_threads(self.threads.map_or(0, usize::from), work)
     }
 
-    /// Where the rows come from, for a failure to read it.
+    /// The path of the source of the rows, for a failure to read it.
     pub(crate) fn nodes_path(&self) -> &Path {
         self.nodes.as_deref().unwrap_or(&self.deck)
     }
@@ -327,7 +327,7 @@ impl NodesInput {
         Ok(Self::Spooled(spooled))
     }
 
-    /// The table from its beginning; `path` is what it was asked for by.
+    /// The table from its beginning; `path` is its name as given.
     fn reader(&mut self, path: &Path) -> Result<Box<File>, Failure> {
         match self {
             Self::File(path) => files::open_file(path).map(Box::new),

@@ -1,4 +1,4 @@
-//! What was found in decks and in data, on standard error.
+//! Findings in decks and in data, on standard error.
 
 use crate::failure::{Failure, say, say_json};
 use crate::render::{self, Format, Style};
@@ -13,7 +13,7 @@ use inpact_validation::{Diagnostic, Severity};
 use serde::Serialize;
 use std::path::Path;
 
-/// How what is found is printed on standard error.
+/// Formats of findings on standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FindingFormat {
     /// A line each.
@@ -36,7 +36,7 @@ impl FindingFormat {
 /// The interactions of a run, and its regime where the run says which and no procedure of the deck does.
 pub(crate) type Governing<'a> = (&'a [&'a Name], Option<Regime>);
 
-/// Where findings go: a command prints them, the library collects them.
+/// Receiver of findings: a command prints them, the library collects them.
 pub(crate) trait Reporter {
     /// Reads nothing outside of the repository where that is wanted.
     fn confine(&self, settings: &mut Settings, path: &Path);

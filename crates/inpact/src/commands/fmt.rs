@@ -29,7 +29,7 @@ pub(crate) struct FormatArguments {
     reading: DeckArguments,
 }
 
-/// What became of the files.
+/// Counts of the files.
 #[derive(Debug, Default, Clone, Copy)]
 struct Tally {
     changed: usize,
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     let only_shown = arguments.check || arguments.diff;
     let mut output = files::ResultFile::create(None)?;
     let mut tally = Tally::default();
-    // Where nobody reads what is written, files are still formatted.
+    // Files are formatted even when standard output is closed.
     let mut unwritten = None;
     for path in &arguments.decks {
         let done = read(path, arguments).and_then(|(before, after)| {
@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     }
 }
 
-/// What a deck was before.
+/// A deck before formatting.
 enum Before {
     Standard(Vec<u8>),
     File(Snapshot),

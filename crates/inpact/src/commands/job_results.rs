@@ -17,7 +17,7 @@ const MOST_NOTES: usize = 100;
 /// What `--results` is, for `--help`.
 pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
-/// What is known of a mesh at the times of result files, or at the beginning where there are none.
+/// States of a mesh at the times of result files, or at the beginning where there are none.
 pub(crate) struct States {
     pub(crate) states: Vec<State>,
     pub(crate) files: Vec<FileSummary>,
@@ -51,7 +51,7 @@ fn read(path: &Path) -> Result<Results, Failure> {
     inpact_results::read(&bytes).map_err(|incomplete| unsound(path, &incomplete))
 }
 
-/// Says where a file breaks off, and what stands before.
+/// Reports where a file breaks off, and the part before.
 fn unsound(path: &Path, incomplete: &Incomplete) -> Failure {
     let Incomplete { problem, read } = incomplete;
     let before = match read.as_deref() {
@@ -60,9 +60,9 @@ fn unsound(path: &Path, incomplete: &Incomplete) -> Failure {
             let time = results.frames.iter().rev().find_map(|frame| frame.total_time.or(frame.step_time));
             let to = time.map_or_else(String::new, |time| format!(" up to time {time:?}"));
             match results.frames.len() {
-                0 => "; before it stands no state".to_owned(),
-                1 => format!("; before it stands 1 state{to}, which may not be whole"),
-                frames => format!("; before it stand {frames} states{to}, the last of which may not be whole"),
+                0 => "; no state is before it".to_owned(),
+                1 => format!("; 1 state{to} is before it, which may not be whole"),
+                frames => format!("; {frames} states{to} are before it, the last of which may not be whole"),
             }
         }
     };

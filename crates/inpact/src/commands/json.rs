@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
-/// What the deck says; its errors go to standard error, since what they are about may be missing from the model.
+/// The model view; its errors go to standard error, since the parts concerned may be missing from the model.
 fn model_view(arguments: &JsonArguments, settings: &Settings) -> Result<(String, Outcome), Failure> {
     let deck = input::read_deck(&arguments.deck, Keep::Interpreted, settings)?;
     let (model, problems) = model::read(&deck, settings.grammar);

@@ -1,4 +1,4 @@
-//! What a user may choose about the laws of a deck, for every command that evaluates them.
+//! Options of laws, for every command that evaluates them.
 
 use crate::failure::{Failure, say};
 use crate::files;
@@ -73,7 +73,7 @@ impl LawArguments {
         })
     }
 
-    /// The routine of `--user-library`, loaded only if an interaction of the deck asks for one.
+    /// The routine of `--user-library`, loaded only if an interaction of the deck needs one.
     fn user_conductance(&self, model: &Model) -> Result<Option<UserLaw>, Failure> {
         let Some(path) = &self.user_library else { return Ok(None) };
         files::name_as_input(path);

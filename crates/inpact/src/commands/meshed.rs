@@ -51,7 +51,7 @@ impl MeshedDeck {
     /// Reads a deck, and the rows of its mesh that contact pairs need.
     pub(crate) fn read(path: &Path, settings: &Settings) -> Result<Self, Failure> {
         let is_on_disk = path.metadata().is_ok_and(|metadata| metadata.is_file());
-        // What comes from a stream cannot be read twice, and what is known without reading is on no disk.
+        // A stream cannot be read twice, and content that is known without reading is on no disk.
         let is_file = is_on_disk && !settings.has_known_content();
         let keep = if is_file { Keep::Interpreted } else { Keep::Everything };
         let located = input::read_located_deck(path, keep, settings, None)?;

@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     files::check_targets(&[arguments.output.target()])?;
     let settings = arguments.reading.settings(&arguments.deck)?;
     let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
-    // What the deck includes is known now.
+    // The included files are known now.
     files::check_targets(&[arguments.output.target()])?;
     let States { states, files } = states(&arguments.results, &meshed, arguments.format)?;
     let mut rows = node_rows(&meshed, &states, arguments.format)?;
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// Which end of making a table failed.
+/// Reasons why making a table ended early.
 enum Stopped {
     Rows(RowsError),
     Writing(io::Error),

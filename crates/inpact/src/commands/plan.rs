@@ -225,7 +225,7 @@ fn table(table: &TablePlan) -> Value {
     })
 }
 
-/// How a table is evaluated, the bounds of its error, and the ways that were not chosen.
+/// The evaluation of a table, the bounds of its error, and the methods that were not chosen.
 fn form(form: &FormPlan) -> Value {
     let refused = form.refused.iter().map(|(method, reason)| json!({ "method": method, "reason": reason }));
     json!({

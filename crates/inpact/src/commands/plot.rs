@@ -37,7 +37,7 @@ pub(crate) struct PlotArguments {
     reading: DeckArguments,
 }
 
-/// What of a deck is drawn.
+/// Options of drawings of decks.
 #[derive(Debug, Args)]
 pub(crate) struct DrawingArguments {
     /// Draw this interaction only; may be given several times.
@@ -92,11 +92,11 @@ enum PictureKind {
 /// The most panels of a picture.
 const MOST_PANELS: usize = 40;
 
-/// How many values a curve has on logarithmic axes, where it is not straight between its rows.
+/// The number of values of a curve on logarithmic axes, where it is not straight between its rows.
 const ON_LOGARITHMIC: usize = 160;
 
 impl DrawingArguments {
-    /// What is to be drawn.
+    /// The parts to be drawn.
     pub(crate) fn request(&self, detail: Detail, most_panels: usize, probing: Probing) -> Request {
         let law = |law: &LawName| match law {
             LawName::Electrical => LawKind::Electrical,
@@ -153,7 +153,7 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
     if figures.iter().all(|figure| figure.panels.is_empty()) {
         return Err(nothing_to_draw(&figures));
     }
-    // What the decks include is known now.
+    // The included files are known now.
     files::check_targets(&[target])?;
     match &arguments.output {
         None => {
@@ -207,7 +207,7 @@ fn scales(arguments: &PlotArguments) -> Scales {
     Scales { x, y }
 }
 
-/// Why there is no curve at all.
+/// The reason why there is no curve at all.
 pub(crate) fn nothing_to_draw(figures: &[Figure]) -> Failure {
     let decks: Vec<String> = figures.iter().map(|figure| format!("`{}`", figure.deck)).collect();
     let notes: Vec<&str> = figures.iter().flat_map(|figure| &figure.notes).map(String::as_str).collect();
@@ -246,6 +246,6 @@ fn held(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as temp=150 or fv1=2")?;
     match value.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok((name.trim().to_ascii_lowercase(), value)),
-        _ => Err(format!("expected a number behind `{}=`, found `{}`", name.trim(), value.trim())),
+        _ => Err(format!("expected a number after `{}=`, found `{}`", name.trim(), value.trim())),
     }
 }

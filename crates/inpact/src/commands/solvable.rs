@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 /// A scene with the model of its deck.
 pub(crate) struct SolvableScene {
-    /// How findings in the scene are judged.
+    /// Severities of findings in the scene.
     pub(crate) settings: Settings,
     pub(crate) scene: Scene,
     pub(crate) model: Model,
@@ -30,7 +30,7 @@ pub(crate) struct SolvableScene {
     pub(crate) deck_name: String,
 }
 
-/// What is chosen about the laws of a deck in its regime.
+/// Choices about the laws of a deck in its regime.
 pub(crate) type LawChoices<'a> = &'a dyn Fn(&Model, Dialect, Option<Regime>) -> Result<Choices, Failure>;
 
 impl SolvableScene {
@@ -61,7 +61,7 @@ impl SolvableScene {
         let Some((scene, deck_path)) = scene.zip(deck_path) else { return Ok(None) };
         refuse_outside(&deck_path, roots)?;
         if has_errors {
-            // What the deck has to say of the interfaces is said in the same run, where there is a deck.
+            // Findings of the deck on the interfaces come in the same run, where there is a deck.
             let read = Settings::of(&deck_path, reading).and_then(|mut settings| {
                 reporter.confine(&mut settings, &deck_path);
                 let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
@@ -99,7 +99,7 @@ impl SolvableScene {
         Ok(Some(Self { settings, scene, model, choices, name, deck_name }))
     }
 
-    /// What is solved; `None` after saying what is missing.
+    /// The problem of the scene; `None` after reporting what is missing.
     pub(crate) fn problem(&self, reporter: &mut impl Reporter) -> Option<Problem<'_>> {
         let mut findings = Findings::new(&self.name);
         let problem = Problem::new(&self.scene, &self.model, &self.choices, &mut findings);
@@ -107,7 +107,7 @@ impl SolvableScene {
         problem.filter(|_| !has_errors)
     }
 
-    /// What there is to say of a failure after the time of the last state that was found.
+    /// The findings of a failure after the time of the last state.
     pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<Diagnostic> {
         let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
@@ -131,7 +131,7 @@ struct FilesBeside<'a> {
     folder: &'a Path,
     /// Outside of which nothing is read.
     roots: &'a [PathBuf],
-    /// Why some could not be read.
+    /// The failures to read some.
     failures: Vec<Failure>,
 }
 

@@ -37,7 +37,7 @@ pub(crate) struct SolveArguments {
     /// Write the result table of the interfaces, as `eval` gives it; .csv, .parquet, .arrow by the extension.
     #[arg(long, value_name = "FILE")]
     interfaces: Option<PathBuf>,
-    /// Give the flow through each link as well: behind the state, or with =FILE in a table of its own.
+    /// Give the flow through each link as well: after the state, or with =FILE in a table of its own.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_STREAM)]
     links: Option<PathBuf>,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(crate) struct SolveArguments {
     reading: DeckArguments,
 }
 
-/// How equations are solved.
+/// Options of solvers.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct SolverArguments {
     /// How linear equations are solved.
@@ -69,7 +69,7 @@ enum SolverChoice {
     Iterative,
 }
 
-/// Why solving ended early.
+/// Reasons why solving ended early.
 enum Stopped {
     Solving(SolveFailure),
     Writing(Failure),

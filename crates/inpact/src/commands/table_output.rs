@@ -1,4 +1,4 @@
-//! Where a table goes and how it is stored: for `eval` and `nodes`.
+//! Target and format of a table: for `eval` and `nodes`.
 
 use clap::{Args, ValueEnum};
 use inpact_evaluation::results::TableFormat;
@@ -14,7 +14,7 @@ pub(crate) struct TableOutput {
     output_format: Option<OutputFormat>,
 }
 
-/// How a table is stored.
+/// Formats of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum OutputFormat {
     /// Comma-separated values.
@@ -26,7 +26,7 @@ enum OutputFormat {
 }
 
 impl TableOutput {
-    /// Where it goes; `None` is standard output.
+    /// The target; `None` is standard output.
     pub(crate) fn target(&self) -> Option<&Path> {
         self.output.as_deref()
     }

@@ -50,7 +50,7 @@ pub(crate) struct TradeoffArguments {
     reading: DeckArguments,
 }
 
-/// What only the modes on a node table know; named one by one, so that a message names those that were given.
+/// Options that only the modes on a node table have; one by one, so that a message names those that were given.
 const OF_TABLE: [&str; 11] = [
     "deck",
     "nodes",
@@ -94,9 +94,9 @@ enum PictureKind {
     Png,
 }
 
-/// What was measured, as it is shown.
+/// The measurements, as they are shown.
 struct Shown {
-    /// In the format that was asked for.
+    /// In the requested format.
     text: String,
     chart: Chart,
 }
@@ -111,7 +111,7 @@ impl TradeoffFormat {
 }
 
 impl TradeoffArguments {
-    /// Where results go.
+    /// The files of results.
     fn targets(&self) -> [Option<&Path>; 2] {
         [self.output.as_deref(), self.plot.as_ref().map(|plot| plot.path.as_path())]
     }

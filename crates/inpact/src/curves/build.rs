@@ -1,4 +1,4 @@
-//! From a model to its panels: which laws, which variable tells curves apart, what is held where.
+//! From a model to its panels: laws, the variable that distinguishes curves, and fixed values of the others.
 
 use super::law::Law;
 use super::probe::probe;
@@ -20,10 +20,10 @@ const MOST_MULTIPLES: usize = 6;
 /// The most lines about what is not drawn.
 const MOST_NOTES: usize = 20;
 
-/// How far an axis goes beyond the last row.
+/// The end of an axis, as a multiple of the last abscissa.
 const BEYOND: f64 = 1.15;
 
-/// What is to be drawn.
+/// The parts to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// The interactions; all where there is none.
@@ -34,15 +34,15 @@ pub struct Request {
     pub at: Vec<(String, f64)>,
     /// The names of units.
     pub units: Units,
-    /// How many values a curve has.
+    /// The number of values of a curve.
     pub detail: Detail,
     /// The most panels of a deck.
     pub most_panels: usize,
-    /// Whether values at other temperatures and field variables are found as well.
+    /// Values at other temperatures and field variables are found as well.
     pub probing: Probing,
 }
 
-/// Whether panels have values for sliders.
+/// Values of panels for sliders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Probing {
     /// They have none.
@@ -62,7 +62,7 @@ pub enum Detail {
     Geometric(usize),
 }
 
-/// How far the axes of a law go.
+/// The ends of the axes of a law.
 #[derive(Debug, Clone, Copy, Default)]
 struct Extents {
     open: Option<f64>,
@@ -137,7 +137,7 @@ struct Subject<'a> {
     rows: &'a LawRows<'a>,
     law: Option<Law<'a>>,
     sides: [sample::Side<'a>; 2],
-    /// The variables behind the abscissa, each with its values.
+    /// The variables after the abscissa, each with its values.
     variables: Vec<Variable>,
     fault: Option<String>,
 }
@@ -145,7 +145,7 @@ struct Subject<'a> {
 struct Variable {
     quantity: Quantity,
     values: Vec<f64>,
-    /// Where the user wants it.
+    /// The end that the user chose.
     chosen: Option<f64>,
 }
 
@@ -295,7 +295,7 @@ impl Builder<'_> {
             });
             (curves.collect::<Vec<_>>(), places.len())
         } else {
-            as_they_stand(subject)
+            as_written(subject)
         };
         let [open, closed] = halves;
         let mut panel = Panel {
@@ -359,7 +359,7 @@ impl Builder<'_> {
     }
 }
 
-/// Why a law that the interaction tells of has no values.
+/// The reason why a law of the interaction has no values.
 fn why_not(interaction: &Interaction, kind: LawKind, laws: &InterfaceLaws) -> Option<String> {
     let flow = match kind {
         LawKind::Electrical => FlowOf::Charge,
@@ -378,7 +378,7 @@ fn why_not(interaction: &Interaction, kind: LawKind, laws: &InterfaceLaws) -> Op
     reasons.next().map(|(_, left_out)| left_out.reason.to_string())
 }
 
-/// What there is to know of a panel besides.
+/// The remarks on a panel.
 fn notes(subject: &Subject<'_>, panel: &Panel) -> Vec<String> {
     let mut notes = Vec::new();
     if panel.curves.len() < panel.all_curves {
@@ -403,7 +403,7 @@ fn notes(subject: &Subject<'_>, panel: &Panel) -> Vec<String> {
 }
 
 /// The rows of a law that cannot be evaluated, group by group in the order of the deck.
-fn as_they_stand(subject: &Subject<'_>) -> (Vec<Curve>, usize) {
+fn as_written(subject: &Subject<'_>) -> (Vec<Curve>, usize) {
     let mut curves = Vec::new();
     let mut count = 0;
     for (side, of) in Side::BOTH.into_iter().zip(&subject.sides) {

@@ -26,7 +26,7 @@ impl LawKind {
     /// All of them, in the order in which they are drawn.
     pub const ALL: [Self; 4] = [Self::Electrical, Self::Thermal, Self::ViewFactor, Self::Permeability];
 
-    /// What it is called in a sentence.
+    /// The name in a sentence.
     pub fn name(self) -> &'static str {
         match self {
             Self::Electrical => "electrical conductance",
@@ -88,12 +88,12 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// Whether the law has values while open that the rows against pressure do not tell of.
+    /// Whether the law has values while open that do not follow from the rows against pressure.
     pub(super) fn needs_characteristic_length(self) -> bool {
         matches!(self, Self::Permeability(..)) && self.cutoff().is_none()
     }
 
-    /// The value at clearance or contact pressure `x`; `variables` are those of the rows behind the first.
+    /// The value at clearance or contact pressure `x`; `variables` are those of the rows after the first.
     ///
     /// `None` where the law has none, as beyond a cutoff that is not known.
     pub(super) fn value(self, side: Side, x: f64, variables: &[f64]) -> Option<Value> {

@@ -17,9 +17,9 @@ pub struct Mark {
     pub y: f64,
     /// The code of the rule, such as `T001`.
     pub code: &'static str,
-    /// How grave it is.
+    /// Its severity.
     pub severity: Severity,
-    /// What is wrong.
+    /// The fault.
     pub message: String,
     /// The line of the deck, from 1.
     pub line: u64,
@@ -61,7 +61,7 @@ fn row_at(spans: &[Span], place: Span) -> Option<usize> {
     spans.iter().position(|span| span.contains(place))
 }
 
-/// Whether a row lies on a curve of the panel; where rows are too many to be marked, nobody could tell.
+/// Whether a row lies on a curve of the panel; too many rows are not marked.
 fn is_drawn(panel: &Panel, side: Side, row: usize) -> bool {
     panel.curves.iter().any(|curve| {
         let branch = curve.branch(side);

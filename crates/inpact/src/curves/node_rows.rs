@@ -5,9 +5,9 @@ use super::Side;
 /// The rows of a node table that a law of an interaction governs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NodeRows {
-    /// How many there are, while open and while closed.
+    /// The number of rows, while open and while closed.
     pub count: [u64; 2],
-    /// How many of them are beyond the rows of the table along any variable, while open and while closed.
+    /// The number of them beyond the rows of the table along any variable, while open and while closed.
     pub beyond: [u64; 2],
     /// Some of them, evenly spread.
     pub sample: Vec<NodeSample>,
@@ -25,7 +25,7 @@ pub struct NodeSample {
 }
 
 impl NodeRows {
-    /// How many rows there are on both sides.
+    /// The number of rows on both sides.
     pub fn total(&self) -> u64 {
         self.count[0] + self.count[1]
     }

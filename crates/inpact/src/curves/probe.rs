@@ -16,7 +16,7 @@ pub struct Probe {
 /// A variable with its stops.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeAxis {
-    /// Which one.
+    /// The quantity.
     pub quantity: Quantity,
     /// Its values, ascending.
     pub stops: Vec<f64>,
@@ -31,10 +31,10 @@ pub struct ProbeBranch {
     pub values: Vec<Option<f64>>,
 }
 
-/// How many values a law may have in a page.
+/// The most values of a law in a page.
 const MOST_VALUES: usize = 4000;
 
-/// How many abscissae each side has.
+/// The most abscissae of each side.
 const MOST_ABSCISSAE: usize = 40;
 
 /// Into how many parts the range between two values of a variable is divided.

@@ -11,7 +11,7 @@ use std::ops::Range;
 pub(super) struct Rows<'a> {
     pub(super) columns: Vec<String>,
     pub(super) cells: Cow<'a, [f64]>,
-    /// Where each row stands, as far as that is known.
+    /// The span of each row, as far as it is known.
     pub(super) spans: &'a [Span],
 }
 
@@ -50,7 +50,7 @@ impl<'a> LawRows<'a> {
         self.open.is_none() && self.closed.is_none()
     }
 
-    /// The names of the variables behind the abscissa: those of the table that has more of them, which begin alike.
+    /// The names of the variables after the abscissa: those of the table that has more of them, which begin alike.
     pub(super) fn variables(&self) -> &[String] {
         let of = |rows: &'_ Option<Rows<'a>>| rows.as_ref().map_or(0, |rows| rows.columns.len());
         let longer = if of(&self.open) < of(&self.closed) { &self.closed } else { &self.open };
@@ -74,7 +74,7 @@ impl<'a> LawRows<'a> {
     }
 }
 
-/// The rows of *GAP RADIATION behind the emissivities (2.6).
+/// The rows of *GAP RADIATION after the emissivities (2.6).
 fn view_factors<'a>(model: &Model, interaction: &'a Interaction) -> Option<Rows<'a>> {
     let option = interaction.other.iter().rfind(|option| option.keyword == LawKind::ViewFactor.keyword())?;
     let rows = option.numbers(&model.parameters);
@@ -102,7 +102,7 @@ impl<'a> Rows<'a> {
         &self.cells[index * self.width()..(index + 1) * self.width()]
     }
 
-    /// For each variable behind the abscissa whether the rows know more than one value of it.
+    /// For each variable after the abscissa whether the rows know more than one value of it.
     pub(super) fn depends(&self) -> Vec<bool> {
         let varies = |column: usize| {
             let mut values = (0..self.count()).map(|row| self.row(row)[column]);
@@ -140,7 +140,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The ranges of rows that agree in all variables behind the abscissa.
+    /// The ranges of rows that agree in all variables after the abscissa.
     pub(super) fn groups(&self) -> Vec<Range<usize>> {
         let outer = |row: usize| self.row(row).get(2..).unwrap_or(&[]);
         let mut groups: Vec<Range<usize>> = Vec::new();

@@ -1,4 +1,4 @@
-//! Where a curve is evaluated, and how many of its values are kept.
+//! Abscissae of a curve, and the number of its values that are kept.
 //!
 //! On linear axes a curve is straight between the abscissae of its rows, so that these would do; logarithmic axes, and readers who point at a curve, want more of them.
 
@@ -24,7 +24,7 @@ const MOST_ENDS: usize = 64;
 pub(super) struct Side<'a> {
     pub(super) rows: Option<&'a Rows<'a>>,
     groups: Vec<Range<usize>>,
-    /// On which of the variables behind the abscissa the values depend.
+    /// On which of the variables after the abscissa the values depend.
     depends: Vec<bool>,
     /// The abscissae of all rows, ascending, each once; too many are thinned out.
     all: Vec<f64>,

@@ -83,7 +83,7 @@ impl Units {
             let of_column = data.and_then(|data| data.columns.iter().find(|known| known.name == column));
             of_column.and_then(|of| of.dimension).map_or_else(String::new, |dimension| self.of_dimension(dimension))
         });
-        Quantity { column: column.to_owned(), name: words(column), unit }
+        Quantity { column: column.to_owned(), name: name(column), unit }
     }
 
     /// A product of powers: the positive ones first, as the grammar writes them.
@@ -106,8 +106,8 @@ fn raised(power: i8) -> String {
     power.to_string().chars().map(|character| digit(character).unwrap_or('⁻')).collect()
 }
 
-/// What a column is called in a sentence.
-fn words(column: &str) -> String {
+/// The name of a column in a sentence.
+fn name(column: &str) -> String {
     match column {
         "temp" => "temperature".to_owned(),
         "pressure" => "contact pressure".to_owned(),
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn dimensions_of_the_grammar_stand_for_units() {
+    fn units_follow_dimensions_of_the_grammar() {
         check("", "conductance", "conductance (C L⁻² T⁻¹ φ⁻¹)");
         check("", "temp", "temperature (θ)");
         check("", "fv1", "field variable 1");

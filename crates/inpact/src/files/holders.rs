@@ -1,10 +1,10 @@
-//! Who else has a file open for writing: a program that opened it before its name changed hands may write to it afterwards.
+//! Other programs that have a file open for writing: one that opened it before its name changed hands may write to it afterwards.
 
 use std::path::Path;
 
 /// Whether another process that can be seen has the file called `path` open for writing.
 ///
-/// Only Linux tells, and only of processes of the same user, or of all to root.
+/// Known only on Linux, and only of processes of the same user, or of all to root.
 #[cfg(target_os = "linux")]
 pub(super) fn is_open_for_writing(paths: &[&Path]) -> Vec<bool> {
     let mut found = vec![false; paths.len()];

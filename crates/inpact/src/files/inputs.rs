@@ -6,7 +6,7 @@ use std::fs::{File, Metadata};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What tells a file from every other, by whatever name it was reached.
+/// The identity of a file, by whatever name it was reached.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Identity {
     #[cfg(unix)]
@@ -75,7 +75,7 @@ fn take_down_metadata(metadata: &Metadata, path: &Path) {
     inputs.places.insert(place);
 }
 
-/// Takes down standard input where it is a file, and tells what it is.
+/// Records standard input where it is a file, and gives its metadata.
 #[cfg(unix)]
 pub(super) fn take_down_standard_input() -> Option<Metadata> {
     let metadata = standard_metadata(&std::io::stdin());
@@ -86,13 +86,13 @@ pub(super) fn take_down_standard_input() -> Option<Metadata> {
     metadata
 }
 
-/// Takes down standard input where it is a file: only Unix tells which.
+/// Records standard input where it is a file: only Unix knows which.
 #[cfg(not(unix))]
 pub(super) fn take_down_standard_input() -> Option<Metadata> {
     None
 }
 
-/// What a standard stream is.
+/// The metadata of a standard stream.
 #[cfg(unix)]
 pub(super) fn standard_metadata(stream: &impl std::os::fd::AsFd) -> Option<Metadata> {
     let descriptor = stream.as_fd().try_clone_to_owned().ok()?;

@@ -1,4 +1,4 @@
-//! Where results go.
+//! Files of results.
 
 use super::temporary::{Access, Temporary, hold};
 use super::{PIECE, STANDARD_STREAM, access, folder_of, inputs, sync_file, sync_folder};
@@ -7,9 +7,9 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a result goes: standard output, or a file that gets its name only when it is complete.
+/// The target of a result: standard output, or a file that gets its name only when it is complete.
 ///
-/// The file is written beside its target and renamed, so a stopped run never leaves half a result under the name that was asked for.
+/// The file is written beside its target and renamed, so a stopped run never leaves half a result under the requested name.
 /// A file that is there already keeps its owner and permissions, and a link to it stays a link; a write-protected one is left alone,
 /// and so is every file that this run has read.
 pub(crate) enum ResultFile {
@@ -99,7 +99,7 @@ impl ResultFile {
         Ok(None)
     }
 
-    /// What failed, for an error of writing.
+    /// The failure of an error of writing.
     pub(crate) fn failure(&self, error: io::Error) -> Failure {
         match self {
             Self::Standard(_) => Failure::Output(error),
@@ -131,7 +131,7 @@ impl ResultFile {
     }
 }
 
-/// Whether a path leads through the descriptors of this program, such as `/dev/fd/3`: what is there belongs to whoever opened it.
+/// Whether a path leads through the descriptors of this program, such as `/dev/fd/3`: the file there belongs to whoever opened it.
 fn is_open_descriptor(path: &Path) -> bool {
     let folder = path.parent().and_then(|folder| folder.canonicalize().ok());
     folder.is_some_and(|folder| folder.ends_with("fd") && (folder.starts_with("/proc") || folder.starts_with("/dev")))

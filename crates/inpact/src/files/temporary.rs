@@ -2,14 +2,14 @@
 //!
 //! A run that is stopped by a signal, or that a routine of the user ends, runs no destructors: the list of what is there is kept here,
 //! and a thread that waits for signals removes it.
-//! What cannot be caught (SIGKILL, a crash of the user's routine) leaves them behind; their names begin with `.inpact-`.
+//! Ends that cannot be caught (SIGKILL, a crash of the user's routine) leave the files; their names begin with `.inpact-`.
 
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What the names of temporary files begin with.
+/// The prefix of the names of temporary files.
 const PREFIX: &str = ".inpact-";
 
 /// The temporary files that are there.
@@ -24,7 +24,7 @@ pub(super) fn hold() -> Hold {
     Hold(PRESENT.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Who may read a temporary file while it is being written.
+/// Permissions of a temporary file while it is being written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Access {
     /// As any new file: everybody, but for the user's umask.
@@ -127,13 +127,13 @@ mod signals {
     use std::ffi::c_int;
     use std::sync::{Once, mpsc};
 
-    /// What ends a program by default and can be caught; the rest are crashes of it.
+    /// Signals that end a program by default and can be caught; the rest are crashes of it.
     const ENDING: [c_int; 10] =
         [SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU];
 
     /// From now on temporary files are removed when a signal ends the program, which then ends by that signal all the same.
     ///
-    /// Where no thread can be had, signals do what they do by default.
+    /// Without a thread, signals do what they do by default.
     pub(super) fn watch() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
@@ -167,7 +167,7 @@ mod signals {
                 let is_ignored = |signal: c_int| ignored >> (signal - 1) & 1 == 1;
                 ENDING.into_iter().chain([SIGXFSZ]).filter(|signal| !is_ignored(*signal)).collect()
             }
-            // What is ignored cannot be known: the two that nobody ignores for a whole run.
+            // The ignored signals cannot be known: these two nobody ignores for a whole run.
             None => vec![SIGINT, SIGTERM, SIGXFSZ],
         }
     }

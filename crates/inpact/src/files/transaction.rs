@@ -20,7 +20,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// How much is read of what is no file and may have no end, such as a pipe.
+/// The most bytes read of a stream that may have no end, such as a pipe.
 const MOST_OF_STREAM: u64 = 1 << 30;
 
 /// A file as it was read: what it was and what was in it.
@@ -28,7 +28,7 @@ const MOST_OF_STREAM: u64 = 1 << 30;
 pub(crate) struct Snapshot {
     /// The name it was read under.
     pub(crate) name: PathBuf,
-    /// Where it is, links followed.
+    /// Its path, links followed.
     pub(crate) path: PathBuf,
     pub(crate) bytes: Arc<[u8]>,
     /// `None` for what cannot be written back: a pipe or a device.
@@ -38,13 +38,13 @@ pub(crate) struct Snapshot {
 /// New content for a file.
 #[derive(Debug)]
 pub(crate) struct Change {
-    /// Where the file is, links followed.
+    /// Its path, links followed.
     target: PathBuf,
     content: Arc<[u8]>,
     expected: Expected,
 }
 
-/// What must be at the target for it to be replaced.
+/// The expected content of the target.
 #[derive(Debug)]
 enum Expected {
     AsRead(Snapshot),
@@ -69,7 +69,7 @@ impl Snapshot {
         Ok(Self { name: path.to_owned(), path: whole, bytes: bytes.into(), identity })
     }
 
-    /// What is known of a file without reading it.
+    /// A snapshot of a text at a place, without reading it.
     pub(crate) fn of_text(place: &Path, bytes: Arc<[u8]>) -> Self {
         Self { name: place.to_owned(), path: place.to_owned(), bytes, identity: None }
     }
@@ -81,7 +81,7 @@ impl Snapshot {
 
     /// Whether the file at `path` is the one that was read, with the same content.
     ///
-    /// Where only its path tells a file, that is the one it was read at, wherever the file is at the moment.
+    /// Without a file identity its path identifies it: the one it was read at, wherever the file is at the moment.
     fn is_unchanged_at(&self, path: &Path) -> io::Result<bool> {
         let mut file = File::open(path)?;
         let metadata = file.metadata()?;
@@ -154,7 +154,7 @@ struct Prepared<'a> {
     state: State,
 }
 
-/// Which file has which name.
+/// Stages of an exchange of names.
 enum State {
     /// Old and new have their own.
     Waiting,
@@ -169,7 +169,7 @@ enum State {
 /// Writes all changes or none.
 ///
 /// # Errors
-/// What is in the way, a failure for each file; nothing is changed then.
+/// The obstacles, a failure for each file; nothing is changed then.
 pub(crate) fn commit(changes: &[Change]) -> Result<(), Vec<Failure>> {
     let mut prepared = all(changes.iter().map(|change| prepare(change).map_err(|error| change.failed(error))))?;
     let there = |change: &&Change| matches!(change.expected, Expected::AsRead(_));
@@ -235,7 +235,7 @@ fn prepare(change: &Change) -> io::Result<Prepared<'_>> {
     Ok(Prepared { change, new, beside, state: State::Waiting })
 }
 
-/// Whether what was swapped out is what was read, and stays so.
+/// Checks that the exchanged files are those that were read, and stay so.
 fn look(prepared: &[Prepared<'_>]) -> Vec<Failure> {
     let read: Vec<(&Prepared<'_>, &Path)> = prepared
         .iter()
@@ -257,7 +257,7 @@ fn look(prepared: &[Prepared<'_>]) -> Vec<Failure> {
 }
 
 impl Prepared<'_> {
-    /// Where the old file is, once the new one has its name.
+    /// The path of the old file, once the new one has its name.
     fn old(&self) -> Option<&Path> {
         match &self.state {
             State::Exchanged => Some(self.beside.path()),
@@ -356,7 +356,7 @@ impl Prepared<'_> {
         Ok(())
     }
 
-    /// Whether what is at `path` is the new file as it was written.
+    /// Whether the file at `path` is the new one as it was written.
     fn new_is_untouched(&self, path: &Path) -> bool {
         let Ok(mut file) = File::open(path) else { return false };
         let is_new = file.metadata().is_ok_and(|metadata| Identity::of(&metadata, &self.change.target) == self.new);
@@ -413,7 +413,7 @@ mod tests {
             fs::write(path, "one").expect("writable");
         }
         let changes = [mended(&a, "two"), Change::result(&c, b"new".as_slice().into()), mended(&b, "two")];
-        // Of the same length: only the content tells.
+        // Of the same length: only the content differs.
         fs::write(&b, "ONE").expect("writable");
         let refused = commit(&changes).expect_err("b is not what was read");
         assert_eq!(refused.len(), 1);
@@ -422,7 +422,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["a", "b"]);
     }
 
-    /// What was written already is taken back when a later file is refused in the last moment.
+    /// Earlier exchanges are undone when a later file is refused in the last moment.
     #[test]
     fn what_was_exchanged_is_exchanged_back() {
         let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! What is read to its end, given up as soon as it shows that it is no file of its kind: a device such as `/dev/zero` has no end.
+//! Files read to their end, given up as soon as they prove to be of another kind: a device such as `/dev/zero` has no end.
 
 use super::{PIECE, open};
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use std::path::Path;
 /// The longest line of a deck or a table, in bytes; Abaqus reads 256 characters of a line.
 pub(super) const LONGEST_LINE: usize = 16 << 20;
 
-/// How much is read of a device, which may have no end; a terminal is one too.
+/// The most bytes read of a device, which may have no end; a terminal is one too.
 const MOST_OF_DEVICE: u64 = 64 << 20;
 
 /// An input that is given up where it is a device that goes on and on.
@@ -75,7 +75,7 @@ pub(super) fn lines_of(input: &mut dyn Read) -> io::Result<Vec<u8>> {
     })
 }
 
-/// What is said of a line without an end.
+/// The error of a line without an end.
 pub(super) fn endless_line(line: impl std::fmt::Display) -> io::Error {
     invalid(format!("line {line} is longer than {LONGEST_LINE} bytes, the most that a line may have: it is no deck"))
 }

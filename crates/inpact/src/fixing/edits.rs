@@ -1,4 +1,4 @@
-//! Which fixes of a deck are applied in one round: those that do not touch the same bytes, in files that may be mended.
+//! The fixes of a deck in one round: those that do not touch the same bytes, in files that may be mended.
 
 use super::{FixReach, FixSelection, Purpose};
 use crate::files;
@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 pub(super) struct Chosen {
     /// By the place of the file they fall into; no two overlap.
     pub(super) edits: BTreeMap<PathBuf, Vec<Edit>>,
-    /// How many findings they mend.
+    /// The number of findings they mend.
     pub(super) findings: usize,
-    /// What is not mended in which file.
+    /// The findings left, by file.
     pub(super) left: BTreeMap<PathBuf, Left>,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Left {
     pub(super) fixes: BTreeSet<(u64, &'static str)>,
 }
 
-/// Why a file is not mended.
+/// Reasons why a file is not mended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reason {
     /// It lies outside of the folder of the deck.

@@ -29,7 +29,7 @@ impl HeldFiles {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is in a file now; it is read when it is asked for the first time, and messages call it `name`.
+    /// The content of a file, read at first use; messages call it `name`.
     pub(crate) fn content(&self, path: &Path, name: &Path) -> Result<Arc<[u8]>, Failure> {
         let place = files::whole_path(path);
         if let Some(held) = self.files().get_mut(&place) {
@@ -76,7 +76,7 @@ impl HeldFiles {
         self.files().values().filter(|held| held.is_changed()).cloned().collect()
     }
 
-    /// What has to be written.
+    /// The files to write.
     pub(crate) fn changes(&self) -> Vec<Change> {
         self.changed().into_iter().map(|held| Change::of_read(held.read, held.now)).collect()
     }

@@ -9,7 +9,7 @@ use inpact_validation::Label;
 use memchr::{memchr, memrchr};
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-/// How many bytes of a line are shown on either side of a label.
+/// The number of bytes of a line shown on either side of a label.
 const SIDE: usize = 160;
 
 /// The pieces of a deck around some labels.
@@ -32,7 +32,7 @@ struct Piece {
 }
 
 impl Excerpt {
-    /// The lines around each label, with `context` lines before and behind.
+    /// The lines around each label, with `context` lines before and after.
     pub(super) fn around<'a>(deck: &Deck, labels: impl Iterator<Item = &'a Label>, context: usize) -> Self {
         let mut name = String::new();
         let mut pieces = Vec::new();

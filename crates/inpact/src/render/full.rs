@@ -8,7 +8,7 @@ use inpact_validation::{Diagnostic, Label, Severity};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::fmt;
 
-/// How many lines are shown before and behind a label.
+/// The number of lines shown before and after a label.
 const CONTEXT: usize = 1;
 
 pub(super) fn write(found: &Diagnostic, deck: &Deck, style: Style) -> String {
@@ -45,7 +45,7 @@ impl Rendered<'_> {
         self.deck.source(self.found.primary.span.source).excerpts()
     }
 
-    /// Where the finding is, if the lines there are not shown.
+    /// The place of the finding, if the lines there are not shown.
     fn withheld_place(&self) -> Option<String> {
         let Label { span, position, text, .. } = &self.found.primary;
         let label = if text.is_empty() { String::new() } else { format!("{text} ") };

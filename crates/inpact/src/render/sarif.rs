@@ -55,7 +55,7 @@ pub(super) fn results(diagnostics: &[Diagnostic], deck: &Deck) -> String {
     let mut occurrences = std::collections::HashMap::new();
     let results = diagnostics.iter().map(|found| {
         let mut print = fingerprint(found, deck);
-        // The second of two findings that look alike is told apart by being the second.
+        // The second of two findings that look alike is distinguished by being the second.
         let count = occurrences.entry(print).or_insert(0_u64);
         *count += 1;
         print = hash(print, &count.to_le_bytes());
@@ -103,7 +103,7 @@ fn location(label: &Label, deck: &Deck) -> Value {
     json!({"physicalLocation": {"artifactLocation": {"uri": uri(name)}, "region": region}})
 }
 
-/// The place behind the last character of a label; without it a region goes on to the end of its line (SARIF 3.30.8).
+/// The place after the last character of a label; without it a region goes on to the end of its line (SARIF 3.30.8).
 ///
 /// `None` where the scan did not keep the text.
 fn end(label: &Label, deck: &Deck) -> Option<Position> {
@@ -124,7 +124,7 @@ fn uri(path: &str) -> String {
     path.bytes().map(encode).collect()
 }
 
-/// What tells a finding from others without its line number: rule, file, and what stands at the place.
+/// The identity of a finding without its line number: rule, file, and the text at its place.
 fn fingerprint(found: &Diagnostic, deck: &Deck) -> u64 {
     let file = deck.source(found.primary.span.source).name();
     let parts = [found.code.as_bytes(), file.as_bytes(), found.message.as_bytes(), deck.text(found.primary.span)];

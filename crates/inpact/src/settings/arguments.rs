@@ -6,7 +6,7 @@ use clap::Args;
 use inpact_parser::grammar::Release;
 use std::path::{Path, PathBuf};
 
-/// How a deck is read; the same for every command that reads one.
+/// Options of reading a deck; the same for every command that reads one.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "How the deck is read")]
 pub(crate) struct DeckArguments {
@@ -37,12 +37,12 @@ impl DeckArguments {
     /// The settings for the deck at `path`: the configuration above it, overridden by the arguments.
     ///
     /// # Errors
-    /// When the configuration cannot be read, or says what it cannot say.
+    /// The configuration cannot be read, or has a wrong value.
     pub(crate) fn settings(&self, path: &Path) -> Result<Settings, Failure> {
         Settings::of(path, &self.options())
     }
 
-    /// What the arguments say, for whoever reads decks without them.
+    /// The arguments as options, for readers of decks without arguments.
     pub(crate) fn options(&self) -> ReadOptions {
         ReadOptions {
             dialect: self.dialect.map(DialectName::dialect),

@@ -1,4 +1,4 @@
-//! What kind of file a library is, from its first bytes: loaders of systems say little of a file that is none, or one for another machine.
+//! The kind of a library file, from its first bytes: loaders of systems say little of a file that is none, or one for another machine.
 
 use super::COMPILE_COMMAND;
 use crate::failure::Failure;
@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// How much of the file is looked at.
+/// The number of bytes examined.
 const HEAD: usize = 512;
 
 /// e_type of an ELF header.
@@ -42,7 +42,7 @@ pub(super) fn check(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Why a file that begins like this cannot be loaded; the loader judges what passes.
+/// The reason why a file that begins like this cannot be loaded; the loader judges what passes.
 fn refusal(head: &[u8]) -> Option<String> {
     let is_text = head.iter().all(|byte| matches!(byte, b'\t' | b'\n' | b'\r' | b' '..=b'~' | 0x80..));
     if head.is_empty() {

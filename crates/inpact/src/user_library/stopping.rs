@@ -19,11 +19,11 @@ unsafe extern "C" {
     fn _exit(status: c_int) -> !;
 }
 
-/// From now on the end of the program during a call is told and has exit code 2.
+/// From now on the end of the program during a call is reported and has exit code 2.
 pub(super) fn watch() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
-        // SAFETY: the handler is a function of this program, which is there until it ends. Without room for one more handler nothing is told, and nothing else changes.
+        // SAFETY: the handler is a function of this program, which is there until it ends. Without room for one more handler nothing is reported, and nothing else changes.
         unsafe { atexit(tell) };
     });
 }

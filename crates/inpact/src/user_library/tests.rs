@@ -144,7 +144,7 @@ fn a_long_name_fills_all_80_characters() {
     assert_eq!(value, UserConductanceValue { conductance: f64::from(b'N'), slopes: [-17.0, 80.0] });
 }
 
-/// What is wrong with the answer of a routine with this body.
+/// The fault in the answer of a routine with this body.
 fn fault(include: &str, body: &str) -> Option<String> {
     let (_folder, library) = compile(&["-O0"], include, &format!("{body}      END\n"))?;
     let law = load(&library).expect("loads");
@@ -260,7 +260,7 @@ fn files_that_are_no_library_for_this_machine_are_refused_by_what_they_are() {
     assert!(refused(&elf(2, 1, 3, 62)).starts_with("cannot load `"));
 }
 
-/// What is said of a file with these bytes.
+/// The message about a file with these bytes.
 fn refused(bytes: &[u8]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("lib.so");

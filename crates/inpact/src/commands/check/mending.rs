@@ -1,4 +1,4 @@
-//! What `--fix` and `--diff` do between checking the decks and saying what was found in them.
+//! The work of `--fix` and `--diff` between checking the decks and printing the findings.
 
 use super::tally::count;
 use super::{CheckArguments, Checked, judge};
@@ -13,12 +13,12 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// What mending came to, as it is shown.
+/// Result of mending, as it is shown.
 #[derive(Debug, Default)]
 pub(super) struct Mending {
-    /// What would change, for `--diff`.
+    /// The differences, for `--diff`.
     pub(super) differences: String,
-    /// Whether something could not be written.
+    /// Some file could not be written.
     pub(super) has_failed: bool,
 }
 

@@ -1,10 +1,10 @@
-//! How many findings there were, for summary and statistics.
+//! Counts of findings, for summary and statistics.
 
 use inpact_validation::rules::RULES;
 use inpact_validation::{Diagnostic, Severity};
 use std::collections::BTreeMap;
 
-/// How many findings there were, by severity and by code.
+/// Counts of findings, by severity and by code.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Tally {
     severities: BTreeMap<Severity, usize>,

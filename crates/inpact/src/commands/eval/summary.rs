@@ -1,4 +1,4 @@
-//! What an evaluation did, for standard error: as text for a person, as JSON for a program.
+//! Summary of an evaluation for standard error: as text for users, as JSON for programs.
 
 use inpact_evaluation::evaluate::{InteractionTally, Tally};
 use inpact_evaluation::plan::{InteractionPlan, LeftOut, Plan, Reason, TablePlan};
@@ -10,7 +10,7 @@ use std::time::Duration;
 /// Up to so many interactions each has a line in the summary; more have one together.
 const MOST_INTERACTIONS: usize = 12;
 
-/// What an evaluation did, for standard error.
+/// Summary of an evaluation, for standard error.
 pub(super) struct Summary<'a> {
     pub(super) tally: &'a Tally,
     pub(super) plan: &'a Plan,
@@ -188,14 +188,14 @@ fn rows(number: u64) -> String {
     format!("{number} row{}", if number == 1 { "" } else { "s" })
 }
 
-/// How many rows are closed and open: as the plan counted them, which has all columns that tell.
+/// Numbers of closed and open rows: as the plan counted them, which reads all columns of contact.
 #[derive(Clone, Copy)]
 struct Contact {
     closed: u64,
     open: u64,
 }
 
-/// What the plan says of an interaction and a user of the results must know: its notes, its regimes where procedures disagree, what is left out.
+/// The notes of the plan on an interaction: regimes where procedures disagree, parts left out.
 fn said_in_plan(plan: &InteractionPlan) -> Vec<String> {
     let regimes = [
         ("electrical law", plan.electrical.as_ref().map(|law| &law.regime)),
@@ -206,7 +206,7 @@ fn said_in_plan(plan: &InteractionPlan) -> Vec<String> {
         Some(format!("note: {law}, {regime}"))
     });
     let notes = plan.notes.iter().map(|note| format!("note: {note}"));
-    // What was not asked for, and a table that no row reads, is no loss.
+    // An output that was not requested, and a table that no row reads, is no loss.
     let is_lost = |reason: &Reason| !matches!(reason, Reason::NotAsked | Reason::NoRowClosed | Reason::NoRowOpen);
     let left_out = plan.left_out.iter().filter(|left_out| is_lost(&left_out.reason));
     let left_out = left_out.map(|left_out| format!("without {}: {}", left_out.what, left_out.reason));
@@ -238,7 +238,7 @@ fn counts(of: &InteractionTally, contact: Contact) -> String {
     counts.join(", ")
 }
 
-/// What the rows of the latest time add up to.
+/// The sums over the rows of the latest time.
 fn totals(summed: &[Output], plan: &InteractionPlan, of: &InteractionTally) -> Option<String> {
     let values: Vec<String> = summed
         .iter()
@@ -255,7 +255,7 @@ fn totals(summed: &[Output], plan: &InteractionPlan, of: &InteractionTally) -> O
         .then(|| format!("total of {}{time}: {}", rows(of.totals.rows), values.join(", ")))
 }
 
-/// How exactly the tables of an interaction were evaluated: mode, bound, and the largest error seen.
+/// The accuracy of the tables of an interaction: mode, bound, and the largest error seen.
 fn accuracy(plan: &InteractionPlan, of: &InteractionTally) -> Vec<String> {
     let forms = plan.tables().filter_map(|(what, table)| Some((what, table, table.form.as_ref()?)));
     let mut lines: Vec<String> =
@@ -272,7 +272,7 @@ fn accuracy(plan: &InteractionPlan, of: &InteractionTally) -> Vec<String> {
     lines
 }
 
-/// What a user should know of the rows.
+/// The remarks on the rows.
 fn remarks(of: &InteractionTally) -> Vec<String> {
     let remarks = [
         (of.incomplete, "without a number that a law needs, and so without its results"),

@@ -1,4 +1,4 @@
-//! What to say of a scene that was not solved.
+//! Findings of a scene that was not solved.
 
 use inpact_diagnostics::{Diagnostic, Findings, Place};
 use inpact_evaluation::nodes::USER_FAULT;

@@ -56,7 +56,7 @@ pub(super) fn write(
     output.finish()
 }
 
-/// Findings about the table as such about the scene, which has other lines: the row of the table tells that of the scene.
+/// Findings about the table as such about the scene, which has other lines: the row of the table gives that of the scene.
 fn of_scene(findings: Findings, scene: &Scene) -> Vec<Diagnostic> {
     // Every state has a row of each interface, in the order of the scene.
     let number = |cell: &Cell| usize::try_from(cell.row?).ok()?.checked_sub(1)?.checked_rem(scene.interfaces.len());
@@ -69,7 +69,7 @@ fn of_scene(findings: Findings, scene: &Scene) -> Vec<Diagnostic> {
         let cell = Some(Cell { row: None, field: column });
         Diagnostic { primary: place.label(&found.primary.file), cell, message, ..found }
     };
-    // What contradicts a given rate was said of the scene itself, before it was solved.
+    // A contradiction to a given rate was reported for the scene itself, before it was solved.
     let list = findings.into_list().into_iter().filter(|found| found.code != CONTRADICTORY_RATE.code);
     list.map(placed).collect()
 }

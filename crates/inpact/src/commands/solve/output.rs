@@ -16,7 +16,7 @@ use serde_json::{Map, Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// How a state is printed.
+/// Formats of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum StateFormat {
     /// Comma-separated values.
@@ -34,7 +34,7 @@ impl StateFormat {
     }
 }
 
-/// Where results go.
+/// The outputs of a run.
 pub(super) struct Outputs<'a> {
     prepared: &'a SolvableScene,
     problem: &'a Problem<'a>,
@@ -48,7 +48,7 @@ pub(super) struct Outputs<'a> {
     interfaces: Option<Interfaces<'a>>,
     /// The states as JSON.
     documents: Vec<Value>,
-    /// Whether a state has been taken: before that nothing is written.
+    /// A state has been taken: before that nothing is written.
     has_begun: bool,
 }
 
@@ -91,7 +91,7 @@ impl<'a> Outputs<'a> {
         })
     }
 
-    /// Writes what stands above all states.
+    /// Writes the head above all states.
     fn begin(&mut self) -> Result<(), Failure> {
         if self.format == StateFormat::Csv {
             write(&mut self.states, state_header(self.times).as_bytes())?;
@@ -146,7 +146,7 @@ impl<'a> Outputs<'a> {
                 write(&mut self.states, format!("{whole:#}\n").as_bytes())?;
             }
         }
-        // What was solved does not depend on whether its interfaces can be evaluated.
+        // The solution does not depend on whether its interfaces can be evaluated.
         self.states.finish()?;
         if let Some(file) = self.link_file {
             file.finish()?;

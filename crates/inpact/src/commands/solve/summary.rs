@@ -1,4 +1,4 @@
-//! What there is to say of a solution: what was solved, how, and how well it balances.
+//! Summary of a solution: fields, methods and balances.
 
 use inpact_network::linear::{LinearReport, Method, Ordering, Quality};
 use inpact_network::scene::Field;
@@ -87,7 +87,7 @@ impl Summary<'_> {
     }
 }
 
-/// What rounding to f64 loses.
+/// The relative error of rounding to f64.
 const HALF_A_DIGIT: f64 = 0.5 * f64::EPSILON;
 
 fn count(number: usize, what: &str) -> String {

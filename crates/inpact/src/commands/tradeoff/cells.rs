@@ -1,4 +1,4 @@
-//! How numbers and texts stand in tables, those for a person and those of comma-separated values.
+//! Numbers and texts in tables, those for users and those of comma-separated values.
 
 /// A line of cells at these widths: texts first, to the left; numbers after them, to the right.
 pub(super) fn line<const COLUMNS: usize>(cells: &[String; COLUMNS], widths: [usize; COLUMNS], texts: usize) -> String {
@@ -19,7 +19,7 @@ pub(super) fn error(error: f64) -> String {
     if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") }
 }
 
-/// What did not serve, by the reason: all that have the same one, and the reason.
+/// Refused subjects grouped by reason: all that have the same one, and the reason.
 pub(super) fn by_reason<N: Clone>(refused: &[(N, String)]) -> Vec<(Vec<N>, &str)> {
     let mut reasons: Vec<(Vec<N>, &str)> = Vec::new();
     for (name, reason) in refused {

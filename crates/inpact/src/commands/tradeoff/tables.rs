@@ -23,7 +23,7 @@ pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments
 fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     let prepared = table.prepare(&arguments.laws, &arguments.reading, arguments.format.of_findings())?;
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
-    // What the deck includes is known now.
+    // The included files are known now.
     files::check_targets(&arguments.targets())?;
     let sample = subjects::gather(&mut scene, table.nodes_path(), arguments.sample)?;
     if sample.subjects.is_empty() {

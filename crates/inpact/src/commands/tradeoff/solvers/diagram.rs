@@ -9,7 +9,7 @@ use crate::commands::tradeoff::cells::file_name;
 
 /// The diagram of all solvers.
 pub(super) fn chart(measured: &Measured, prepared: &SolvableScene) -> Chart {
-    // What is on the front is drawn last: it must not be hidden.
+    // Entries of the front are drawn last: they must not be hidden.
     let (front, others): (Vec<&Entry>, Vec<&Entry>) = measured.entries.iter().partition(|entry| entry.on_front);
     let points = others.into_iter().chain(front).map(|entry| {
         let (name, methods) = (name(entry.subject), &entry.found.methods);

@@ -8,15 +8,15 @@ use inpact_network::linear::{LinearReport, Method, Phases, Work};
 use inpact_network::scene::Field;
 use inpact_network::{Distance, Problem, State};
 
-/// What was measured on a scene.
+/// Measurements on a scene.
 pub(super) struct Measured {
     pub(super) reference: Reference,
     pub(super) rounds: u32,
     /// The fastest first.
     pub(super) entries: Vec<Entry>,
-    /// What did not solve the scene, and why.
+    /// Subjects that did not solve the scene, with the reason.
     pub(super) failed: Vec<(Subject, String)>,
-    /// How many unknowns the usual solver had in all fields together.
+    /// The number of unknowns of the usual solver in all fields together.
     pub(super) unknowns: usize,
 }
 
@@ -29,19 +29,19 @@ pub(super) struct Entry {
     pub(super) phases: Phases,
     /// From the reference, over all states.
     pub(super) distance: Distance,
-    /// Whether it is the reference itself: its distance tells nothing.
+    /// It is the reference itself: its distance shows nothing.
     pub(super) is_reference: bool,
     pub(super) found: Found,
     /// No other is as fast and as exact in the values of nodes, and better in one of the two.
     pub(super) on_front: bool,
 }
 
-/// What the reports of some states say together.
+/// The reports of some states, summarised.
 #[derive(Default)]
 pub(super) struct Found {
     /// The methods in the order in which they were tried.
     pub(super) methods: Vec<Method>,
-    /// What was given up, of which field and why.
+    /// Methods that were given up, with the field and the reason.
     pub(super) given_up: Vec<(Field, Method, String)>,
     /// The largest of the last linear problems of all fields.
     pub(super) residual: f64,

@@ -1,4 +1,4 @@
-//! What was measured, as text, comma-separated values and JSON.
+//! The measurements as text, comma-separated values and JSON.
 
 use super::measure::{Entry, Measured};
 use super::subjects::Subject;
@@ -87,7 +87,7 @@ fn cells(entry: &Entry) -> [String; 16] {
     ]
 }
 
-/// What a solver at a tolerance is called.
+/// The name of a solver at a tolerance.
 pub(super) fn name(subject: Subject) -> String {
     format!("{} {}", subject.method, subject.tolerance_text())
 }
@@ -104,7 +104,7 @@ fn size(measured: &Measured, prepared: &SolvableScene) -> String {
     counts.map(|(number, what)| count(number, what)).join(", ")
 }
 
-/// How far the scene was solved.
+/// The scene and the time up to which it was solved.
 pub(super) fn what(measured: &Measured, prepared: &SolvableScene) -> String {
     match measured.reference.states.last() {
         Some(last) if prepared.scene.is_transient() => {
@@ -114,13 +114,13 @@ pub(super) fn what(measured: &Measured, prepared: &SolvableScene) -> String {
     }
 }
 
-/// How it was measured.
+/// The conditions of the measurement.
 pub(super) fn how(measured: &Measured) -> String {
     let rounds = if measured.rounds == 1 { "one round" } else { &format!("{} interleaved rounds", measured.rounds) };
     format!("least of {rounds}, one thread, nothing kept from one solution to the next")
 }
 
-/// What it was compared with.
+/// The reference.
 fn reference(measured: &Measured) -> String {
     let reference = &measured.reference;
     let mut text = format!("{} to the last digit ({})", reference.subject.method, reference.reason);

@@ -1,4 +1,4 @@
-//! What is measured: solvers at tolerances, and the reference they are compared with.
+//! Subjects of measurement: solvers at tolerances, and the reference they are compared with.
 
 use crate::commands::solvable::SolvableScene;
 use inpact_network::linear::{LAST_DIGIT, Method, Work};
@@ -11,28 +11,28 @@ pub(super) struct Subject {
     pub(super) tolerance: f64,
 }
 
-/// What a solver found.
+/// The result of a solver.
 pub(super) struct Solved {
     /// The steady state; of a transient the state at its start and the one an increment later.
     pub(super) states: Vec<State>,
     pub(super) work: Work,
 }
 
-/// Why a solver found nothing, and the time of the last state before.
+/// The failure of a solver, and the time of the last state before.
 pub(super) struct Failed {
     pub(super) why: SolveFailure,
     pub(super) after: Option<f64>,
 }
 
-/// What the others are compared with.
+/// The reference of comparisons.
 pub(super) struct Reference {
     pub(super) subject: Subject,
-    /// Why it is this one, for a person.
+    /// The reason for the choice, for users.
     pub(super) reason: String,
     pub(super) states: Vec<State>,
 }
 
-/// How `solve` solves where nothing else is asked for.
+/// The solver of `solve` by default.
 pub(super) const USUAL: Subject = Subject { method: Method::Direct, tolerance: LAST_DIGIT };
 
 /// The exact solver, which is slow.
@@ -41,7 +41,7 @@ const EXACT: Subject = Subject { method: Method::Elimination, tolerance: LAST_DI
 const METHODS: [Method; 3] = [Method::Direct, Method::Mixed, Method::Iterative];
 const TOLERANCES: [f64; 5] = [LAST_DIGIT, 1e-12, 1e-9, 1e-6, 1e-3];
 
-/// Up to so many nodes the reference is the elimination: in three dimensions that takes it a quarter of a second, and some times as long where Newton's iteration asks for several.
+/// Up to so many nodes the reference is the elimination: in three dimensions that takes it a quarter of a second, and some times as long where Newton's iteration needs several.
 const MOST_NODES: usize = 1000;
 
 /// All solvers at all tolerances.

@@ -10,7 +10,7 @@ use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
 /// Fewer rows than that are repeated, so that a run takes long enough to be timed.
 const LEAST_ROWS: usize = 1 << 16;
 
-/// What was measured on a deck and its node table.
+/// Measurements on a deck and its node table.
 pub(super) struct Measured {
     /// Rows of the node table.
     pub(super) rows: u64,

@@ -162,7 +162,7 @@ impl Copied {
     }
 }
 
-/// What of the time of a copy it takes to move what a row of a mode moves: its coordinates and its value, where the copy reads and writes each coordinate.
+/// The part of the time of a copy that moving a row of a mode takes: its coordinates and its value, where the copy reads and writes each coordinate.
 pub(super) fn share_of_copy(subject: &Subject) -> f64 {
     (subject.axes() + 1) as f64 / (2 * subject.axes()) as f64
 }

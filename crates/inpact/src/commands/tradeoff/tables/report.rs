@@ -1,10 +1,10 @@
-//! What was measured, as text, comma-separated values and JSON.
+//! The measurements as text, comma-separated values and JSON.
 
 use super::measure::{Entry, Group, Measured};
 use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
 use serde_json::{Value, json};
 
-/// What the deck and the node table are called.
+/// The names of the deck and the node table.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Names<'a> {
     pub(super) deck: &'a str,
@@ -70,7 +70,7 @@ const HEADER: [&str; 13] = [
 const WIDTHS: [usize; 13] = [1, 11, 13, 8, 9, 10, 8, 8, 8, 8, 8, 8, 9];
 const TEXTS: usize = 3;
 
-/// How it was measured.
+/// The conditions of the measurement.
 pub(super) fn how(measured: &Measured) -> String {
     let rows = match measured.one_of {
         1 => count(measured.rows),
@@ -83,7 +83,7 @@ fn count(rows: u64) -> String {
     format!("{rows} row{}", if rows == 1 { "" } else { "s" })
 }
 
-/// How large a table is, and how many rows reach it.
+/// The size of a table, and the number of rows that reach it.
 fn size(group: &Group) -> String {
     let rows = format!("{} points, reached by {}", group.table_rows, count(group.rows as u64));
     if group.rows_of_a_run == group.rows { rows } else { format!("{rows}, repeated to {}", group.rows_of_a_run) }

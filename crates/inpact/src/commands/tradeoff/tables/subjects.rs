@@ -1,4 +1,4 @@
-//! What is measured: the tables in force and, as columns, the coordinates of the rows that reach them.
+//! Subjects of measurement: the tables in force and, as columns, the coordinates of the rows that reach them.
 
 use crate::commands::evaluable::Evaluable;
 use crate::failure::Failure;
@@ -22,19 +22,19 @@ pub(super) struct Subject {
 pub(super) struct Sample {
     /// The tables that vary and are reached by a row.
     pub(super) subjects: Vec<Subject>,
-    /// How many rows the node table has.
+    /// The number of rows of the node table.
     pub(super) rows: u64,
     /// One of so many was taken.
     pub(super) one_of: u64,
 }
 
 impl Subject {
-    /// How many rows reach it.
+    /// The number of rows that reach it.
     pub(super) fn rows(&self) -> usize {
         self.columns.iter().map(Vec::len).max().unwrap_or(0)
     }
 
-    /// How many axes make a difference.
+    /// The number of axes that make a difference.
     pub(super) fn axes(&self) -> usize {
         self.columns.iter().filter(|column| !column.is_empty()).count()
     }
