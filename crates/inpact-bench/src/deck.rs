@@ -11,7 +11,7 @@ use crate::interface::Interface;
 use crate::plate::{self, Plate};
 use crate::size::{Counted, measure};
 
-/// What a deck is to hold besides its interactions.
+/// Parts of a deck besides its interactions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Content {
     /// Plates of elements with sets, surfaces, contact pairs and steps, `bytes` in all.
@@ -26,7 +26,7 @@ pub enum Content {
 /// A deck to generate. Equal requests give equal bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DeckRequest {
-    /// What there is besides the interactions.
+    /// The parts besides the interactions.
     pub content: Content,
     /// Number of interactions.
     pub interactions: usize,

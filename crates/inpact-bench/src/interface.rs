@@ -99,7 +99,7 @@ fn temperature(group: usize) -> f64 {
     FIRST_TEMPERATURE + TEMPERATURE_STEP * group as f64
 }
 
-/// How many equal groups of ten or more points `rows` rows make: the most that leave no remainder.
+/// The number of equal groups of ten or more points in `rows` rows: the most that leave no remainder.
 ///
 /// Equal groups keep the tables regular, so that a check of the deck has nothing to note (rule T015).
 fn groups(rows: usize) -> usize {

@@ -28,7 +28,7 @@ enum Command {
     Generate {
         /// The deck to write, or `-` for standard output.
         out: PathBuf,
-        /// What the deck holds besides its interactions.
+        /// The parts of the deck besides its interactions.
         #[arg(long, value_enum, default_value_t = Kind::Mesh)]
         kind: Kind,
         /// Size of a meshed deck in units of 10^6 bytes [default: 100]; a deck of tables is as large as its rows.
@@ -64,13 +64,13 @@ enum Command {
     Grid {
         #[command(flatten)]
         grid: GridArguments,
-        /// How it is solved.
+        /// The solver.
         #[arg(long, value_enum, default_value_t = SolverName::Direct)]
         solver: SolverName,
         /// The relative error of a flow that is acceptable [default: the last digit].
         #[arg(long, value_parser = positive)]
         tolerance: Option<f64>,
-        /// How often it is solved, from nothing; the fastest counts.
+        /// The number of solutions, each from nothing; the fastest counts.
         #[arg(long, default_value_t = 3, value_parser = at_least::<1>)]
         rounds: usize,
     },
@@ -83,7 +83,7 @@ enum Command {
     },
 }
 
-/// Which grid.
+/// Arguments of a grid.
 #[derive(Debug, Clone, Copy, Args)]
 struct GridArguments {
     /// Nodes along the first direction, in which the ends are held.
@@ -149,7 +149,7 @@ fn main() -> ExitCode {
         // The reader has seen enough: `generate - | head`.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            // Where standard error is closed as well there is nobody left to tell.
+            // If standard error is closed as well nobody sees a failure.
             let _ = writeln!(io::stderr(), "error: {error}");
             ExitCode::from(2)
         }

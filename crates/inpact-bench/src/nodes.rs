@@ -32,7 +32,7 @@ pub struct NodesRequest {
 /// Those of the writer.
 ///
 /// # Panics
-/// When there is no interface or no node.
+/// There is no interface or no node.
 pub fn write(request: &NodesRequest, interfaces: &[Interface], out: impl Write) -> io::Result<u64> {
     assert!(!interfaces.is_empty() && request.nodes > 0, "a row needs an interface and a node");
     let mut out = Counted::new(out);

@@ -9,7 +9,7 @@ use inpact_network::linear::{LAST_DIGIT, Method, Solver};
 
 const METHODS: [Method; 3] = [Method::Direct, Method::Mixed, Method::Iterative];
 
-/// How far conductances are spread, to either side of one.
+/// The spread of conductances, in decades to either side of one.
 const DECADES: [f64; 6] = [0.0, 3.0, 10.0, 30.0, 100.0, 300.0];
 
 /// Four times what a number has lost that is rounded once, which is what is found.
@@ -99,7 +99,7 @@ fn elimination_is_exact() {
     }
 }
 
-/// What is accepted may be less than the last digit: the estimate of the error is not below the error itself.
+/// A looser tolerance may accept less than the last digit: the estimate of the error is not below the error itself.
 #[test]
 fn a_looser_tolerance_is_kept() {
     for tolerance in [1e-3, 1e-8] {

@@ -44,7 +44,7 @@ pub struct Equations<'a> {
     histories: Histories,
 }
 
-/// Whether time integrals of the rows are wanted, whose error then counts in the length of increments.
+/// Time integrals of the rows, whose error counts in the length of increments where they are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Histories {
     /// No.

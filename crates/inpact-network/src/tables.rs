@@ -8,7 +8,7 @@ use inpact_evaluation::results::push_number;
 use inpact_parser::model::Model;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Whether tables have a column of times.
+/// Columns of times in tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Times {
     /// There is only one.

@@ -1,4 +1,4 @@
-//! What others make of the same tables and queries: the crates interpn and ndarray-interp, numpy and scipy.
+//! Other implementations on the same tables and queries: the crates interpn and ndarray-interp, numpy and scipy.
 //!
 //! Those that do not keep the end values outside a table are given queries that have been moved to its ends beforehand, which is not timed.
 
@@ -69,7 +69,7 @@ pub(crate) fn time_python(case: &Case, rounds: usize, copy: f64) {
         }
         _ => println!("| numpy and scipy: no python3 that has them | | |"),
     }
-    // What cannot be removed stays in the temporary directory.
+    // A folder that cannot be removed stays in the temporary directory.
     let _ = std::fs::remove_dir_all(&directory);
 }
 

@@ -18,7 +18,7 @@ pub(super) struct Evaluator {
 /// A way made ready for a table.
 pub(super) struct Ready<'a> {
     pub(super) value: Value<'a>,
-    /// How far a value can be from the table's.
+    /// The bound of the error of a value of the table.
     pub(super) bound: ErrorBound,
 }
 

@@ -18,7 +18,7 @@ pub(super) struct Judged {
 pub(super) struct Errors {
     /// The largest, in ulp.
     pub(super) largest: f64,
-    /// How many values are farther from the exact one than the bound says.
+    /// The number of values farther from the exact one than the bound.
     pub(super) outside: usize,
 }
 

@@ -21,7 +21,7 @@ ECDT is that of the second of two rows.
 /// The extreme numbers.
 const VALUES: [f64; 9] = [5e-324, 1e-308, 1.0, 1e308, 0.0, -0.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
 
-/// What an extreme number stands for.
+/// Quantities of an extreme number.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Quantity {
     Clearance,
@@ -185,7 +185,7 @@ impl Case {
         Some([conductance, current, heat, of_area, of_time])
     }
 
-    /// Why these results are what they are.
+    /// The reason for the results.
     fn why(&self, results: &Results, outputs: &[f64; 5], exact: Option<&[BigRational; 5]>) -> String {
         let mut reasons = Vec::new();
         if matches!(self.quantity, Quantity::Clearance | Quantity::Pressure) {

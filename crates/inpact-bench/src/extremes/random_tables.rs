@@ -53,7 +53,7 @@ pub(super) fn section() -> String {
     format!("{TEXT}\n{}", table(&header, rows))
 }
 
-/// What was measured of one evaluator.
+/// The measurements of one evaluator.
 #[derive(Clone, Default)]
 struct Measured {
     /// Tables that were tried, and those it could be made for.

@@ -19,7 +19,7 @@ struct Shape {
     points: Vec<(f64, f64)>,
 }
 
-/// How many knots of a table are asked at and beside, and how many segments between.
+/// The number of knots of a table evaluated at and beside, and of segments between.
 const ASKED: usize = 1_500;
 
 /// The section of the page.

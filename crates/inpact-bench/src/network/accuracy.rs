@@ -17,9 +17,9 @@ pub struct Worst {
     pub jump: f64,
     /// Of the flow through a link.
     pub flow: f64,
-    /// How many networks there were.
+    /// The number of networks.
     pub networks: u32,
-    /// How many of them are refused, as a value or a flow is beyond the range of f64; one that is refused without that is an infinite error.
+    /// The number of them refused, as a value or a flow is beyond the range of f64; one that is refused without that is an infinite error.
     pub refused: u32,
     /// The most corrections that one of them took.
     pub solves: usize,

@@ -91,7 +91,7 @@ pub fn solve(network: &LinearNetwork) -> Exact {
     }
 }
 
-/// How many bits after the point make everything in a network whole.
+/// The number of bits after the point that make everything in a network whole.
 struct Scale {
     conductances: u32,
     values: u32,

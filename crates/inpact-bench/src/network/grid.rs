@@ -14,7 +14,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// How many nodes have no held value.
+    /// The number of nodes without a held value.
     pub fn free(self) -> u32 {
         self.size.iter().product()
     }
@@ -63,7 +63,7 @@ pub struct Assembled {
     pub diagonal: Vec<f64>,
     /// Row, column and value below the diagonal.
     pub below: Vec<(usize, usize, f64)>,
-    /// What the held nodes send into each free one.
+    /// The flow from the held nodes into each free one at zero.
     pub right: Vec<f64>,
 }
 

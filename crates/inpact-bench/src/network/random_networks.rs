@@ -3,18 +3,18 @@
 use crate::random::Random;
 use inpact_network::linear::{LinearNetwork, Link};
 
-/// What a random network is like.
+/// Properties of a random network.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
-    /// How many nodes it has; the first and the last are held, at 100 and 50.
+    /// The number of nodes; the first and the last are held, at 100 and 50.
     pub nodes: u32,
     /// Conductances are spread over 10^-decades to 10^decades.
     pub decades: f64,
-    /// Whether fluid or current flows in at some nodes.
+    /// Sources of fluid or current at some nodes.
     pub sources: Sources,
 }
 
-/// What flows in from outside.
+/// Sources of a network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sources {
     /// Nothing.

@@ -18,7 +18,7 @@ use inpact_evaluation::numbers::DoubleDouble;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Series {
     steps: Vec<Step>,
-    /// Whether an element is still there, those that were made included.
+    /// The elements that are still there, those that were made included.
     pub(crate) is_there: Vec<bool>,
     /// Whether a free node is still there.
     pub(crate) is_free: Vec<bool>,

@@ -59,6 +59,6 @@ data_rules! {
     /// The equations of a scene were not solved.
     ///
     /// The finding says for each field how far the equations are from balance and at which node.
-    /// What helps: values to begin with under `[initial]` that are near the solution, shorter increments in a transient, and a look at the tables: a conductance that falls steeply with temperature, or a current that heats what conducts it, may have no steady state.
+    /// Remedies: values to begin with under `[initial]` that are near the solution, shorter increments in a transient, and a look at the tables: a conductance that falls steeply with temperature, or a current that heats what conducts it, may have no steady state.
     NOT_CONVERGED = "D019", "not-converged", Error, source: "docs/scenes.md";
 }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// More notes than these of one run nobody reads.
 const MOST_NOTES: usize = 100;
 
-/// What `--results` is, for `--help`.
+/// The help of `--results`.
 pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
 /// States of a mesh at the times of result files, or at the beginning where there are none.

@@ -45,7 +45,7 @@ pub(crate) fn refuse_none(MeshedDeck { name, .. }: &MeshedDeck, rows: &NodeRows<
     Ok(())
 }
 
-/// What was made.
+/// Summary of the rows made.
 pub(crate) struct RowsSummary {
     /// Lines for a person, behind the one that says how many rows there are.
     pub(crate) lines: Vec<String>,
