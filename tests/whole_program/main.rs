@@ -25,6 +25,7 @@ mod includes;
 mod json;
 mod nodes;
 mod nodes_results;
+mod pictures;
 mod plan;
 mod plot;
 mod program;

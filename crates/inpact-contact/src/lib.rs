@@ -13,12 +13,14 @@
 mod join;
 mod naming;
 mod pair;
+mod picture;
 mod rows;
 mod state;
 mod summary;
 mod values;
 
 pub use join::{FileSummary, Join, JoinError, Joined, MatchedBy, ResultNote};
+pub use picture::SlaveFaces;
 pub use rows::{NodeRows, RowsError};
 pub use state::{
     ContactField, ContactQuantity, Displacements, Moment, NodeField, NodeQuantity, OutputField, Source, State,

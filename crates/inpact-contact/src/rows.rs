@@ -2,6 +2,7 @@
 
 use crate::naming::Names;
 use crate::pair::{Pair, across};
+use crate::picture::SlaveFaces;
 use crate::state::{ContactQuantity, Source, State};
 use crate::summary::{ColumnSummary, PairSummary};
 use crate::values::{Origin, columns, number};
@@ -148,6 +149,11 @@ impl<'a> NodeRows<'a> {
     /// The pairs that have rows: how many there are of them so far, and where their quantities come from.
     pub fn summaries(&self) -> impl Iterator<Item = &PairSummary> {
         self.pairs.iter().map(|pair| &pair.summary)
+    }
+
+    /// The slave surfaces of the pairs, to be drawn.
+    pub fn slave_faces(&self) -> SlaveFaces {
+        SlaveFaces::of(self.mesh, &self.pairs)
     }
 
     /// Leaves the column [`Column::Source`] out.

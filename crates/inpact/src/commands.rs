@@ -19,5 +19,6 @@ pub(crate) mod job_results;
 mod laws;
 pub(crate) mod mesh_rows;
 pub(crate) mod meshed;
+mod picture;
 pub(crate) mod solvable;
 mod table_output;

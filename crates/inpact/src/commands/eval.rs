@@ -1,7 +1,9 @@
 //! `inpact eval`: a deck and a node table in, a result table out.
 
+mod drawing;
 mod summary;
 
+use self::drawing::evaluate_and_draw;
 use self::summary::Summary;
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
@@ -56,7 +58,10 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     }
     let mut findings = Findings::new(&evaluable.nodes_name);
     let mut went_out = 0;
-    let evaluated = evaluate(arguments, &mut evaluable, &mut findings, &mut went_out);
+    let evaluated = match arguments.output.picture() {
+        Some(target) => evaluate_and_draw(&mut evaluable, target, arguments.evaluable.nodes_path(), &mut findings),
+        None => evaluate(arguments, &mut evaluable, &mut findings, &mut went_out),
+    };
     say_data_findings(findings.into_list(), &evaluable.settings, format);
     if evaluated.as_ref().is_err_and(|failure| went_out > 0 && !failure.is_closed_pipe()) {
         let rows = if went_out == 1 { "1 row".to_owned() } else { format!("{went_out} rows") };
@@ -72,9 +77,9 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         match format {
             FindingFormat::Concise | FindingFormat::Github => {
                 say(&visible_line(&format!("rows of the {}:", evaluable.nodes_name)));
-                made.lines.iter().for_each(|line| say(&visible_line(line)));
+                made.summary.lines.iter().for_each(|line| say(&visible_line(line)));
             }
-            FindingFormat::Json => say_json(&json!({ "nodes": made.value }).to_string()),
+            FindingFormat::Json => say_json(&json!({ "nodes": made.summary.value }).to_string()),
         }
     }
     Ok(Outcome::Clean)

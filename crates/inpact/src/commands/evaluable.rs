@@ -5,6 +5,7 @@ use super::job_results::{RESULTS_HELP, States, states};
 use super::laws::LawArguments;
 use super::mesh_rows::{RowsSummary, node_rows};
 use super::meshed::{MeshedDeck, ReadDeck};
+use super::picture::Drawn;
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::settings::{DeckArguments, Settings};
@@ -107,8 +108,14 @@ pub(crate) struct Evaluable {
     pub(crate) deck_has_errors: bool,
     /// The rows of the node table.
     pub(crate) rows: KeptRows,
-    /// The summary of rows that were made of the deck's mesh.
-    pub(crate) made: Option<RowsSummary>,
+    /// What rows were made of, where they are of the deck's mesh.
+    pub(crate) made: Option<Made>,
+}
+
+/// Rows that were made of a mesh: what there is to say of them, and what they are drawn on.
+pub(crate) struct Made {
+    pub(crate) summary: RowsSummary,
+    pub(crate) drawn: Drawn,
 }
 
 /// Sources of rows, with the deck.
@@ -122,7 +129,7 @@ struct Surveyed {
     survey: Survey,
     rows: KeptRows,
     nodes_name: String,
-    made: Option<RowsSummary>,
+    made: Option<Made>,
 }
 
 /// A node table that can be read beyond the next bytes.
@@ -263,7 +270,8 @@ impl EvaluableArguments {
         };
         let survey = survey_keeping(reader, &meshed.read.model, choices, &mut findings, &mut rows).map_err(failed)?;
         let has_errors = say_data_findings(findings.into_list(), settings, format);
-        let made = Some(RowsSummary::of(&node_rows, &files));
+        let (summary, faces) = (RowsSummary::of(&node_rows, &files), node_rows.slave_faces());
+        let made = Some(Made { summary, drawn: Drawn { faces, states } });
         Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed { survey, rows, nodes_name, made }))
     }
 }

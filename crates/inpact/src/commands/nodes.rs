@@ -4,6 +4,7 @@ use super::findings::FindingFormat;
 use super::job_results::{RESULTS_HELP, States, states};
 use super::mesh_rows::{RowsSummary, counted, node_rows};
 use super::meshed::MeshedDeck;
+use super::picture::{Drawn, PictureWriter};
 use super::table_output::TableOutput;
 use crate::failure::{Failure, Outcome, say, say_json};
 use crate::files::{self, ResultFile};
@@ -14,7 +15,7 @@ use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::results::{ResultWriter, TableFormat};
 use serde_json::json;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(Debug, Args)]
@@ -44,11 +45,16 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     files::check_targets(&[arguments.output.target()])?;
     let States { states, files } = states(&arguments.results, &meshed, arguments.format)?;
     let mut rows = node_rows(&meshed, &states, arguments.format)?;
-    let mut output = ResultFile::create(arguments.output.target())?;
-    match write(&mut rows, &states, &mut output, arguments.output.format()) {
-        Ok(()) => output.finish()?,
-        Err(Stopped::Rows(error)) => return Err(Failure::Data(error.to_string())),
-        Err(Stopped::Writing(error)) => return Err(output.failure(error)),
+    if let Some(target) = arguments.output.picture() {
+        let drawn = Drawn { faces: rows.slave_faces(), states };
+        draw(&mut rows, &drawn, target)?;
+    } else {
+        let mut output = ResultFile::create(arguments.output.target())?;
+        match write(&mut rows, &states, &mut output, arguments.output.format()) {
+            Ok(()) => output.finish()?,
+            Err(Stopped::Rows(error)) => return Err(Failure::Data(error.to_string())),
+            Err(Stopped::Writing(error)) => return Err(output.failure(error)),
+        }
     }
     let seconds = start.elapsed().as_secs_f64();
     let summary = RowsSummary::of(&rows, &files);
@@ -64,6 +70,15 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
         }
     }
     Ok(Outcome::Clean)
+}
+
+/// Draws the rows of all states.
+fn draw(rows: &mut NodeRows<'_>, drawn: &Drawn, target: &Path) -> Result<(), Failure> {
+    let mut writer = PictureWriter::new(drawn, target, rows.numbers(), &[])?;
+    for batch in rows.batches(&drawn.states) {
+        writer.take_nodes(&batch.map_err(|error| Failure::Data(error.to_string()))?)?;
+    }
+    writer.finish()
 }
 
 /// Reasons why making a table ended early.

@@ -1,12 +1,13 @@
 //! Target and format of a table: for `eval` and `nodes`.
 
+use super::picture::is_picture;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::results::TableFormat;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct TableOutput {
-    /// Where to write the result, instead of standard output.
+    /// Where to write the result, instead of standard output; a name that ends in .vtu or .pvd draws the slave surfaces of the deck's mesh for ParaView, a file a state.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// How the result is stored, instead of what the extension of its file says (.csv, .parquet, .arrow, .ipc, .feather).
@@ -29,6 +30,11 @@ impl TableOutput {
     /// The target; `None` is standard output.
     pub(crate) fn target(&self) -> Option<&Path> {
         self.output.as_deref()
+    }
+
+    /// Where a picture goes, if one is asked for.
+    pub(crate) fn picture(&self) -> Option<&Path> {
+        self.target().filter(|target| self.output_format.is_none() && is_picture(target))
     }
 
     pub(crate) fn format(&self) -> TableFormat {

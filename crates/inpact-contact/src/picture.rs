@@ -1,0 +1,99 @@
+//! The slave surfaces of all pairs, to be drawn: a point a row of a state, in the order of the rows.
+
+use crate::pair::Pair;
+use crate::state::State;
+use inpact_geometry::{NodeId, Point};
+use inpact_parser::mesh::{Mesh, SurfaceKind};
+use inpact_results::vtu::{Array, Cell, Grid, Space};
+use std::collections::HashMap;
+
+/// The slave surfaces of the pairs that have rows.
+#[derive(Debug, Clone)]
+pub struct SlaveFaces {
+    nodes: Vec<NodeId>,
+    /// Where the points are in the undeformed mesh (L).
+    points: Vec<Point>,
+    cells: Vec<Cell>,
+    /// The labels of the nodes, and the pair of each point, counted from 1.
+    labels: Vec<i64>,
+    pairs: Vec<i64>,
+    /// The labels of the elements of the cells, 0 for single nodes, and their pairs.
+    elements: Vec<i64>,
+    pairs_of_cells: Vec<i64>,
+}
+
+impl SlaveFaces {
+    pub(crate) fn of(mesh: &Mesh, pairs: &[Pair<'_>]) -> Self {
+        let mut faces = Self {
+            nodes: Vec::new(),
+            points: Vec::new(),
+            cells: Vec::new(),
+            labels: Vec::new(),
+            pairs: Vec::new(),
+            elements: Vec::new(),
+            pairs_of_cells: Vec::new(),
+        };
+        for (number, pair) in (1..).zip(pairs) {
+            let first = faces.nodes.len();
+            let mut places: HashMap<NodeId, usize> = HashMap::new();
+            for (at, node) in pair.start.iter().map(|node| node.node).enumerate() {
+                places.insert(node, first + at);
+                faces.nodes.push(node);
+                faces.points.push(mesh.points[node.index()]);
+                faces.labels.push(i64::from(mesh.nodes[node.index()].label));
+                faces.pairs.push(number);
+            }
+            match &mesh.surfaces[pair.of.slave].kind {
+                SurfaceKind::Faces(slave) => {
+                    for (face, (element, _)) in slave.surface.faces().zip(&slave.elements) {
+                        let face = slave.surface.face(face);
+                        let points: Option<Vec<usize>> =
+                            face.nodes.iter().map(|node| places.get(node).copied()).collect();
+                        let Some(points) = points else { continue };
+                        let space = if face.shape.is_line() { Space::Plane } else { Space::Solid };
+                        faces.cells.push(Cell::face(points, space));
+                        faces.elements.push(i64::from(element.label));
+                        faces.pairs_of_cells.push(number);
+                    }
+                }
+                SurfaceKind::Nodes(_) => {
+                    for point in first..faces.nodes.len() {
+                        faces.cells.push(Cell::face(vec![point], Space::Solid));
+                        faces.elements.push(0);
+                        faces.pairs_of_cells.push(number);
+                    }
+                }
+            }
+        }
+        faces
+    }
+
+    /// How many points there are: as many as a state has rows.
+    pub fn points(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The surfaces in a state, moved by its displacements, with columns that have a value a point.
+    ///
+    /// Besides them points have the labels of their nodes, `node`, and the number of their pair, `pair`; cells have `element` and `pair`.
+    pub fn grid(&self, state: &State, columns: Vec<Array>) -> Grid {
+        let moved = state.displacements.as_ref().map(|moved| &moved.vectors);
+        let place = |(node, point): (&NodeId, &Point)| {
+            let way = moved.map_or([0.0; 3], |moved| moved[node.index()]);
+            [0, 1, 2].map(|k| point[k] + way[k])
+        };
+        let mut point_data =
+            vec![Array::integers("node", self.labels.clone()), Array::integers("pair", self.pairs.clone())];
+        point_data.extend(columns);
+        Grid {
+            points: self.nodes.iter().zip(&self.points).map(place).collect(),
+            cells: self.cells.clone(),
+            point_data,
+            cell_data: vec![
+                Array::integers("element", self.elements.clone()),
+                Array::integers("pair", self.pairs_of_cells.clone()),
+            ],
+            time: state.moment.time,
+        }
+    }
+}

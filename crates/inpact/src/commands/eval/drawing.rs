@@ -1,0 +1,68 @@
+//! Results as a picture: on the slave surfaces of the deck's mesh, with the columns of numbers that were read.
+
+use super::super::evaluable::Evaluable;
+use super::super::findings::refuse_configured_errors;
+use super::super::picture::{Drawn, PictureWriter};
+use crate::failure::Failure;
+use inpact_evaluation::evaluate::{Evaluation, RunFailure, Tally};
+use inpact_evaluation::nodes::{Column, Findings, GivenBack, Selection};
+use inpact_evaluation::plan::Plan;
+use std::path::Path;
+
+/// Evaluates the rows that were made of a mesh and draws them; gives the counts and the number of rows.
+pub(super) fn evaluate_and_draw(
+    evaluable: &mut Evaluable,
+    target: &Path,
+    deck: &Path,
+    findings: &mut Findings,
+) -> Result<(Tally, u64), Failure> {
+    let Evaluable { settings, model, plan, choices, rows, made, .. } = evaluable;
+    let Some(made) = made else {
+        let message =
+            "a picture needs rows that are made of the deck's mesh: leave `--nodes` out, or name a table with `-o`";
+        return Err(Failure::Usage(message.to_owned()));
+    };
+    let unreadable = |error| Failure::read(deck, error);
+    let selection = with_all_that_was_read(plan);
+    let mut rows = rows.give_back(&selection).map_err(unreadable)?;
+    let evaluation = Evaluation::on_all_threads(model, plan, choices);
+    let drawn = draw(&mut rows, evaluation, (plan, &selection), (&made.drawn, target));
+    let (tally, writer) = drawn.map_err(|failed| match failed {
+        RunFailure::Reading(error) => unreadable(error),
+        RunFailure::Writing(failure) => failure,
+    })?;
+    tally.report_user_faults(findings);
+    if findings.has_errors() {
+        return Err(Failure::Data("the user subroutine fails, and no picture is drawn".to_owned()));
+    }
+    tally.report(plan, findings);
+    refuse_configured_errors(findings.list(), settings)?;
+    writer.finish()?;
+    let rows = tally.rows;
+    Ok((tally, rows))
+}
+
+/// The columns that laws read, then the others that have numbers: what is the same in all rows is left out of an evaluation, but not of a picture.
+fn with_all_that_was_read(plan: &Plan) -> Selection {
+    let mut selection = plan.selection.clone();
+    for column in plan.columns.iter().filter(|column| column.range.is_some()).filter_map(|column| column.column) {
+        if !selection.numbers.contains(&column) {
+            selection.numbers.push(column);
+        }
+    }
+    selection
+}
+
+fn draw<'a>(
+    rows: &mut GivenBack,
+    mut evaluation: Evaluation<'_>,
+    (plan, selection): (&Plan, &Selection),
+    (drawn, target): (&'a Drawn, &'a Path),
+) -> Result<(Tally, PictureWriter<'a>), RunFailure<Failure>> {
+    let numbers = &selection.numbers;
+    let given: Vec<usize> = (0..numbers.len()).filter(|place| numbers[*place] != Column::Time).collect();
+    let columns: Vec<Column> = given.iter().map(|place| numbers[*place]).collect();
+    let mut writer = PictureWriter::new(drawn, target, &columns, &plan.outputs).map_err(RunFailure::Writing)?;
+    evaluation.run(rows, plan, |batch, results| writer.take(batch, &given, results, &plan.outputs))?;
+    Ok((evaluation.finish(), writer))
+}

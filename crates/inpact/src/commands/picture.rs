@@ -1,0 +1,148 @@
+//! Pictures for ParaView: a `.vtu` of the slave surfaces for each state, with every column as values of points, and a `.pvd` that says their times.
+
+use crate::failure::Failure;
+use crate::files::{ResultFile, check_targets};
+use inpact_contact::{SlaveFaces, State};
+use inpact_evaluation::nodes::{Batch, Column};
+use inpact_evaluation::results::{Output, ResultBatch, Status};
+use inpact_results::vtu::{Array, Moment, write_collection, write_grid};
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What a picture is made of: the surfaces, and the states that rows were made of.
+#[derive(Debug)]
+pub(crate) struct Drawn {
+    pub(crate) faces: SlaveFaces,
+    pub(crate) states: Vec<State>,
+}
+
+/// Whether a name asks for a picture: it ends in `.vtu` or `.pvd`.
+pub(crate) fn is_picture(path: &Path) -> bool {
+    let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
+    extension.is_some_and(|extension| extension == "vtu" || extension == "pvd")
+}
+
+/// Gathers the columns of a state, and draws it once all of its rows are there.
+pub(crate) struct PictureWriter<'a> {
+    drawn: &'a Drawn,
+    target: &'a Path,
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+    /// What was drawn so far; the files get their names when all of them are complete.
+    files: Vec<ResultFile>,
+    moments: Vec<Moment>,
+}
+
+impl<'a> PictureWriter<'a> {
+    /// The columns are those of node tables, then outputs.
+    pub(crate) fn new(
+        drawn: &'a Drawn,
+        target: &'a Path,
+        given: &[Column],
+        outputs: &[Output],
+    ) -> Result<Self, Failure> {
+        let names: Vec<String> =
+            given.iter().map(ToString::to_string).chain(outputs.iter().map(ToString::to_string)).collect();
+        let columns = vec![Vec::new(); names.len()];
+        let writer = Self { drawn, target, names, columns, files: Vec::new(), moments: Vec::new() };
+        let targets: Vec<PathBuf> =
+            (0..drawn.states.len()).map(|state| writer.path(state)).chain(writer.collection()).collect();
+        check_targets(&targets.iter().map(|path| Some(path.as_path())).collect::<Vec<_>>())?;
+        Ok(writer)
+    }
+
+    /// Takes rows of a node table.
+    pub(crate) fn take_nodes(&mut self, batch: &Batch) -> Result<(), Failure> {
+        for row in 0..batch.rows {
+            for (column, numbers) in self.columns.iter_mut().zip(&batch.numbers) {
+                column.push(numbers.get(row).unwrap_or(f64::NAN));
+            }
+            self.draw_if_complete()?;
+        }
+        Ok(())
+    }
+
+    /// Takes rows with their results: of the node table the columns at these places.
+    pub(crate) fn take(
+        &mut self,
+        batch: &Batch,
+        given: &[usize],
+        results: &ResultBatch,
+        outputs: &[Output],
+    ) -> Result<(), Failure> {
+        for row in 0..batch.rows {
+            let numbers = given.iter().map(|place| batch.numbers[*place].get(row));
+            let mut results_of_row = results.numbers.iter().map(|column| column.get(row));
+            let outputs = outputs.iter().map(|output| match results.statuses(*output) {
+                Some(statuses) => statuses[row].map(number_of),
+                None => results_of_row.next().flatten(),
+            });
+            for (column, number) in self.columns.iter_mut().zip(numbers.chain(outputs)) {
+                column.push(number.unwrap_or(f64::NAN));
+            }
+            self.draw_if_complete()?;
+        }
+        Ok(())
+    }
+
+    fn draw_if_complete(&mut self) -> Result<(), Failure> {
+        let rows = self.columns.first().map_or(0, Vec::len);
+        if rows < self.drawn.faces.points() {
+            return Ok(());
+        }
+        let at = self.files.len();
+        let Some(state) = self.drawn.states.get(at) else { return Ok(()) };
+        let arrays = self.names.iter().zip(&mut self.columns);
+        let arrays = arrays.map(|(name, values)| Array::reals(name.clone(), std::mem::take(values))).collect();
+        let grid = self.drawn.faces.grid(state, arrays);
+        let path = self.path(at);
+        let mut file = ResultFile::create(Some(&path))?;
+        write_grid(&grid, &mut file).map_err(|error| file.failure(error))?;
+        self.files.push(file);
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        #[expect(clippy::cast_precision_loss, reason = "states are counted")]
+        let time = state.moment.time.unwrap_or(at as f64);
+        self.moments.push(Moment { time, file: name });
+        Ok(())
+    }
+
+    /// Gives the files their names, the one that lists them last.
+    pub(crate) fn finish(mut self) -> Result<(), Failure> {
+        for file in std::mem::take(&mut self.files) {
+            file.finish()?;
+        }
+        let Some(path) = self.collection() else { return Ok(()) };
+        let mut file = ResultFile::create(Some(&path))?;
+        write_collection(&self.moments, &mut file).map_err(|error: io::Error| file.failure(error))?;
+        file.finish()
+    }
+
+    /// The picture of a state: the name that was given where it is the only one, else with its number.
+    fn path(&self, state: usize) -> PathBuf {
+        if self.collection().is_none() {
+            return self.target.to_owned();
+        }
+        let digits = self.drawn.states.len().to_string().len();
+        let mut name: OsString = self.target.file_stem().unwrap_or_default().to_owned();
+        name.push(format!("-{:0digits$}.vtu", state + 1));
+        self.target.with_file_name(name)
+    }
+
+    /// The file that lists the pictures; none for a single one, unless it was asked for.
+    fn collection(&self) -> Option<PathBuf> {
+        let asked = self.target.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pvd"));
+        (asked || self.drawn.states.len() != 1).then(|| self.target.with_extension("pvd"))
+    }
+}
+
+/// A status as a number, in the order of [`Status`].
+fn number_of(status: Status) -> f64 {
+    match status {
+        Status::Open => 0.0,
+        Status::Closed => 1.0,
+        Status::Cutoff => 2.0,
+        Status::BeyondTable => 3.0,
+        Status::Constrained => 4.0,
+    }
+}
