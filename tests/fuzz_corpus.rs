@@ -21,7 +21,7 @@ fn decks() -> Vec<Vec<u8>> {
 }
 
 /// The words of a dictionary of libFuzzer: in quotes, with `\\`, `\"` and `\xHH`.
-fn words(name: &str) -> Vec<Vec<u8>> {
+fn tokens(name: &str) -> Vec<Vec<u8>> {
     let text = std::fs::read_to_string(project().join("fuzz").join(name)).expect("readable");
     let quoted = text.lines().filter(|line| !line.starts_with('#'));
     quoted
@@ -29,9 +29,9 @@ fn words(name: &str) -> Vec<Vec<u8>> {
         .collect()
 }
 
-fn unescaped(word: &str) -> Vec<u8> {
+fn unescaped(token: &str) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut rest = word.bytes();
+    let mut rest = token.bytes();
     while let Some(byte) = rest.next() {
         match (byte, if byte == b'\\' { rest.next() } else { None }) {
             (b'\\', Some(b'x')) => {
@@ -47,7 +47,7 @@ fn unescaped(word: &str) -> Vec<u8> {
 }
 
 /// A few changes of the kinds that libFuzzer makes.
-fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[Vec<u8>], chance: &mut Chance) {
+fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], tokens: &[Vec<u8>], chance: &mut Chance) {
     for _ in 0..=chance.below(5) {
         let at = chance.below(bytes.len() + 1);
         let end = (at + 1 + chance.below(40)).min(bytes.len());
@@ -65,11 +65,11 @@ fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[Vec<u8>], chance: &mu
                 bytes.extend_from_slice(&other[chance.below(other.len() + 1)..]);
             }
             4 => {
-                let word = chance.one_of(words).repeat(1 + chance.below(30));
-                bytes.splice(at..at, word);
+                let token = chance.one_of(tokens).repeat(1 + chance.below(30));
+                bytes.splice(at..at, token);
             }
-            5 => drop(bytes.splice(at..end, chance.one_of(words).iter().copied())),
-            _ => drop(bytes.splice(at..at, chance.one_of(words).iter().copied())),
+            5 => drop(bytes.splice(at..end, chance.one_of(tokens).iter().copied())),
+            _ => drop(bytes.splice(at..at, chance.one_of(tokens).iter().copied())),
         }
         bytes.truncate(MOST_BYTES);
     }
@@ -77,12 +77,12 @@ fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[Vec<u8>], chance: &mu
 
 /// Runs a target on every seed and on `number` changed ones.
 #[track_caller]
-fn run(target: fn(&[u8]), seeds: &[Vec<u8>], words: &[Vec<u8>], number: usize) {
-    assert!(seeds.len() > 3 && words.len() > 3, "the seeds and words are not found");
+fn run(target: fn(&[u8]), seeds: &[Vec<u8>], tokens: &[Vec<u8>], number: usize) {
+    assert!(seeds.len() > 3 && tokens.len() > 3, "the seeds and tokens are not found");
     let mut chance = Chance(3);
     let changed = std::iter::repeat_with(|| {
         let mut bytes = chance.one_of(seeds).to_vec();
-        change(&mut bytes, seeds, words, &mut chance);
+        change(&mut bytes, seeds, tokens, &mut chance);
         bytes
     });
     for bytes in seeds.iter().cloned().chain(changed.take(number)) {
@@ -93,22 +93,22 @@ fn run(target: fn(&[u8]), seeds: &[Vec<u8>], words: &[Vec<u8>], number: usize) {
 
 #[test]
 fn decks_come_back_in_pieces_of_any_size() {
-    run(targets::scan_and_print, &decks(), &words("decks.dict"), 500);
+    run(targets::scan_and_print, &decks(), &tokens("decks.dict"), 500);
 }
 
 #[test]
 fn decks_are_read() {
-    run(targets::read, &decks(), &words("decks.dict"), 400);
+    run(targets::read, &decks(), &tokens("decks.dict"), 400);
 }
 
 #[test]
 fn decks_are_checked() {
-    run(targets::check, &decks(), &words("decks.dict"), 400);
+    run(targets::check, &decks(), &tokens("decks.dict"), 400);
 }
 
 #[test]
 fn decks_are_formatted() {
-    run(targets::format, &decks(), &words("decks.dict"), 500);
+    run(targets::format, &decks(), &tokens("decks.dict"), 500);
 }
 
 #[test]
@@ -116,12 +116,12 @@ fn expressions_are_executed() {
     run(
         targets::expressions,
         &files(&project().join("fuzz/seeds/expressions"), "txt"),
-        &words("expressions.dict"),
+        &tokens("expressions.dict"),
         3000,
     );
 }
 
 #[test]
 fn json_is_read() {
-    run(targets::json_in, &files(&project().join("fuzz/seeds/json"), "json"), &words("json.dict"), 800);
+    run(targets::json_in, &files(&project().join("fuzz/seeds/json"), "json"), &tokens("json.dict"), 800);
 }

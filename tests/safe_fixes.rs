@@ -36,7 +36,7 @@ const MOST_BYTES: usize = 4000;
 static DIALECTS: LazyLock<[Grammar; 2]> =
     LazyLock::new(|| [Dialect::Abaqus, Dialect::Calculix].map(|dialect| Grammar::new(dialect, Release::NEWEST)));
 
-/// How many safe fixes were applied by themselves so far.
+/// The number of safe fixes applied by themselves so far.
 static SINGLE_FIXES: AtomicUsize = AtomicUsize::new(0);
 
 static LANGUAGE: LazyLock<Language> = LazyLock::new(Language::read);
@@ -192,7 +192,7 @@ fn findings(deck: &Deck, grammar: &Grammar) -> Vec<Diagnostic> {
     inpact_validation::check(deck, grammar, &model, &problems)
 }
 
-/// What a deck says, as text; a cell that is no number is NaN, which equals nothing.
+/// The model of a deck as text; a cell that is no number is NaN, which equals nothing.
 fn said(bytes: &[u8], grammar: &Grammar) -> String {
     said_by(&model::read(&scan("deck", bytes, grammar), grammar).0)
 }
@@ -326,7 +326,7 @@ fn decks_changed_by_chance() {
     }
 }
 
-/// What a long run found, on the page where the figures of such runs stand.
+/// Writes the findings of a long run, on the page of the figures of such runs.
 fn write_section(decks: usize) {
     let path = project().join("docs/reliability.md");
     let executions = decks * DIALECTS.len();
@@ -349,7 +349,7 @@ fn write_section(decks: usize) {
     inpact_attack::page::write_section(&path, "decks", &section).expect("writable");
 }
 
-/// What fixes once made of legal decks: the second reading sees each of them.
+/// Faulty fixes of legal decks from the past: the second reading sees each of them.
 #[test]
 fn the_second_reading_tells_decks_apart() {
     for (before, after) in [

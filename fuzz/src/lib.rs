@@ -1,4 +1,4 @@
-//! What every fuzz target does with its input, and what it holds against the answer.
+//! The work of every fuzz target, and the promises that it checks.
 //!
 //! One function a target, from bytes; a promise that is broken is a panic.
 //! The same functions run on a fixed set of inputs in the tests of the workspace (`tests/fuzz_corpus.rs`),
@@ -229,7 +229,7 @@ fn model_survives_json(model: &Model) {
     }
 }
 
-/// What a model says, as text: a cell that is no number is NaN, which equals nothing.
+/// A model as text: a cell that is no number is NaN, which equals nothing.
 fn said(model: &Model) -> String {
     let mut model = model.without_places();
     // Their order in print is left to chance, so only the definitions count.

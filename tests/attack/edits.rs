@@ -1,7 +1,7 @@
 //! Another program edits the deck while it is being mended or formatted: its edit is never lost, and no file is torn.
 
 use crate::chance::Chance;
-use crate::{Report, command, left_behind};
+use crate::{Report, command, leftovers};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -9,10 +9,10 @@ use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// What the other program adds to the deck.
+/// The line that the other program adds to the deck.
 const MARK: &str = "** two hours of work\n";
 
-/// How the other program saves.
+/// Ways of saving by the other program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Manner {
     /// It writes another file and renames it.
@@ -32,7 +32,7 @@ const MANNERS: [(Manner, &str); 3] = [
 const JOBS: [(&str, &[&str]); 2] =
     [("check --fix", &["check", "--isolated", "--fix", "d.inp"]), ("fmt", &["fmt", "--isolated", "d.inp"])];
 
-/// What became of the edits that were saved in one manner.
+/// Outcomes of the edits that were saved in one manner.
 #[derive(Debug, Default)]
 struct Counts {
     trials: u64,
@@ -101,7 +101,7 @@ pub fn run(program: &Path, trials: u64, seed: u64) -> Report {
             Some(0 | 1) => {}
             _ => report.faults.push(format!("{place}: ended with {status}")),
         }
-        for name in left_behind(folder.path()) {
+        for name in leftovers(folder.path()) {
             report.faults.push(format!("{place}: left {name}"));
             let _ = fs::remove_file(folder.path().join(name));
         }

@@ -53,7 +53,7 @@ const PIECES: [&str; 24] = [
     "\"dependencies\": 4294967295,",
 ];
 
-/// What is changed: the file, its sample, and the command that reads it.
+/// A changed file, its sample, and the command that reads it.
 struct Target {
     name: &'static str,
     file: &'static str,
@@ -103,10 +103,10 @@ pub fn run(program: &Path, trials: u64, seed: u64) -> Report {
         let code = run.status.code().and_then(|code| usize::try_from(code).ok()).filter(|code| *code <= 2);
         counts[index][code.unwrap_or(3)] += 1;
         if code.is_none() {
-            let told = String::from_utf8_lossy(&run.stderr);
-            let told: String = told.chars().take(300).collect();
+            let stderr = String::from_utf8_lossy(&run.stderr);
+            let stderr: String = stderr.chars().take(300).collect();
             report.faults.push(format!(
-                "trial {trial}, {}: {}: {told}: {}",
+                "trial {trial}, {}: {}: {stderr}: {}",
                 target.name,
                 run.status,
                 changed.escape_ascii()

@@ -13,12 +13,12 @@ pub mod stops;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What a suite found.
+/// Result of a suite.
 #[derive(Debug, Default)]
 pub struct Report {
-    /// What was done and counted, as Markdown.
+    /// The counts, as Markdown.
     pub text: String,
-    /// What must not be, each with the trial that it happened in.
+    /// The faults, each with the trial that it happened in.
     pub faults: Vec<String>,
 }
 
@@ -30,7 +30,7 @@ pub fn command(program: &Path, folder: &Path, arguments: &[&str]) -> Command {
 }
 
 /// The names in a folder that only temporary files of the program have.
-pub fn left_behind(folder: &Path) -> Vec<String> {
+pub fn leftovers(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
     names.filter(|name| name.starts_with(".inpact-")).collect()

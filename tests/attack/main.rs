@@ -10,7 +10,7 @@ use std::process::ExitCode;
 #[derive(Debug, Parser)]
 struct Arguments {
     suite: Suite,
-    /// How many runs.
+    /// The number of runs.
     #[arg(long, default_value_t = 1000)]
     trials: u64,
     /// Other runs for another seed.

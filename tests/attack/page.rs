@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-/// What stands above all sections.
+/// The head above all sections.
 const HEAD: &str = "\
 # Reliability
 

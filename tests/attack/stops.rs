@@ -1,7 +1,7 @@
-//! Runs that are stopped by a signal at a random moment: every file is whole, before or after, and nothing is left behind.
+//! Runs that are stopped by a signal at a random moment: every file is whole, before or after, and nothing is left after.
 
 use crate::chance::Chance;
-use crate::{Report, command, left_behind};
+use crate::{Report, command, leftovers};
 use rustix::process::{Pid, Resource, Rlimit, Signal, kill_process, setrlimit};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// What ends a program from outside; the last cannot be caught.
+/// Signals that end a program from outside; the last cannot be caught.
 const SIGNALS: [(&str, Signal); 9] = [
     ("SIGINT", Signal::INT),
     ("SIGTERM", Signal::TERM),
@@ -34,7 +34,7 @@ struct Job {
     arguments: &'static [&'static str],
     /// The files that it writes.
     targets: &'static [&'static str],
-    /// Which of them are written together.
+    /// The files that are written together.
     together: Together,
 }
 
@@ -80,7 +80,7 @@ const JOBS: [Job; 5] = [
 /// Files by name; `None` where there is none.
 type Files = BTreeMap<&'static str, Option<Vec<u8>>>;
 
-/// What became of the runs that one signal was sent to.
+/// Outcomes of the runs that one signal was sent to.
 #[derive(Debug, Default)]
 struct Counts {
     trials: u64,
@@ -95,7 +95,7 @@ struct Counts {
 /// # Panics
 /// When the runs cannot be prepared.
 pub fn run(program: &Path, trials: u64, seed: u64) -> Report {
-    // What SIGQUIT and SIGXCPU leave is no file of ours.
+    // The core files of SIGQUIT and SIGXCPU are none of ours.
     let _ = setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) });
     let mut chance = Chance::new(seed);
     let prepared: Vec<(Files, Duration)> = JOBS.iter().map(|job| undisturbed(program, job)).collect();
@@ -140,7 +140,7 @@ fn text(counts: &BTreeMap<&str, Counts>, trials: u64, seed: u64, faults: &[Strin
     text
 }
 
-/// What a job leaves when nobody stops it, and how long it takes.
+/// The files of a job that nobody stops, and its time.
 fn undisturbed(program: &Path, job: &Job) -> (Files, Duration) {
     let folder = prepare();
     let start = Instant::now();
@@ -187,7 +187,7 @@ fn stop(
         counts.torn += torn.max(1) as u64;
         faults.push(format!("{torn} files are neither old nor new"));
     }
-    let left = left_behind(folder.path()).len() + left_behind(&folder.path().join("out")).len();
+    let left = leftovers(folder.path()).len() + leftovers(&folder.path().join("out")).len();
     counts.left += left as u64;
     if left > 0 && can_be_caught(signal) {
         faults.push(format!("{name} leaves {left} temporary files"));

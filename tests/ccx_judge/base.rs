@@ -27,7 +27,7 @@ pub(crate) fn draw(random: &mut Random) -> Cubes {
         before: Vec::new(),
         cards,
         pair: Card::new("CONTACT PAIR", "INTERACTION=SI, TYPE=SURFACE TO SURFACE", &["SSLAV, SMAST"]),
-        behind: Vec::new(),
+        after: Vec::new(),
         in_step: Vec::new(),
         pair_first: false,
         surfaces: ["SMAST".to_owned(), "SSLAV".to_owned()],

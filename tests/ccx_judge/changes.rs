@@ -1,4 +1,4 @@
-//! What may be different in a deck from one that is right: the kinds of spelling, order, names, numbers, rows and files that posted decks have.
+//! Changes to a right deck: the kinds of spelling, order, names, numbers, rows and files that posted decks have.
 
 mod cards;
 mod heat;
@@ -33,8 +33,8 @@ pub(crate) fn all() -> Vec<&'static Change> {
 
 /// The first card of a keyword, the pair among them.
 fn card<'cubes>(cubes: &'cubes mut Cubes, of: &str) -> Option<&'cubes mut Card> {
-    let Cubes { before, cards, pair, behind, in_step, .. } = cubes;
-    let mut all = before.iter_mut().chain(cards).chain(std::iter::once(pair)).chain(behind).chain(in_step);
+    let Cubes { before, cards, pair, after, in_step, .. } = cubes;
+    let mut all = before.iter_mut().chain(cards).chain(std::iter::once(pair)).chain(after).chain(in_step);
     all.find(|card| card.of == of)
 }
 
@@ -52,9 +52,9 @@ fn reword(cubes: &mut Cubes, of: &str, from: &str, to: &str) -> bool {
 }
 
 /// Adds words to the keyword line of a card.
-fn append(cubes: &mut Cubes, of: &str, words: &str) {
+fn append(cubes: &mut Cubes, of: &str, parameters: &str) {
     if let Some(card) = card(cubes, of) {
-        card.line += words;
+        card.line += parameters;
     }
 }
 

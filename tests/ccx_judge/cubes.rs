@@ -6,7 +6,7 @@
 use std::collections::HashSet;
 use std::fmt::Write;
 
-/// What each cube conducts from its outer face to the contact.
+/// The conductance of each cube from its outer face to the contact.
 pub(crate) const CONDUCTANCE: f64 = 50.0;
 
 /// The modulus of the cubes' material, from which ccx derives default stiffnesses.
@@ -33,7 +33,7 @@ impl Card {
     }
 }
 
-/// How the pressure follows from the overclosure.
+/// Laws of pressure against overclosure.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Closure {
     /// In proportion.
@@ -45,7 +45,7 @@ pub(crate) enum Closure {
         /// The pressure where the surfaces just touch.
         at_zero: f64,
     },
-    /// In proportion up to an overclosure, constant behind it.
+    /// In proportion up to an overclosure, constant after it.
     Table {
         /// The slope.
         stiffness: f64,
@@ -55,7 +55,7 @@ pub(crate) enum Closure {
 }
 
 impl Closure {
-    /// What ccx takes where no stiffness is given.
+    /// The default stiffness of ccx.
     pub(crate) const DEFAULT: Self = Self::Linear(50.0 * MODULUS);
 
     fn pressure(self, overclosure: f64) -> f64 {
@@ -70,15 +70,15 @@ impl Closure {
 /// A deck in the making.
 #[derive(Debug, Clone)]
 pub(crate) struct Cubes {
-    /// What stands before the interaction.
+    /// The cards before the interaction.
     pub(crate) before: Vec<Card>,
     /// The interaction and its sub-options.
     pub(crate) cards: Vec<Card>,
     /// The contact pair.
     pub(crate) pair: Card,
-    /// What stands behind the pair.
-    pub(crate) behind: Vec<Card>,
-    /// What stands inside the step.
+    /// The cards after the pair.
+    pub(crate) after: Vec<Card>,
+    /// The cards inside the step.
     pub(crate) in_step: Vec<Card>,
     /// Whether the pair stands before the interaction.
     pub(crate) pair_first: bool,
@@ -92,9 +92,9 @@ pub(crate) struct Cubes {
     pub(crate) temperatures: [f64; 2],
     /// The coefficient of friction.
     pub(crate) friction: Option<f64>,
-    /// Which cube is the slave: the upper one unless they are exchanged.
+    /// The upper cube is the slave, unless they are exchanged.
     pub(crate) slave_is_upper: bool,
-    /// What the node table calls the interaction.
+    /// The interaction in the node table.
     pub(crate) interaction: String,
 }
 
@@ -103,7 +103,7 @@ impl Cubes {
     ///
     /// ccx ends its iteration where it is near enough, not where all the digits that it prints stand still.
     pub(crate) fn is_iterated(&self) -> bool {
-        let cards = self.cards.iter().chain(&self.behind).chain(&self.in_step);
+        let cards = self.cards.iter().chain(&self.after).chain(&self.in_step);
         let rows = cards.filter(|card| card.of == "GAP CONDUCTANCE").flat_map(|card| &card.rows).map(String::as_str);
         let included = self.files.iter().flat_map(|(_, text)| text.lines());
         let temperatures: HashSet<&str> = rows.chain(included).filter_map(|row| row.split(',').nth(2)).collect();
@@ -136,7 +136,7 @@ impl Cubes {
         if !self.pair_first {
             deck += &self.pair.text();
         }
-        deck += &all(&self.behind);
+        deck += &all(&self.after);
         let [low, high] = self.temperatures;
         let [lower, upper] = self.held();
         let _ = write!(
@@ -157,7 +157,7 @@ impl Cubes {
     pub(crate) fn nodes(&self, [low, high]: [f64; 2]) -> String {
         let pressure = self.pressure();
         let is_read = |card: &Card| card.line.replace([' ', '\t'], "").to_ascii_uppercase().starts_with("*FRICTION");
-        let mut cards = self.cards.iter().chain(&self.behind).chain(&self.in_step);
+        let mut cards = self.cards.iter().chain(&self.after).chain(&self.in_step);
         let friction = self.friction.filter(|_| cards.any(is_read));
         let shear = friction.map_or(0.0, |friction| friction * pressure);
         let (slave, master) = if self.slave_is_upper { (high, low) } else { (low, high) };

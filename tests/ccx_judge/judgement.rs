@@ -3,7 +3,7 @@
 use crate::cubes::Cubes;
 use crate::runs::{Ccx, Inpact, is_printed_as};
 
-/// Why inpact refuses a deck that ccx runs: each with the codes of the errors and what ccx does instead.
+/// Reasons why inpact refuses a deck that ccx runs: the codes of the errors and what ccx does instead.
 pub(crate) const REFUSED_ON_PURPOSE: &[(&[&str], &str)] = &[
     (
         &["T001", "T002", "T003"],
@@ -12,7 +12,7 @@ pub(crate) const REFUSED_ON_PURPOSE: &[(&[&str], &str)] = &[
     (&["P001"], "a negative conductance: heat would flow from cold to hot"),
     (
         &["R003"],
-        "two interactions of one name: ccx takes the first for a contact pair, and gives the sub-options behind the second to the second (K-06)",
+        "two interactions of one name: ccx takes the first for a contact pair, and gives the sub-options after the second to the second (K-06)",
     ),
     (&["T010"], "an option twice in one interaction: ccx takes the later one"),
     (
@@ -28,7 +28,7 @@ pub(crate) const REFUSED_ON_PURPOSE: &[(&[&str], &str)] = &[
     (&["S008"], "a number of more than 20 characters, of which ccx reads another value from the first 20"),
 ];
 
-/// Why the heat of a deck that both run is not compared: each with the warning that inpact gives of it.
+/// Reasons why the heat of a deck that both run is not compared: the warning of inpact, and the difference.
 pub(crate) const WARNED_OF: &[(&str, &str)] = &[
     (
         "R009",
@@ -40,7 +40,7 @@ pub(crate) const WARNED_OF: &[(&str, &str)] = &[
     ),
 ];
 
-/// What comes of a deck.
+/// Outcomes of a deck.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Judgement {
     /// Both refuse it.

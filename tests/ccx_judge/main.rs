@@ -23,7 +23,7 @@ use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How many decks are compared in every run of the tests.
+/// The number of decks compared in every run of the tests.
 const DECKS: usize = 200;
 
 /// A deck that was judged.

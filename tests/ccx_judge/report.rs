@@ -57,7 +57,7 @@ fn table(cases: &[Case]) -> String {
             count(&|judgement| *judgement == Judgement::SameHeat),
         ),
         (
-            "both run it, and ccx prints no heat, or stops iterating before its last digits stand still",
+            "both run it, and ccx prints no heat, or stops iterating before its last digits settle",
             count(&|judgement| *judgement == Judgement::NotCompared),
         ),
         (

@@ -6,10 +6,10 @@ use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// How long ccx may take; two cubes take 20 milliseconds.
+/// The longest run of ccx; two cubes take 20 milliseconds.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// What ccx made of a deck.
+/// Outcome of a deck in ccx.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Ccx {
     /// It ran to the end; the heat that must be supplied to the upper and to the lower cube, as it is printed.
@@ -18,7 +18,7 @@ pub(crate) enum Ccx {
     Stopped(String),
 }
 
-/// What inpact made of a deck.
+/// Outcome of a deck in inpact.
 #[derive(Debug, Clone)]
 pub(crate) struct Inpact {
     /// The codes of the errors that `check` found.
@@ -62,7 +62,7 @@ fn ccx(folder: &Folder, cubes: &Cubes) -> Ccx {
         std::thread::sleep(Duration::from_millis(2));
     };
     let log = String::from_utf8_lossy(&std::fs::read(folder.path().join("log")).expect("a log")).into_owned();
-    // What ccx finds in files it prints and ends with success.
+    // Faults in files that ccx finds it prints, and ends with success.
     if status.success() && !log.contains("*ERROR in readinput") {
         return Ccx::Ran(printed_heats(
             cubes,
@@ -98,7 +98,7 @@ fn inpact(folder: &Folder, cubes: &Cubes) -> Inpact {
     Inpact { errors, warnings, heats }
 }
 
-/// What the contact does at temperatures of the lower and the upper face.
+/// The state of the contact at temperatures of the lower and the upper face.
 struct Contact {
     /// Heat into the lower and into the upper face.
     heats: [f64; 2],
@@ -132,9 +132,9 @@ fn contact(folder: &Folder, cubes: &Cubes, temperatures: [f64; 2]) -> Result<Con
     Ok(Contact { heats, conductance })
 }
 
-/// What must be supplied to the upper and to the lower cube.
+/// The heat supplied to the upper and to the lower cube.
 ///
-/// Where only the outer faces are held, the temperatures of the contact follow from the balance of each face.
+/// If only the outer faces are held, the temperatures of the contact follow from the balance of each face.
 fn heats(folder: &Folder, cubes: &Cubes) -> Result<[f64; 2], String> {
     const MOST_ROUNDS: usize = 50;
     let outer = cubes.temperatures;

@@ -2,28 +2,28 @@
 //!
 //! It knows lines (S-02 to S-08), keyword lines and their continuation (S-10 to S-19), titles (S-70, S-72), and the rows of
 //! the contact tables (K-50 to K-55); every other row is its text.
-//! What a keyword's flags are it reads from the keyword files, as text.
+//! The flags of a keyword are read from the keyword files, as text.
 
 use super::mutation::project;
 use std::collections::{HashMap, HashSet};
 
-/// What one reads of a deck: its options in order.
+/// A reading of a deck: its options in order.
 pub(crate) type Reading = Vec<OptionRead>;
 
-/// A keyword line with what stands behind it.
+/// A keyword line with what stands after it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct OptionRead {
     /// The keyword in full, without blanks.
     keyword: String,
     /// Its parameters, without blanks.
     parameters: Vec<String>,
-    /// A line behind a comma at the end of the keyword line that may be a flag of it, for all that is known.
+    /// A line after a comma at the end of the keyword line that may be a flag of it, for all that is known.
     may_go_on: Option<String>,
-    /// The rows of a table, or the lines as they stand.
+    /// The rows of a table, or the lines as they are.
     rows: Vec<String>,
 }
 
-/// What the keyword files say of a keyword, as far as a continuation depends on it.
+/// The part of a keyword file on which a continuation depends.
 #[derive(Debug, Default)]
 struct Flags {
     names: Vec<String>,
@@ -63,14 +63,14 @@ impl Language {
         }
     }
 
-    /// How the line behind a comma reads (S-19): as parameters, perhaps as such, or not.
-    fn behind_comma(&self, keyword: &str, line: &str) -> Behind {
+    /// The reading of the line after a comma (S-19): as parameters, perhaps as such, or not.
+    fn after_comma(&self, keyword: &str, line: &str) -> NextLine {
         let known = self.flags.get(keyword);
         let is_complete = known.is_some_and(|known| known.is_complete);
         let items: Vec<&str> = split(line).into_iter().map(trimmed).filter(|item| !item.is_empty()).collect();
         if items.is_empty() {
             let is_blank = trimmed(line).is_empty();
-            return if is_blank && !is_complete { Behind::Perhaps } else { Behind::Rows };
+            return if is_blank && !is_complete { NextLine::Perhaps } else { NextLine::Rows };
         }
         let begins = |item: &str| {
             let word = squeezed(item.split('=').next().unwrap_or(item));
@@ -90,27 +90,27 @@ impl Language {
             (None, has_value) => has_value && !(is_complete && known.is_some_and(|known| known.is_text)),
         };
         if items.iter().any(|item| item.contains('=')) {
-            return if items.iter().any(is_parameter) { Behind::Parameters } else { Behind::Rows };
+            return if items.iter().any(is_parameter) { NextLine::Parameters } else { NextLine::Rows };
         }
         if items.iter().all(is_parameter) {
-            return Behind::Parameters;
+            return NextLine::Parameters;
         }
         let like_a_flag = |item: &&str| {
             item.starts_with(|first: char| first.is_ascii_alphabetic())
                 && item.chars().all(|letter| letter.is_ascii_alphanumeric() || " \t-_".contains(letter))
         };
-        if !is_complete && items.iter().all(like_a_flag) { Behind::Perhaps } else { Behind::Rows }
+        if !is_complete && items.iter().all(like_a_flag) { NextLine::Perhaps } else { NextLine::Rows }
     }
 }
 
-/// Whether the lines behind a keyword are its title (S-70, S-72).
+/// Whether the lines after a keyword are its title (S-70, S-72).
 fn is_title(keyword: &str) -> bool {
     matches!(keyword, "HEADING" | "STEP")
 }
 
-/// How a line reads behind a comma.
+/// Readings of a line after a comma.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Behind {
+enum NextLine {
     Parameters,
     Perhaps,
     Rows,
@@ -149,14 +149,14 @@ pub(crate) fn read(bytes: &[u8], language: &Language) -> Reading {
     for option in &mut reading {
         in_table_rows(option);
         if option.rows.last().is_some_and(String::is_empty) {
-            // What follows the last line end is no line.
+            // There is no line after the last line end.
             option.rows.pop();
         }
     }
     reading
 }
 
-/// A keyword line with the lines that continue it, and the number of the line behind.
+/// A keyword line with the lines that continue it, and the number of the line after.
 fn keyword_line(lines: &[&str], first: usize, language: &Language) -> (OptionRead, usize) {
     let mut logical = trimmed(lines[first]).to_owned();
     let name = |logical: &str| {
@@ -168,23 +168,23 @@ fn keyword_line(lines: &[&str], first: usize, language: &Language) -> (OptionRea
     let mut next = first + 1;
     let mut may_go_on = None;
     while logical.ends_with(',') {
-        let behind = (next..lines.len()).find(|at| !trimmed_start(lines[*at]).starts_with("**"));
-        // What follows the last line end is no line.
-        let Some(at) = behind.filter(|at| *at + 1 < lines.len() || !lines[*at].is_empty()) else { break };
+        let after = (next..lines.len()).find(|at| !trimmed_start(lines[*at]).starts_with("**"));
+        // There is no line after the last line end.
+        let Some(at) = after.filter(|at| *at + 1 < lines.len() || !lines[*at].is_empty()) else { break };
         if trimmed_start(lines[at]).starts_with('*') {
             break;
         }
-        match language.behind_comma(&keyword, lines[at]) {
-            Behind::Parameters => {
+        match language.after_comma(&keyword, lines[at]) {
+            NextLine::Parameters => {
                 logical += " ";
                 logical += trimmed(lines[at]);
                 next = at + 1;
             }
-            Behind::Perhaps => {
+            NextLine::Perhaps => {
                 may_go_on = Some(trimmed(lines[at]).to_owned());
                 break;
             }
-            Behind::Rows => break,
+            NextLine::Rows => break,
         }
     }
     let parameters = split(&logical).into_iter().skip(1).map(without_blanks).filter(|item| !item.is_empty());
@@ -226,7 +226,7 @@ fn in_table_rows(option: &mut OptionRead) {
     option.rows = rows.into_iter().map(|row| row.join("|")).collect();
 }
 
-/// What a keyword file says of the parameters: a few keys, read line by line.
+/// The parameters of a keyword file: a few keys, read line by line.
 fn flags_of(toml: &str) -> (String, Flags) {
     let mut flags = Flags { is_complete: true, ..Flags::default() };
     let (mut keyword, mut section, mut parameter) = (String::new(), String::new(), String::new());

@@ -17,14 +17,14 @@ mod scene;
 
 use scene::Scene;
 
-/// How many random decks are evaluated.
+/// The number of random decks.
 const DECKS: u64 = 200;
 
-/// How accurate tables are; one deck after the other takes the next.
+/// Accuracies of tables; one deck after the other takes the next.
 const MODES: [&[&str]; 4] =
     [&["--accuracy", "full"], &["--accuracy", "reference"], &["--accuracy", "fast"], &["--tolerance", "1e-3"]];
 
-/// What else is asked for; one deck after the other takes the next.
+/// Further options; one deck after the other takes the next.
 const OPTIONS: [&[&str]; 7] = [
     &[],
     &["--derivatives"],
@@ -41,7 +41,7 @@ fn hash(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
-/// What stands for a run: its exit code, the hash of its output and that of what it said, the time it took left out.
+/// The fingerprint of a run: its exit code, the hash of its output and that of its messages, without the time it took.
 fn fingerprint(run: &Run) -> String {
     let mut said = String::new();
     for line in run.errors.lines() {

@@ -40,7 +40,7 @@ fn eval_deck(deck: &str, expected: [f64; 2]) {
     assert!(found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9), "{deck}{found:?}");
 }
 
-/// CX-01: blank lines, and comments behind blanks.
+/// CX-01: blank lines, and comments after blanks.
 #[test]
 fn cx_01_blanks_count_nowhere() {
     let deck = format!(
@@ -144,13 +144,13 @@ fn cx_06_includes() {
 fn cx_08_conductance_without_behavior() {
     let interaction = "*SURFACE INTERACTION, NAME=PAD\n";
     check_deck(&format!("{interaction}*GAP CONDUCTANCE\n100.\n"), &["error[K018]"]);
-    let behind = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E7\n";
-    check_deck(&format!("{interaction}*GAP CONDUCTANCE\n100.\n{behind}"), &["error[K018]"]);
+    let after = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E7\n";
+    check_deck(&format!("{interaction}*GAP CONDUCTANCE\n100.\n{after}"), &["error[K018]"]);
     check_deck(&format!("{interaction}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n"), &["error[T009]"]);
     check_deck(&format!("{interaction}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\nabc\n"), &["error[S006]"]);
 }
 
-/// CX-09: cards behind the pair and inside a step.
+/// CX-09: cards after the pair and inside a step.
 #[test]
 fn cx_09_cards_anywhere() {
     let pair = "*CONTACT PAIR, INTERACTION=PAD, TYPE=SURFACE TO SURFACE\nSL, MA\n";
@@ -236,10 +236,10 @@ fn cx_10_contact_types_with_another_heat() {
 /// ccx stops at a node set of ADJUST that is defined nowhere in the deck, whether another setting follows or not.
 #[test]
 fn the_node_set_of_adjust_is_defined() {
-    let deck = |adjust: &str, behind: &str| {
+    let deck = |adjust: &str, after: &str| {
         format!(
             "*NODE, NSET=ALL\n1, 0., 0., 0.\n*SURFACE, NAME=SL\nA, S1\n*SURFACE, NAME=MA\nB, S1\n{PAD}\
-             *CONTACT PAIR, INTERACTION=PAD, TYPE=SURFACE TO SURFACE, {adjust}\nSL, MA\n{behind}"
+             *CONTACT PAIR, INTERACTION=PAD, TYPE=SURFACE TO SURFACE, {adjust}\nSL, MA\n{after}"
         )
     };
     for adjust in ["ADJUST=all", "ADJUST=0.", "ADJUST=1.+2", "ADJUST=-1.", "ADJUST=", "ADJUST"] {
@@ -263,7 +263,7 @@ fn the_first_name_counts() {
     };
     check_deck(&deck("NAME=SI, NAME=\"SI\"", "SI"), &["error[K009]", "error[K009]"]);
     check_deck(&deck("NAME=\"SI\", NAME=SI", "SI"), &["error[K009]", "error[K009]", "error[R006]"]);
-    // What `inp` writes of the model keeps the one that counts.
+    // `inp` writes the one that counts.
     let folder = Folder::with(&[("d.inp", &deck("NAME=SI, NAME=TI", "SI"))]);
     let json = folder.inpact(&[&["json", "d.inp"], &CALCULIX[..]].concat()).output;
     folder.write("m.json", &json);

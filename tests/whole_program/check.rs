@@ -65,7 +65,7 @@ fn wrong_usage_ends_with_2() {
 }
 
 #[test]
-fn findings_go_to_a_file_when_asked() {
+fn findings_go_to_a_file() {
     let folder = tempfile::tempdir().expect("a folder for the result");
     let target = folder.path().join("findings.txt");
     let run = inpact(&["check", "--format", "concise", FAULTY, "-o", target.to_str().expect("UTF-8")]);

@@ -198,7 +198,7 @@ fn rules_about_data_have_the_severity_of_the_configuration() {
     assert_eq!(said(), expected(0, true, "warning[D003]"));
 }
 
-/// What is found only after all rows were evaluated leaves no result either where it is made an error.
+/// A finding made only after all rows were evaluated leaves no result either where it is made an error.
 #[test]
 fn a_note_about_rows_beyond_a_table_that_is_made_an_error_leaves_no_result() {
     let folder = Folder::with(&[("a.inp", PLAIN), ("data/n.csv", "node,clearance\n1,0.5\n")]);

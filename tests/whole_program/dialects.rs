@@ -153,7 +153,7 @@ fn what_calculix_reads_wrongly_is_refused() {
     }
 }
 
-/// The dialect may stand in the configuration; with the third item of *GAP HEAT GENERATION as the speed.
+/// The dialect may occur in the configuration; with the third item of *GAP HEAT GENERATION as the speed.
 #[test]
 fn the_dialect_of_the_configuration_counts_for_eval() {
     let deck = "*SURFACE INTERACTION,NAME=SI\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=HARD\n*GAP CONDUCTANCE\n100.,0.,0.\n\

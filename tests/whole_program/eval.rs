@@ -20,7 +20,7 @@ fn scene() -> Folder {
     Folder::with(&[("a.inp", DECK), ("a.csv", NODES)])
 }
 
-/// What a run said on standard error, without the time it took.
+/// Standard error of a run, without the time it took.
 fn summary(run: &Run) -> String {
     let untimed = |line: &str| match line.rsplit_once(", ") {
         Some((before, time)) if time.ends_with(" s") => format!("{before}, TIME s\n"),
@@ -89,7 +89,7 @@ fn deck_or_nodes_may_come_from_standard_input_but_not_both() {
 }
 
 #[test]
-fn the_result_goes_to_a_file_when_asked() {
+fn the_result_goes_to_a_file() {
     let folder = scene();
     let run = folder.inpact(&["eval", "a.inp", "--nodes", "a.csv", "-o", "result.csv"]);
     assert_eq!((run.code, run.output.as_str()), (0, ""), "{}", run.errors);
@@ -202,7 +202,7 @@ fn the_procedure_of_the_deck_decides_unless_it_is_given() {
 #[test]
 fn columns_stand_in_any_order_and_labels_may_hold_commas() {
     let folder = scene();
-    // Where the jump is given it is used, as the difference would lose its digits.
+    // A given jump is used, as the difference would lose its digits.
     folder.write("n.csv", "epot_jump,clearance,node,epot_s,epot_m,remark\n2,.05,\"PART-1,8\",5,5,\"a, b\"\n");
     let run = folder.inpact(&["eval", "a.inp", "--nodes", "n.csv"]);
     let header = RESULT.lines().next().expect("a header");

@@ -5,7 +5,7 @@ use crate::program::{Folder, Run, inpact};
 
 const WELD: &str = "decks/weld-mesh/weld-mesh.inp";
 
-/// What was said without the time it took.
+/// A text without the time the run took.
 fn timeless(text: &str) -> String {
     let line = |line: &str| match line.rsplit_once(", ") {
         Some((rest, time)) if rest.contains(" rows out") && time.ends_with(" s") => format!("{rest}, TIME\n"),

@@ -93,7 +93,7 @@ fn heat_of_a_row_without_potentials_has_no_number() {
     assert_eq!(case.columns(&["HFL", "heat_conduction"], &[]), ["-82.5,-15", ",-15"]);
 }
 
-/// Where no procedure of the deck solves for a current there is none (section 9.2): HFL is whole, and `eval` says so.
+/// Without a procedure that solves for a current there is none (section 9.2): HFL is whole, and `eval` says so.
 #[test]
 fn without_an_electrical_procedure_there_is_no_heat_of_a_current() {
     let case = Case::new(&(HEATED.to_owned() + THERMAL_STEP), "clearance,temp_s,temp_m\n0.5,1,2\n");
@@ -187,7 +187,7 @@ fn lines_of_a_node_table_end_with_any_line_end() {
     assert_eq!(mixed.columns(&["ECD"], &[]), ["15", "14", "15"].map(str::to_owned)[..], "quotes keep a CR");
 }
 
-/// What is no node table is called by its name, with what to do.
+/// A file that is no node table is named, with the remedy.
 #[test]
 fn files_that_are_no_node_table_are_called_by_their_name() {
     let folder = Folder::with(&[("deck.inp", TWO_TABLES)]);
@@ -265,7 +265,7 @@ fn a_quoted_name_is_matched_by_its_text() {
     assert!(run.errors.contains("`gaP`, which may be one of several"), "{}", run.errors);
 }
 
-/// What is closed and open is counted once: the summary says what the plan says.
+/// Closed and open rows are counted once: the summary agrees with the plan.
 #[test]
 fn summary_and_plan_count_the_same_rows_as_closed() {
     let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n20., 0., 100.\n10., 0.1, 100.\n20., 0., 200.\n12., 0.1, 200.\n*SURFACE INTERACTION, NAME=B\n*FRICTION\n0.3,\n";
@@ -345,7 +345,7 @@ fn differences_of_both_sides_stand_alone() {
     let fluid = Case::new(with_mean, "clearance,pressure,por_jump\n0,0,2\n").eval(&[]);
     assert_eq!(fluid.code, 1);
     assert!(fluid.errors.contains("`por_s` and `por_m` are missing"), "{}", fluid.errors);
-    // Where the law leaves the flow to the equations, its solution is a column.
+    // The flow that the law leaves to the equations is a column of their solution.
     let solved = Case::new(
         "*SURFACE INTERACTION, NAME=P\n*CONTACT PERMEABILITY\n",
         "clearance,por_s,por_m,q_across\n0,1,1,0.25\n",

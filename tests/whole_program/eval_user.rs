@@ -167,13 +167,13 @@ fn rows_that_went_out_before_a_routine_failed_are_counted() {
 }
 
 #[test]
-fn a_routine_that_stops_is_told_and_leaves_no_result() {
+fn a_routine_that_stops_is_reported_and_leaves_no_result() {
     // The routine takes down which files there are when it stops.
     let stop = "      SIGMA(1) = 1\n      IF (NODE.EQ.205) THEN\n      CALL SYSTEM('ls -a > seen.txt')\n      STOP\n      END IF\n";
     let Some((run, folder)) = eval_with(stop) else { return };
     assert_eq!(run.code, 2, "{}", run.errors);
-    let told = "error: user subroutine GAPELECTR ended the program (by STOP or an error of the Fortran runtime) when it was called for node 205";
-    assert!(run.errors.contains(told), "{}", run.errors);
+    let message = "error: user subroutine GAPELECTR ended the program (by STOP or an error of the Fortran runtime) when it was called for node 205";
+    assert!(run.errors.contains(message), "{}", run.errors);
     assert!(!folder.path().join("result.csv").exists());
     let seen = std::fs::read_to_string(folder.path().join("seen.txt")).expect("what the routine saw");
     assert!(seen.lines().any(|name| name.starts_with(".inpact-")), "{seen}");
@@ -202,8 +202,8 @@ fn a_library_that_no_interaction_needs_is_not_loaded() {
     ]);
     let run = folder.inpact(&["eval", "a.inp", "--nodes", "n.csv", "--user-library", "none.so"]);
     assert_eq!(run.code, 0, "{}", run.errors);
-    let told = "warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `none.so` is not loaded\n";
-    assert!(run.errors.starts_with(told), "{}", run.errors);
+    let message = "warning: no *GAP ELECTRICAL CONDUCTANCE of the deck has USER; `none.so` is not loaded\n";
+    assert!(run.errors.starts_with(message), "{}", run.errors);
 }
 
 /// A routine of its own: the lines between the declarations and END, compiled with these options; `None` without a compiler.

@@ -50,7 +50,7 @@ fn errors_in_the_data_end_with_1_and_nothing_is_written() {
 }
 
 #[test]
-fn a_malformed_cell_in_the_last_of_many_rows_leaves_nothing_behind() {
+fn a_malformed_cell_in_the_last_of_many_rows_leaves_no_result() {
     let rows: String = (0..20_000).map(|node| format!("{node},0,1\n")).collect();
     let (run, written) = eval(&format!("node,clearance,pressure\n{rows}20000,0,one\n"));
     assert_eq!((run.code, written), (1, None));
@@ -74,7 +74,7 @@ fn a_result_that_was_there_outlives_a_run_that_fails() {
 }
 
 #[test]
-fn d003_and_d007_are_told_and_the_rest_is_written() {
+fn d003_and_d007_are_reported_and_the_rest_is_written() {
     let (run, written) = eval("node,clearance,pressure\n1,nan,0\n2,0,inf\n3,0,50\n4,0,400\n5,.2,0\n");
     let expected = "node,WEIGHT,conductance,status\n1,0.5,NaN,\n2,0.5,65,beyond_table\n3,0.5,57.5,closed\n\
                     4,0.5,65,beyond_table\n5,0.5,10,beyond_table\n";

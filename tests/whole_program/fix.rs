@@ -47,7 +47,7 @@ fn safe_fixes_change_only_the_bytes_they_must() {
     let folder = Folder::with(&[("d.inp", DECK)]);
     let run = folder.inpact(&["check", "--fix", "--format", "concise", "d.inp"]);
     assert_eq!(folder.read("d.inp"), FIXED);
-    // What is left is what was not mended, at the places of the mended file.
+    // The findings left have the places of the mended file.
     assert_eq!(run.code, 1);
     let left: Vec<&str> = run.output.lines().filter_map(|line| line.split(' ').next()).collect();
     assert_eq!(left, ["d.inp:8:5:", "d.inp:10:1:"], "{}", run.output);
@@ -169,7 +169,7 @@ fn permissions_and_links_stay_and_a_read_only_file_is_left_alone() {
 }
 
 #[test]
-fn the_samples_are_still_right_after_every_fix() {
+fn the_samples_stay_right_after_every_fix() {
     let codes = "T001,S006,T003,K004";
     for deck in sample_decks() {
         let text = std::fs::read_to_string(root().join(&deck)).expect("readable");

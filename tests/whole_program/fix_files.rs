@@ -1,4 +1,4 @@
-//! Which files `check --fix` and `fmt` touch: what was read and still is there, once each, all of a run or none.
+//! Files that `check --fix` and `fmt` touch: those that were read and are unchanged, once each, all of a run or none.
 
 use crate::program::{Folder, Run, command, run};
 
@@ -90,7 +90,7 @@ fn an_edit_that_another_program_saves_meanwhile_is_kept_and_nothing_is_written()
     assert_eq!(run.code, 2, "{}", run.errors);
     assert!(run.errors.contains("cannot write `d.inp`: another program changed it"), "{}", run.errors);
     assert_eq!(folder.read("a.inp"), PART, "all files or none");
-    // What is found is what is there, not what could have been.
+    // The findings are those of the file as it is, not as it could have been.
     assert!(run.output.contains("a.inp:1:26: warning[S003]"), "{}", run.output);
     assert_eq!(folder.names(), ["a.inp", "d.inp", "slow.inp"]);
 }
@@ -135,7 +135,7 @@ fn a_closed_pipe_does_not_keep_decks_from_being_mended() {
     for name in names {
         assert!(folder.read(name).starts_with(MENDED), "{}", String::from_utf8_lossy(&ended.stderr));
     }
-    // `fmt` goes on with the files behind standard input.
+    // `fmt` goes on with the files after standard input.
     let folder = Folder::with(&[("d.inp", PART)]);
     let mut child = command(folder.path(), &["fmt", "--isolated", "-", "d.inp"])
         .stdin(Stdio::piped())

@@ -124,7 +124,7 @@ fn the_samples_mean_the_same_and_come_to_rest() {
         let text = std::fs::read_to_string(root().join(deck)).expect("readable");
         let folder = Folder::with(&[("d.inp", &text)]);
         let dialect = dialect_of(deck);
-        // What the deck includes stays where it was.
+        // The included files stay where they were.
         let beside = root().join(deck).parent().expect("a folder").to_string_lossy().into_owned();
         let model = || {
             let run = folder.inpact(&[&["json", "d.inp", "--include-dir", &beside], dialect].concat());

@@ -113,7 +113,7 @@ fn exit_zero_and_quiet() {
     let run = inpact(&["check", "--exit-zero", "--quiet", "--format", "concise", FAULTY]);
     assert_eq!((run.code, run.errors.as_str()), (0, ""));
     assert_eq!(run.output.lines().count(), 6);
-    // What cannot be done at all is no finding.
+    // A failure is no finding.
     let run = inpact(&["check", "--exit-zero", "--quiet", "no-such-deck.inp"]);
     assert_eq!(run.code, 2);
     assert!(run.errors.contains("cannot read `no-such-deck.inp`"), "{}", run.errors);
@@ -146,9 +146,9 @@ fn a_keyword_is_explained_however_it_is_spelt() {
     let page = inpact(&["explain", "GAP ELECTRICAL CONDUCTANCE"]);
     assert_eq!(page.code, 0);
     insta::assert_snapshot!(page.output);
-    for words in [&["gap", "electrical", "conductance"][..], &["*Gap Electrical Conductance"], &["GAPE"], &["gap elec"]]
+    for names in [&["gap", "electrical", "conductance"][..], &["*Gap Electrical Conductance"], &["GAPE"], &["gap elec"]]
     {
-        assert_eq!(inpact(&[&["explain"], words].concat()).output, page.output, "{words:?}");
+        assert_eq!(inpact(&[&["explain"], names].concat()).output, page.output, "{names:?}");
     }
 }
 

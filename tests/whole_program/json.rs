@@ -94,7 +94,7 @@ fn a_model_that_no_deck_can_hold_is_refused() {
     assert!(run.errors.contains("no deck can say this"), "{}", run.errors);
 }
 
-/// What is wrong with a deck may be missing from the model: it is said, and the exit code says so too.
+/// Parts with errors may be missing from the model: they are reported, and the exit code says so too.
 #[test]
 fn the_errors_of_a_deck_are_said_beside_its_model() {
     let run = inpact_with_input(&["json", "-"], b"*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTNCE\n1., 0.\n");

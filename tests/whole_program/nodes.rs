@@ -27,7 +27,7 @@ UPPER, S1
 SLAVE, MASTER
 ";
 
-/// What was said without the time it took.
+/// Standard error without the time the run took.
 fn timeless(run: &Run) -> String {
     let line = |line: &str| match line.split_once(" rows, ") {
         Some((rows, rest)) if rest.ends_with(" s") => format!("{rows} rows, TIME\n"),

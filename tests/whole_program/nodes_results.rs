@@ -89,7 +89,7 @@ pub(crate) fn ccx(deck: &str) -> Option<Folder> {
     }
 }
 
-/// What a `.dat` prints below titles that begin so: by time and node, the numbers of the row.
+/// The rows of a `.dat` below titles that begin so: by time and node, the numbers of the row.
 fn printed(dat: &str, title: &str) -> BTreeMap<(String, i64), Vec<f64>> {
     let mut found = BTreeMap::new();
     let mut time = None;

@@ -69,7 +69,7 @@ fn streams_and_files_are_as_for_eval() {
     assert_eq!(folder.inpact(&["plan", "a.inp", "--nodes", "n.csv"]).code, 1);
 }
 
-/// What was cut is the difference between the trees, whatever was asked for.
+/// The cuts are the difference between the trees, for any outputs.
 #[test]
 fn the_cuts_add_up() {
     let options: [&[&str]; 5] = [

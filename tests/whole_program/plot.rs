@@ -131,13 +131,13 @@ fn units_are_dimensions_or_those_of_the_user() {
 fn rows_are_marks_at_their_numbers() {
     let (svg, _) = plotted(DECK, &[]);
     let document = Document::parse(&svg).expect("well-formed");
-    let words: Vec<&str> = document
+    let texts: Vec<&str> = document
         .descendants()
         .filter(|node| node.has_tag_name("title") && !node.parent().is_some_and(|of| of.has_tag_name("svg")))
         .filter_map(|node| node.text())
         .collect();
     for row in ["clearance 0: 20", "clearance 0.1: 3", "pressure 100: 65", "pressure 70: 90"] {
-        assert!(words.contains(&row), "{row}: {words:?}");
+        assert!(texts.contains(&row), "{row}: {texts:?}");
     }
 }
 

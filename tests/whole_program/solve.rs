@@ -120,7 +120,7 @@ pub(crate) fn prints(found: f64, published: &str) {
     assert_eq!(format!("{found:.decimals$}"), published);
 }
 
-/// What a run said on standard error, without the time it took and without the sizes of rounding errors, which another processor may round otherwise.
+/// Standard error of a run, without the time it took and without the sizes of rounding errors, which another processor may round otherwise.
 fn said(run: &Run) -> String {
     let of_rounding = |word: &str| {
         let number = word.trim_end_matches([',', ';']);
@@ -148,18 +148,18 @@ fn what_a_person_reads_of_a_transient() {
 
 /// A law of the deck that the scene says nothing of is no mistake, but it is told.
 #[test]
-fn what_is_left_out_is_told() {
-    let told = |name: &str, changes: &[(&str, &str)], options: &[&str]| solve_edited(name, changes, options).errors;
+fn parts_left_out_are_noted() {
+    let errors = |name: &str, changes: &[(&str, &str)], options: &[&str]| solve_edited(name, changes, options).errors;
     let no_current = "left out: potential: the deck has laws of it, and the scene says nothing of it";
-    assert!(told("cooling", &[], &[]).contains(no_current));
-    assert!(!told("two-bodies", &[], &[]).contains("left out"));
+    assert!(errors("cooling", &[], &[]).contains(no_current));
+    assert!(!errors("two-bodies", &[], &[]).contains("left out"));
     // `eval` says of the same deck: without heat of friction: `shear` is missing.
-    let rubbed = told("ccx/friction", &[("shear = 500.0\n", "")], &["--dialect", "calculix"]);
+    let rubbed = errors("ccx/friction", &[("shear = 500.0\n", "")], &["--dialect", "calculix"]);
     assert!(rubbed.contains("heat of friction") && rubbed.contains("`shear`"), "{rubbed}");
 }
 
 #[test]
-fn links_stand_behind_the_nodes_or_in_a_file_of_their_own() {
+fn links_follow_the_nodes_or_have_a_file_of_their_own() {
     let folder = edited("two-bodies", &[]);
     let nodes = folder.inpact(&["solve", "scene.toml"]).output;
     let both = folder.inpact(&["solve", "scene.toml", "--links"]).output;

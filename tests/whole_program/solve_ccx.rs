@@ -10,7 +10,7 @@ use std::process::Command;
 
 const CALCULIX: [&str; 2] = ["--dialect", "calculix"];
 
-/// What ccx printed of a deck: under the name of the set, total heat flows and temperatures; `None` without ccx.
+/// Output of ccx for a deck: under the name of the set, total heat flows and temperatures; `None` without ccx.
 fn ccx(name: &str) -> Option<BTreeMap<String, Vec<String>>> {
     let deck = std::fs::read_to_string(root().join(format!("decks/scenes/ccx/{name}.inp"))).expect("readable");
     let folder = Folder::with(&[(&format!("{name}.inp"), &deck)]);

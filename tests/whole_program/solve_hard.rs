@@ -35,7 +35,7 @@ fn no_temperature_is_below_absolute_zero() {
     // 5.67e-8 (100⁴ − T⁴) = 1 has a solution.
     let run = solve(deck, &scene("{ source = -1.0 }", "100.0"), &[]);
     close(value(&run, "body", TEMPERATURE), (1e8 - 1.0 / 5.67e-8_f64).powf(0.25));
-    // What is given is held to the same.
+    // Given values are held to the same.
     for (body, walls) in [("{ fixed = 5.0 }", "-1.0"), ("{ initial = -2.0 }", "1.0")] {
         let run = solve(deck, &scene(body, walls), &[]);
         assert!(
@@ -58,7 +58,7 @@ fn a_switch_that_is_off_at_the_first_guess() {
     };
     let run = solve(deck, &scene("{ source = 100.0 }"), &[]);
     close(value(&run, "heater", TEMPERATURE), 50.0 + 10_100.0_f64.sqrt());
-    // Where nothing flows at the solution either, its level is nobody's.
+    // If nothing flows at the solution either, its level is undetermined.
     let off = deck.replace("1., 0., 100.", "0., 0., 100.").replace("1., 1., 100.", "0., 1., 100.");
     let run = solve(&off, &scene("{ source = 100.0 }"), &[]);
     assert!(run.code == 1 && run.errors.contains("error[D016]"), "{}", run.errors);
@@ -83,7 +83,7 @@ fn a_fall_within_a_few_digits_of_a_temperature() {
 
 /// Monotone scenes of one unknown with steep steps: a source S into g(θ̄)(T − 0), g in steps that rise or fall.
 #[test]
-fn one_unknown_behind_steep_steps_is_bracketed() {
+fn one_unknown_at_steep_steps_is_bracketed() {
     // g θ rises through the fall, from 10 · 10 to 4 · 26 in means: one solution for every source.
     for (rows, sources) in [
         (
@@ -108,7 +108,7 @@ fn one_unknown_behind_steep_steps_is_bracketed() {
 const MILD: &str = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n 10., 0., 0.\n 5.,  0., 200.\n\
                     *GAP CONDUCTANCE, PRESSURE\n 3., 0., 0.\n 3., 1., 0.\n 2., 0., 200.\n 2., 1., 200.\n";
 
-/// What is solved to the last digit is solved to any tolerance, by every solver, and not worse than it is asked for.
+/// A scene solved to the last digit is solved to any tolerance, by every solver, and not worse than that.
 #[test]
 fn a_looser_tolerance_fails_nowhere() {
     let mut scene = String::from("joule_heat_fraction = 1.0\n");
@@ -207,9 +207,9 @@ fn friction_heats_what_touches() {
     );
 }
 
-/// What has no effect is said to have none.
+/// Values without effect are noted.
 #[test]
-fn what_has_no_effect_is_told() {
+fn values_without_effect_are_noted() {
     let deck = "*SURFACE INTERACTION, NAME=A\n*GAP CONDUCTANCE, PRESSURE\n 10., 0.\n 10., 1.\n";
     let scene = "procedure = \"transient\"\n[time]\nend = 1.0\nstep = 0.5\n\
                  [[node]]\nname = \"a\"\ntemperature = { fixed = 100.0, initial = 5.0 }\n[[node]]\nname = \"b\"\ntemperature = { initial = 77.0 }\n\
@@ -250,7 +250,7 @@ fn numbers_beyond_the_range_are_refused_everywhere() {
         let run = solve(deck, &format!("{ends}{capacity}{value}\n"), &[]);
         assert_eq!(run.code, 1, "{value}: {}", run.errors);
     }
-    // What is written as infinite, or as zero, is meant.
+    // An infinity, or a zero, that is written is meant.
     for (value, hot) in [("inf", 50.0), ("0.0e5", 100.0)] {
         let run = solve(
             deck,
@@ -301,7 +301,7 @@ fn one_run_tells_all_that_is_wrong() {
     }
 }
 
-/// Tables beside a scene may stand between commas, semicolons or tabs, as node tables may.
+/// Tables beside a scene may occur between commas, semicolons or tabs, as node tables may.
 #[test]
 fn scene_tables_with_other_separators() {
     let deck = "*SURFACE INTERACTION, NAME=COND\n*GAP CONDUCTANCE, PRESSURE\n 10., 0.\n 10., 1.\n";

@@ -30,13 +30,13 @@ fn pressed(tolerance: &str, block: &str) -> String {
 
 #[test]
 fn o_5_the_tolerance_holds_the_error_of_histories() {
-    let still = "[[node]]\nname = \"block\"\ntemperature = { capacity = 1.0, initial = 20.0 }\n";
-    for block in ["", still] {
+    let storing = "[[node]]\nname = \"block\"\ntemperature = { capacity = 1.0, initial = 20.0 }\n";
+    for block in ["", storing] {
         let error = |tolerance: &str| {
             let (run, folder) = solved(PRESSED, &pressed(tolerance, block));
             let rows = folder.read("rows.csv");
             let found = *column(&rows, "s", "ECDT").last().expect("rows");
-            // What is said of it is what it is.
+            // The estimate is the error.
             let said = run.errors.split("estimated error ").nth(1).and_then(|text| text.split(' ').next());
             let said: f64 = said.and_then(|text| text.parse().ok()).expect("an estimate");
             assert!((said / (1.0 - 51.0 / found) - 1.0).abs() < 0.1, "{said} {found}");
@@ -47,9 +47,9 @@ fn o_5_the_tolerance_holds_the_error_of_histories() {
     }
 }
 
-/// Where nobody asks for histories, nothing is done for them.
+/// Without histories their error does not count.
 #[test]
-fn increments_follow_what_is_asked_for() {
+fn increments_follow_the_tolerance() {
     let folder = Folder::with(&[("deck.inp", PRESSED), ("scene.toml", &pressed("1e-6", ""))]);
     let run = folder.inpact(&["solve", "scene.toml"]);
     assert_eq!(run.code, 0, "{}", run.errors);

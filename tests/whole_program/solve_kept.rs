@@ -1,4 +1,4 @@
-//! What `inpact solve` keeps: the states before a failure, every row of the interfaces, and the files that a scene is made from.
+//! Files of `inpact solve`: the states before a failure, every row of the interfaces, and the files that a scene is made from.
 
 use super::solve::Table;
 use crate::program::Folder;
@@ -47,7 +47,7 @@ fn the_states_before_a_failure_are_kept_wherever_they_go() {
     let shown = folder.inpact(&["solve", "scene.toml", "--links"]);
     assert_eq!(shown.code, 1, "{}", shown.errors);
     assert!(shown.errors.contains("D016") && shown.errors.contains("after time 2.0"), "{}", shown.errors);
-    let (states, links) = shown.output.split_once("\n\n").expect("links behind the states");
+    let (states, links) = shown.output.split_once("\n\n").expect("links after the states");
     assert_eq!(Table::read(states).course(&["a"], "time"), [0.0, 1.0, 2.0]);
     assert_eq!(Table::read(links).course(&["b", "c"], "time"), [0.0, 1.0, 2.0]);
     let arguments = ["solve", "scene.toml", "-o", "states.csv", "--links=links.csv", "--interfaces", "rows.csv"];

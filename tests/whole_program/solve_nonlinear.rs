@@ -159,7 +159,7 @@ fn steep_conductances() {
     }
 }
 
-/// Where no temperature is solved for, the mean temperature of an interface is its own, or else the initial one of the scene.
+/// Without a field of temperature, the mean temperature of an interface is its own, or else the initial one of the scene.
 #[test]
 fn a_conductance_by_temperature_without_a_field_of_it() {
     let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n1., 0., 0.\n21., 0., 200.\n";

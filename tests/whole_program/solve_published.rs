@@ -1,4 +1,4 @@
-//! Scenes of published verification problems (10.2 of the semantics): what the manual prints, and the exact values behind it.
+//! Scenes of published verification problems (10.2 of the semantics): what the manual prints, and the exact values after it.
 //!
 //! A problem without printed numbers, or whose decks hold more than its text, is taken with the numbers that its text gives; the scenes say so.
 
@@ -11,7 +11,7 @@ fn v_1_current_heat_and_face_between_two_plates() {
     let current = row("ECD");
     close(current, 500.0 / 11.0);
     prints(current, "45.454545");
-    // What the current dissipates in the gap, of which half becomes heat.
+    // The dissipation of the current in the gap, of which half becomes heat.
     let dissipated = current * (solved.nodes.number(&["face"], "potential") - 50.0);
     close(dissipated, 25_000.0 / 121.0);
     prints(dissipated, "206.61157");
@@ -177,7 +177,7 @@ fn v_10_a_closing_gap_presses_half_of_its_fluid_into_either_side() {
         solved.interfaces.course(&["slave"], side)[1..].iter().for_each(|flow| close(*flow, 0.05));
     }
     close(solved.interfaces.last(&["slave"], "PTL"), -0.05);
-    // Where nothing closes, the initial pore pressure stays, to the last bit.
+    // If nothing closes, the initial pore pressure stays, to the last bit.
     for face in ["still-slave", "still-master"] {
         assert_eq!(solved.nodes.course(&[face], "pore_pressure"), [50.0; 5]);
     }
@@ -194,7 +194,7 @@ fn v_10_through_a_filter() {
     }
 }
 
-/// Theory 5.2.2: with a finite permeability, here none, the gap's fluid goes by the permeabilities behind the faces, 3 to 1.
+/// Theory 5.2.2: with a finite permeability, here none, the gap's fluid goes by the permeabilities after the faces, 3 to 1.
 #[test]
 fn p_41_the_fluid_of_a_gap_goes_where_the_ground_takes_it() {
     let shares = [

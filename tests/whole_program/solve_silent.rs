@@ -50,9 +50,9 @@ fn solve(head: &str, a: &str, b: &str, interface: &str) -> Run {
     Folder::with(&[("deck.inp", DECK), ("scene.toml", &scene)]).inpact(&["solve", "scene.toml", "--links"])
 }
 
-fn is_refused(run: &Run, code: &str, words: &str) {
+fn is_refused(run: &Run, code: &str, message: &str) {
     assert_eq!(run.code, 1, "{}", run.errors);
-    assert!(run.errors.contains(code) && run.errors.contains(words), "{}", run.errors);
+    assert!(run.errors.contains(code) && run.errors.contains(message), "{}", run.errors);
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn pore_fluid_crosses_an_interface_of_which_the_deck_says_nothing() {
 
 /// P-01: an interface of which only one side carries pore pressure is impermeable.
 #[test]
-fn an_interface_with_one_side_of_pore_pressure_is_told_of() {
+fn an_interface_with_one_side_of_pore_pressure_is_noted() {
     let run =
         solve("", "pore_pressure = { fixed = 2.0 }", "", "interaction = \"FILTER\"\nclearance = 0.0\npressure = 0.0");
     assert_eq!(run.code, 0, "{}", run.errors);
@@ -127,7 +127,7 @@ fn a_capacity_needs_a_beginning() {
 }
 
 #[test]
-fn heat_for_a_node_without_temperature_is_told_of() {
+fn heat_for_a_node_without_temperature_is_noted() {
     let interface = "interaction = \"BY-TEMPERATURE\"\nclearance = 0.0\npressure = 0.0";
     let run = solve(
         "",
@@ -136,8 +136,8 @@ fn heat_for_a_node_without_temperature_is_told_of() {
         interface,
     );
     assert_eq!(run.code, 0, "{}", run.errors);
-    let told = "a share of the heat of currents in 1 interface: its node carries no temperature";
-    assert!(run.errors.contains(told), "{}", run.errors);
+    let message = "a share of the heat of currents in 1 interface: its node carries no temperature";
+    assert!(run.errors.contains(message), "{}", run.errors);
 }
 
 /// 100 from a plate of area 1 into space at absolute zero: 100 = 5.67e-8 · T⁴ / (1/1 + 1/1 − 1).
@@ -152,7 +152,7 @@ fn what_radiates_into_space_at_absolute_zero_floats_not() {
     assert!((found - exact).abs() <= 1e-12 * exact, "{found} and {exact}");
 }
 
-/// What is said to be closed needs nothing of the open branch, though its pressure follows time.
+/// A row given as closed needs nothing of the open branch, though its pressure follows time.
 #[test]
 fn a_row_that_is_closed_needs_no_clearance() {
     let head = "procedure = \"transient\"\n[time]\nend = 1.0\nstep = 0.5";

@@ -97,7 +97,7 @@ fn a_short_pulse_is_not_stepped_over() {
 }
 
 #[test]
-fn no_increment_is_less_exact_than_asked_for() {
+fn no_increment_exceeds_the_tolerance() {
     for tolerance in [1e-2, 1e-3, 1e-4] {
         let (_, summary) = solve_json(&pulse(&format!("{tolerance:?}")), &[]);
         let local = summary["local_error"].as_f64().expect("an error");
@@ -126,7 +126,7 @@ fn integral(times: &[f64], rates: &[f64]) -> f64 {
     times.windows(2).zip(&rates[1..]).map(|(pair, rate)| (pair[1] - pair[0]) * rate).sum()
 }
 
-/// What is stored in the capacities is what came in from sources, the wall, and currents: all from the printed tables.
+/// The storage of the capacities is the inflow from sources, the wall, and currents: all from the printed tables.
 #[test]
 fn what_is_stored_was_supplied() {
     let solved = solve_text(JOINT, BALANCED, &[]);

@@ -40,7 +40,7 @@ pressure = 0.0
 ";
 
 const CASES: [(&str, &str, &str); 20] = [
-    // What the scene has, what stands there instead, and what the message must say.
+    // The text of the scene, its replacement, and a part of the message.
     (
         "nodes = [\"hot\", \"middle\"]",
         "nodes = [\"hot2\", \"middle\"]",
@@ -204,7 +204,7 @@ fn an_area_is_above_zero_and_the_message_says_so() {
 
 /// The default of both cutoffs of pore fluid is a length that no deck holds (P-20); a closed gap needs none.
 #[test]
-fn the_characteristic_length_is_asked_for_where_it_counts() {
+fn the_characteristic_length_is_required_where_it_counts() {
     let deck = "*SURFACE INTERACTION, NAME=JOINT\n*CONTACT PERMEABILITY\n2., 0.\n";
     let scene = SCENE.replace("temperature", "pore_pressure").replace("thermal", "hydraulic");
     let open = scene.replace("clearance = 0.0", "clearance = 0.5");
@@ -252,7 +252,7 @@ fn an_interaction_has_to_be_named_where_there_are_two() {
 }
 
 #[test]
-fn every_mistake_of_the_scene_is_told_at_once() {
+fn every_mistake_of_the_scene_is_reported_at_once() {
     let scene = changed("thermal = 1.0", "thermal = -1.0").replace("master = \"cold\"", "master = \"clod\"");
     let run = solve(DECK, &scene.replace("area = 0.5", "area = -0.5"));
     for message in ["scene.toml:12: error[D014]", "scene.toml:16: error[D013]", "scene.toml:17: error[D014]"] {
@@ -288,12 +288,12 @@ fn what_cannot_be_read_and_wrong_usage_end_with_2() {
         assert_eq!((run.code, run.output.as_str()), (2, ""), "{arguments:?}: {}", run.errors);
         assert!(!run.errors.is_empty(), "{arguments:?}");
     }
-    let told = |arguments: &[&str]| folder.inpact(arguments).errors;
-    assert!(told(&["solve", "nothing.toml"]).contains("cannot read `nothing.toml`"));
-    assert!(told(&["solve", "no-deck.toml"]).contains("cannot read `nothing.inp`"));
+    let errors = |arguments: &[&str]| folder.inpact(arguments).errors;
+    assert!(errors(&["solve", "nothing.toml"]).contains("cannot read `nothing.toml`"));
+    assert!(errors(&["solve", "no-deck.toml"]).contains("cannot read `nothing.inp`"));
 }
 
-/// What the scene file refuses, a table refuses; what a person reads has the line, the words and what to do.
+/// Refusals of the scene file hold for tables; their messages have the line and the remedy.
 #[test]
 fn errors_in_tables_end_with_1() {
     let tables = [

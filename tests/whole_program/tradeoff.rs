@@ -133,7 +133,7 @@ fn a_picture_of_pixels_has_them() {
 }
 
 #[test]
-fn wrong_usage_is_told() {
+fn wrong_usage_is_refused() {
     let folder = scene();
     for wrong in
         [&["--plot", "a.gif"][..], &["--plot", "svg"], &["--sample", "0"], &["--rounds", "0"], &["-o", "a.csv"]]
@@ -147,7 +147,7 @@ fn wrong_usage_is_told() {
 }
 
 #[test]
-fn what_cannot_be_measured_is_told() {
+fn what_cannot_be_measured_is_reported() {
     let folder = scene();
     folder.write("a.csv", "node,clearance,pressure,temp\n1,x,0,310\n");
     assert_eq!(tradeoff(&folder, &[]).code, 1);

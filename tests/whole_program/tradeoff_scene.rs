@@ -95,7 +95,7 @@ fn a_table_for_a_person() {
     insta::assert_snapshot!(untimed(&run.output));
 }
 
-/// What every solver is told by.
+/// Keys of every solver.
 const KEYS: [&str; 19] = [
     "solver",
     "tolerance",
@@ -181,7 +181,7 @@ fn a_table_for_a_spreadsheet_has_the_same() {
     assert!(lines.all(|line| cells(line) == cells(header)), "{}", run.output);
 }
 
-/// What every sample and the bridge come to with the usual solver, to all digits that there are.
+/// Every sample and the bridge with the usual solver, to all digits that there are.
 #[test]
 fn direct_is_right_at_any_contrast() {
     let mut scenes: Vec<String> = Vec::new();
@@ -308,7 +308,7 @@ fn the_picture_is_well_formed_and_shows_every_solver() {
 
 /// The same findings as `solve` has, with the same exit code, and no report.
 #[test]
-fn what_is_wrong_is_told_as_solve_tells_it() {
+fn faults_are_reported_as_solve_does() {
     let broken = LINEAR.replace("10., 1.", "10., 0.");
     let cases = [
         (LINEAR, BRIDGE.replace("master = \"b\"", "master = \"bee\"")),
@@ -334,20 +334,20 @@ fn what_is_wrong_is_told_as_solve_tells_it() {
 }
 
 #[test]
-fn wrong_usage_is_told() {
+fn wrong_usage_is_refused() {
     let folder = bridge(LINEAR);
-    let told = |arguments: &[&str]| {
+    let errors = |arguments: &[&str]| {
         let run = folder.inpact(&[&["tradeoff"], arguments].concat());
         assert_eq!((run.code, run.output.as_str()), (2, ""), "{arguments:?}");
         run.errors
     };
-    let both = told(&["deck.inp", "--nodes", "nodes.csv", "--scene", "scene.toml"]);
-    let deck = told(&["deck.inp", "--scene", "scene.toml"]);
-    let neither = told(&[]);
+    let both = errors(&["deck.inp", "--nodes", "nodes.csv", "--scene", "scene.toml"]);
+    let deck = errors(&["deck.inp", "--scene", "scene.toml"]);
+    let neither = errors(&[]);
     insta::assert_snapshot!(format!("{both}\n{deck}\n{neither}"));
-    assert!(told(&["--scene", "scene.toml", "--sample", "5"]).contains("'--sample <ROWS>'"));
-    assert!(told(&["--scene", "nothing.toml"]).contains("cannot read `nothing.toml`"));
-    assert!(told(&["--scene", "scene.toml", "-o", "scene.toml"]).contains("scene.toml"));
+    assert!(errors(&["--scene", "scene.toml", "--sample", "5"]).contains("'--sample <ROWS>'"));
+    assert!(errors(&["--scene", "nothing.toml"]).contains("cannot read `nothing.toml`"));
+    assert!(errors(&["--scene", "scene.toml", "-o", "scene.toml"]).contains("scene.toml"));
     assert_eq!(folder.read("scene.toml"), BRIDGE);
 }
 

@@ -42,8 +42,8 @@ fn files_that_the_system_makes_up_are_not_included() {
             let run = run(program, b"abc123\n");
             assert_eq!(run.code, 1, "{name} {format}: {}", run.shown());
             assert!(!run.shown().contains("abc123"), "{name} {format}: {}", run.shown());
-            let is_told = run.output.contains("S012") || run.output.contains("S020");
-            assert!(is_told, "{name} {format}: {}", run.shown());
+            let is_reported = run.output.contains("S012") || run.output.contains("S020");
+            assert!(is_reported, "{name} {format}: {}", run.shown());
         }
     }
 }
@@ -155,15 +155,15 @@ fn a_deck_that_is_a_link_out_of_the_root_is_not_read() {
 fn scenes_name_regular_files_inside_of_the_root() {
     let folder = repository();
     let scene = |deck: &str| format!("deck = \"{deck}\"\nfields = [\"potential\"]\n");
-    for (deck, options, told) in [
+    for (deck, options, message) in [
         ("/proc/self/environ", &[][..], "made up by the system"),
         ("../secret.inp", &["--include-root", "repo"], "it lies outside of"),
     ] {
         folder.write("repo/scene.toml", &scene(deck));
         let run = folder.inpact(&[&["solve", "repo/scene.toml"], options].concat());
         assert!(run.code != 0 && !run.shown().contains("abc123"), "{}", run.shown());
-        // What else is wrong with the scene may be told first.
-        assert!(run.errors.contains(told) || run.errors.contains("error[D0"), "{}", run.shown());
+        // Another fault of the scene may be reported first.
+        assert!(run.errors.contains(message) || run.errors.contains("error[D0"), "{}", run.shown());
     }
 }
 
@@ -309,7 +309,7 @@ fn a_file_without_an_end_is_given_up_by_every_command_that_can_name_it() {
         (&["check", "--config", "evil", "a.inp"], no_text),
         (&["solve", "--config", "evil", "names-deck.toml"], no_text),
     ];
-    for (arguments, told) in runs {
+    for (arguments, message) in runs {
         let plain = command(folder.path(), arguments);
         let mut limited = std::process::Command::new("sh");
         limited.args(["-c", "ulimit -v 1048576 && exec \"$0\" \"$@\""]).arg(plain.get_program()).args(*arguments);
@@ -317,12 +317,12 @@ fn a_file_without_an_end_is_given_up_by_every_command_that_can_name_it() {
         let run = run(limited, b"");
         assert_eq!(run.code, 2, "{arguments:?}: {}", run.shown());
         assert!(run.errors.contains("evil"), "{arguments:?}: {}", run.shown());
-        assert!(run.errors.contains(told), "{arguments:?}: {}", run.shown());
+        assert!(run.errors.contains(message), "{arguments:?}: {}", run.shown());
     }
-    // What only has the name of a configuration is none.
+    // A folder with the name of a configuration is none.
     assert_eq!(folder.inpact(&["check", "sub/a.inp"]).code, 0);
     // The same without a name.
-    for (arguments, told) in [(&["fmt", "-"][..], line), (&["inp", "-"], no_text), (&["solve", "-"], no_text)] {
+    for (arguments, message) in [(&["fmt", "-"][..], line), (&["inp", "-"], no_text), (&["solve", "-"], no_text)] {
         let plain = command(folder.path(), arguments);
         let mut limited = std::process::Command::new("sh");
         limited
@@ -330,7 +330,7 @@ fn a_file_without_an_end_is_given_up_by_every_command_that_can_name_it() {
             .arg(plain.get_program())
             .args(arguments);
         let run = run(limited, b"");
-        assert!(run.code == 2 && run.errors.contains(told), "{arguments:?}: {}", run.shown());
+        assert!(run.code == 2 && run.errors.contains(message), "{arguments:?}: {}", run.shown());
     }
 }
 
@@ -370,12 +370,12 @@ fn without_another_thread_the_work_is_done_on_one() {
             program.current_dir(folder.path()).env("NO_COLOR", "1").output()
         };
         let Ok(run) = limited(&["--reuid", "65534", "--regid", "65534", "--clear-groups"]) else { return };
-        let told = String::from_utf8_lossy(&run.stderr).into_owned();
-        if told.starts_with("setpriv") || told.starts_with("prlimit") {
+        let message = String::from_utf8_lossy(&run.stderr).into_owned();
+        if message.starts_with("setpriv") || message.starts_with("prlimit") {
             // Only root may become nobody.
             return;
         }
-        assert_eq!(run.status.code(), Some(expected.code), "{arguments:?}: {told}");
-        assert_eq!(String::from_utf8_lossy(&run.stdout), expected.output, "{arguments:?}: {told}");
+        assert_eq!(run.status.code(), Some(expected.code), "{arguments:?}: {message}");
+        assert_eq!(String::from_utf8_lossy(&run.stdout), expected.output, "{arguments:?}: {message}");
     }
 }

@@ -206,7 +206,7 @@ fn a_08_integers_divide_as_the_release_does() {
         ]);
         assert!(run.output.lines().any(|line| line == format!("1,{value}")), "{release}: {}{}", run.output, run.errors);
         assert!(run.errors.contains("S019"), "{}", run.errors);
-        // What `json` writes, `inp` reads, in whatever release.
+        // `inp` reads the output of `json`, in any release.
         assert_eq!(folder.inpact(&["inp", "d.json"]).code, 0);
     }
 }
@@ -269,7 +269,7 @@ fn what_feeds_an_evaluation_or_could_is_an_error_of_the_run() {
         // A statement that is not executed leaves a value that an earlier one gave.
         (format!("*PARAMETER\nsg = 5.\nsg == 7.\n{law}<sg>, 0.\n0., 1.\n"), 1),
         (format!("*PARAMETER\nsg = 5.\nother == 7.\n{law}5., 0.\n0., 1.\n"), 0),
-        // Rows, or another option, may stand in a file that is not there.
+        // Rows, or another option, may occur in a file that is not there.
         (format!("{law}5., 0.\n*INCLUDE, INPUT=rows.inp\n"), 1),
         (format!("{law}5., 0.\n0., 1.\n*INCLUDE, INPUT=heat.inp\n"), 1),
         (format!("{mesh}{law}5., 0.\n0., 1.\n"), 0),

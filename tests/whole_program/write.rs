@@ -1,4 +1,4 @@
-//! Where results go: a file keeps what it is, and a pipe gets the result instead of being replaced.
+//! Targets of results: a file keeps its kind, and a pipe gets the result instead of being replaced.
 
 #![cfg(unix)]
 
@@ -162,7 +162,7 @@ fn names_are_judged_before_the_first_file_is_written() {
         assert_eq!(run.code, 1, "`{bad}`: {}", run.errors);
         assert_eq!(folder.names(), ["root"], "`{bad}`");
     }
-    // Where writing fails, nothing is written either: here a folder has the name of a file, and a link leads out.
+    // If writing fails, nothing is written either: here a folder has the name of a file, and a link leads out.
     for (bad, present) in [("taken", "o/taken/x"), ("link/tmp/out.inp", "o/x")] {
         folder.write(present, "");
         if bad.starts_with("link") {

@@ -1,18 +1,18 @@
-//! Which cards there are, and in which order.
+//! Cards and their order.
 
 use super::{Change, reword, set_rows, take};
 use crate::cubes::{Card, Closure, Cubes};
 use crate::random::Random;
 
 pub(super) const CHANGES: &[Change] = &[
-    Change { name: "cards behind the pair", apply: cards_behind_pair },
+    Change { name: "cards after the pair", apply: cards_after_pair },
     Change { name: "cards in the step", apply: cards_in_step },
     Change { name: "interaction in the step", apply: |cubes, _| cubes.in_step.append(&mut cubes.cards) },
     Change { name: "pair before the interaction", apply: |cubes, _| cubes.pair_first = true },
     Change { name: "pair in the step", apply: pair_in_step },
     Change { name: "another card between the sub-options", apply: card_between },
     Change { name: "*SURFACE BEHAVIOR missing", apply: |cubes, _| drop(take(cubes, "SURFACE BEHAVIOR")) },
-    Change { name: "*SURFACE BEHAVIOR behind", apply: behavior_last },
+    Change { name: "*SURFACE BEHAVIOR after", apply: behavior_last },
     Change { name: "sub-options in another order", apply: shuffled },
     Change { name: "sub-option before the interaction", apply: before_the_interaction },
     Change { name: "*GAP CONDUCTANCE missing", apply: |cubes, _| drop(take(cubes, "GAP CONDUCTANCE")) },
@@ -41,9 +41,9 @@ fn sub_option(cubes: &Cubes, random: &mut Random) -> Option<usize> {
     Some(1 + random.below(count))
 }
 
-fn cards_behind_pair(cubes: &mut Cubes, random: &mut Random) {
+fn cards_after_pair(cubes: &mut Cubes, random: &mut Random) {
     if let Some(place) = sub_option(cubes, random) {
-        cubes.behind.extend(cubes.cards.split_off(place));
+        cubes.after.extend(cubes.cards.split_off(place));
     }
 }
 
@@ -100,7 +100,7 @@ fn before_the_interaction(cubes: &mut Cubes, random: &mut Random) {
 }
 
 fn second_conductance(cubes: &mut Cubes, _: &mut Random) {
-    cubes.behind.push(Card::new("GAP CONDUCTANCE", "", &["77., 0., 300.", "99., 1000., 300."]));
+    cubes.after.push(Card::new("GAP CONDUCTANCE", "", &["77., 0., 300.", "99., 1000., 300."]));
 }
 
 fn another_interaction(cubes: &mut Cubes, random: &mut Random) {
@@ -109,13 +109,13 @@ fn another_interaction(cubes: &mut Cubes, random: &mut Random) {
         Card::new("SURFACE BEHAVIOR", "PRESSURE-OVERCLOSURE=LINEAR", &["2e+07, 0., 0.001"]),
         Card::new("GAP CONDUCTANCE", "", &["12., 0., 300."]),
     ];
-    let place = if random.once_in(2) { &mut cubes.before } else { &mut cubes.behind };
+    let place = if random.once_in(2) { &mut cubes.before } else { &mut cubes.after };
     place.extend(other);
 }
 
 fn duplicate_interaction(cubes: &mut Cubes, random: &mut Random) {
     another_interaction(cubes, random);
-    for card in cubes.before.iter_mut().chain(&mut cubes.behind) {
+    for card in cubes.before.iter_mut().chain(&mut cubes.after) {
         card.line = card.line.replace("OTHER", "SI");
         if let Some(row) = card.rows.first_mut().filter(|row| row.starts_with("2e")) {
             row.replace_range(..1, "1");

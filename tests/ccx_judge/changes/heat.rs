@@ -49,5 +49,5 @@ fn without_friction(cubes: &mut Cubes, _: &mut Random) {
 fn twice(cubes: &mut Cubes, random: &mut Random) {
     let Some(mut card) = cubes.cards.iter().find(|card| card.of == HEAT).cloned() else { return };
     card.rows = vec![random.of(&["0.4, 0.5, 2.", "0.3"]).to_owned()];
-    cubes.behind.push(card);
+    cubes.after.push(card);
 }

@@ -14,7 +14,7 @@ pub(super) const CHANGES: &[Change] = &[
         apply: |cubes, random| conductance(cubes, random, &["1.+2", "1.5+2", "15000.-2", "1+2"]),
     },
     Change {
-        name: "exponent behind D, Q or e",
+        name: "exponent after D, Q or e",
         apply: |cubes, random| conductance(cubes, random, &["1.D2", "1d2", "1.5e+02", "1q2", "1.E+0002", "1E02"]),
     },
     Change {

@@ -24,16 +24,16 @@ pub(super) const CHANGES: &[Change] = &[
     Change { name: "two commas in a keyword line", apply: |cubes, random| append(cubes, any(cubes, random), ",,FOO") },
     Change { name: "blanks and small letters in a keyword line", apply: blanks },
     Change { name: "keyword line over two lines", apply: continued },
-    Change { name: "keyword behind blanks", apply: indented },
+    Change { name: "keyword after blanks", apply: indented },
 ];
 
 fn unknown_parameter(cubes: &mut Cubes, random: &mut Random) {
-    let words = random.of(&[", FOO", ", FOO=1", ", FOO=BAR BAR", ", 12", ", =3"]);
-    append(cubes, any(cubes, random), words);
+    let parameters = random.of(&[", FOO", ", FOO=1", ", FOO=BAR BAR", ", 12", ", =3"]);
+    append(cubes, any(cubes, random), parameters);
 }
 
 fn abaqus_parameter(cubes: &mut Cubes, random: &mut Random) {
-    let (of, words) = random.of(&[
+    let (of, parameters) = random.of(&[
         ("GAP CONDUCTANCE", ", PRESSURE"),
         ("GAP CONDUCTANCE", ", DEPENDENCIES=1"),
         ("SURFACE INTERACTION", ", TRACKING THICKNESS=1."),
@@ -50,7 +50,7 @@ fn abaqus_parameter(cubes: &mut Cubes, random: &mut Random) {
         ("CONTACT PAIR", ", ADJUST=NOSET"),
         ("CONTACT PAIR", ", NO THICKNESS"),
     ]);
-    append(cubes, of, words);
+    append(cubes, of, parameters);
 }
 
 fn abbreviated_parameter(cubes: &mut Cubes, random: &mut Random) {
@@ -111,13 +111,13 @@ fn misspelt_keyword(cubes: &mut Cubes, random: &mut Random) {
 }
 
 fn missing_parameter(cubes: &mut Cubes, random: &mut Random) {
-    let (of, words) = random.of(&[
+    let (of, parameters) = random.of(&[
         ("SURFACE INTERACTION", ", NAME=SI"),
         ("CONTACT PAIR", ", INTERACTION=SI"),
         ("CONTACT PAIR", ", TYPE=SURFACE TO SURFACE"),
         ("SURFACE BEHAVIOR", ", PRESSURE-OVERCLOSURE=LINEAR"),
     ]);
-    reword(cubes, of, words, "");
+    reword(cubes, of, parameters, "");
 }
 
 fn without_value(cubes: &mut Cubes, random: &mut Random) {
@@ -134,7 +134,7 @@ fn without_value(cubes: &mut Cubes, random: &mut Random) {
 }
 
 fn twice(cubes: &mut Cubes, random: &mut Random) {
-    let (of, words) = random.of(&[
+    let (of, parameters) = random.of(&[
         ("SURFACE INTERACTION", ", NAME=SI"),
         ("SURFACE INTERACTION", ", NAME=TI"),
         ("CONTACT PAIR", ", INTERACTION=SI"),
@@ -144,7 +144,7 @@ fn twice(cubes: &mut Cubes, random: &mut Random) {
         ("SURFACE BEHAVIOR", ", PRESSURE-OVERCLOSURE=LINEAR"),
         ("SURFACE BEHAVIOR", ", PRESSURE-OVERCLOSURE=FOO"),
     ]);
-    append(cubes, of, words);
+    append(cubes, of, parameters);
 }
 
 fn blanks(cubes: &mut Cubes, random: &mut Random) {

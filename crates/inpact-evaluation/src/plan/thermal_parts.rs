@@ -166,8 +166,8 @@ pub(super) fn plan_friction(
     // A deck without heat has friction too, and says nothing of its heat.
     let is_thermal = planner.interaction.gap_heat_generation.is_some()
         || ["GAP CONDUCTANCE", "GAP RADIATION"].into_iter().any(has_option);
-    let is_told = columns.iter().any(is_there) || (is_thermal && has_option("FRICTION"));
-    if !is_told {
+    let is_reported = columns.iter().any(is_there) || (is_thermal && has_option("FRICTION"));
+    if !is_reported {
         return Planned::Absent;
     }
     if heat.is_none() {
