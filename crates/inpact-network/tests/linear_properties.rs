@@ -3,8 +3,12 @@
 mod linear_support;
 
 use inpact_evaluation::numbers::DoubleDouble;
-use inpact_network::linear::{LinearFailure, LinearNetwork, LinearSolution, Link, Method, Store, Unsolvable};
+use inpact_network::linear::{
+    LAST_DIGIT, LinearFailure, LinearNetwork, LinearSolution, Link, Method, Store, Unsolvable,
+};
 use linear_support::{Balanced, METHODS, rounded, solve, worst_balance};
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 
 /// The methods but the reference, which refuses what is far from one.
@@ -89,6 +93,52 @@ fn is_balanced(network: &LinearNetwork) -> Result<(), TestCaseError> {
         }
     }
     Ok(())
+}
+
+fn exactly(number: f64) -> BigRational {
+    BigRational::from_float(number).expect("finite")
+}
+
+/// A number of 106 bits in all its digits.
+fn all_digits(number: DoubleDouble) -> BigRational {
+    let high = number.to_f64();
+    exactly(high) + exactly((number - DoubleDouble::new(high)).to_f64())
+}
+
+/// The flow through each link in exact rationals, by elimination; infinite conductances are not known here.
+fn exact_flows(network: &LinearNetwork) -> Vec<BigRational> {
+    let nodes = network.nodes();
+    let mut rows = vec![vec![BigRational::zero(); nodes + 1]; nodes];
+    for link in &network.links {
+        let [a, b] = link.nodes.map(|node| node as usize);
+        let conductance = exactly(link.conductance);
+        for (from, to) in [(a, b), (b, a)] {
+            rows[from][from] += &conductance;
+            rows[from][to] -= &conductance;
+        }
+    }
+    for store in &network.stores {
+        let (node, conductance) = (store.node as usize, exactly(store.conductance));
+        rows[node][nodes] += &conductance * all_digits(store.before);
+        rows[node][node] += conductance;
+    }
+    for node in 0..nodes {
+        rows[node][nodes] += exactly(network.sources[node]);
+        if let Some(value) = network.held[node] {
+            rows[node].fill(BigRational::zero());
+            rows[node][node] = exactly(1.0);
+            rows[node][nodes] = exactly(value);
+        }
+    }
+    for pivot in 0..nodes {
+        let row = rows[pivot].clone();
+        for (_, of_other) in rows.iter_mut().enumerate().filter(|(other, _)| *other != pivot) {
+            let factor = &of_other[pivot] / &row[pivot];
+            of_other.iter_mut().zip(&row).for_each(|(to, from)| *to -= &factor * from);
+        }
+    }
+    let value = |node: u32| &rows[node as usize][nodes] / &rows[node as usize][node as usize];
+    network.links.iter().map(|link| exactly(link.conductance) * (value(link.nodes[0]) - value(link.nodes[1]))).collect()
 }
 
 proptest! {
@@ -264,6 +314,30 @@ proptest! {
                 for (value, held) in solution.values.iter().zip(&network.held) {
                     prop_assert!(held.is_none_or(|held| held == value.to_f64()), "{:?}: {:?}", method, solution);
                 }
+            }
+        }
+    }
+}
+
+proptest! {
+    // Exact rationals of thirty decades take their time.
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// What `mixed` says of its error is a bound, before flows are rounded to f64; the others give an estimate, which is of the right order.
+    /// What is far below the last digit of f64 counts as nothing.
+    #[test]
+    fn an_estimated_error_is_no_less_than_the_error(network in prop_oneof![networks(3.0), networks(30.0)]) {
+        const NOTHING: f64 = 1e-3 * LAST_DIGIT;
+        let network = LinearNetwork { links: network.links.into_iter().filter(|link| link.conductance.is_finite()).collect(), ..network };
+        let exact = exact_flows(&network);
+        for method in SOLVERS {
+            let Some(solution) = solved(&network, method)? else { return Ok(()) };
+            let factor = if method == Method::Mixed { 1.0 } else { 30.0 };
+            let error = factor * solution.report.quality.error;
+            for (flow, exact) in solution.flows.iter().zip(&exact) {
+                let off = all_digits(*flow) - exact;
+                let off = if off.is_zero() { 0.0 } else { (off / exact).to_f64().expect("in range").abs() };
+                prop_assert!(off <= error.max(NOTHING), "{:?}: {} where {} is said", method, off, error);
             }
         }
     }

@@ -199,16 +199,9 @@ impl Edges {
     ///
     /// The flow along the forest is the sum of those below, so that it is known as well as the balances there: less well than to 106 bits where large flows nearly cancel in one.
     /// Other flows are as open as the jumps along the forest that make theirs. Solving has spread what is open by up to the condition of the matrix.
-    /// Where ways along the forest are too many to be kept, only the flows' own rounding is looked at, and zeros may come out as some 1e-30 of what flows around them.
+    /// Where ways along the forest are too many to be kept, only the flows' own rounding makes nothing of them, and zeros may come out as some 1e-30 of what flows around them.
     pub(crate) fn settle(&self, core: &Core, condition: f64, balance: &mut Balance) -> f64 {
-        let Some(ways) = &self.ways else {
-            for (flow, &rounding) in balance.flows.iter_mut().zip(&balance.roundings) {
-                if flow.to_f64().abs() <= rounding {
-                    *flow = DoubleDouble::ZERO;
-                }
-            }
-            return 0.0;
-        };
+        let Some(ways) = &self.ways else { return self.settle_without_ways(core, condition, balance) };
         let steps = self.open_steps(core, condition, balance);
         let mut largest = 0.0_f64;
         for (place, &number) in self.elements.iter().enumerate() {
@@ -223,6 +216,36 @@ impl Edges {
                 *flow = DoubleDouble::ZERO;
             } else {
                 largest = largest.max(open / magnitude);
+            }
+        }
+        largest
+    }
+
+    /// The same where ways are too long to be kept: flows are as open as both ways to known values together, which is no less.
+    ///
+    /// Only their own rounding makes nothing of them.
+    fn settle_without_ways(&self, core: &Core, condition: f64, balance: &mut Balance) -> f64 {
+        let form = &self.form;
+        let mut to_base = self.open_steps(core, condition, balance);
+        for &unknown in &form.order {
+            let parent = form.parents[unknown as usize];
+            to_base[unknown as usize] = scale_by_power(to_base[unknown as usize], -form.scale(unknown));
+            if parent != NONE {
+                to_base[unknown as usize] += to_base[parent as usize];
+            }
+        }
+        let mut largest = 0.0_f64;
+        for &number in &self.elements {
+            let element = &core.elements[number as usize];
+            let ends = form.ends(core, element).into_iter().filter(|end| *end != NONE);
+            let of_steps = element.conductance.to_f64() * ends.map(|end| to_base[end as usize]).sum::<f64>();
+            let rounding = balance.roundings[number as usize];
+            let flow = &mut balance.flows[number as usize];
+            let magnitude = flow.to_f64().abs();
+            if magnitude <= rounding {
+                *flow = DoubleDouble::ZERO;
+            } else if rounding + of_steps < magnitude {
+                largest = largest.max((rounding + of_steps) / magnitude);
             }
         }
         largest

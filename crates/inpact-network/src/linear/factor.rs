@@ -36,8 +36,22 @@ pub(crate) trait Solves {
         true
     }
 
+    /// How good one correction is by itself.
+    fn accuracy(&self) -> Accuracy {
+        Accuracy::Full
+    }
+
     /// The norm of the matrix it solves with: the largest sum of the magnitudes of a row.
     fn norm(&self) -> f64;
+}
+
+/// How good a correction is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Accuracy {
+    /// As good as f64 is: what is left behind it follows from how the changes shrink.
+    Full,
+    /// So rough that changes shrink unevenly: what is left is only known to be less than the last change.
+    Rough,
 }
 
 /// Reasons why a factorisation or iteration has no solution.
@@ -70,12 +84,16 @@ pub(crate) trait FactorNumber: ComplexField + Copy {
     /// Their magnitudes go with those of the matrix, which is made as large as leaves room for the condition.
     const EXPONENT: Option<i32>;
 
+    /// How good a correction by a factor in such numbers is.
+    const ACCURACY: Accuracy;
+
     fn rounded(value: f64) -> Self;
     fn widened(self) -> f64;
 }
 
 impl FactorNumber for f64 {
     const EXPONENT: Option<i32> = None;
+    const ACCURACY: Accuracy = Accuracy::Full;
 
     fn rounded(value: f64) -> Self {
         value
@@ -88,6 +106,7 @@ impl FactorNumber for f64 {
 
 impl FactorNumber for f32 {
     const EXPONENT: Option<i32> = Some(96);
+    const ACCURACY: Accuracy = Accuracy::Rough;
 
     fn rounded(value: f64) -> Self {
         // Refinement makes up for the digits lost here.
@@ -150,6 +169,10 @@ impl<T: FactorNumber> Solves for Factor<T> {
             *to = from.widened();
         }
         Ok(())
+    }
+
+    fn accuracy(&self) -> Accuracy {
+        T::ACCURACY
     }
 
     fn norm(&self) -> f64 {

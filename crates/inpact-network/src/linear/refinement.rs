@@ -10,7 +10,7 @@
 
 use super::core::Core;
 use super::edges::{Balance, Edges, ROUNDING};
-use super::factor::{NoSolution, Solves};
+use super::factor::{Accuracy, NoSolution, Solves};
 use super::matrix::{scaled_flows, shift, unscale};
 use inpact_evaluation::numbers::DoubleDouble;
 
@@ -76,7 +76,7 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
         }
         if quality.solves > 0 {
             let is_first = quality.solves == 1;
-            quality.error = progress.error_after(edges.change_of_flows(core, &balance, &changes));
+            quality.error = progress.error_after(edges.change_of_flows(core, &balance, &changes), solver.accuracy());
             if is_first || !solver.is_even() {
                 let by_balance = quality.condition * edges.missing_in_flows(core, &balance);
                 quality.error = if is_first { by_balance } else { quality.error.max(by_balance) };
@@ -125,11 +125,19 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// The estimated error after a step that changed flows by `change`.
-    fn error_after(&mut self, change: f64) -> f64 {
+    /// The estimated error after a step that changed flows by `change`: all the further changes, which shrink by the same factor.
+    fn error_after(&mut self, change: f64, accuracy: Accuracy) -> f64 {
         let before = std::mem::replace(&mut self.change, change);
-        let contraction = if change == 0.0 { 0.0 } else { (change / before).min(1.0) };
-        if before.is_finite() { change * contraction } else { change }
+        if !before.is_finite() || change == 0.0 {
+            return change;
+        }
+        let contraction = change / before;
+        let further = if contraction < 1.0 { contraction / (1.0 - contraction) } else { f64::INFINITY };
+        match accuracy {
+            Accuracy::Full => change * further,
+            // A bound where each change is no more than half of the one before.
+            Accuracy::Rough => change * further.max(1.0),
+        }
     }
 
     /// Whether too many steps have gained nothing, now that this share of a balance and this flow, the largest of all, are missing.

@@ -235,6 +235,9 @@ impl<'t> Walk<'_, 't> {
 
     /// Whether a line was taken out of a table that begins at a place.
     fn is_cut(&self, span: &Range<usize>) -> bool {
+        if self.without.is_empty() {
+            return false;
+        }
         let rest = self.text.get(span.end..).unwrap_or_default();
         let end = if self.text[span.start..].starts_with('{') {
             span.end
@@ -243,7 +246,8 @@ impl<'t> Walk<'_, 't> {
             let next = lines.find(|start| rest[*start..].trim_start_matches([' ', '\t']).starts_with('['));
             next.map_or(self.text.len(), |next| span.end + next)
         };
-        self.without.iter().any(|line| (span.start..end).contains(line))
+        let first = self.without.partition_point(|line| *line < span.start);
+        self.without.get(first).is_some_and(|line| *line < end)
     }
 
     /// A piece of the text, if it is short enough to be quoted.

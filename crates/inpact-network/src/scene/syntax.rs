@@ -6,6 +6,7 @@
 use super::rules::MALFORMED_SCENE;
 use super::shape::{Part, Problem, expected_of};
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::de::DeTable;
 
@@ -25,6 +26,9 @@ pub(super) struct Sound<'t> {
 /// How often the text is read at most: behind a key without a value its parser sees keys and values only once that is taken out.
 const MOST_PASSES: usize = 4;
 
+/// Of so many places is said what is wrong there; more of a kind are counted.
+const MOST_SAID: usize = 100;
+
 /// Finds what is no TOML.
 pub(super) fn sound(text: &str) -> Sound<'_> {
     let mut sound = Sound { text: None, without: Vec::new(), problems: Vec::new() };
@@ -39,7 +43,6 @@ pub(super) fn sound(text: &str) -> Sound<'_> {
         rest = Cow::Owned(sounder);
     }
     sound.problems.sort_by_key(|problem| problem.at);
-    sound.without.sort_unstable();
     sound
 }
 
@@ -47,17 +50,20 @@ pub(super) fn sound(text: &str) -> Sound<'_> {
 fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sound<'_>) -> Option<String> {
     let mut rest = rest.into_bytes();
     let before = sound.without.len();
+    let mut without: BTreeSet<usize> = std::mem::take(&mut sound.without).into_iter().collect();
     for place in places {
         let line = line_at(text, place.start);
         // What follows in a line from what is wrong in it says nothing more.
-        if sound.without.contains(&line.start) {
+        if !without.insert(line.start) {
             continue;
         }
-        let (message, help) = said(text, &line, &place);
+        // Nobody sees more: they are counted.
+        let is_seen = sound.problems.len() < MOST_SAID;
+        let (message, help) = if is_seen { said(text, &line, &place) } else { ("no TOML".to_owned(), String::new()) };
         sound.problems.push(Problem { at: place.start, rule: &MALFORMED_SCENE, message, help });
         rest[line.clone()].fill(b' ');
-        sound.without.push(line.start);
     }
+    sound.without.extend(without);
     // Whole lines of UTF-8 were replaced.
     String::from_utf8(rest).ok().filter(|_| before < sound.without.len())
 }
