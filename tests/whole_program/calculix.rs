@@ -132,6 +132,13 @@ fn cx_06_includes() {
     assert_eq!(check(&folder), ["error[S012]"]);
     folder.write("nodesets.inc", "** this\n");
     assert_eq!(check(&folder), Vec::<String>::new());
+    // Nothing counts behind the closing quote.
+    folder.write("d.inp", "*INCLUDE, INPUT=\"node sets.inc\"x\n");
+    assert_eq!(check(&folder), Vec::<String>::new());
+    folder.write("d.inp", "*INCLUDE, INPUT=\"nodesets.inc\",1\n");
+    assert_eq!(check(&folder), ["warning[K004]"]);
+    folder.write("d.inp", "*INCLUDE, INPUT=x\"nodesets.inc\"\n");
+    assert_eq!(check(&folder), ["error[S012]"]);
     // ccx cannot open `nodesets.inc,`.
     folder.write("d.inp", "*INCLUDE, INPUT=nodesets.inc,\n");
     assert_eq!(check(&folder), ["error[S012]"]);

@@ -193,7 +193,7 @@ impl Assembly<'_> {
         let name = match self.options.grammar.dialect() {
             // FILE is taken for INPUT in decks that ran all the same.
             Dialect::Abaqus => self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE")),
-            // For CalculiX all that follows the first `=` is the name, commas included (CX-06).
+            // For CalculiX all that follows the first `=` is the name, commas included, unless it is quoted (CX-06).
             Dialect::Calculix => {
                 let end = keyword.visible_span(&self.deck).end;
                 let value = keyword.parameters.iter().find_map(|parameter| parameter.value);
@@ -218,11 +218,12 @@ impl Assembly<'_> {
         }
         let written = self.deck.shown(name);
         let without_blanks = |text: &str| text.split_ascii_whitespace().collect::<String>();
-        // Blanks carry no meaning outside quotes (S-22), for CalculiX inside them neither (CX-06).
-        let written = match written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
-            Some(quoted) if self.options.grammar.dialect() == Dialect::Calculix => without_blanks(quoted),
-            Some(quoted) => quoted.to_owned(),
-            None => without_blanks(&written),
+        let quoted = written.strip_prefix('"');
+        // Blanks carry no meaning outside quotes (S-22), for CalculiX inside them neither, and nothing behind the closing quote (CX-06).
+        let written = match (self.options.grammar.dialect(), quoted) {
+            (Dialect::Calculix, Some(rest)) => without_blanks(rest.split('"').next().unwrap_or_default()),
+            (Dialect::Abaqus, Some(rest)) if rest.ends_with('"') => rest[..rest.len() - 1].to_owned(),
+            _ => without_blanks(&written),
         };
         let from = self.deck.source(name.source).name();
         if let Some(folder) = self.files.outside(&written, from) {
