@@ -100,3 +100,13 @@ fn columns_of_a_node_table_cost_no_square() {
         assert_eq!(run.code, 0, "{command}: {}", run.errors.chars().take(500).collect::<String>());
     }
 }
+
+/// Each line of it is wrong, and the parser has to go on behind each.
+#[test]
+fn a_scene_of_nothing_but_slips_costs_no_square() {
+    let wrong = "[[node]\nname = x y\narea\n= 5\n".repeat(100_000);
+    let folder = Folder::with(&[("a.toml", &format!("deck = \"a.inp\"\n{wrong}"))]);
+    let run = within(&folder, 1 << 30, &["solve", "a.toml"]);
+    assert_eq!(run.code, 1, "{}", run.errors.chars().take(500).collect::<String>());
+    assert!(run.errors.lines().count() < 100, "{}", run.errors.chars().take(500).collect::<String>());
+}

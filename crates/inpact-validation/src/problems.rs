@@ -4,7 +4,6 @@ use crate::rule::{Context, DefinedBlock};
 use crate::tables::columns_are_unclear;
 use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::Span;
-use std::collections::HashMap;
 
 /// The first problem of a kind in a block.
 #[derive(Debug, Clone, Copy)]
@@ -34,9 +33,9 @@ pub(crate) fn first_of_each_block<'a>(
         }
     }
     if !found.is_empty() {
-        let blocks = blocks_by_keyword(context);
+        let blocks = BlocksByKeyword::of(context);
         for first in &mut found {
-            first.block = blocks.get(&first.problem.keyword).copied();
+            first.block = blocks.get(first.problem.keyword);
         }
     }
     found
@@ -50,9 +49,28 @@ pub(crate) fn of_clear_columns<'a>(
     found.into_iter().filter(|first| first.block.is_none_or(|block| !columns_are_unclear(context, block)))
 }
 
-/// The defined blocks by their keyword lines.
-pub(crate) fn blocks_by_keyword<'a>(context: &Context<'a>) -> HashMap<Span, DefinedBlock<'a>> {
-    context.defined_blocks().map(|block| (block.keyword.span, block)).collect()
+/// The defined blocks by their keyword lines: a number for each block of the deck, which may have more blocks than anything else.
+pub(crate) struct BlocksByKeyword<'a, 'c> {
+    context: &'c Context<'a>,
+    /// Numbers of blocks, by where these begin.
+    order: Vec<u32>,
+}
+
+impl<'a, 'c> BlocksByKeyword<'a, 'c> {
+    pub(crate) fn of(context: &'c Context<'a>) -> Self {
+        let blocks = context.deck.blocks();
+        let mut order: Vec<u32> = (0..).take(blocks.len()).collect();
+        order.sort_unstable_by_key(|number| blocks[*number as usize].span_of_keyword());
+        Self { context, order }
+    }
+
+    /// The block of a keyword line, where the grammar defines its keyword.
+    pub(crate) fn get(&self, keyword: Span) -> Option<DefinedBlock<'a>> {
+        let blocks = self.context.deck.blocks();
+        let found =
+            self.order.binary_search_by_key(&keyword, |number| blocks[*number as usize].span_of_keyword()).ok()?;
+        self.context.defined(&blocks[self.order[found] as usize])
+    }
 }
 
 /// Whether the problem is a row that has no place.

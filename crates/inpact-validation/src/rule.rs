@@ -72,12 +72,13 @@ impl<'a> Context<'a> {
 
     /// The blocks whose keyword the grammar defines.
     pub fn defined_blocks(&self) -> impl Iterator<Item = DefinedBlock<'a>> {
-        let (deck, grammar) = (self.deck, self.grammar);
-        deck.blocks().iter().filter_map(move |block| {
-            let keyword = block.keyword.as_ref()?;
-            let entry = grammar.keyword(keyword.id()?);
-            Some(DefinedBlock { block, keyword, name: &entry.name, definition: entry.definition()? })
-        })
+        let grammar = self.grammar;
+        self.deck.blocks().iter().filter_map(move |block| defined(grammar, block))
+    }
+
+    /// A block with what the grammar says of it, where it defines the keyword.
+    pub fn defined(&self, block: &'a Block) -> Option<DefinedBlock<'a>> {
+        defined(self.grammar, block)
     }
 
     /// Whether the deck is for CalculiX, and judged as ccx reads it (semantics, section 12).
@@ -143,6 +144,12 @@ impl<'a> Context<'a> {
     pub fn trimmed(&self, span: Span) -> Span {
         trimmed(self.deck, span)
     }
+}
+
+fn defined<'a>(grammar: &'a Grammar, block: &'a Block) -> Option<DefinedBlock<'a>> {
+    let keyword = block.keyword.as_ref()?;
+    let entry = grammar.keyword(keyword.id()?);
+    Some(DefinedBlock { block, keyword, name: &entry.name, definition: entry.definition()? })
 }
 
 /// Shortens what would not fit into a message; a line end becomes a blank, any other control character a `?`.

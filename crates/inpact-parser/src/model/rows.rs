@@ -89,7 +89,8 @@ impl RowReader<'_> {
         // No more than the text could spell out: rows of empty items are made as they come.
         let most = text.len() / 2;
         self.table.rows.reserve_exact(rows.min(most));
-        self.table.values.reserve_exact((rows * self.layout.columns.len()).min(most));
+        let width = self.layout.columns.len();
+        self.table.values.reserve_exact((rows * width).min(most.max(width)));
     }
 
     fn report(&mut self, kind: ProblemKind, span: Span) {

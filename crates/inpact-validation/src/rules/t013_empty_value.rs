@@ -1,6 +1,6 @@
 //! T013: rows whose dependent value is left empty.
 
-use crate::problems::blocks_by_keyword;
+use crate::problems::BlocksByKeyword;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::problem::ProblemKind;
 
@@ -41,9 +41,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     if empty.peek().is_none() {
         return;
     }
-    let blocks = blocks_by_keyword(context);
+    let blocks = BlocksByKeyword::of(context);
     for (problem, column) in empty {
-        let columns = blocks.get(&problem.keyword).map_or(&[][..], |block| &block.definition.data.columns);
+        let columns = blocks.get(problem.keyword).map_or(&[][..], |block| &block.definition.data.columns);
         if columns.iter().any(|definition| definition.name == *column && definition.default.is_some()) {
             continue;
         }

@@ -26,6 +26,7 @@ impl Reader<'_> {
             Dialect::Calculix => option.first_parameter("NAME"),
         };
         parameters.retain(|parameter| named.is_none_or(|named| named.span() != parameter.span));
+        parameters.shrink_to_fit();
         // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
         let name = named.and_then(|named| named.value).map(|value| self.value_text(value)).unwrap_or_default();
         let name = Name::in_dialect(&name, self.grammar.dialect());
