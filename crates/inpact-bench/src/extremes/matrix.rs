@@ -12,7 +12,7 @@ const TEXT: &str = "\
 The law is σ against clearance d (0 to 2) and against pressure p (0 to 2), each at temperatures θ of 300 and 400 and a field variable of 1 and 3.
 Where nothing else is said, d = 1 (0 for the rows of pressure), p = 0, θ = 350, the field variable is 2, the potentials are 2 and 0, the area is 0.5, the time step is 1, and so σ = 60.
 Temperature and field variable are given for both sides; their mean is taken without overflow.
-As *conductance in the table* the number stands in the deck at d = 0 beside a 0 at d = 2, so that half of it comes out at d = 1.
+As *conductance in the table* the number is in the deck at d = 0 beside a 0 at d = 2, so that half of it comes out at d = 1.
 ECDT is that of the second of two rows.
 *Error* is the largest of the five outputs against the exact result of the same inputs, where that is in the range of f64.
 5e-324 is the least subnormal number; 1e-308 is subnormal as well.
@@ -193,7 +193,7 @@ impl Case {
             reasons.push(match (closed, open) {
                 (true, _) => "closed: the table against pressure holds (T-22)".to_owned(),
                 (_, true) => "open: the table against clearance holds (T-22)".to_owned(),
-                _ => "neither closed nor open can be told".to_owned(),
+                _ => "contact is undetermined".to_owned(),
             });
         }
         let axes = results.tally.axes.iter().flatten();
@@ -227,7 +227,7 @@ impl Case {
         }
         if let Some(names) = named(&|output| outputs[output].is_nan()) {
             reasons.push(match self.quantity {
-                Quantity::BothPotentials => format!("{names}: the difference of the two cannot be told"),
+                Quantity::BothPotentials => format!("{names}: the difference of the two is undetermined"),
                 _ => format!("{names}: NaN, as the {} is", self.name()),
             });
         }

@@ -180,7 +180,7 @@ const INTRODUCTION: &str = "# How exact the network solvers are
 
 This page is written by `cargo run --release -p inpact-bench -- network` from the library that `inpact solve` is made of.
 Errors are relative; half a unit in the last place of f64 is 1.1e-16.
-How the solvers do it stands in the heads of `crates/inpact-network/src/linear/relative.rs` and `refinement.rs`.
+The methods of the solvers are described in the heads of `crates/inpact-network/src/linear/relative.rs` and `refinement.rs`.
 ";
 
 const RANDOM: &str = "Each network is a tree with as many links more; every conductance is drawn by itself from the whole range of ± so many decades, one link in twelve is infinite, one in twelve conducts nothing.
