@@ -1,6 +1,6 @@
 //! Kernels of the `full` mode: columns in, columns out, vectorised, with the bits of the scalar functions.
 //!
-//! A [`TableKernel`] evaluates a [`PiecewiseTable`] over columns; [`electrical`] makes the whole electrical output set in one pass, [`total`] adds up a column.
+//! A [`TableKernel`] evaluates a [`PiecewiseTable`] over columns; [`electrical`] makes the whole electrical output set in one pass.
 //! Which instructions are used is decided when the program runs ([`InstructionSet`]); the results do not depend on it, nor on the number of threads.
 //!
 //! What the vectors hold is the same expression as in [`crate::numbers::interpolate`] and [`crate::numbers::between`], operation by operation.
@@ -15,8 +15,6 @@
 )]
 
 mod axis;
-#[cfg(feature = "threads")]
-pub mod blocks;
 pub mod electrical;
 mod instruction_set;
 mod nested;
@@ -24,8 +22,6 @@ mod pieces;
 #[cfg(target_arch = "x86_64")]
 mod registers;
 mod search;
-#[cfg(feature = "threads")]
-pub mod total;
 
 pub use instruction_set::InstructionSet;
 pub(crate) use instruction_set::{Lanes, Operation};
@@ -105,22 +101,6 @@ impl TableKernel {
                 }
             }
         }
-    }
-
-    /// The values of `values.len()` rows from row `first` on.
-    fn values_of_rows(&self, set: InstructionSet, columns: &[&[f64]], first: usize, values: &mut [f64]) {
-        let part = |column: &[f64]| -> std::ops::Range<usize> {
-            if column.is_empty() { 0..0 } else { first..first + values.len() }
-        };
-        let mut few: [&[f64]; FEW_AXES] = [&[]; FEW_AXES];
-        if columns.len() > FEW_AXES {
-            let columns: Vec<&[f64]> = columns.iter().map(|column| &column[part(column)]).collect();
-            return self.values_with(set, &columns, values);
-        }
-        for (few, column) in few.iter_mut().zip(columns) {
-            *few = &column[part(column)];
-        }
-        self.values_with(set, &few[..columns.len()], values);
     }
 
     /// [`Self::values_and_sides`] with the instructions of `set`.

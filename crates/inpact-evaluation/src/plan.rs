@@ -11,29 +11,30 @@
 //! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
 //! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
 
-mod asked;
+pub(crate) mod asked;
 mod choices;
 mod columns;
 mod concern;
 mod cost;
-mod electrical;
-mod folding;
+pub(crate) mod folding;
 mod governing;
-mod make;
+pub(crate) mod make;
 mod outline;
-mod pore;
 mod print;
-mod reason;
-mod regime;
-mod source;
+pub(crate) mod reason;
+pub(crate) mod regime;
+pub(crate) mod source;
 mod survey;
-mod tables;
-mod thermal;
-mod thermal_parts;
-mod thermal_tables;
-mod user;
-mod wanted;
+pub(crate) mod tables;
+pub(crate) mod wanted;
 
+pub use crate::law::electrical::plan::ElectricalPlan;
+pub use crate::law::friction::plan::{FrictionPlan, SlipRateSource};
+pub use crate::law::pore::plan::{Bulk, CharacteristicLength, PorePlan, Rate};
+pub use crate::law::radiation::plan::RadiationPlan;
+pub use crate::law::thermal::conduction::{ConductionPlan, MassFlow};
+pub use crate::law::thermal::plan::{CurrentHeat, ThermalPlan};
+pub use crate::law::user::plan::UserPlan;
 pub use choices::{Choices, Currents, Derivatives};
 pub use concern::concerning;
 pub use governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
@@ -43,21 +44,14 @@ pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
 pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey, survey_keeping};
-pub use thermal::{ConductionPlan, CurrentHeat, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource, ThermalPlan};
-pub use user::UserPlan;
 
 pub(crate) use make::generation_of;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::{BuiltTables, InteractionTables};
-pub(crate) use thermal::tells_of_friction;
-pub(crate) use thermal_tables::{ConductanceRows, RadiationFault, ThermalTables};
-pub(crate) use user::user_names;
 
 use crate::accuracy::{ErrorBound, Method, Shape, Wanted};
 use crate::evaluator::Evaluator;
 use crate::law::contact::ContactState;
-use crate::law::heat::HeatGeneration;
-use crate::law::pore::Cutoffs;
 use crate::nodes::{Batch, Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Selection};
 use crate::results::{Along, Output};
 use crate::table::{FoldRefusal, Tail};
@@ -133,56 +127,6 @@ pub struct ContactColumns {
     pub state: Option<ContactState>,
 }
 
-/// What the electrical law of an interaction works with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ElectricalPlan {
-    /// Steady state or transient, and why.
-    pub regime: RegimeInForce,
-    /// The tables that rows reach; none where a user's routine gives the conductance.
-    pub tables: Vec<TablePlan>,
-    /// What a user's routine is called with, where it gives the conductance.
-    pub user: Option<UserPlan>,
-    /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
-    pub heat: Option<HeatGeneration>,
-    /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.
-    pub variables: Vec<Option<Source<Column>>>,
-    /// Where the jump of potential comes from.
-    pub jump: Option<Source<Column>>,
-    /// `area`, where the results need it and it has numbers.
-    pub area: Option<Column>,
-    /// Whether the rows of a node are a history.
-    pub history: History,
-}
-
-/// What the pore fluid law of an interaction works with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PorePlan {
-    /// Steady state or transient, and why.
-    pub regime: RegimeInForce,
-    /// The table of permeabilities; `None` for an infinite permeability.
-    pub table: Option<TablePlan>,
-    /// The cutoffs of the deck.
-    pub cutoffs: Cutoffs,
-    /// Pore pressures of slave and master, where they have numbers.
-    pub pressures: Option<[Column; 2]>,
-    /// Where average temperature and field variables come from, in the order of the table's columns; `None` where it does not depend on one.
-    pub variables: Vec<Option<Source<Column>>>,
-    /// `por_jump`, where it has numbers: it is taken instead of the difference of the pore pressures.
-    pub jump: Option<Column>,
-    /// `q_across`, where it has numbers and the permeability is infinite: the solution of the equations that the flow is an unknown of.
-    pub across: Option<Column>,
-    /// Where the characteristic element length comes from.
-    pub characteristic_length: CharacteristicLength,
-    /// Where the rate of the clearance comes from.
-    pub rate: Rate,
-    /// Whether `perm_s` and `perm_m` share the fluid of the gap between the sides.
-    pub bulk: Bulk,
-    /// `area`, where the results need it and it has numbers.
-    pub area: Option<Column>,
-    /// Whether the rows of a node are a history.
-    pub history: History,
-}
-
 /// Whether the rows of a node are increments of a history.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum History {
@@ -190,41 +134,6 @@ pub enum History {
     ByTime,
     /// Every row stands for itself.
     None,
-}
-
-/// Where the characteristic element length comes from (P-20, Q-5).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CharacteristicLength {
-    /// The deck gives both cutoffs, or nothing asks for it.
-    NotNeeded,
-    /// `char_length`.
-    Column,
-    /// One number for all rows.
-    Given(f64),
-    /// Nowhere: rows that are open have no result that it decides.
-    Unknown,
-}
-
-/// Where the rate of the clearance comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rate {
-    /// Steady state: the gap does not change (P-13).
-    NotNeeded,
-    /// `clearance_rate`, and the history where a cell is empty.
-    Column,
-    /// The node's history alone.
-    History,
-    /// Nowhere: the gap is taken as unchanging.
-    Unknown,
-}
-
-/// Whether bulk permeabilities share the fluid of the gap between the sides (P-42).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bulk {
-    /// They do, where a row has both.
-    Columns,
-    /// Either side takes half.
-    Halves,
 }
 
 /// A table in use.

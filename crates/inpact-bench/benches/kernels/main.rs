@@ -13,8 +13,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use inpact_evaluation::accuracy::Grid;
-use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs_of_table};
-use inpact_evaluation::kernel::{InstructionSet, TableKernel, blocks, total};
+use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs};
+use inpact_evaluation::kernel::{InstructionSet, TableKernel};
 use inpact_evaluation::law::heat::HeatGeneration;
 use tables::Case;
 
@@ -46,7 +46,6 @@ fn main() {
             time_case(&case, rounds);
         }
         time_electrical(rows, rounds);
-        time_total(rows, rounds);
     }
     println!("a chain of additions: {:.2} ns each", addition_chain());
 }
@@ -63,19 +62,6 @@ fn time_case(case: &Case, rounds: usize) {
         let mut values = vec![0.0; rows];
         contenders.push(Contender::new(format!("kernel, {set}"), move || {
             kernel.values_with(set, columns, black_box(&mut values));
-        }));
-    }
-    for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
-        let mut values = vec![0.0; rows];
-        contenders.push(Contender::new(format!("kernel in blocks, {threads} threads"), move || {
-            pool.install(|| {
-                blocks::for_each_block(black_box(&mut values), |rows, values| {
-                    let mut part: [&[f64]; 3] = [&[]; 3];
-                    part.iter_mut().zip(columns).for_each(|(part, column)| *part = &column[rows.clone()]);
-                    kernel.values(&part[..columns.len()], values);
-                });
-            });
         }));
     }
     let cells = vec![if columns.len() < 3 { 64 } else { 24 }; columns.len()];
@@ -127,26 +113,11 @@ fn time_electrical(rows: usize, rounds: usize) {
             };
             let inputs = ElectricalInputs { jump, jump_at_start: None, area: Some(area) };
             let generation = HeatGeneration::default();
-            electrical_outputs_of_table(set, generation, (kernel, &[clearance]), conductance, &inputs, &mut outputs);
+            kernel.values_with(set, &[clearance], conductance);
+            electrical_outputs(set, generation, conductance, &inputs, &mut outputs);
         }));
     }
     println!("\n## Electrical outputs with conductance, {}, {rows} rows", case.name);
-    print_times(rows, rounds, contenders);
-}
-
-/// The total of a column.
-fn time_total(rows: usize, rounds: usize) {
-    let column: &Vec<f64> = &(0..rows).map(|row| 1.0 / (1.0 + row as f64)).collect();
-    let mut contenders = vec![copy_of(std::slice::from_ref(&column.as_slice()))];
-    contenders.push(Contender::new("plain sum", || {
-        black_box(column.iter().sum::<f64>());
-    }));
-    for set in InstructionSet::available() {
-        contenders.push(Contender::new(format!("total, {set}"), move || {
-            black_box(total::total_with(set, column));
-        }));
-    }
-    println!("\n## Total of a column, {rows} rows");
     print_times(rows, rounds, contenders);
 }
 

@@ -148,6 +148,14 @@ impl InteractionLaws {
             Some(law) => law.rows(part, found.conductances.as_ref(), takes_heat, results, tally),
             None => Default::default(),
         };
+        if self.thermal.is_none() && self.pore.is_none() {
+            for (index, outcome) in
+                electrical.into_iter().enumerate().filter(|(index, _)| part.states[*index].is_some())
+            {
+                tally.finish_row([Some(outcome), None, None], index, results, faults);
+            }
+            return;
+        }
         for index in 0..part.rows() {
             let Some(row) = part.row(index, index) else { continue };
             let of_current = electrical.get_mut(index).map(|outcome| std::mem::replace(outcome, Outcome::Incomplete));

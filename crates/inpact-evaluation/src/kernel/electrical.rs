@@ -3,7 +3,7 @@
 //! The same bits as [`ElectricalLaw::flow`](crate::law::electrical::ElectricalLaw::flow).
 //! A chunk of rows with an extreme input is done by that function, row by row; see `is_zero_or_ordinary`.
 
-use super::{InstructionSet, TableKernel};
+use super::InstructionSet;
 use crate::law::contact::PotentialJump;
 use crate::law::electrical::{Dissipation, generated_heat};
 use crate::law::heat::HeatGeneration;
@@ -55,29 +55,6 @@ pub fn electrical_outputs(
     while first < conductance.len() {
         let end = conductance.len().min(first + CHUNK);
         set.run(Chunk { generation, conductance: &conductance[first..end], inputs, first, outputs: &mut *outputs });
-        first = end;
-    }
-}
-
-/// [`electrical_outputs`] with the conductance from a table, chunk by chunk; `columns` and `conductance` as for [`TableKernel::values`].
-///
-/// # Panics
-/// As [`electrical_outputs`] and [`TableKernel::values`].
-pub fn electrical_outputs_of_table(
-    set: InstructionSet,
-    generation: HeatGeneration,
-    (table, columns): (&TableKernel, &[&[f64]]),
-    conductance: &mut [f64],
-    inputs: &ElectricalInputs<'_>,
-    outputs: &mut ElectricalOutputs<'_>,
-) {
-    let mut first = 0;
-    let rows = conductance.len();
-    while first < rows {
-        let end = rows.min(first + CHUNK);
-        let conductance = &mut conductance[first..end];
-        table.values_of_rows(set, columns, first, conductance);
-        set.run(Chunk { generation, conductance, inputs, first, outputs: &mut *outputs });
         first = end;
     }
 }

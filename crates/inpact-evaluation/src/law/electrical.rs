@@ -21,6 +21,7 @@
 //! Source: semantics H-01 to H-08; Analysis User's Guide 37.3.1 and 37.2.1, Theory Guide 5.2.6 (6.14).
 
 pub(crate) mod columns;
+pub(crate) mod plan;
 
 use super::conductance::ConductanceTables;
 use super::contact::PotentialJump;

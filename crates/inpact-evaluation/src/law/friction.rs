@@ -12,6 +12,9 @@
 //! Derivatives: ∂q_g/∂τ = η γ̇, ∂q_g/∂γ̇ = η τ.
 //! Source: semantics H-02 to H-04, K-38; Analysis User's Guide 37.2.1 (6.14).
 
+pub(crate) mod columns;
+pub(crate) mod plan;
+
 use super::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
 use crate::numbers::{Scaled, is_moderate, is_zero_or_ordinary, product};
 

@@ -3,15 +3,15 @@
 //! What a deck says of an interaction is decided in the same places as for a plan; here nothing is folded, as nothing is known of the points yet.
 
 use crate::law::conductance::ConductanceTables;
+use crate::law::friction::plan::tells_of_friction;
 use crate::law::heat::HeatGeneration;
 use crate::law::pore::{Cutoffs, Permeability, PoreLaw};
 use crate::law::radiation::RadiationLaw;
 use crate::law::thermal::ThermalConductance;
+use crate::law::thermal::tables::{ConductanceRows, RadiationFault, ThermalTables};
+use crate::law::user::plan::user_names;
 use crate::law::user::{UserLaw, UserNames};
-use crate::plan::{
-    Choices, ConductanceRows, InteractionTables, LeftOut, RadiationFault, Reason, ThermalTables, generation_of,
-    tells_of_friction, user_names,
-};
+use crate::plan::{Choices, InteractionTables, LeftOut, Reason, generation_of};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, Model, Procedure};
 

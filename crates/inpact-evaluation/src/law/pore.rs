@@ -26,6 +26,7 @@
 //! Source: semantics P-10 to P-42; Analysis User's Guide 37.4.1, Theory Guide 5.2.2 (6.14).
 
 pub(crate) mod columns;
+pub(crate) mod plan;
 
 use super::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
 use crate::evaluator::FoundValue;

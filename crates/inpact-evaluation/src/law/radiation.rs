@@ -19,6 +19,9 @@
 //! Limits: equal temperatures give zero; an emissivity of zero gives C = 0.
 //! Source: semantics H-06, 2.6, K-40, K-41, T-27, A-30, section 8; Analysis User's Guide 37.2.1, Theory Guide 5.2.4 (6.14).
 
+pub(crate) mod columns;
+pub(crate) mod plan;
+
 use super::contact::{Clearance, ContactState};
 use super::thermal::{SideSlopes, Temperatures};
 use crate::numbers::{Amount, Scaled, is_moderate, is_zero_or_ordinary, product};

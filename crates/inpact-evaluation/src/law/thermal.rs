@@ -21,6 +21,9 @@
 //! Source: semantics 4.2, 5 (H-02 to H-06, H-09), 8, K-30 to K-32; Analysis User's Guide 37.2.1, Theory Guide 5.2.4 and 5.2.6 (6.14).
 
 pub(crate) mod columns;
+pub(crate) mod conduction;
+pub(crate) mod plan;
+pub(crate) mod tables;
 
 use super::calculix::CalculixConductance;
 use super::conductance::{Conductance, ConductanceSlopes, ConductanceTables, ContactPoint};
@@ -98,14 +101,6 @@ pub fn conducted_heat(conductance: f64, temperatures: Temperatures) -> f64 {
         Some(jump) => conductance * jump + 0.0,
         None => scaled_difference_product(conductance, temperatures.slave, temperatures.master) + 0.0,
     }
-}
-
-/// [`conducted_heat`] in twice the precision of f64, rounded once, for a conductance of `value` + `rest`.
-///
-/// Inputs that are infinite or NaN give what [`conducted_heat`] gives.
-pub fn reference_conducted_heat(value: f64, rest: f64, temperatures: Temperatures) -> f64 {
-    let exact = exact_conducted_heat(value, rest, temperatures);
-    exact.map_or_else(|| conducted_heat(value, temperatures), |heat| heat.to_f64() + 0.0)
 }
 
 /// [`conducted_heat`] for what it is multiplied with and summed up to; `rest` is what rounding took away from the conductance, where that is known.

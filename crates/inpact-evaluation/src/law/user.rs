@@ -35,6 +35,7 @@
 //! ```
 
 pub(crate) mod columns;
+pub(crate) mod plan;
 
 use std::borrow::Cow;
 use std::fmt;

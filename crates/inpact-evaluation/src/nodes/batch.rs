@@ -326,6 +326,12 @@ impl Batch {
         Self { labels, numbers, ..self }
     }
 
+    /// Makes room for the numbers of so many rows.
+    pub(super) fn reserve(&mut self, rows: usize) {
+        self.lines.reserve(rows);
+        self.numbers.iter_mut().for_each(|column| column.values.reserve(rows));
+    }
+
     /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.
     pub(super) fn clear(&mut self, labels: usize, numbers: usize) {
         self.rows = 0;

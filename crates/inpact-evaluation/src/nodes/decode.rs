@@ -103,6 +103,9 @@ impl Layout {
             decoded.used += 1;
             let batch = &mut decoded.batches[decoded.used - 1];
             batch.clear(self.labels, self.numbers);
+            // Rows are about as long as the first of them.
+            let first = memchr(b'\n', rest).map_or(rest.len(), |end| end + 1);
+            batch.reserve((rest.len() / first + 1).min(self.rows_of_a_batch));
             batch.first_row = decoded.rows;
             while batch.rows < self.rows_of_a_batch && !rest.is_empty() {
                 let (row, after) = self.split(rest, piece.has_quotes);

@@ -36,9 +36,11 @@ enum Table<'a> {
 }
 
 /// Rows that were made as batches.
-enum KeptTable {
-    NotBegun(KeptRows),
-    Begun(GivenBack),
+struct KeptTable {
+    header: Header,
+    rows: KeptRows,
+    /// The rows once the first batch is read.
+    begun: Option<GivenBack>,
 }
 
 /// What a table that is stored as columns can be read from.
@@ -142,7 +144,7 @@ impl<'a> NodeReader<'a> {
 
     /// The rows that were kept, as a table of their columns; its batches are those that were kept.
     pub fn of_kept(rows: KeptRows) -> Self {
-        Self::new(Table::Kept(rows.header(), KeptTable::NotBegun(rows)))
+        Self::new(Table::Kept(Box::new(KeptTable { header: rows.header(), rows, begun: None })))
     }
 
     /// Opens a node table that is made while it is read: key columns, which the labels of its batches are, and columns of numbers.
@@ -160,7 +162,7 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.header(),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.header(),
-            Table::Kept(header, _) => header,
+            Table::Kept(table) => &table.header,
             Table::Made(table) => table.header(),
         }
     }
@@ -210,11 +212,11 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.read_batch(batch, findings),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.read_batch(batch, findings),
-            Table::Kept(_, rows) => {
-                if let KeptTable::NotBegun(kept) = rows {
-                    *rows = KeptTable::Begun(kept.give_back(&self.selection)?);
-                }
-                let KeptTable::Begun(given) = rows else { return Ok(false) };
+            Table::Kept(table) => {
+                let given = match &mut table.begun {
+                    Some(given) => given,
+                    None => table.begun.insert(table.rows.give_back(&self.selection)?),
+                };
                 let next = given.next_batch()?;
                 Ok(next.map(|next| *batch = next).is_some())
             }

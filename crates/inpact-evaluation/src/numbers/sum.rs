@@ -14,11 +14,6 @@ pub struct CompensatedSum {
 }
 
 impl CompensatedSum {
-    /// A sum of which the rounded total and what rounding has taken from it are known.
-    pub(crate) fn from_parts(sum: f64, compensation: f64) -> Self {
-        Self { sum, compensation }
-    }
-
     /// Adds one term.
     #[inline]
     pub fn add(&mut self, term: f64) {

@@ -42,12 +42,12 @@ pub struct Choices {
 
 impl Choices {
     /// Whether one of these outputs is asked for, by name or because all are.
-    pub(super) fn asks_for(&self, outputs: &[Output]) -> bool {
+    pub(crate) fn asks_for(&self, outputs: &[Output]) -> bool {
         self.asks_where(|output| outputs.contains(output))
     }
 
     /// Whether an output that fulfils a condition is asked for, by name or because all are.
-    pub(super) fn asks_where(&self, is_meant: impl Fn(&Output) -> bool) -> bool {
+    pub(crate) fn asks_where(&self, is_meant: impl Fn(&Output) -> bool) -> bool {
         self.outputs.as_ref().is_none_or(|asked| asked.iter().any(is_meant))
     }
 }

@@ -28,12 +28,12 @@ impl InteractionPlan {
     }
 
     /// Whether a user's routine gives the conductance.
-    pub(super) fn has_user(&self) -> bool {
+    pub(crate) fn has_user(&self) -> bool {
         self.electrical.as_ref().is_some_and(|law| law.user.is_some())
     }
 
     /// The columns whose numbers its rows need.
-    pub(super) fn columns_read(&self) -> Vec<Column> {
+    pub(crate) fn columns_read(&self) -> Vec<Column> {
         let mut columns = Vec::new();
         if self.electrical.is_none() && self.thermal.is_none() && self.pore.is_none() {
             return columns;
@@ -81,7 +81,7 @@ impl InteractionPlan {
 }
 
 /// What becomes of each column, in the order of the header.
-pub(super) fn column_plans(
+pub(crate) fn column_plans(
     survey: &Survey,
     choices: &Choices,
     selection: &Selection,

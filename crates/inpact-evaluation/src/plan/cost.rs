@@ -6,30 +6,30 @@ use super::{AxisPlan, TablePlan};
 use crate::accuracy::{Method, Shape};
 
 /// Reading a number from a cell of comma-separated values.
-pub(super) const READ_NUMBER: f64 = 18.0;
+pub(crate) const READ_NUMBER: f64 = 18.0;
 
 /// Writing a number as text.
-pub(super) const WRITE_NUMBER: f64 = 40.0;
+pub(crate) const WRITE_NUMBER: f64 = 40.0;
 
 /// One output of a law, without the table.
-pub(super) const COMPUTE_OUTPUT: f64 = 2.0;
+pub(crate) const COMPUTE_OUTPUT: f64 = 2.0;
 
 /// Finding a node's history and adding an increment to it.
-pub(super) const KEEP_HISTORY: f64 = 35.0;
+pub(crate) const KEEP_HISTORY: f64 = 35.0;
 
 impl TablePlan {
     /// The cost of a value of the whole table.
-    pub(super) fn whole_cost(&self) -> f64 {
+    pub(crate) fn whole_cost(&self) -> f64 {
         self.shape.cost(&Method::Full)
     }
 
     /// The cost of a value of what is left of it in f64.
-    pub(super) fn folded_full_cost(&self) -> f64 {
+    pub(crate) fn folded_full_cost(&self) -> f64 {
         self.form.as_ref().map_or_else(|| self.folded_cost(), |form| form.full_cost)
     }
 
     /// The cost of a value of what is left of it.
-    pub(super) fn folded_cost(&self) -> f64 {
+    pub(crate) fn folded_cost(&self) -> f64 {
         if let Some(form) = &self.form {
             return form.cost;
         }

@@ -11,8 +11,32 @@ use crate::numbers::mean;
 use crate::results::Along;
 use crate::table::PiecewiseTable;
 
+/// A table as the plan shows it.
+pub(crate) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along) -> TablePlan {
+    let axes = table.axes().iter().enumerate().map(|(axis, summary)| AxisPlan {
+        along: along(axis),
+        least: summary.least,
+        greatest: summary.greatest,
+        points: summary.distinct_count,
+        matters: summary.matters(),
+        fold: None,
+        is_idle: false,
+    });
+    TablePlan {
+        against: along(0),
+        rows: table.row_count(),
+        tail: table.tail(),
+        ends_in_zero: false,
+        axes: axes.collect(),
+        folded_rows: table.row_count(),
+        shape: Shape::of(table),
+        not_folded: Vec::new(),
+        form: None,
+    }
+}
+
 /// Folds a table along every axis that `constant` knows one value of, and chooses its form; what came of it stands in the plan.
-pub(super) fn fold_and_choose(
+pub(crate) fn fold_and_choose(
     planner: Planner<'_>,
     table: &PiecewiseTable,
     plan: &mut TablePlan,
@@ -92,7 +116,7 @@ impl Planner<'_> {
     }
 
     /// The value that a source has in every row.
-    pub(super) fn constant_of(self, source: Source<Column>) -> Option<f64> {
+    pub(crate) fn constant_of(self, source: Source<Column>) -> Option<f64> {
         match source {
             Source::Cell(cell) => self.constant(cell),
             Source::Sides(slave, master) => Some(mean(self.constant(slave)?, self.constant(master)?)),
@@ -101,7 +125,7 @@ impl Planner<'_> {
     }
 
     /// The clearance at which a conductance table is read in every row that reads it; `of` tables there are, and beside another only open rows read it.
-    pub(super) fn constant_clearance(self, tables: usize) -> Option<f64> {
+    pub(crate) fn constant_clearance(self, tables: usize) -> Option<f64> {
         let open = || ContactState::Open.table_clearance(self.constant(Column::Clearance));
         match self.only_state() {
             Some(state) => state.table_clearance(self.constant(Column::Clearance)),
@@ -112,12 +136,12 @@ impl Planner<'_> {
     }
 
     /// The contact pressure of every row.
-    pub(super) fn constant_pressure(self) -> Option<f64> {
+    pub(crate) fn constant_pressure(self) -> Option<f64> {
         self.constant(Column::Pressure)
     }
 
     /// The pressure at which a permeability table is read in every row: zero while open (P-34).
-    pub(super) fn constant_permeability_pressure(self) -> Option<f64> {
+    pub(crate) fn constant_permeability_pressure(self) -> Option<f64> {
         match self.only_state() {
             Some(ContactState::Open) => Some(0.0),
             Some(ContactState::Closed) => self.constant_pressure(),
@@ -126,7 +150,7 @@ impl Planner<'_> {
     }
 
     /// The mean pore pressure of every row.
-    pub(super) fn constant_pore_pressure(self) -> Option<f64> {
+    pub(crate) fn constant_pore_pressure(self) -> Option<f64> {
         let [slave, master] = [Part::Slave, Part::Master].map(|part| self.constant(Column::PorePressure(part)));
         Some(mean(slave?, master?))
     }

@@ -18,7 +18,7 @@ pub enum GovernedBy {
 
 impl GovernedBy {
     /// Decides by the user's choice, the header and the deck; `None` after reporting that none of them does (D001, D004).
-    pub(super) fn decide(
+    pub(crate) fn decide(
         model: &Model,
         header: &Header,
         chosen: Option<&Name>,
@@ -89,7 +89,7 @@ impl<'a> RowInteractions<'a> {
     }
 
     /// What a row has in column `interaction`; empty where there is none.
-    pub(super) fn label_of<'b>(&self, batch: &'b Batch, row: usize) -> &'b [u8] {
+    pub(crate) fn label_of<'b>(&self, batch: &'b Batch, row: usize) -> &'b [u8] {
         self.label.map_or(&[], |label| batch.labels[label].get(row))
     }
 

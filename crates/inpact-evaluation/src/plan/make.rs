@@ -3,17 +3,17 @@
 use super::asked::keep_asked;
 use super::choices::{Choices, Derivatives};
 use super::columns::column_plans;
-use super::electrical::plan_electrical;
 use super::governing::GovernedBy;
-use super::pore::plan_pore;
 use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey, key_columns};
 use super::tables::{BuiltTables, InteractionTables, matters};
-use super::thermal::plan_thermal;
-use super::thermal_tables::ThermalTables;
 use super::{ContactColumns, InteractionPlan, Plan};
+use crate::law::electrical::plan::plan_electrical;
 use crate::law::heat::HeatGeneration;
+use crate::law::pore::plan::plan_pore;
+use crate::law::thermal::plan::plan_thermal;
+use crate::law::thermal::tables::ThermalTables;
 use crate::nodes::{Column, Selection};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
@@ -78,27 +78,27 @@ fn give_status_by_law(interactions: &mut [InteractionPlan], choices: &Choices) {
 
 /// What the plan of one interaction is made from.
 #[derive(Clone, Copy)]
-pub(super) struct Planner<'a> {
-    pub(super) model: &'a Model,
-    pub(super) interaction: &'a Interaction,
-    pub(super) index: usize,
-    pub(super) of: &'a InteractionSurvey,
-    pub(super) survey: &'a Survey,
-    pub(super) choices: &'a Choices,
+pub(crate) struct Planner<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) interaction: &'a Interaction,
+    pub(crate) index: usize,
+    pub(crate) of: &'a InteractionSurvey,
+    pub(crate) survey: &'a Survey,
+    pub(crate) choices: &'a Choices,
 }
 
 /// What is left out, by reason, while a law is planned.
 #[derive(Debug, Default)]
-pub(super) struct LeftOuts(pub(super) Vec<LeftOut>);
+pub(crate) struct LeftOuts(pub(crate) Vec<LeftOut>);
 
 impl LeftOuts {
     /// Leaves something out that has words of its own.
-    pub(super) fn push(&mut self, what: impl Into<String>, reason: Reason) {
+    pub(crate) fn push(&mut self, what: impl Into<String>, reason: Reason) {
         self.0.push(LeftOut { what: what.into(), outputs: Vec::new(), reason });
     }
 
     /// Leaves outputs out; those left out for one reason stand together.
-    pub(super) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
+    pub(crate) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
         let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
         self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
     }
@@ -158,7 +158,7 @@ impl Planner<'_> {
     }
 
     /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
-    pub(super) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+    pub(crate) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
         if !self.choices.accuracy.allows_folding() {
             return false;
         }
@@ -167,18 +167,18 @@ impl Planner<'_> {
             || requested.is_some_and(|requested| !requested.iter().any(is_slope))
     }
 
-    pub(super) fn presence(self, column: Column) -> Presence {
+    pub(crate) fn presence(self, column: Column) -> Presence {
         self.survey.presence(self.index, column)
     }
 
     /// Whether a column has numbers in the rows of the interaction, or may have: one that no law could use was not read.
-    pub(super) fn may_have(self, column: Column) -> bool {
+    pub(crate) fn may_have(self, column: Column) -> bool {
         let was_read = self.survey.columns.contains(&column);
         if was_read { self.presence(column).has_numbers() } else { self.survey.header.has(column) }
     }
 
     /// The columns that tell contact, as far as they have numbers.
-    pub(super) fn contact(self) -> ContactColumns {
+    pub(crate) fn contact(self) -> ContactColumns {
         let found = |column| Some(column).filter(|column| self.presence(*column).has_numbers());
         ContactColumns {
             clearance: found(Column::Clearance),
@@ -189,12 +189,12 @@ impl Planner<'_> {
     }
 
     /// `area`.
-    pub(super) fn area(self) -> Result<Column, Missing> {
+    pub(crate) fn area(self) -> Result<Column, Missing> {
         cell(Column::Area, |column| self.presence(column))
     }
 
     /// Whether the rows of a node are a history: `node` and `time` are there.
-    pub(super) fn history(self) -> Result<(), Missing> {
+    pub(crate) fn history(self) -> Result<(), Missing> {
         let header = &self.survey.header;
         let columns: Vec<Column> =
             [Column::Node, Column::Time].into_iter().filter(|column| !header.has(*column)).collect();
@@ -205,7 +205,7 @@ impl Planner<'_> {
     }
 
     /// Refuses a table whose first variable some row needs and none has: a closed row needs no clearance.
-    pub(super) fn check_abscissa(self, against: Along, table: &PiecewiseTable) -> Result<(), Missing> {
+    pub(crate) fn check_abscissa(self, against: Along, table: &PiecewiseTable) -> Result<(), Missing> {
         let is_clearance = against == Along::Clearance;
         if !matters(table, 0) || (is_clearance && self.never(self.of.open)) {
             return Ok(());
@@ -215,7 +215,7 @@ impl Planner<'_> {
     }
 
     /// Why no row reads the table against clearance or pressure, one of `count` tables of a conductance.
-    pub(super) fn unreached(self, against: Along, count: usize) -> Option<Reason> {
+    pub(crate) fn unreached(self, against: Along, count: usize) -> Option<Reason> {
         match against {
             Along::Pressure if self.never(self.of.closed) => Some(Reason::NoRowClosed),
             // The table against clearance holds for closed rows too when it is the only one (section 4.2).
@@ -225,12 +225,12 @@ impl Planner<'_> {
     }
 
     /// What becomes of dissipated energy; `None` where it is switched off (K-05).
-    pub(super) fn heat_generation(self) -> Option<HeatGeneration> {
+    pub(crate) fn heat_generation(self) -> Option<HeatGeneration> {
         generation_of(self.interaction)
     }
 
     /// Whether no row is closed, or none open; unknown for a table without rows.
-    pub(super) fn never(self, count: u64) -> bool {
+    pub(crate) fn never(self, count: u64) -> bool {
         self.survey.rows > 0 && count == 0 && self.of.closed + self.of.open == self.of.rows
     }
 }

@@ -188,7 +188,7 @@ impl InteractionPlan {
 }
 
 /// What outputs cost to compute and to write.
-pub(super) fn cost_of(outputs: &[Output]) -> f64 {
+pub(crate) fn cost_of(outputs: &[Output]) -> f64 {
     outputs.len() as f64 * (COMPUTE_OUTPUT + WRITE_NUMBER)
 }
 

@@ -105,15 +105,15 @@ pub enum Lack {
 }
 
 impl Missing {
-    pub(super) fn absent(columns: Vec<Column>) -> Self {
+    pub(crate) fn absent(columns: Vec<Column>) -> Self {
         Self { columns, or: None, how: Lack::Absent }
     }
 
-    pub(super) fn empty(columns: Vec<Column>) -> Self {
+    pub(crate) fn empty(columns: Vec<Column>) -> Self {
         Self { columns, or: None, how: Lack::Empty }
     }
 
-    pub(super) fn or(self, column: Column) -> Self {
+    pub(crate) fn or(self, column: Column) -> Self {
         Self { or: Some(column), ..self }
     }
 }

@@ -38,7 +38,7 @@ impl RegimeInForce {
 }
 
 /// The regime of a law whose field the procedures with `solves` solve.
-pub(super) fn regime(model: &Model, chosen: Option<Regime>, solves: impl Fn(&Procedure) -> bool) -> RegimeInForce {
+pub(crate) fn regime(model: &Model, chosen: Option<Regime>, solves: impl Fn(&Procedure) -> bool) -> RegimeInForce {
     if let Some(regime) = chosen {
         return RegimeInForce { regime, reason: RegimeReason::Chosen };
     }

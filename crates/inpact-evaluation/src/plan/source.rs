@@ -56,7 +56,7 @@ impl<C: Copy> Source<C> {
 }
 
 /// The source of a quantity that has a column of its own.
-pub(super) fn cell(column: Column, presence: impl Fn(Column) -> Presence) -> Result<Column, Missing> {
+pub(crate) fn cell(column: Column, presence: impl Fn(Column) -> Presence) -> Result<Column, Missing> {
     match presence(column) {
         Presence::Full | Presence::Partial => Ok(column),
         Presence::Empty => Err(Missing::empty(vec![column])),
@@ -65,7 +65,7 @@ pub(super) fn cell(column: Column, presence: impl Fn(Column) -> Presence) -> Res
 }
 
 /// The source of a quantity that may stand in one column or in those of the two sides; the one column wins.
-pub(super) fn whole_or_sides(
+pub(crate) fn whole_or_sides(
     [whole, slave, master]: [Column; 3],
     presence: impl Fn(Column) -> Presence,
 ) -> Result<Source<Column>, Missing> {

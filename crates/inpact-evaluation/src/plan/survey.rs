@@ -184,7 +184,7 @@ fn survey_rows(
 }
 
 /// The key columns that a table has, in the order of the contract.
-pub(super) fn key_columns(header: &Header) -> Vec<Column> {
+pub(crate) fn key_columns(header: &Header) -> Vec<Column> {
     let keys = [Column::Node, Column::Interaction, Column::Time];
     keys.into_iter().filter(|column| header.has(*column)).collect()
 }

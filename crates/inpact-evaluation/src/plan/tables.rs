@@ -1,7 +1,7 @@
 //! The tables of an interaction, compiled so that it is known which variables their values depend on.
 
-use super::thermal_tables::ThermalTables;
 use crate::law::conductance::ConductanceTables;
+use crate::law::thermal::tables::ThermalTables;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, TableError, Tail};
 use inpact_parser::model::{Interaction, Table};
@@ -69,7 +69,7 @@ impl InteractionTables {
 }
 
 /// Which variable axis `axis` of a conductance table is (T-03).
-pub(super) fn electrical_axis(against: Along, axis: usize) -> Along {
+pub(crate) fn electrical_axis(against: Along, axis: usize) -> Along {
     match axis {
         0 => against,
         1 => Along::Temperature,
@@ -78,7 +78,7 @@ pub(super) fn electrical_axis(against: Along, axis: usize) -> Along {
 }
 
 /// Which variable axis `axis` of a permeability table is (T-03).
-pub(super) fn pore_axis(axis: usize) -> Along {
+pub(crate) fn pore_axis(axis: usize) -> Along {
     match axis {
         0 => Along::Pressure,
         1 => Along::PorePressure,
@@ -87,12 +87,12 @@ pub(super) fn pore_axis(axis: usize) -> Along {
     }
 }
 
-pub(super) fn field_variable(index: usize) -> Along {
+pub(crate) fn field_variable(index: usize) -> Along {
     // A deck has at most a thousand (`MOST_FIELD_VARIABLES`).
     Along::FieldVariable(u32::try_from(index + 1).unwrap_or(u32::MAX))
 }
 
 /// Whether a table's value depends on axis `axis`.
-pub(super) fn matters(table: &PiecewiseTable, axis: usize) -> bool {
+pub(crate) fn matters(table: &PiecewiseTable, axis: usize) -> bool {
     table.axes().get(axis).is_some_and(crate::table::AxisSummary::matters)
 }

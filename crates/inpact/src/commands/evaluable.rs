@@ -24,6 +24,7 @@ use inpact_validation::check;
 use std::fs::File;
 use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// For each thread, how many pieces of a node table are decoded ahead.
 const READ_AHEAD: usize = 2;
@@ -106,10 +107,11 @@ pub(crate) struct Evaluable {
     pub(crate) nodes_name: String,
     /// Whether the deck is wrong where the plan needs it.
     pub(crate) deck_has_errors: bool,
-    /// The rows of the node table.
+    /// The rows of the node table, and how long it took to read them.
     pub(crate) rows: KeptRows,
     /// What rows were made of, where they are of the deck's mesh.
     pub(crate) made: Option<Made>,
+    pub(crate) reading: Duration,
 }
 
 /// Rows that were made of a mesh: what there is to say of them, and what they are drawn on.
@@ -169,10 +171,12 @@ impl EvaluableArguments {
             return Err(Failure::Data(format!("`{}` defines no *SURFACE INTERACTION", self.deck.display())));
         }
         let choices = self.choices(laws, model, grammar.dialect())?;
+        let start = Instant::now();
         let surveyed = match &source {
             Source::Table(deck, path) => survey_table(path, &deck.model, &choices, &settings, format)?,
             Source::Mesh(meshed) => self.survey_mesh(meshed, &choices, &settings, format)?,
         };
+        let reading = start.elapsed();
         let Some(Surveyed { survey, rows, nodes_name, made }) = surveyed else { return Ok(None) };
         let ReadDeck { deck, model, problems } = source.into_deck();
         let plan = make(&model, &survey, &choices);
@@ -185,7 +189,18 @@ impl EvaluableArguments {
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), (&names, choices.regime), format);
         let deck_name = self.deck.display().to_string();
-        Ok(Some(Evaluable { settings, model, choices, plan, deck_name, nodes_name, deck_has_errors, rows, made }))
+        Ok(Some(Evaluable {
+            settings,
+            model,
+            choices,
+            plan,
+            deck_name,
+            nodes_name,
+            deck_has_errors,
+            rows,
+            made,
+            reading,
+        }))
     }
 
     fn choices(&self, laws: &LawArguments, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {

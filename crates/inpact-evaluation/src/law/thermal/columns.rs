@@ -1,24 +1,21 @@
 //! The thermal law over the rows of a part: conductances and view factors in columns, heat row by row.
 
 use super::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat_amount};
-use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, VIEW_FACTOR, contact_status};
+use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, contact_status};
 use crate::history::ThermalHistory;
-use crate::kernel::TableKernel;
 use crate::law::calculix::CalculixConductance;
 use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, Needs, Variable};
 use crate::law::conductance::{Branch, ContactPoint};
 use crate::law::contact::{Clearance, ContactPressure, ContactState};
-use crate::law::friction::{ShearStress, SlipRate, frictional_heat_amounts};
-use crate::law::heat::{HeatAmounts, HeatGeneration};
-use crate::law::radiation::RadiationLaw;
+use crate::law::friction::columns::FrictionColumns;
+use crate::law::heat::HeatAmounts;
+use crate::law::radiation::columns::RadiationColumns;
+use crate::law::thermal::tables::ThermalTables;
 use crate::nodes::Column;
 use crate::numbers::Amount;
-use crate::plan::{
-    Choices, ConductionPlan, CurrentHeat, FrictionPlan, History, MassFlow, SlipRateSource, ThermalPlan, ThermalTables,
-};
+use crate::plan::{Choices, ConductionPlan, CurrentHeat, History, MassFlow, ThermalPlan};
 use crate::results::{Along, Output, ResultBatch, Status};
 use crate::table::Sides;
-use inpact_parser::grammar::Dialect;
 
 /// The place of the mass flow rate among the variables.
 const MASS_FLOW: usize = 1;
@@ -27,8 +24,8 @@ const MASS_FLOW: usize = 1;
 #[derive(Debug, Clone)]
 pub(crate) struct ThermalColumns {
     conduction: Option<Conduction>,
-    radiation: Option<Radiation>,
-    friction: Option<Friction>,
+    radiation: Option<RadiationColumns>,
+    friction: Option<FrictionColumns>,
     current: CurrentHeat,
     /// Slave and master.
     temperatures: Option<(usize, usize)>,
@@ -50,30 +47,6 @@ struct Conduction {
 enum ConductionSource {
     Tables(BranchColumns),
     Calculix { curves: CalculixConductance, needs: Needs, variables: Vec<Option<Variable>> },
-}
-
-/// Radiation; it needs the clearance of open rows.
-#[derive(Debug, Clone)]
-struct Radiation {
-    law: RadiationLaw,
-    view_factor: TableKernel,
-}
-
-/// Friction with its columns.
-#[derive(Debug, Clone, Copy)]
-struct Friction {
-    shear: usize,
-    slip_rate: Speed,
-    generation: HeatGeneration,
-    /// CalculiX takes shear and slip rate by their magnitudes.
-    dialect: Dialect,
-}
-
-/// Where the slip rate comes from.
-#[derive(Debug, Clone, Copy)]
-enum Speed {
-    Place(usize),
-    Given(SlipRate),
 }
 
 /// Where the results go.
@@ -109,9 +82,8 @@ impl ThermalColumns {
         let slot = |output| binder.slot(output);
         Self {
             conduction: plan.conduction.as_ref().and_then(|of| Conduction::bind(binder, of, tables, choices)),
-            radiation: radiation
-                .map(|law| Radiation { law: law.clone(), view_factor: TableKernel::new(&law.view_factor) }),
-            friction: plan.friction.and_then(|friction| Friction::bind(binder, friction, plan.heat?)),
+            radiation: radiation.map(RadiationColumns::new),
+            friction: plan.friction.and_then(|friction| FrictionColumns::bind(binder, friction, plan.heat?)),
             current: plan.current,
             temperatures: plan.temperatures.and_then(|[slave, master]| Some((place(slave)?, place(master)?))),
             jump: plan.jump.and_then(place),
@@ -189,7 +161,7 @@ impl ThermalColumns {
         let radiation = match &self.radiation {
             None => Some(Amount::ZERO),
             Some(part) => {
-                let radiated = temperatures.and_then(|sides| part.in_row(row, found, sides, tally));
+                let radiated = temperatures.and_then(|sides| part.in_row(row, &found.view_factors, sides, tally));
                 is_beyond |= radiated.is_some_and(|(_, sides)| !sides.is_within());
                 gives_something |= radiated.is_some();
                 let heat = radiated.map(|(heat, _)| heat);
@@ -371,71 +343,5 @@ fn point<'v>(row: Row<'_, '_>, variables: &'v [f64]) -> ContactPoint<'v> {
         pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
         state: row.state,
         variables,
-    }
-}
-
-impl Radiation {
-    /// The view factor of every row; of those whose clearance is not known NaN ([`RadiationLaw::view_factor`]).
-    fn view_factors(&self, part: &Part<'_>) -> Vec<(f64, Sides)> {
-        let clearances = part.clearances();
-        let states = part.states.iter().zip(&*clearances);
-        let clearances: Vec<f64> = states
-            .map(|(state, clearance)| {
-                state.and_then(|state| state.table_clearance(Some(*clearance))).unwrap_or(f64::NAN)
-            })
-            .collect();
-        let mut values = vec![f64::NAN; clearances.len()];
-        let mut sides = vec![Sides::default(); clearances.len()];
-        self.view_factor.values_and_sides(&[&clearances], &mut values, &mut sides);
-        let found = values.into_iter().zip(sides).zip(&clearances);
-        // A table of one value does not depend on the clearance, but on whether it can be told.
-        found.map(|(found, clearance)| if clearance.is_nan() { (f64::NAN, Sides::default()) } else { found }).collect()
-    }
-
-    /// The radiated heat, and whether the clearance lies beyond the view factors; `None` for an open row without a clearance.
-    fn in_row(
-        &self,
-        row: Row<'_, '_>,
-        found: &ThermalFound,
-        temperatures: Temperatures,
-        tally: &mut InteractionTally,
-    ) -> Option<(Amount, Sides)> {
-        row.state.table_clearance(row.clearance)?;
-        let (view_factor, sides) = found.view_factors[row.index];
-        if !sides.is_within() {
-            tally.count_sides(VIEW_FACTOR, sides);
-        }
-        let zero = self.law.absolute_zero;
-        tally.below_absolute_zero += u64::from(temperatures.slave < zero || temperatures.master < zero);
-        Some((self.law.heat_amount(view_factor, temperatures), sides))
-    }
-}
-
-impl Friction {
-    fn bind(binder: Binder<'_>, plan: FrictionPlan, generation: HeatGeneration) -> Option<Self> {
-        let slip_rate = match plan.slip_rate {
-            SlipRateSource::Column => Speed::Place(binder.place(Column::SlipRate)?),
-            SlipRateSource::Given(speed) => Speed::Given(SlipRate(speed)),
-        };
-        Some(Self { shear: binder.place(plan.shear)?, slip_rate, generation, dialect: plan.dialect })
-    }
-
-    /// The heat of friction; an open row has none, whatever it says of it.
-    fn in_row(self, row: Row<'_, '_>, tally: &mut InteractionTally) -> Option<HeatAmounts> {
-        if row.state == ContactState::Open {
-            return Some(HeatAmounts::ZERO);
-        }
-        let slip_rate = match self.slip_rate {
-            Speed::Place(place) => row.number(place).map(SlipRate),
-            Speed::Given(speed) => Some(speed),
-        };
-        let (shear, slip_rate) = row.number(self.shear).map(ShearStress).zip(slip_rate)?;
-        let (shear, slip_rate) = match self.dialect {
-            Dialect::Abaqus => (shear, slip_rate),
-            Dialect::Calculix => (ShearStress(shear.0.abs()), SlipRate(slip_rate.0.abs())),
-        };
-        let heat = frictional_heat_amounts(shear, slip_rate, self.generation);
-        tally.negative_friction += u64::from(heat.total.value() < 0.0);
-        Some(heat)
     }
 }

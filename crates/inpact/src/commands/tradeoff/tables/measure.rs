@@ -1,7 +1,7 @@
 //! Times and errors of every mode.
 
 use super::modes::{Copied, MODES, Mode, Prepared, share_of_copy};
-use super::subjects::{Sample, Subject};
+use super::subjects::{Sample, Subject, WholeRow};
 use crate::commands::tradeoff::front::front;
 use crate::commands::tradeoff::rounds::least_times;
 use inpact_evaluation::accuracy::ErrorBound;
@@ -17,6 +17,8 @@ pub(super) struct Measured {
     /// One of so many was taken.
     pub(super) one_of: u64,
     pub(super) rounds: u32,
+    /// What `eval` takes for a row in all.
+    pub(super) whole: WholeRow,
     /// One for each table and, where there are several, one for all of them.
     pub(super) groups: Vec<Group>,
 }
@@ -86,7 +88,7 @@ pub(super) fn measure(sample: &Sample, rounds: u32) -> Measured {
     for group in &mut groups {
         mark_front(&mut group.entries);
     }
-    Measured { rows: sample.rows, one_of: sample.one_of, rounds, groups }
+    Measured { rows: sample.rows, one_of: sample.one_of, rounds, whole: sample.whole, groups }
 }
 
 /// The same rows over and over, until there are enough.

@@ -16,6 +16,14 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
     let mut text = format!("{} on {}: {}\n", names.deck, names.nodes, how(measured));
     text += "errors are differences from the value in 106 bits: of the largest value of the table, of the value itself, in ulp of it; \
              * marks the Pareto front\n";
+    let whole = measured.whole;
+    text += &format!(
+        "a whole row of `eval` takes {:.0} ns, in which tables are one part of the laws: read {:.0}, laws {:.0}, write {:.0} (once, with the accuracy that was asked for)\n",
+        whole.total(),
+        whole.read,
+        whole.laws,
+        whole.write
+    );
     for group in &measured.groups {
         text += &format!("\n{} ({})\n", group.name, size(group));
         text += &line(&HEADER.map(str::to_owned), WIDTHS, TEXTS);
@@ -168,6 +176,11 @@ pub(super) fn json(measured: &Measured, names: Names<'_>) -> String {
         "rows": measured.rows,
         "one_of": measured.one_of,
         "rounds": measured.rounds,
+        "whole_row_ns": {
+            "read": measured.whole.read,
+            "laws": measured.whole.laws,
+            "write": measured.whole.write,
+        },
         "tables": groups.collect::<Vec<Value>>(),
     });
     format!("{document:#}\n")

@@ -2,11 +2,14 @@
 
 use crate::commands::evaluable::Evaluable;
 use crate::failure::Failure;
-use inpact_evaluation::evaluate::{Coordinates, TableReads, TabulatedQuantity};
-use inpact_evaluation::results::Along;
+use inpact_evaluation::evaluate::{Coordinates, Evaluation, TableReads, TabulatedQuantity};
+use inpact_evaluation::nodes::Batch;
+use inpact_evaluation::results::{Along, ResultBatch, ResultWriter};
 use inpact_evaluation::table::PiecewiseTable;
 use inpact_parser::model::Model;
+use std::io;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// A table with the coordinates of the rows that reach it.
 pub(super) struct Subject {
@@ -26,6 +29,24 @@ pub(super) struct Sample {
     pub(super) rows: u64,
     /// One of so many was taken.
     pub(super) one_of: u64,
+    pub(super) whole: WholeRow,
+}
+
+/// What `eval` takes for a row of the node table, on as many threads as it has, in ns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WholeRow {
+    /// Reading it and looking through it.
+    pub(super) read: f64,
+    /// All laws, their tables with them.
+    pub(super) laws: f64,
+    /// Writing its results as comma-separated values.
+    pub(super) write: f64,
+}
+
+impl WholeRow {
+    pub(super) fn total(self) -> f64 {
+        self.read + self.laws + self.write
+    }
 }
 
 impl Subject {
@@ -40,18 +61,42 @@ impl Subject {
     }
 }
 
-/// Keeps, of at most `most` rows of the node table, the coordinates that tables in force are read at.
+/// Evaluates the node table, and keeps, of at most `most` of its rows, the coordinates that tables in force are read at.
 pub(super) fn gather(evaluable: &mut Evaluable, nodes_path: &Path, most: u64) -> Result<Sample, Failure> {
-    let Evaluable { model, plan, choices, rows, .. } = evaluable;
+    let Evaluable { model, plan, choices, rows, reading, .. } = evaluable;
     let mut coordinates = Coordinates::new(model, plan, choices);
     let one_of = plan.rows.div_ceil(most).max(1);
     let unreadable = |error| Failure::read(nodes_path, error);
     let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
-    while let Some(batch) = rows.next_batch().map_err(unreadable)? {
-        coordinates.take(&batch, one_of);
+    let mut evaluation = Evaluation::on_all_threads(model, plan, choices);
+    let mut sink = io::sink();
+    let mut writer = ResultWriter::new(&mut sink, plan.keys(), &plan.outputs).map_err(unreadable)?;
+    let (mut laws, mut write) = (Duration::ZERO, Duration::ZERO);
+    let (mut window, mut results): (Vec<Batch>, Vec<ResultBatch>) = (Vec::new(), Vec::new());
+    loop {
+        window.clear();
+        while window.len() < evaluation.batches_at_a_time() {
+            let Some(mut batch) = rows.next_batch().map_err(unreadable)? else { break };
+            plan.name_rows(&mut batch);
+            window.push(batch);
+        }
+        if window.is_empty() {
+            break;
+        }
+        results.resize_with(window.len(), ResultBatch::default);
+        let start = Instant::now();
+        evaluation.evaluate_all(&window, &mut results);
+        laws += start.elapsed();
+        let start = Instant::now();
+        let mut each = window.iter().zip(&results);
+        each.try_for_each(|(batch, results)| writer.write(batch, results)).map_err(unreadable)?;
+        write += start.elapsed();
+        window.iter().for_each(|batch| coordinates.take(batch, one_of));
     }
+    let a_row = |time: Duration| time.as_secs_f64() * 1e9 / plan.rows.max(1) as f64;
+    let whole = WholeRow { read: a_row(*reading), laws: a_row(laws), write: a_row(write) };
     let subjects = coordinates.finish().into_iter().map(|reads| subject(model, reads));
-    Ok(Sample { subjects: subjects.collect(), rows: plan.rows, one_of })
+    Ok(Sample { subjects: subjects.collect(), rows: plan.rows, one_of, whole })
 }
 
 fn subject(model: &Model, reads: TableReads) -> Subject {

@@ -1,17 +1,17 @@
 //! The plan of the electrical law of one interaction.
 
-use super::folding::fold_and_choose;
-use super::make::{LeftOuts, Planner};
-use super::reason::{Missing, Reason};
-use super::regime::regime;
-use super::source::{Source, whole_or_sides};
-use super::tables::{InteractionTables, electrical_axis, matters};
-use super::user::{UserPlan, plan_user};
-use super::wanted::columns_of;
-use super::{AxisPlan, Derivatives, Dropped, ElectricalPlan, History, TablePlan};
-use crate::accuracy::Shape;
 use crate::law::heat::HeatGeneration;
+use crate::law::user::plan::{UserPlan, plan_user};
 use crate::nodes::{Column, Part};
+use crate::plan::asked::{ELECTRICAL_FLOWS, SUMS_OF_HEAT};
+use crate::plan::folding::{fold_and_choose, table_plan};
+use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::reason::{Missing, Reason};
+use crate::plan::regime::regime;
+use crate::plan::source::{Source, whole_or_sides};
+use crate::plan::tables::{InteractionTables, electrical_axis, matters};
+use crate::plan::wanted::{columns_of, want_of_any_law, want_variables};
+use crate::plan::{AxisPlan, Choices, Derivatives, Dropped, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::{ElectricalConductance, Procedure};
@@ -19,11 +19,32 @@ use std::collections::BTreeSet;
 
 const KEYWORD: &str = "GAP ELECTRICAL CONDUCTANCE";
 
+/// What the electrical law of an interaction works with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElectricalPlan {
+    /// Steady state or transient, and why.
+    pub regime: RegimeInForce,
+    /// The tables that rows reach; none where a user's routine gives the conductance.
+    pub tables: Vec<TablePlan>,
+    /// What a user's routine is called with, where it gives the conductance.
+    pub user: Option<UserPlan>,
+    /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
+    pub heat: Option<HeatGeneration>,
+    /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.
+    pub variables: Vec<Option<Source<Column>>>,
+    /// Where the jump of potential comes from.
+    pub jump: Option<Source<Column>>,
+    /// `area`, where the results need it and it has numbers.
+    pub area: Option<Column>,
+    /// Whether the rows of a node are a history.
+    pub history: History,
+}
+
 /// What the law is called where it is left out.
-pub(super) const LAW: &str = "electrical law";
+pub(crate) const LAW: &str = "electrical law";
 
 /// Plans the electrical law; `None` after saying why there is none.
-pub(super) fn plan_electrical(
+pub(crate) fn plan_electrical(
     planner: Planner<'_>,
     tables: &InteractionTables,
     outputs: &mut BTreeSet<Output>,
@@ -144,7 +165,7 @@ fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Ve
     let presence = |column| planner.presence(column);
     let contact = planner.contact();
     if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
-        return Err(super::source::cell(Column::Clearance, presence).expect_err("it has no numbers"));
+        return Err(crate::plan::source::cell(Column::Clearance, presence).expect_err("it has no numbers"));
     }
     for (against, table) in used {
         planner.check_abscissa(*against, table)?;
@@ -232,26 +253,18 @@ fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: 
     TablePlan { ends_in_zero, ..table_plan(table, |axis| electrical_axis(against, axis)) }
 }
 
-/// A table as the plan shows it.
-pub(super) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along) -> TablePlan {
-    let axes = table.axes().iter().enumerate().map(|(axis, summary)| AxisPlan {
-        along: along(axis),
-        least: summary.least,
-        greatest: summary.greatest,
-        points: summary.distinct_count,
-        matters: summary.matters(),
-        fold: None,
-        is_idle: false,
-    });
-    TablePlan {
-        against: along(0),
-        rows: table.row_count(),
-        tail: table.tail(),
-        ends_in_zero: false,
-        axes: axes.collect(),
-        folded_rows: table.row_count(),
-        shape: Shape::of(table),
-        not_folded: Vec::new(),
-        form: None,
+/// The columns that the electrical law by tables could use.
+pub(crate) fn want_electrical(tables: &InteractionTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    for (against, table) in tables.electrical() {
+        want_of_electrical_law(choices, wanted);
+        want_variables(table, |axis| electrical_axis(against, axis), wanted);
+    }
+}
+
+/// What every electrical law could use, whatever gives its conductance.
+pub(crate) fn want_of_electrical_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
+    want_of_any_law(choices, wanted);
+    if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {
+        wanted.extend([Part::Both, Part::Slave, Part::Master].map(Column::Potential));
     }
 }

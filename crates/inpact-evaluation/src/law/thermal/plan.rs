@@ -5,17 +5,22 @@
 //! A deck with procedures none of which solves for current has no heat of it, whatever its interactions say (section 9.2).
 //! Friction is another matter: most decks have *FRICTION and few node tables tell of slip, so HFL without it is given, and the plan says so.
 
-use super::asked::SUMS_OF_HEAT;
-use super::electrical::LAW as ELECTRICAL_LAW;
-use super::make::{LeftOuts, Planner};
-use super::reason::{Missing, Reason};
-use super::source::{Source, cell};
-use super::thermal_parts::{plan_conduction, plan_friction, plan_radiation};
-use super::thermal_tables::ThermalTables;
-use super::{Currents, Derivatives, ElectricalPlan, History, TablePlan};
+use super::conduction::{ConductionPlan, plan_conduction};
+use super::tables::thermal_axis;
 use crate::accuracy::Wanted;
+use crate::law::electrical::plan::LAW as ELECTRICAL_LAW;
+use crate::law::friction::plan::{FrictionPlan, SlipRateSource, plan_friction, tells_of_friction};
 use crate::law::heat::HeatGeneration;
+use crate::law::radiation::plan::{RadiationPlan, plan_radiation};
+use crate::law::thermal::tables::ThermalTables;
 use crate::nodes::{Column, Part};
+use crate::plan::Choices;
+use crate::plan::asked::SUMS_OF_HEAT;
+use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::reason::{Missing, Reason};
+use crate::plan::source::{Source, cell};
+use crate::plan::wanted::{want_of_any_law, want_variables};
+use crate::plan::{Currents, Derivatives, ElectricalPlan, History};
 use crate::results::Output;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, Procedure};
@@ -44,61 +49,6 @@ pub struct ThermalPlan {
     pub history: History,
 }
 
-/// What conduction works with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ConductionPlan {
-    /// Whose law it is.
-    pub dialect: Dialect,
-    /// The tables that rows reach.
-    pub tables: Vec<TablePlan>,
-    /// Where mean temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one, and for the mass flow rate.
-    pub variables: Vec<Option<Source<Column>>>,
-    /// Where the mean mass flow rate comes from, if a table in use depends on it.
-    pub mass_flow: Option<MassFlow<Column>>,
-}
-
-/// Where the mean of the magnitudes of the mass flow rates comes from, in terms of `C` as [`Source`] has it; at least one is there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MassFlow<C> {
-    /// The mean itself; where its cell has a number it is taken.
-    pub mean: Option<C>,
-    /// The rate of the slave; a side without one counts as standing still (K-32).
-    pub slave: Option<C>,
-    /// The rate of the master.
-    pub master: Option<C>,
-}
-
-/// What radiation works with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RadiationPlan {
-    /// C, the heat per fourth power of temperature at a view factor of 1.
-    pub coefficient: f64,
-    /// θ_Z.
-    pub absolute_zero: f64,
-    /// The view factors.
-    pub table: TablePlan,
-}
-
-/// What the heat of friction works with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FrictionPlan {
-    /// Whose law it is: CalculiX takes shear and slip rate by their magnitudes.
-    pub dialect: Dialect,
-    /// `shear`.
-    pub shear: Column,
-    /// Where the slip rate comes from.
-    pub slip_rate: SlipRateSource,
-}
-
-/// Where a slip rate comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SlipRateSource {
-    /// `slip_rate`.
-    Column,
-    /// The deck gives one for all rows (K-38, CalculiX).
-    Given(f64),
-}
-
 /// Whether current generates heat in the rows of an interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurrentHeat {
@@ -110,7 +60,7 @@ pub enum CurrentHeat {
 
 impl ThermalPlan {
     /// The columns it reads, those of contact, area and time left out.
-    pub(super) fn columns(&self) -> Vec<Column> {
+    pub(crate) fn columns(&self) -> Vec<Column> {
         let mut columns: Vec<Column> = self.temperatures.into_iter().flatten().chain(self.jump).collect();
         if let Some(conduction) = &self.conduction {
             columns.extend(conduction.variables.iter().flatten().flat_map(Source::cells));
@@ -124,15 +74,8 @@ impl ThermalPlan {
     }
 }
 
-/// Whether the options of an interaction tell of heat by friction: only then are `shear` and `slip_rate` its business.
-pub(crate) fn tells_of_friction(interaction: &Interaction) -> bool {
-    let is_thermal = |keyword: &str| matches!(keyword, "FRICTION" | "GAP CONDUCTANCE" | "GAP RADIATION");
-    interaction.gap_heat_generation.is_some()
-        || interaction.other.iter().any(|option| is_thermal(option.keyword.as_str()))
-}
-
 /// What came of planning a part of the law.
-pub(super) enum Planned<T> {
+pub(crate) enum Planned<T> {
     /// The deck has no such part.
     Absent,
     /// It was left out, for this reason.
@@ -142,7 +85,7 @@ pub(super) enum Planned<T> {
 }
 
 impl<T> Planned<T> {
-    pub(super) fn of(planned: Result<T, Reason>) -> Self {
+    pub(crate) fn of(planned: Result<T, Reason>) -> Self {
         match planned {
             Ok(part) => Self::Part(part),
             Err(reason) => Self::LeftOut(reason),
@@ -164,7 +107,7 @@ impl<T> Planned<T> {
 }
 
 /// Plans the thermal law; `None` after saying why there is none.
-pub(super) fn plan_thermal(
+pub(crate) fn plan_thermal(
     planner: Planner<'_>,
     tables: &ThermalTables,
     electrical: Option<&ElectricalPlan>,
@@ -263,7 +206,7 @@ fn current_heat(
 }
 
 /// The temperatures of both sides, which every flux across depends on.
-pub(super) fn temperatures(planner: Planner<'_>) -> Result<[Column; 2], Missing> {
+pub(crate) fn temperatures(planner: Planner<'_>) -> Result<[Column; 2], Missing> {
     let sides = [Part::Slave, Part::Master].map(Column::Temperature);
     let lacking: Vec<Column> = sides.into_iter().filter(|side| !planner.presence(*side).has_numbers()).collect();
     match lacking.as_slice() {
@@ -345,5 +288,27 @@ fn plan_flows(
     }
     if let Err(missing) = history {
         left_out.push_outputs(&without_history, Reason::Missing(missing));
+    }
+}
+
+/// The columns that the thermal law could use.
+pub(crate) fn want_thermal(
+    interaction: &Interaction,
+    tables: &ThermalTables,
+    choices: &Choices,
+    wanted: &mut BTreeSet<Column>,
+) {
+    let of_conductance = tables.conductance_tables();
+    if !of_conductance.is_empty() || tables.radiation.is_some() {
+        want_of_any_law(choices, wanted);
+        wanted.extend([Part::Slave, Part::Master].map(Column::Temperature));
+        wanted.insert(Column::TemperatureJump);
+    }
+    for (against, table) in of_conductance {
+        want_variables(table, |axis| thermal_axis(against, axis), wanted);
+    }
+    if tells_of_friction(interaction) {
+        want_of_any_law(choices, wanted);
+        wanted.extend([Column::Shear, Column::SlipRate]);
     }
 }

@@ -3,12 +3,12 @@
 //! The routine is opaque: what it looks at is not known, so all it may look at is read.
 //! Without clearance or temperature there is no law; coordinates, times and counters that the node table lacks have defaults, and the plan says so.
 
-use super::make::Planner;
-use super::reason::Missing;
-use super::source::{Source, cell, whole_or_sides};
-use super::wanted::columns_of;
 use crate::law::user::{NAME_LENGTH, UserName, UserNames};
 use crate::nodes::{Column, Header, Part, coordinates};
+use crate::plan::make::Planner;
+use crate::plan::reason::Missing;
+use crate::plan::source::{Source, cell, whole_or_sides};
+use crate::plan::wanted::columns_of;
 use crate::results::Along;
 use inpact_parser::model::{Model, Name, Reference};
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ pub struct UserPlan {
 
 impl UserPlan {
     /// The columns it reads, besides those that tell contact.
-    pub(super) fn columns(&self) -> impl Iterator<Item = Column> {
+    pub(crate) fn columns(&self) -> impl Iterator<Item = Column> {
         let sources = std::iter::once(&self.temperatures).chain(&self.field_variables);
         sources.flat_map(Source::cells).chain(self.others.iter().copied()).chain([Column::Clearance])
     }
@@ -41,7 +41,7 @@ fn with_default() -> impl Iterator<Item = Column> {
 }
 
 /// What a routine could be called with, in a table with this header.
-pub(super) fn want_user(header: &Header, wanted: &mut BTreeSet<Column>) {
+pub(crate) fn want_user(header: &Header, wanted: &mut BTreeSet<Column>) {
     wanted.extend(columns_of(Along::Temperature).into_iter().flatten());
     let fields = header.cells.iter().filter_map(|cell| cell.column);
     wanted.extend(fields.filter(|column| matches!(column, Column::FieldVariable(..))));
@@ -49,7 +49,7 @@ pub(super) fn want_user(header: &Header, wanted: &mut BTreeSet<Column>) {
 }
 
 /// Plans the calls of an interaction's routine.
-pub(super) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result<UserPlan, Missing> {
+pub(crate) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result<UserPlan, Missing> {
     let presence = |column| planner.presence(column);
     cell(Column::Clearance, presence)?;
     let pair = |along| {

@@ -1,11 +1,11 @@
 //! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
 
-use super::reason::Reason;
-use super::tables::field_variable;
 use crate::law::calculix::{CalculixConductance, CalculixError};
 use crate::law::conductance::ConductanceTables;
 use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
 use crate::law::thermal::ThermalConductance;
+use crate::plan::reason::Reason;
+use crate::plan::tables::field_variable;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, TableError, Tail};
 use inpact_parser::grammar::Dialect;
@@ -152,7 +152,7 @@ fn radiation_law(option: &SubOption, model: &Model) -> Result<RadiationLaw, Radi
 }
 
 /// Which variable axis `axis` of a thermal conductance is (T-03).
-pub(super) fn thermal_axis(against: Along, axis: usize) -> Along {
+pub(crate) fn thermal_axis(against: Along, axis: usize) -> Along {
     match axis {
         0 => against,
         1 => Along::Temperature,

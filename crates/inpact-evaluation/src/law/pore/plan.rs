@@ -1,23 +1,86 @@
 //! The plan of the pore fluid law of one interaction.
 
-use super::electrical::table_plan;
-use super::folding::fold_and_choose;
-use super::make::{LeftOuts, Planner};
-use super::reason::{Missing, Reason};
-use super::regime::regime;
-use super::source::{Source, cell, whole_or_sides};
-use super::tables::{InteractionTables, matters, pore_axis};
-use super::wanted::columns_of;
-use super::{AxisPlan, Bulk, CharacteristicLength, Derivatives, History, PorePlan, Rate};
 use crate::law::pore::Cutoffs;
 use crate::nodes::{Column, Part};
+use crate::plan::folding::{fold_and_choose, table_plan};
+use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::reason::{Missing, Reason};
+use crate::plan::regime::regime;
+use crate::plan::source::{Source, cell, whole_or_sides};
+use crate::plan::tables::{InteractionTables, matters, pore_axis};
+use crate::plan::wanted::{columns_of, want_of_any_law, want_variables};
+use crate::plan::{AxisPlan, Choices, Derivatives, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
-use inpact_parser::model::{Procedure, Regime};
+use inpact_parser::model::{Interaction, Model, Procedure, Regime};
 use std::collections::BTreeSet;
 
+/// What the pore fluid law of an interaction works with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PorePlan {
+    /// Steady state or transient, and why.
+    pub regime: RegimeInForce,
+    /// The table of permeabilities; `None` for an infinite permeability.
+    pub table: Option<TablePlan>,
+    /// The cutoffs of the deck.
+    pub cutoffs: Cutoffs,
+    /// Pore pressures of slave and master, where they have numbers.
+    pub pressures: Option<[Column; 2]>,
+    /// Where average temperature and field variables come from, in the order of the table's columns; `None` where it does not depend on one.
+    pub variables: Vec<Option<Source<Column>>>,
+    /// `por_jump`, where it has numbers: it is taken instead of the difference of the pore pressures.
+    pub jump: Option<Column>,
+    /// `q_across`, where it has numbers and the permeability is infinite: the solution of the equations that the flow is an unknown of.
+    pub across: Option<Column>,
+    /// Where the characteristic element length comes from.
+    pub characteristic_length: CharacteristicLength,
+    /// Where the rate of the clearance comes from.
+    pub rate: Rate,
+    /// Whether `perm_s` and `perm_m` share the fluid of the gap between the sides.
+    pub bulk: Bulk,
+    /// `area`, where the results need it and it has numbers.
+    pub area: Option<Column>,
+    /// Whether the rows of a node are a history.
+    pub history: History,
+}
+
+/// Where the characteristic element length comes from (P-20, Q-5).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CharacteristicLength {
+    /// The deck gives both cutoffs, or nothing asks for it.
+    NotNeeded,
+    /// `char_length`.
+    Column,
+    /// One number for all rows.
+    Given(f64),
+    /// Nowhere: rows that are open have no result that it decides.
+    Unknown,
+}
+
+/// Where the rate of the clearance comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rate {
+    /// Steady state: the gap does not change (P-13).
+    NotNeeded,
+    /// `clearance_rate`, and the history where a cell is empty.
+    Column,
+    /// The node's history alone.
+    History,
+    /// Nowhere: the gap is taken as unchanging.
+    Unknown,
+}
+
+/// Whether bulk permeabilities share the fluid of the gap between the sides (P-42).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bulk {
+    /// They do, where a row has both.
+    Columns,
+    /// Either side takes half.
+    Halves,
+}
+
 /// Plans the pore fluid law; `None` after saying why there is none.
-pub(super) fn plan_pore(
+pub(crate) fn plan_pore(
     planner: Planner<'_>,
     tables: &InteractionTables,
     outputs: &mut BTreeSet<Output>,
@@ -206,5 +269,33 @@ fn add_notes(planner: Planner<'_>, plan: &PorePlan, notes: &mut Vec<String>) {
             "the gap is taken as unchanging: there is no `clearance_rate`, and without `node` and `time` no history"
                 .to_owned(),
         );
+    }
+}
+
+/// The columns that the pore fluid law could use.
+pub(crate) fn want_pore(
+    model: &Model,
+    interaction: &Interaction,
+    tables: &InteractionTables,
+    choices: &Choices,
+    wanted: &mut BTreeSet<Column>,
+) {
+    let option = interaction.contact_permeability.as_ref();
+    if option.is_none() && !model.procedures.iter().any(Procedure::solves_pore_pressure) {
+        return;
+    }
+    want_of_any_law(choices, wanted);
+    wanted.extend([Part::Slave, Part::Master, Part::Both].map(Column::PorePressure));
+    wanted.insert(Column::FlowAcross);
+    if let Some(table) = tables.permeability() {
+        want_variables(table, pore_axis, wanted);
+    }
+    let cutoffs = option.map(|option| (option.cutoff_flow_across, option.cutoff_gap_fill));
+    if !matches!(cutoffs, Some((Some(_), Some(_)))) && choices.characteristic_length.is_none() {
+        wanted.insert(Column::CharacteristicLength);
+    }
+    if regime(model, choices.regime, Procedure::solves_pore_pressure).regime == Regime::Transient {
+        wanted.insert(Column::ClearanceRate);
+        wanted.extend([Part::Slave, Part::Master].map(Column::BulkPermeability));
     }
 }

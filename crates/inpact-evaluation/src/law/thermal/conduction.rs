@@ -1,23 +1,45 @@
-//! The parts of the thermal law of one interaction, each planned by itself: conduction, radiation, friction.
+//! The plan of the heat conducted across one interaction.
 
-use super::electrical::table_plan;
-use super::folding::fold_and_choose;
-use super::make::{LeftOuts, Planner};
-use super::reason::{Missing, Reason};
-use super::source::{cell, whole_or_sides};
-use super::tables::matters;
-use super::thermal::{Planned, tells_of_friction, temperatures};
-use super::thermal_tables::{ConductanceRows, ThermalTables, thermal_axis};
-use super::wanted::columns_of;
-use super::{AxisPlan, ConductionPlan, FrictionPlan, MassFlow, RadiationPlan, SlipRateSource};
-use crate::law::heat::HeatGeneration;
+use crate::law::thermal::plan::Planned;
+use crate::law::thermal::tables::{ConductanceRows, ThermalTables, thermal_axis};
 use crate::nodes::Column;
+use crate::plan::folding::{fold_and_choose, table_plan};
+use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::reason::{Missing, Reason};
+use crate::plan::source::{Source, cell, whole_or_sides};
+use crate::plan::tables::matters;
+use crate::plan::wanted::columns_of;
+use crate::plan::{AxisPlan, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::grammar::Dialect;
 
+/// What conduction works with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConductionPlan {
+    /// Whose law it is.
+    pub dialect: Dialect,
+    /// The tables that rows reach.
+    pub tables: Vec<TablePlan>,
+    /// Where mean temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one, and for the mass flow rate.
+    pub variables: Vec<Option<Source<Column>>>,
+    /// Where the mean mass flow rate comes from, if a table in use depends on it.
+    pub mass_flow: Option<MassFlow<Column>>,
+}
+
+/// Where the mean of the magnitudes of the mass flow rates comes from, in terms of `C` as [`Source`] has it; at least one is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MassFlow<C> {
+    /// The mean itself; where its cell has a number it is taken.
+    pub mean: Option<C>,
+    /// The rate of the slave; a side without one counts as standing still (K-32).
+    pub slave: Option<C>,
+    /// The rate of the master.
+    pub master: Option<C>,
+}
+
 /// Plans conduction: its law by *GAP CONDUCTANCE in either dialect, and the columns it reads.
-pub(super) fn plan_conduction(
+pub(crate) fn plan_conduction(
     planner: Planner<'_>,
     tables: &ThermalTables,
     left_out: &mut LeftOuts,
@@ -112,87 +134,4 @@ fn mass_flow_source(planner: Planner<'_>, [mean, slave, master]: [Column; 3]) ->
         cell(mean, |column| planner.presence(column))?;
     }
     Ok(source)
-}
-
-/// Plans radiation, which needs the constants of the deck, the temperatures of both sides, and the clearance of open rows.
-pub(super) fn plan_radiation(planner: Planner<'_>, tables: &ThermalTables) -> Planned<RadiationPlan> {
-    let law = match &tables.radiation {
-        None => return Planned::Absent,
-        Some(_) if planner.choices.dialect == Dialect::Calculix => {
-            return Planned::LeftOut(Reason::NotInCalculix("has no *GAP RADIATION"));
-        }
-        Some(Err(fault)) => {
-            return Planned::LeftOut(fault.reason());
-        }
-        Some(Ok(law)) => law,
-    };
-    let contact = planner.contact();
-    let told_otherwise = contact.pressure.is_some() || contact.closed.is_some();
-    // In contact the view factor is that of zero clearance.
-    if !(told_otherwise && planner.never(planner.of.open))
-        && let Err(missing) = cell(Column::Clearance, |column| planner.presence(column))
-    {
-        return Planned::LeftOut(Reason::Missing(missing));
-    }
-    if let Err(missing) = temperatures(planner) {
-        return Planned::LeftOut(Reason::Missing(missing));
-    }
-    Planned::Part(RadiationPlan {
-        coefficient: law.coefficient.0,
-        absolute_zero: law.absolute_zero,
-        table: table_plan(&law.view_factor, |_| Along::Clearance),
-    })
-}
-
-/// Plans friction: where the deck tells of it and `shear` and `slip_rate` have numbers, or the deck gives the speed (K-38).
-pub(super) fn plan_friction(
-    planner: Planner<'_>,
-    heat: Option<HeatGeneration>,
-    left_out: &mut LeftOuts,
-) -> Planned<FrictionPlan> {
-    const SWITCHED_OFF: &str = "heat generation";
-    let columns = [Column::Shear, Column::SlipRate];
-    let is_there = |column: &Column| planner.may_have(*column);
-    if !tells_of_friction(planner.interaction) {
-        let is_described = columns.iter().all(is_there);
-        return if is_described { Planned::LeftOut(Reason::NoKeyword("FRICTION")) } else { Planned::Absent };
-    }
-    let given_speed = planner
-        .interaction
-        .gap_heat_generation
-        .as_deref()
-        .and_then(inpact_parser::model::HeatGeneration::given_slip_rate);
-    let has_option = |keyword: &str| planner.interaction.other.iter().any(|option| option.keyword == keyword);
-    // A deck without heat has friction too, and says nothing of its heat.
-    let is_thermal = planner.interaction.gap_heat_generation.is_some()
-        || ["GAP CONDUCTANCE", "GAP RADIATION"].into_iter().any(has_option);
-    let is_reported = columns.iter().any(is_there) || (is_thermal && has_option("FRICTION"));
-    if !is_reported {
-        return Planned::Absent;
-    }
-    if heat.is_none() {
-        if !left_out.0.iter().any(|left_out| left_out.what == SWITCHED_OFF) {
-            left_out.push(SWITCHED_OFF, Reason::HeatSwitchedOff);
-        }
-        return Planned::Absent;
-    }
-    if planner.choices.dialect == Dialect::Calculix && planner.interaction.gap_heat_generation.is_none() {
-        return Planned::LeftOut(Reason::NotInCalculix("generates heat with *GAP HEAT GENERATION only"));
-    }
-    let needed: Vec<Column> = if given_speed.is_some() { vec![Column::Shear] } else { columns.to_vec() };
-    let lacking: Vec<Column> = needed.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
-    if !lacking.is_empty() {
-        let are_empty = lacking.iter().all(|column| planner.survey.columns.contains(column));
-        let missing = if are_empty { Missing::empty(lacking) } else { Missing::absent(lacking) };
-        return Planned::LeftOut(Reason::Missing(missing));
-    }
-    let contact = planner.contact();
-    if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
-        return Planned::LeftOut(Reason::Missing(Missing::absent(vec![Column::Clearance])));
-    }
-    Planned::Part(FrictionPlan {
-        dialect: planner.choices.dialect,
-        shear: Column::Shear,
-        slip_rate: given_speed.map_or(SlipRateSource::Column, SlipRateSource::Given),
-    })
 }

@@ -1,0 +1,89 @@
+//! The plan of the heat of friction of one interaction.
+
+use crate::law::heat::HeatGeneration;
+use crate::law::thermal::plan::Planned;
+use crate::nodes::Column;
+use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::reason::{Missing, Reason};
+use inpact_parser::grammar::Dialect;
+use inpact_parser::model::Interaction;
+
+/// What the heat of friction works with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionPlan {
+    /// Whose law it is: CalculiX takes shear and slip rate by their magnitudes.
+    pub dialect: Dialect,
+    /// `shear`.
+    pub shear: Column,
+    /// Where the slip rate comes from.
+    pub slip_rate: SlipRateSource,
+}
+
+/// Where a slip rate comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SlipRateSource {
+    /// `slip_rate`.
+    Column,
+    /// The deck gives one for all rows (K-38, CalculiX).
+    Given(f64),
+}
+
+/// Whether the options of an interaction tell of heat by friction: only then are `shear` and `slip_rate` its business.
+pub(crate) fn tells_of_friction(interaction: &Interaction) -> bool {
+    let is_thermal = |keyword: &str| matches!(keyword, "FRICTION" | "GAP CONDUCTANCE" | "GAP RADIATION");
+    interaction.gap_heat_generation.is_some()
+        || interaction.other.iter().any(|option| is_thermal(option.keyword.as_str()))
+}
+
+/// Plans friction: where the deck tells of it and `shear` and `slip_rate` have numbers, or the deck gives the speed (K-38).
+pub(crate) fn plan_friction(
+    planner: Planner<'_>,
+    heat: Option<HeatGeneration>,
+    left_out: &mut LeftOuts,
+) -> Planned<FrictionPlan> {
+    const SWITCHED_OFF: &str = "heat generation";
+    let columns = [Column::Shear, Column::SlipRate];
+    let is_there = |column: &Column| planner.may_have(*column);
+    if !tells_of_friction(planner.interaction) {
+        let is_described = columns.iter().all(is_there);
+        return if is_described { Planned::LeftOut(Reason::NoKeyword("FRICTION")) } else { Planned::Absent };
+    }
+    let given_speed = planner
+        .interaction
+        .gap_heat_generation
+        .as_deref()
+        .and_then(inpact_parser::model::HeatGeneration::given_slip_rate);
+    let has_option = |keyword: &str| planner.interaction.other.iter().any(|option| option.keyword == keyword);
+    // A deck without heat has friction too, and says nothing of its heat.
+    let is_thermal = planner.interaction.gap_heat_generation.is_some()
+        || ["GAP CONDUCTANCE", "GAP RADIATION"].into_iter().any(has_option);
+    let is_reported = columns.iter().any(is_there) || (is_thermal && has_option("FRICTION"));
+    if !is_reported {
+        return Planned::Absent;
+    }
+    if heat.is_none() {
+        if !left_out.0.iter().any(|left_out| left_out.what == SWITCHED_OFF) {
+            left_out.push(SWITCHED_OFF, Reason::HeatSwitchedOff);
+        }
+        return Planned::Absent;
+    }
+    if planner.choices.dialect == Dialect::Calculix && planner.interaction.gap_heat_generation.is_none() {
+        return Planned::LeftOut(Reason::NotInCalculix("generates heat with *GAP HEAT GENERATION only"));
+    }
+    let needed: Vec<Column> = if given_speed.is_some() { vec![Column::Shear] } else { columns.to_vec() };
+    let lacking: Vec<Column> = needed.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
+    if !lacking.is_empty() {
+        let are_empty = lacking.iter().all(|column| planner.survey.columns.contains(column));
+        let missing = if are_empty { Missing::empty(lacking) } else { Missing::absent(lacking) };
+        return Planned::LeftOut(Reason::Missing(missing));
+    }
+    let contact = planner.contact();
+    if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
+        return Planned::LeftOut(Reason::Missing(Missing::absent(vec![Column::Clearance])));
+    }
+    Planned::Part(FrictionPlan {
+        dialect: planner.choices.dialect,
+        shear: Column::Shear,
+        slip_rate: given_speed.map_or(SlipRateSource::Column, SlipRateSource::Given),
+    })
+}
