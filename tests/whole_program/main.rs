@@ -4,6 +4,7 @@ mod bytes;
 mod calculix;
 mod check;
 mod columns;
+mod compare;
 mod configuration;
 mod decks;
 mod dialects;

@@ -11,6 +11,10 @@ use std::collections::HashMap;
 #[derive(Debug, Clone)]
 pub struct SlaveFaces {
     nodes: Vec<NodeId>,
+    /// What the rows of the points are called.
+    names: Vec<String>,
+    /// The pairs of the points, by their positions among those of the mesh.
+    of_mesh: Vec<usize>,
     /// Where the points are in the undeformed mesh (L).
     points: Vec<Point>,
     cells: Vec<Cell>,
@@ -26,6 +30,8 @@ impl SlaveFaces {
     pub(crate) fn of(mesh: &Mesh, pairs: &[Pair<'_>]) -> Self {
         let mut faces = Self {
             nodes: Vec::new(),
+            names: Vec::new(),
+            of_mesh: Vec::new(),
             points: Vec::new(),
             cells: Vec::new(),
             labels: Vec::new(),
@@ -36,7 +42,9 @@ impl SlaveFaces {
         for (number, pair) in (1..).zip(pairs) {
             let first = faces.nodes.len();
             let mut places: HashMap<NodeId, usize> = HashMap::new();
+            faces.names.extend(pair.names.iter().cloned());
             for (at, node) in pair.start.iter().map(|node| node.node).enumerate() {
+                faces.of_mesh.push(pair.index);
                 places.insert(node, first + at);
                 faces.nodes.push(node);
                 faces.points.push(mesh.points[node.index()]);
@@ -71,6 +79,17 @@ impl SlaveFaces {
     /// How many points there are: as many as a state has rows.
     pub fn points(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// The rows of a state in their order: the position of the pair among those of the mesh, the node, and what the row is called.
+    pub fn rows(&self) -> impl Iterator<Item = (usize, NodeId, &str)> {
+        let names = self.names.iter().map(String::as_str);
+        self.of_mesh
+            .iter()
+            .copied()
+            .zip(self.nodes.iter().copied())
+            .zip(names)
+            .map(|((pair, node), name)| (pair, node, name))
     }
 
     /// The surfaces in a state, moved by its displacements, with columns that have a value a point.

@@ -35,6 +35,8 @@ enum Command {
     /// Show what an evaluation would do: which laws, tables, columns and outputs, and what is left out and why.
     #[command(after_long_help = commands::evaluable::columns_help())]
     Plan(commands::plan::PlanArguments),
+    /// Compare what is computed of a deck's interfaces with what its solver says of them, node by node.
+    Compare(commands::compare::CompareArguments),
     /// Draw the laws of decks: conductance, permeability and view factor against clearance and contact pressure.
     Plot(commands::plot::PlotArguments),
     /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
@@ -69,6 +71,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Nodes(arguments) => commands::nodes::run(&arguments),
         Command::Eval(arguments) => commands::eval::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),
+        Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Plot(arguments) => commands::plot::run(&arguments),
         Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),

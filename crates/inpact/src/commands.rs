@@ -1,6 +1,7 @@
 //! The commands, one file each: its arguments, and the way from them to a result.
 
 pub(crate) mod check;
+pub(crate) mod compare;
 pub(crate) mod eval;
 pub(crate) mod explain;
 pub(crate) mod fmt;

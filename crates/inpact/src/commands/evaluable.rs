@@ -78,7 +78,7 @@ enum Procedure {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum HistoryStartChoice {
+pub(crate) enum HistoryStartChoice {
     /// At its first row: its integrals are 0 there, and its own jump and clearance are those of the start.
     FirstRow,
     /// At time 0, without a jump of potential and with the clearance of its first row.
@@ -142,6 +142,24 @@ enum NodesInput {
 }
 
 impl EvaluableArguments {
+    /// Everything that a deck and the results of its job give, in full accuracy.
+    pub(crate) fn of_results(deck: PathBuf, results: Vec<PathBuf>, history_start: HistoryStartChoice) -> Self {
+        Self {
+            deck,
+            nodes: None,
+            results,
+            interaction: None,
+            procedure: None,
+            history_start,
+            threads: None,
+            accuracy: AccuracyChoice::Full,
+            tolerance: None,
+            tolerance_relative: None,
+            outputs: None,
+            derivatives: false,
+        }
+    }
+
     /// The files that are read.
     pub(crate) fn inputs(&self) -> Vec<&Path> {
         let paths = std::iter::once(&self.deck).chain(&self.nodes).chain(&self.results);

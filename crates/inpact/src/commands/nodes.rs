@@ -74,9 +74,13 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
 
 /// Draws the rows of all states.
 fn draw(rows: &mut NodeRows<'_>, drawn: &Drawn, target: &Path) -> Result<(), Failure> {
-    let mut writer = PictureWriter::new(drawn, target, rows.numbers(), &[])?;
+    let names = rows.numbers().iter().map(ToString::to_string).collect();
+    let mut writer = PictureWriter::new(drawn, target, names)?;
     for batch in rows.batches(&drawn.states) {
-        writer.take_nodes(&batch.map_err(|error| Failure::Data(error.to_string()))?)?;
+        let batch = batch.map_err(|error| Failure::Data(error.to_string()))?;
+        for row in 0..batch.rows {
+            writer.push(batch.numbers.iter().map(|column| column.get(row)))?;
+        }
     }
     writer.finish()
 }

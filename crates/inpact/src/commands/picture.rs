@@ -3,8 +3,9 @@
 use crate::failure::Failure;
 use crate::files::{ResultFile, check_targets};
 use inpact_contact::{SlaveFaces, State};
-use inpact_evaluation::nodes::{Batch, Column};
+use inpact_evaluation::nodes::Batch;
 use inpact_evaluation::results::{Output, ResultBatch, Status};
+use inpact_geometry::NodeId;
 use inpact_results::vtu::{Array, Moment, write_collection, write_grid};
 use std::ffi::OsString;
 use std::io;
@@ -15,6 +16,22 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Drawn {
     pub(crate) faces: SlaveFaces,
     pub(crate) states: Vec<State>,
+}
+
+impl Drawn {
+    /// A value a row, by state, pair (a position among those of the mesh) and node.
+    pub(crate) fn rows(&self, value: impl Fn(&State, usize, NodeId) -> Option<f64>) -> Vec<Option<f64>> {
+        let rows =
+            self.states.iter().flat_map(|state| self.faces.rows().map(move |(pair, node, _)| (state, pair, node)));
+        rows.map(|(state, pair, node)| value(state, pair, node)).collect()
+    }
+
+    /// What the rows are called, and their times.
+    pub(crate) fn names_and_times(&self) -> (Vec<String>, Vec<Option<f64>>) {
+        let rows =
+            self.states.iter().flat_map(|state| self.faces.rows().map(move |(.., name)| (name, state.moment.time)));
+        rows.map(|(name, time)| (name.to_owned(), time)).unzip()
+    }
 }
 
 /// Whether a name asks for a picture: it ends in `.vtu` or `.pvd`.
@@ -35,15 +52,8 @@ pub(crate) struct PictureWriter<'a> {
 }
 
 impl<'a> PictureWriter<'a> {
-    /// The columns are those of node tables, then outputs.
-    pub(crate) fn new(
-        drawn: &'a Drawn,
-        target: &'a Path,
-        given: &[Column],
-        outputs: &[Output],
-    ) -> Result<Self, Failure> {
-        let names: Vec<String> =
-            given.iter().map(ToString::to_string).chain(outputs.iter().map(ToString::to_string)).collect();
+    /// Nothing drawn yet, of columns with these names.
+    pub(crate) fn new(drawn: &'a Drawn, target: &'a Path, names: Vec<String>) -> Result<Self, Failure> {
         let columns = vec![Vec::new(); names.len()];
         let writer = Self { drawn, target, names, columns, files: Vec::new(), moments: Vec::new() };
         let targets: Vec<PathBuf> =
@@ -52,18 +62,15 @@ impl<'a> PictureWriter<'a> {
         Ok(writer)
     }
 
-    /// Takes rows of a node table.
-    pub(crate) fn take_nodes(&mut self, batch: &Batch) -> Result<(), Failure> {
-        for row in 0..batch.rows {
-            for (column, numbers) in self.columns.iter_mut().zip(&batch.numbers) {
-                column.push(numbers.get(row).unwrap_or(f64::NAN));
-            }
-            self.draw_if_complete()?;
+    /// Takes a row: a value a column.
+    pub(crate) fn push(&mut self, values: impl Iterator<Item = Option<f64>>) -> Result<(), Failure> {
+        for (column, value) in self.columns.iter_mut().zip(values) {
+            column.push(value.unwrap_or(f64::NAN));
         }
-        Ok(())
+        self.draw_if_complete()
     }
 
-    /// Takes rows with their results: of the node table the columns at these places.
+    /// Takes rows with their results: of the node table the columns at these places, then the outputs.
     pub(crate) fn take(
         &mut self,
         batch: &Batch,
@@ -78,10 +85,7 @@ impl<'a> PictureWriter<'a> {
                 Some(statuses) => statuses[row].map(number_of),
                 None => results_of_row.next().flatten(),
             });
-            for (column, number) in self.columns.iter_mut().zip(numbers.chain(outputs)) {
-                column.push(number.unwrap_or(f64::NAN));
-            }
-            self.draw_if_complete()?;
+            self.push(numbers.chain(outputs))?;
         }
         Ok(())
     }

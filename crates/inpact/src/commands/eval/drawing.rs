@@ -61,8 +61,9 @@ fn draw<'a>(
 ) -> Result<(Tally, PictureWriter<'a>), RunFailure<Failure>> {
     let numbers = &selection.numbers;
     let given: Vec<usize> = (0..numbers.len()).filter(|place| numbers[*place] != Column::Time).collect();
-    let columns: Vec<Column> = given.iter().map(|place| numbers[*place]).collect();
-    let mut writer = PictureWriter::new(drawn, target, &columns, &plan.outputs).map_err(RunFailure::Writing)?;
+    let columns = given.iter().map(|place| numbers[*place].to_string());
+    let names = columns.chain(plan.outputs.iter().map(ToString::to_string)).collect();
+    let mut writer = PictureWriter::new(drawn, target, names).map_err(RunFailure::Writing)?;
     evaluation.run(rows, plan, |batch, results| writer.take(batch, &given, results, &plan.outputs))?;
     Ok((evaluation.finish(), writer))
 }

@@ -1,0 +1,96 @@
+//! How far both values of each quantity are from each other.
+
+use crate::commands::evaluable::Evaluable;
+
+/// A quantity: a value a row on both sides, `None` where one is not known.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Quantity {
+    pub(super) name: String,
+    pub(super) ours: Vec<Option<f64>>,
+    pub(super) solvers: Vec<Option<f64>>,
+}
+
+/// Where two values differ most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Largest {
+    /// The row.
+    pub(super) row: usize,
+    /// |ours − solver's|.
+    pub(super) difference: f64,
+    /// That as a part of the largest value that the solver says; infinite where that is 0.
+    pub(super) relative: f64,
+}
+
+/// All quantities, and what rows are called.
+#[derive(Debug)]
+pub(super) struct Comparison {
+    /// What rows were made of.
+    pub(super) made_of: String,
+    pub(super) quantities: Vec<Quantity>,
+    pub(super) tolerance: Option<f64>,
+    names: Vec<String>,
+    times: Vec<Option<f64>>,
+}
+
+impl Quantity {
+    pub(super) fn new(name: String) -> Self {
+        Self { name, ours: Vec::new(), solvers: Vec::new() }
+    }
+
+    fn both(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+        let rows = self.ours.iter().zip(&self.solvers).enumerate();
+        rows.filter_map(|(row, (ours, solvers))| Some((row, (*ours)?, (*solvers)?)))
+    }
+
+    /// In how many rows both values are known.
+    pub(super) fn compared(&self) -> usize {
+        self.both().count()
+    }
+
+    /// In how many rows the solver alone says a value.
+    pub(super) fn not_computed(&self) -> usize {
+        self.ours.iter().zip(&self.solvers).filter(|(ours, solvers)| ours.is_none() && solvers.is_some()).count()
+    }
+
+    /// Where the values differ most; a difference that is no number is the largest of all. `None` where nothing is compared.
+    pub(super) fn largest(&self) -> Option<Largest> {
+        let scale = self.both().map(|(_, _, solvers)| solvers.abs()).fold(0.0, f64::max);
+        let difference = |ours: f64, solvers: f64| if ours == solvers { 0.0 } else { (ours - solvers).abs() };
+        let rank = |difference: f64| if difference.is_nan() { f64::INFINITY } else { difference };
+        let differences = self.both().map(|(row, ours, solvers)| (row, difference(ours, solvers)));
+        // The first of equals.
+        let (row, difference) =
+            differences.reduce(|most, other| if rank(most.1) < rank(other.1) { other } else { most })?;
+        let relative = match difference {
+            difference if difference == 0.0 => 0.0,
+            difference => difference / scale,
+        };
+        Some(Largest { row, difference, relative })
+    }
+}
+
+impl Comparison {
+    pub(super) fn new(quantities: Vec<Quantity>, prepared: &Evaluable, tolerance: Option<f64>) -> Self {
+        let (names, times) = prepared.made.as_ref().map_or_else(Default::default, |made| made.drawn.names_and_times());
+        Self { made_of: prepared.nodes_name.clone(), quantities, tolerance, names, times }
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.names.len()
+    }
+
+    /// What a row is called, and its time.
+    pub(super) fn name(&self, row: usize) -> (&str, Option<f64>) {
+        (&self.names[row], self.times[row])
+    }
+
+    /// Whether a quantity is beyond the tolerance.
+    pub(super) fn is_beyond(&self) -> bool {
+        self.quantities.iter().any(|quantity| self.is_quantity_beyond(quantity))
+    }
+
+    pub(super) fn is_quantity_beyond(&self, quantity: &Quantity) -> bool {
+        let within = |largest: &Largest| self.tolerance.is_none_or(|tolerance| largest.relative <= tolerance);
+        quantity.largest().is_some_and(|largest| !within(&largest))
+    }
+}

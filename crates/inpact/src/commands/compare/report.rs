@@ -1,0 +1,124 @@
+//! A comparison for a person, for a spreadsheet and for a program.
+
+use super::measure::{Comparison, Quantity};
+use inpact_evaluation::results::push_number;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// What is printed: a line a quantity, where it differs most.
+pub(super) fn text(comparison: &Comparison) -> String {
+    let mut text = format!("{}, {} rows: ours beside the solver's\n\n", comparison.made_of, comparison.rows());
+    let mut lines = vec![
+        ["quantity", "rows", "largest difference", "of largest value", "ours", "solver's", "where"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for quantity in &comparison.quantities {
+        let Some(largest) = quantity.largest() else { continue };
+        let (name, time) = comparison.name(largest.row);
+        let time = time.map_or_else(String::new, |time| format!(", time {}", number(Some(time))));
+        let beyond = if comparison.is_quantity_beyond(quantity) { "  beyond the tolerance" } else { "" };
+        lines.push(vec![
+            quantity.name.clone(),
+            quantity.compared().to_string(),
+            short(largest.difference),
+            short(largest.relative),
+            number(quantity.ours[largest.row]),
+            number(quantity.solvers[largest.row]),
+            format!("node {name}{time}{beyond}"),
+        ]);
+    }
+    let widths: Vec<usize> =
+        (0..lines[0].len()).map(|at| lines.iter().map(|line| line[at].chars().count()).max().unwrap_or(0)).collect();
+    for line in &lines {
+        let cells = line.iter().zip(&widths).enumerate().map(|(at, (cell, width))| match at {
+            0 => format!("{cell:<width$}"),
+            6 => cell.clone(),
+            _ => format!("{cell:>width$}"),
+        });
+        // Writing into a string cannot fail.
+        let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+    let missing: Vec<String> = comparison
+        .quantities
+        .iter()
+        .filter(|quantity| 0 < quantity.not_computed())
+        .map(|quantity| format!("{} in {} rows", quantity.name, quantity.not_computed()))
+        .collect();
+    if !missing.is_empty() {
+        let _ =
+            writeln!(text, "\nsaid by the solver and not computed (`inpact plan` says why): {}", missing.join(", "));
+    }
+    text
+}
+
+/// A row a node, state and quantity.
+pub(super) fn table(comparison: &Comparison) -> String {
+    let mut text = String::from("node,time,quantity,ours,solver,difference,relative_to_largest\n");
+    for quantity in &comparison.quantities {
+        let scale = quantity.solvers.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
+        for row in 0..comparison.rows() {
+            let (ours, solvers) = (quantity.ours[row], quantity.solvers[row]);
+            if solvers.is_none() {
+                continue;
+            }
+            let (name, time) = comparison.name(row);
+            let difference = ours.zip(solvers).map(|(ours, solvers)| ours - solvers);
+            let relative = difference.map(|difference| if difference == 0.0 { 0.0 } else { difference.abs() / scale });
+            let numbers = [ours, solvers, difference, relative].map(number).join(",");
+            let _ = writeln!(text, "{},{},{},{numbers}", quoted(name), number(time), quantity.name);
+        }
+    }
+    text
+}
+
+/// The same as [`text`] as a document.
+pub(super) fn json(comparison: &Comparison) -> String {
+    let of = |quantity: &Quantity| -> Value {
+        let largest = quantity.largest().map(|largest| {
+            let (node, time) = comparison.name(largest.row);
+            json!({
+                "difference": largest.difference,
+                "relative_to_largest": largest.relative,
+                "node": node,
+                "time": time,
+                "ours": quantity.ours[largest.row],
+                "solver": quantity.solvers[largest.row],
+            })
+        });
+        json!({
+            "name": quantity.name,
+            "rows": quantity.compared(),
+            "not_computed": quantity.not_computed(),
+            "largest": largest,
+            "beyond_tolerance": comparison.is_quantity_beyond(quantity),
+        })
+    };
+    let document = json!({
+        "schema": "inpact/comparison/1",
+        "rows_of": comparison.made_of,
+        "rows": comparison.rows(),
+        "tolerance": comparison.tolerance,
+        "quantities": comparison.quantities.iter().map(of).collect::<Vec<_>>(),
+    });
+    // A document of strings and numbers has no reason to fail.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+fn number(value: Option<f64>) -> String {
+    let mut text = Vec::new();
+    if let Some(value) = value {
+        push_number(&mut text, value);
+    }
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// In two digits.
+fn short(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+/// A name in quotes where commas or quotes in it would be taken for the table's (RFC 4180).
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
+}
