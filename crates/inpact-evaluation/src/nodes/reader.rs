@@ -31,7 +31,7 @@ enum Table<'a> {
     Csv(Box<CsvReader<'a>>),
     #[cfg(feature = "columnar")]
     Columnar(Box<ColumnarReader>),
-    Kept(Header, KeptTable),
+    Kept(Box<KeptTable>),
     Made(Box<MadeReader<'a>>),
 }
 
