@@ -14,19 +14,20 @@
 //! In large scenes a step is found without a factor of the whole matrix (`newton/krylov.rs`).
 //! The result of the iteration is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
 
+mod equations;
 mod krylov;
 mod system;
 
 use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sources};
 use crate::knowledge::Knowledge;
-use crate::linear::{LinearSolution, Method, NONE, each_part, index, largest_or_nan};
+use crate::linear::{LinearSolution, Method, index, largest_or_nan};
 use crate::scene::Field;
+use equations::{Slopes, StepEquations};
 use faer::MatMut;
 use faer::prelude::Solve;
+use faer::sparse::SparseColMat;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{SparseColMat, Triplet};
-use inpact_evaluation::numbers::{DoubleDouble, exponent_of, scale_by_power};
-use std::cell::LazyCell;
+use inpact_evaluation::numbers::DoubleDouble;
 use system::{Evaluated, System};
 
 /// Below that share of its flows a balance is met.
@@ -309,40 +310,6 @@ impl<'a> Newton<'a> {
         direction.iter().all(|change| change.is_finite()).then_some(direction)
     }
 
-    /// The equations of a step.
-    fn equations(
-        &self,
-        knowledge: &Knowledge<'a>,
-        states: &[Evaluated],
-        slopes: Slopes,
-        pseudo_capacity: f64,
-    ) -> StepEquations {
-        let count = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
-        let mut entries: Vec<Triplet<u32, u32, f64>> = Vec::new();
-        let mut right = vec![0.0; count];
-        for (system, state) in self.fields.iter().zip(states) {
-            let start = system.start;
-            each_part(&system.core, &system.edges, |row, column, part| {
-                entries.push(Triplet::new(start + row, start + column, part));
-                if row != column {
-                    entries.push(Triplet::new(start + column, start + row, part));
-                }
-            });
-            let missing = state.balance.missing();
-            for (unknown, flow) in (0..).zip(missing) {
-                right[(start + unknown) as usize] = scale_by_power(flow, -system.half(unknown));
-            }
-            if slopes == Slopes::All {
-                self.slopes_of_flows(system, state, knowledge, &mut entries);
-                self.slopes_of_heat(system, state, knowledge, &mut entries);
-            }
-        }
-        let pseudo_capacity =
-            if pseudo_capacity > 0.0 { self.add_pseudo_capacities(pseudo_capacity, &mut entries) } else { Vec::new() };
-        let scale = balance_fields(&self.fields, &mut entries, &mut right);
-        StepEquations { entries, right, pseudo_capacity, scale }
-    }
-
     /// The step by blocks of single fields.
     fn without_factor(&mut self, equations: StepEquations) -> Option<Vec<f64>> {
         let StepEquations { entries, right, pseudo_capacity, .. } = equations;
@@ -371,152 +338,4 @@ impl<'a> Newton<'a> {
         factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut right, count, 1));
         Some(right)
     }
-
-    /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes; gives how much each does.
-    fn add_pseudo_capacities(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) -> Vec<f64> {
-        let all = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
-        let mut pseudo_capacity = vec![0.0; all];
-        for system in self.fields.iter().filter(|system| system.field != Field::Potential) {
-            let count = index(system.edges.form.count());
-            let is_own = |unknown: u32| (system.start..system.start + count).contains(&unknown);
-            let mut sums = vec![0.0; count as usize];
-            for entry in entries.iter().filter(|entry| is_own(entry.row) && is_own(entry.col)) {
-                sums[(entry.row - system.start) as usize] += entry.val.abs();
-            }
-            for (unknown, sum) in (system.start..).zip(sums) {
-                pseudo_capacity[unknown as usize] = times * sum;
-                entries.push(Triplet::new(unknown, unknown, times * sum));
-            }
-        }
-        pseudo_capacity
-    }
-
-    /// The part of the slopes of flows through rows that comes from the dependence of conductances.
-    fn slopes_of_flows(
-        &self,
-        system: &System<'a>,
-        state: &Evaluated,
-        knowledge: &Knowledge<'_>,
-        entries: &mut Vec<Triplet<u32, u32, f64>>,
-    ) {
-        // Jumps that no flow determines need the values of all nodes: they are put together once, where a row reads them.
-        let values = LazyCell::new(|| system.values());
-        for (place, &row) in system.nodes.rows.iter().enumerate() {
-            let (conducts, of) = (state.terms.slopes[place], knowledge.row(row));
-            let slopes = [conducts.along_temperature, conducts.along_pore_pressure];
-            if slopes.iter().chain(&conducts.radiation_slopes).all(|slope| *slope == 0.0) {
-                continue;
-            }
-            let flow = system.nodes.links.len() + place;
-            let element = system.origins.of_link[flow];
-            if element == NONE {
-                continue;
-            }
-            let conductance = state.terms.conductances[place];
-            let jump = if conductance > 0.0 {
-                (state.flows[flow] / DoubleDouble::new(conductance)).to_f64()
-            } else {
-                system.jump_of_values(&values, of.slave, of.master)
-            };
-            let common = 0.5 * conducts.along_temperature * jump * of.area;
-            let radiation = conducts.radiation_slopes.map(|slope| slope * of.area);
-            let of_own = 0.5 * conducts.along_pore_pressure * jump * of.area;
-            let mut couple = |other: Field, slopes: [f64; 2]| {
-                let Some(other) = self.fields.iter().find(|system| system.field == other) else { return };
-                for (node, slope) in [of.slave, of.master].into_iter().zip(slopes) {
-                    if slope == 0.0 {
-                        continue;
-                    }
-                    other.on_value(node, |column, factor| {
-                        system.on_element(element, |row, sign| {
-                            entries.push(Triplet::new(row, column, sign * factor(slope)));
-                        });
-                    });
-                }
-            };
-            couple(Field::Temperature, [common + radiation[0], common + radiation[1]]);
-            couple(Field::PorePressure, [of_own; 2]);
-        }
-    }
-
-    /// The slopes of the heat of currents in the equations of temperature.
-    fn slopes_of_heat(
-        &self,
-        system: &System<'a>,
-        state: &Evaluated,
-        knowledge: &Knowledge<'_>,
-        entries: &mut Vec<Triplet<u32, u32, f64>>,
-    ) {
-        let Some(potential) = self.fields.iter().find(|system| system.field == Field::Potential) else { return };
-        for term in &state.heat {
-            let element = potential.origins.of_link[term.flow];
-            for &(place, share) in &term.nodes {
-                system.on_place(place, |row, into| {
-                    if element != NONE {
-                        potential.on_jump(element, |column, factor| {
-                            entries.push(Triplet::new(row, column, -into(factor(share * term.along_jump))));
-                        });
-                    }
-                    let slope = share * term.along_temperatures;
-                    let of_row = term.flow.checked_sub(potential.nodes.links.len());
-                    if let Some(of_row) = of_row.filter(|_| slope != 0.0) {
-                        let of = knowledge.row(potential.nodes.rows[of_row]);
-                        for node in [of.slave, of.master] {
-                            system.on_value(node, |column, factor| {
-                                entries.push(Triplet::new(row, column, -into(factor(slope))));
-                            });
-                        }
-                    }
-                });
-            }
-        }
-    }
-}
-
-/// The equations of a step of all fields.
-struct StepEquations {
-    entries: Vec<Triplet<u32, u32, f64>>,
-    right: Vec<f64>,
-    /// The pseudo-capacity of each equation; empty where none has one.
-    pseudo_capacity: Vec<f64>,
-    /// The factor of each field's unknowns.
-    scale: [f64; 3],
-}
-
-/// The slopes that a step takes into account.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Slopes {
-    All,
-    /// Conductances and heat are held.
-    Held,
-}
-
-/// Chooses the unit of each field so that what couples two fields has one size in both directions; gives the factors.
-fn balance_fields(fields: &[System<'_>], entries: &mut [Triplet<u32, u32, f64>], right: &mut [f64]) -> [f64; 3] {
-    let mut scale = [1.0; 3];
-    let [first, second] = fields else { return scale };
-    let is_first = |unknown: u32| unknown < second.start;
-    let largest = |of_first_row: bool| {
-        let coupling = entries
-            .iter()
-            .filter(|entry| is_first(entry.row) == of_first_row && is_first(entry.row) != is_first(entry.col));
-        coupling.fold(0.0, |largest: f64, entry| largest.max(entry.val.abs()))
-    };
-    let (upper, lower) = (largest(true), largest(false));
-    if upper > 0.0 && lower > 0.0 && upper.is_finite() && lower.is_finite() {
-        let exponent = (exponent_of(upper) - exponent_of(lower)) / 2;
-        let factor = scale_by_power(1.0, exponent.clamp(-1000, 1000));
-        for entry in entries.iter_mut() {
-            match (is_first(entry.row), is_first(entry.col)) {
-                (true, false) => entry.val /= factor,
-                (false, true) => entry.val *= factor,
-                _ => {}
-            }
-        }
-        for unknown in 0..second.start {
-            right[unknown as usize] /= factor;
-        }
-        scale[first.field.index()] = factor;
-    }
-    scale
 }

@@ -1,13 +1,20 @@
 //! Solves a scene at one time: stage by stage, each field with what the stages before have found.
 
-use crate::assembly::{Capacities, Currents, RowFault, RowTerms, add_heat, network, row_terms, sources};
+mod failure;
+mod relaxation;
+
+pub use failure::SolveFailure;
+
+use crate::assembly::{Capacities, Currents, RowTerms, add_heat, network, row_terms, sources};
 use crate::knowledge::{Guess, Increment, Knowledge};
-use crate::linear::{LAST_DIGIT, LinearFailure, LinearSolution, Method, Shortcoming, Solver, Unsolvable, Work};
+use crate::linear::{LAST_DIGIT, LinearSolution, Method, Solver, Work};
 use crate::newton::{Iterated, Newton};
 use crate::problem::{FieldNodes, Problem, Stage};
 use crate::scene::Field;
 use crate::state::{FieldState, StageReport, State};
+use failure::failed;
 use inpact_evaluation::numbers::DoubleDouble;
+use relaxation::{Relaxation, Walk};
 
 /// Conductances within this relative distance of those a solution was found with are the same.
 const CONSISTENT: f64 = 1e-14;
@@ -20,12 +27,6 @@ const MET: f64 = 1e-10;
 
 /// So many units in the last place of a temperature or a pore pressure are no inconsistency of what depends on it.
 const DIGITS: f64 = 4.0;
-
-/// The part of the way that substitution goes at most.
-const FIRST_PART: f64 = 0.5;
-
-/// A node that goes on in one direction for longer is not between the values where it once turned.
-const LONGEST_RUN: u32 = 40;
 
 /// The most passes of substitution, and the most nodes of all of them together.
 const MOST_PASSES: usize = 2_000;
@@ -52,61 +53,6 @@ pub enum Histories {
     NotWanted,
     /// ECDT, SJDT, HTL, PTL and those times the area.
     Wanted,
-}
-
-/// Reasons why a scene was not solved.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SolveFailure {
-    /// Bodies without a path to a fixed value: the field, and the nodes of each body, by their numbers in the scene.
-    Floating {
-        /// The field.
-        field: Field,
-        /// The nodes.
-        components: Vec<Vec<u32>>,
-    },
-    /// Nodes that are one are held at different values.
-    Contradiction {
-        /// The field.
-        field: Field,
-        /// The nodes.
-        nodes: [u32; 2],
-        /// Their held values.
-        values: [f64; 2],
-    },
-    /// A law of a row gives nothing that can be solved with.
-    Row(RowFault),
-    /// No linear solver came within the tolerance.
-    NotSolved {
-        /// The field.
-        field: Field,
-        /// The methods tried, each with the reason of its failure.
-        tried: Vec<(Method, Shortcoming)>,
-    },
-    /// A temperature would be below absolute zero.
-    BelowAbsoluteZero {
-        /// The node.
-        node: u32,
-        /// Its temperature, θ.
-        value: f64,
-        /// Absolute zero, θ.
-        zero: f64,
-    },
-    /// Newton's iteration did not converge.
-    NotConverged {
-        /// The number of steps.
-        steps: usize,
-        /// For each field where most is missing: the share of its largest flow, and the node.
-        worst: Vec<(Field, f64, Option<u32>)>,
-        /// The relative distance of the conductances from those of the state, where its balances are met.
-        inconsistency: Option<f64>,
-    },
-}
-
-impl SolveFailure {
-    /// Whether an increment that is shorter may not fail so.
-    pub(crate) fn may_be_of_length(&self) -> bool {
-        matches!(self, Self::NotConverged { .. } | Self::BelowAbsoluteZero { .. })
-    }
 }
 
 impl<'a> Equations<'a> {
@@ -462,71 +408,6 @@ impl<'a> Equations<'a> {
     }
 }
 
-/// Relaxation of substitution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Relaxation {
-    /// By half the part at a node that comes back from where it went, and by more where it goes on.
-    Parts,
-    /// The middle of the bracket in which a node turns: finds the solution of a scene of one unknown at any step of its table.
-    Brackets,
-}
-
-impl Relaxation {
-    /// Substitution that changes, or brackets, no value by more than this part of the largest has come to rest.
-    fn at_rest(self) -> f64 {
-        match self {
-            Self::Parts => 1e-9,
-            Self::Brackets => f64::EPSILON,
-        }
-    }
-}
-
-/// The way of a node through substitution.
-#[derive(Debug, Clone, Copy)]
-struct Walk {
-    part: f64,
-    last: f64,
-    /// The last values from which it went up, and down.
-    bracket: [f64; 2],
-    /// The number of steps in one direction.
-    run: u32,
-}
-
-impl Default for Walk {
-    fn default() -> Self {
-        Self { part: FIRST_PART, last: 0.0, bracket: [f64::NEG_INFINITY, f64::INFINITY], run: 0 }
-    }
-}
-
-impl Walk {
-    /// The step from a value which substitution would change by `change`.
-    fn step(&mut self, way: Relaxation, value: f64, change: f64) -> f64 {
-        let turns = change * self.last < 0.0;
-        self.part = if turns { 0.5 * self.part } else { (1.1 * self.part).min(FIRST_PART) };
-        self.run = if turns { 0 } else { self.run + 1 };
-        self.last = change;
-        if way == Relaxation::Parts {
-            return self.part * change;
-        }
-        let goes_up = 0.0 < change;
-        self.bracket[usize::from(!goes_up)] = value;
-        let [lower, upper] = self.bracket;
-        // Other nodes have moved the place where it turns.
-        if upper <= lower || LONGEST_RUN < self.run {
-            self.bracket[usize::from(goes_up)] = if goes_up { f64::INFINITY } else { f64::NEG_INFINITY };
-            self.run = 0;
-        }
-        let [lower, upper] = self.bracket;
-        let aim = value + FIRST_PART * change;
-        let is_inside = lower < aim && aim < upper;
-        if is_inside || !lower.is_finite() || !upper.is_finite() {
-            FIRST_PART * change
-        } else {
-            0.5 * (lower + upper) - value
-        }
-    }
-}
-
 /// Result of an attempt at a nonlinear stage.
 struct Attempt {
     iterated: Iterated,
@@ -541,21 +422,5 @@ impl Attempt {
     fn is_short(&self) -> bool {
         let is_good = self.iterated.has_converged && self.beyond <= CONSISTENT_ENOUGH;
         !is_good
-    }
-}
-
-/// A failure in terms of the scene.
-fn failed(field: Field, nodes: &FieldNodes, failure: LinearFailure) -> SolveFailure {
-    let node = |place: u32| nodes.nodes[place as usize];
-    match failure {
-        LinearFailure::Unsolvable(Unsolvable::Floating(components)) => {
-            let components =
-                components.into_iter().map(|component| component.into_iter().map(node).collect()).collect();
-            SolveFailure::Floating { field, components }
-        }
-        LinearFailure::Unsolvable(Unsolvable::Contradiction { nodes, values }) => {
-            SolveFailure::Contradiction { field, nodes: nodes.map(node), values }
-        }
-        LinearFailure::NotSolved(tried) => SolveFailure::NotSolved { field, tried },
     }
 }
