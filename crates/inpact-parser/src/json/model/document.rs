@@ -73,7 +73,7 @@ pub(super) struct InteractionDocument {
     pub(super) span: SpanDocument,
     /// Out-of-plane thickness, dimension L, or area per node of a node-based surface, dimension L²; 1 by default.
     pub(super) thickness: f64,
-    /// The other parameters of the keyword line, by name.
+    /// The other parameters of the keyword line, by name; of one that it gives twice (K009) the last, which counts: the lossless form has both.
     pub(super) parameters: GivenDocuments,
     /// The constants of USER, PROPERTIES=n; their dimensions are those of the user subroutine.
     pub(super) properties: Vec<f64>,
@@ -172,7 +172,7 @@ pub(super) struct HeatDocument {
 pub(super) struct SubOptionDocument {
     /// The keyword, in full, in upper case and without its asterisk.
     pub(super) keyword: String,
-    /// Its parameters, by name.
+    /// Its parameters, by name; of one that is given twice (K009) the last, which counts: the lossless form has both.
     pub(super) parameters: GivenDocuments,
     /// Its rows as numbers, where they form a table; `null` otherwise.
     #[serde(deserialize_with = "required")]
@@ -204,7 +204,7 @@ pub(super) struct ContactPairDocument {
     /// The name of its interaction; `null` when none is given.
     #[serde(deserialize_with = "required")]
     pub(super) interaction: Option<String>,
-    /// The other parameters of the keyword line, by name.
+    /// The other parameters of the keyword line, by name; of one that it gives twice (K009) the last, which counts: the lossless form has both.
     pub(super) parameters: GivenDocuments,
     /// The pairs of surfaces, one a line.
     pub(super) pairs: Vec<SurfacePairDocument>,
@@ -247,7 +247,7 @@ pub(super) struct ProcedureDocument {
     pub(super) step: usize,
     /// The keyword, in full, in upper case and without its asterisk.
     pub(super) keyword: String,
-    /// Its parameters, by name.
+    /// Its parameters, by name; of one that is given twice (K009) the last, which counts: the lossless form has both.
     pub(super) parameters: GivenDocuments,
     /// The items of every line.
     pub(super) rows: Vec<Vec<String>>,
