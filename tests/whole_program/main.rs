@@ -3,6 +3,7 @@
 mod bytes;
 mod calculix;
 mod check;
+mod check_geometry;
 mod columns;
 mod compare;
 mod configuration;

@@ -10,6 +10,7 @@
 //! Nothing is guessed: a node without a master face across has an empty clearance unless a solver says one, a master field that a node of its face lacks is empty
 //! too, and what of a result file could not be used is named.
 
+mod check;
 mod join;
 mod naming;
 mod pair;
@@ -19,6 +20,10 @@ mod state;
 mod summary;
 mod values;
 
+pub use check::{
+    BEYOND_CUTOFF, DEEP_OVERCLOSURE, GEOMETRY_RULES, NODE_BASED_SURFACE, TABLE_NOT_REACHED, WITHOUT_MASTER, WRONG_SIDE,
+    check_geometry,
+};
 pub use join::{FileSummary, Join, JoinError, Joined, MatchedBy, ResultNote};
 pub use picture::SlaveFaces;
 pub use rows::{NodeRows, RowsError};

@@ -17,7 +17,18 @@ use std::time::{Duration, Instant};
 
 /// Checks a deck and its model by every rule; findings come in the order of the deck.
 pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
-    let mut diagnostics = Vec::new();
+    check_with(deck, grammar, model, problems, Vec::new())
+}
+
+/// The same with findings of other rules about the deck, such as those on its geometry: they are silenced, ordered and located with the others.
+pub fn check_with(
+    deck: &Deck,
+    grammar: &Grammar,
+    model: &Model,
+    problems: &[Problem],
+    others: Vec<Diagnostic>,
+) -> Vec<Diagnostic> {
+    let mut diagnostics = others;
     with_context((deck, grammar, model, problems), |context| {
         for (rule, check) in CHECKS {
             let mut report = Report::new(rule, &mut diagnostics);

@@ -5,6 +5,7 @@ mod tally;
 
 use self::mending::Mending;
 use self::tally::Tally;
+use super::meshed::mesh_of;
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::fixing::{self, FixReach, FixSelection, Need, Purpose};
@@ -14,10 +15,12 @@ use crate::render::{self, Format, Style};
 use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::Args;
+use inpact_contact::check_geometry;
+use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::Keep;
 use inpact_parser::model;
 use inpact_validation::rules::RULES;
-use inpact_validation::{Severity, check};
+use inpact_validation::{Severity, check_with};
 use rayon::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -53,6 +56,9 @@ pub(crate) struct CheckArguments {
     /// End with 0 even when there are errors.
     #[arg(long)]
     exit_zero: bool,
+    /// Look at the geometry of contact pairs as well, where the deck has a mesh: rules G001 and on.
+    #[arg(long)]
+    geometry: bool,
     /// Say nothing on standard error but failures.
     #[arg(short, long)]
     quiet: bool,
@@ -77,6 +83,12 @@ struct Checked<'a> {
 }
 
 impl CheckArguments {
+    /// Rows of a mesh are kept where they cannot be read a second time: those of a stream, and of files that are changed.
+    fn keep(&self, path: &Path) -> Keep {
+        let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
+        if self.geometry && (!is_file || self.selection().is_some()) { Keep::Everything } else { Keep::Interpreted }
+    }
+
     /// The fixes to apply; `None` without `--fix` and `--diff`.
     fn selection(&self) -> Option<FixSelection> {
         let is_wanted = self.fix || self.diff || self.fix_included || !self.fix_also.is_empty();
@@ -177,29 +189,40 @@ fn check_deck<'a>(
         return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));
     }
     let held = selection.map(|_| HeldFiles::default());
-    let deck = input::read_located_deck(path, Keep::Interpreted, &settings, held.as_ref())?;
+    let deck = input::read_located_deck(path, arguments.keep(path), &settings, held.as_ref())?;
     progress.advance(path);
     let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, selection));
-    let (text, tally) = judge(&deck, &settings, arguments, style);
+    let (text, tally) = judge(path, &deck, &settings, arguments, style)?;
     let held = held.filter(|_| need == Need::Mending);
     Ok(Checked { path, settings, text, tally, places: deck.places().to_vec(), need, held })
 }
 
 /// The findings of a deck.
 fn judge(
-    LocatedDeck { deck, .. }: &LocatedDeck,
+    path: &Path,
+    located: &LocatedDeck,
     settings: &Settings,
     arguments: &CheckArguments,
     style: Style,
-) -> (String, Tally) {
+) -> Result<(String, Tally), Failure> {
+    let deck = &located.deck;
     let (model, problems) = model::read(deck, settings.grammar);
-    let diagnostics = settings.apply(check(deck, settings.grammar, &model, &problems));
+    let of_geometry = if arguments.geometry {
+        let mesh = mesh_of(path, located, arguments.keep(path), &model, settings)?;
+        if mesh.pairs.is_empty() && !arguments.quiet {
+            say(&visible_line(&format!("{}: no contact pair with a mesh: no geometry is checked", path.display())));
+        }
+        check_geometry(&mesh, &model)
+    } else {
+        Vec::new()
+    };
+    let diagnostics = settings.apply(check_with(deck, settings.grammar, &model, &problems, of_geometry));
     let text = if arguments.diff || arguments.statistics {
         String::new()
     } else {
         render::diagnostics(&diagnostics, deck, arguments.format, style)
     };
-    (text, Tally::of_findings(&diagnostics))
+    Ok((text, Tally::of_findings(&diagnostics)))
 }
 
 /// Reads every deck and prints how long each stage and each rule took, in milliseconds.

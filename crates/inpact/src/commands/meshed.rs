@@ -7,13 +7,14 @@ use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
 use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::mesh::{self, KeptRows, Mesh, MeshNote, RowBytes, SeekableRows};
+use inpact_parser::mesh::{self, KeptRows, Mesh, MeshNote, SeekableRows};
 use inpact_parser::model::{self, Model};
 use inpact_parser::problem::Problem;
 use inpact_parser::span::{Position, SourceId};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
 /// More notes than these nobody reads, and each has to be looked for in the file.
@@ -58,13 +59,8 @@ impl MeshedDeck {
         let mut files = if is_file { Some(open_all(&located)?) } else { None };
         let LocatedDeck { deck, .. } = located;
         let read = ReadDeck::of(deck, settings);
-        let unreadable = |error| Failure::read(path, error);
-        let read_mesh = |rows: &mut dyn RowBytes| mesh::read(&read.deck, settings.grammar, &read.model, rows);
-        let mesh = match &mut files {
-            Some(files) => read_mesh(files),
-            None => read_mesh(&mut KeptRows(&read.deck)),
-        };
-        let mesh = mesh.map_err(unreadable)?;
+        let mesh = read_mesh(&read.deck, &read.model, settings, files.as_mut());
+        let mesh = mesh.map_err(|error| Failure::read(path, error))?;
         Ok(Self { name: path.display().to_string(), read, mesh, files: RefCell::new(files) })
     }
 
@@ -106,6 +102,30 @@ impl MeshedDeck {
                 say_json(&serde_json::to_string(&record).unwrap_or_default());
             }
         }
+    }
+}
+
+/// The mesh of a deck that was read already: from the rows it has kept, or else from its files.
+pub(crate) fn mesh_of(
+    path: &Path,
+    located: &LocatedDeck,
+    keep: Keep,
+    model: &Model,
+    settings: &Settings,
+) -> Result<Mesh, Failure> {
+    let mut files = if keep == Keep::Everything { None } else { Some(open_all(located)?) };
+    read_mesh(&located.deck, model, settings, files.as_mut()).map_err(|error| Failure::read(path, error))
+}
+
+fn read_mesh(
+    deck: &Deck,
+    model: &Model,
+    settings: &Settings,
+    files: Option<&mut SeekableRows<File>>,
+) -> io::Result<Mesh> {
+    match files {
+        Some(files) => mesh::read(deck, settings.grammar, model, files),
+        None => mesh::read(deck, settings.grammar, model, &mut KeptRows(deck)),
     }
 }
 

@@ -8,7 +8,6 @@ use crate::files::transaction;
 use crate::fixing::{self, FixSelection, Mended, Purpose, Subject};
 use crate::input::{self, HeldFiles};
 use crate::render::Style;
-use inpact_parser::deck::Keep;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -84,8 +83,10 @@ pub(super) fn mend(
         if !checked.places.iter().any(|place| changed.contains(place)) {
             return;
         }
-        match input::read_located_deck(checked.path, Keep::Interpreted, &checked.settings, Some(&held)) {
-            Ok(deck) => (checked.text, checked.tally) = judge(&deck, &checked.settings, arguments, style),
+        let keep = arguments.keep(checked.path);
+        let read = input::read_located_deck(checked.path, keep, &checked.settings, Some(&held));
+        match read.and_then(|deck| judge(checked.path, &deck, &checked.settings, arguments, style)) {
+            Ok(judged) => (checked.text, checked.tally) = judged,
             Err(failure) => *result = Err(failure),
         }
     });
