@@ -31,6 +31,7 @@ mod pictures;
 mod plan;
 mod plot;
 mod program;
+mod report;
 mod solve;
 mod solve_ccx;
 mod solve_hard;

@@ -1,6 +1,6 @@
 //! `inpact plot`: every sample deck, every option, and decks that no picture was made for.
 
-use crate::program::{Folder, dialect_of, inpact, sample_decks};
+use crate::program::{Folder, dialect_of, inpact, root, sample_decks};
 use roxmltree::Document;
 use std::fmt::Write;
 
@@ -87,7 +87,7 @@ fn a_plot_in_letters_is_legible_without_colours() {
 
 #[test]
 fn laws_interactions_and_variables_are_chosen() {
-    let deck = std::fs::read_to_string(crate::program::root().join("decks/spot-weld/spot-weld.inp")).expect("a sample");
+    let deck = std::fs::read_to_string(root().join("decks/spot-weld/spot-weld.inp")).expect("a sample");
     let all = in_letters(&deck, &[]);
     assert_eq!(all.matches(": electrical conductance").count(), 2);
     let one = in_letters(&deck, &["--interaction", "faying", "--law", "thermal"]);
@@ -188,6 +188,49 @@ fn decks_stand_side_by_side_with_the_same_axes() {
     let count = |label: &str| texts.iter().filter(|text| *text == label).count();
     // Ticks that only the larger of both needs, of values and of pressures.
     assert_eq!((count("800"), count("200")), (2, 4), "{texts:?}");
+}
+
+#[test]
+fn what_changed_between_decks_is_said() {
+    let new = DECK.replace("90., 70., 400.", "91., 70., 400.") + "*SURFACE INTERACTION, NAME=K\n";
+    let folder = Folder::with(&[("old.inp", DECK), ("new.inp", &new)]);
+    let run = folder.inpact(&["plot", "old.inp", "new.inp", "--units", "L=mm"]);
+    let said = run.output.replace('\n', " ");
+    let change = "changed since old.inp: electrical conductance of JOINT against pressure: row 4: conductance 90 -> 91";
+    assert!(said.contains(change), "{}", run.output);
+    assert!(said.contains("changed since old.inp: K is new"), "{}", run.output);
+    let same = folder.inpact(&["plot", "old.inp", "old.inp"]);
+    assert!(same.output.contains("the same as old.inp"), "{}", same.output);
+}
+
+/// D007 in a picture: where the rows of a node table are, and how many of them are beyond the tables.
+#[test]
+fn nodes_are_points_with_histograms_and_the_share_beyond() {
+    let nodes = "clearance,pressure,temp\n.03,0,310\n.07,0,320\n.2,0,330\n0,10,340\n0,33,399\n0,900,350\n";
+    let folder = Folder::with(&[("a.inp", DECK), ("a.csv", nodes)]);
+    let run = folder.inpact(&["plot", "a.inp", "--nodes", "a.csv", "-o", "a.svg"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.errors.contains("note[D007]"));
+    let svg = folder.read("a.svg");
+    let texts = texts(&svg);
+    let share = "node table: 6 rows: 3 closed, 3 open; 2 beyond the table (33.3 %)";
+    assert!(texts.iter().any(|text| text.contains(share)), "{texts:?}");
+    assert!(has(&texts, "500"), "an axis that ends before the nodes: {texts:?}");
+    assert_eq!(svg.matches("fill-opacity=\"0.35\"").count(), 6, "a point a row");
+    // Three bars for clearances, two for pressures, four for values.
+    assert!(6 < svg.matches("fill-opacity=\"0.45\"").count());
+    let run = folder.inpact(&["plot", "a.inp", "a.inp", "--nodes", "a.csv"]);
+    assert_eq!(run.code, 2);
+    assert!(run.errors.contains("`--nodes` is for one deck"));
+}
+
+#[test]
+fn a_page_of_curves_is_made() {
+    let folder = Folder::with(&[("a.inp", DECK)]);
+    let run = folder.inpact(&["plot", "a.inp", "-o", "a.html"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let html = folder.read("a.html");
+    assert!(html.starts_with("<!DOCTYPE html>") && html.contains("figure class=\"law\""));
 }
 
 #[test]
@@ -294,4 +337,53 @@ fn hostile_names_stay_names() {
     assert!(!svg.contains('\u{202e}'), "an order of letters that the name decides");
     assert!(texts.iter().any(|text| text.ends_with('…')), "{texts:?}");
     assert!(!in_letters(&deck, &[]).contains('\u{202e}'));
+}
+
+/// The pictures of `docs/pictures` are those that `inpact plot` draws; `INPACT_UPDATE=1` draws them anew.
+#[test]
+fn pictures_of_the_sample_decks_are_fresh() {
+    const BEGIN: &str = "## The sample decks\n";
+    let folder = Folder::with(&[]);
+    let target = folder.path().join("picture.svg");
+    let target = target.to_str().expect("a name that is text");
+    let is_update = std::env::var_os("INPACT_UPDATE").is_some();
+    let mut gallery =
+        format!("{BEGIN}\nDrawn with `--findings`, and with `--nodes` where a node table is beside the deck.\n");
+    let mut drawn = Vec::new();
+    for deck in sample_decks() {
+        let nodes = deck.replace(".inp", "-nodes.csv");
+        let has_nodes = root().join(&nodes).exists() && !deck.contains("user-law");
+        let more: &[&str] = if has_nodes { &["--nodes", &nodes] } else { &[] };
+        let run = inpact(&[&["plot", &deck, "--findings", "-o", target], dialect_of(&deck), more].concat());
+        if run.code == 1 {
+            continue;
+        }
+        assert_eq!(run.code, 0, "{deck}: {}", run.errors);
+        let name = deck.rsplit('/').next().expect("a name").replace(".inp", ".svg");
+        let picture = root().join("docs/pictures").join(&name);
+        if is_update {
+            std::fs::copy(target, &picture).expect("writable");
+        }
+        let kept = std::fs::read_to_string(&picture).unwrap_or_default();
+        let is_fresh = kept == folder.read("picture.svg");
+        assert!(is_fresh, "`docs/pictures/{name}` is out of date: run this test again with INPACT_UPDATE=1");
+        let _ = write!(gallery, "\n[{deck}](../{deck})\n\n![Curves of {deck}](pictures/{name})\n");
+        drawn.push(name);
+    }
+    let page = root().join("docs/pictures.md");
+    let written = std::fs::read_to_string(&page).expect("readable");
+    let begin = written.find(BEGIN).expect("the section of the samples");
+    let fresh = written[..begin].to_owned() + &gallery;
+    if is_update {
+        std::fs::write(&page, &fresh).expect("writable");
+    } else {
+        assert!(fresh == written, "`docs/pictures.md` is out of date: run this test again with INPACT_UPDATE=1");
+    }
+    let mut kept: Vec<String> = std::fs::read_dir(root().join("docs/pictures"))
+        .expect("a folder")
+        .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
+        .collect();
+    kept.sort();
+    drawn.sort();
+    assert_eq!(kept, drawn, "pictures of decks that are gone");
 }

@@ -39,6 +39,8 @@ enum Command {
     Compare(commands::compare::CompareArguments),
     /// Draw the laws of decks: conductance, permeability and view factor against clearance and contact pressure.
     Plot(commands::plot::PlotArguments),
+    /// Make a page of a deck's interfaces: curves, tables, findings and, with a node table, results; one file that opens anywhere.
+    Report(commands::report::ReportArguments),
     /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
     Solve(commands::solve::SolveArguments),
     /// Measure what accuracy costs: time and error of every mode on a deck and its node data, or of every solver on a scene.
@@ -73,6 +75,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Plot(arguments) => commands::plot::run(&arguments),
+        Command::Report(arguments) => commands::report::run(&arguments),
         Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

@@ -7,6 +7,7 @@
 //! Knows no pixels and no files: pictures, text plots and pages are made of it.
 
 mod build;
+mod changes;
 mod law;
 mod marks;
 mod node_rows;
@@ -15,7 +16,8 @@ mod rows;
 mod sample;
 mod units;
 
-pub use build::{Detail, Probing, Request, figure, figures};
+pub use build::{Detail, HeldPlace, Probing, Request, figure, figures};
+pub use changes::changes;
 pub use law::LawKind;
 pub use marks::{Mark, mark_findings};
 pub use node_rows::{NodeRows, NodeSample};

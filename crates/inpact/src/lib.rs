@@ -47,6 +47,7 @@ mod page;
 mod progress;
 mod reach;
 mod render;
+mod report;
 mod rules;
 mod scene;
 mod settings;

@@ -245,7 +245,8 @@ impl<'a> Plot<'a> {
         };
         let right = RIGHT + 12.0 + if self.panel.nodes.is_some() { BAR } else { 0.0 };
         let mut y = TOP + 4.0;
-        for line in wrapped(&visible_line(&family.title()), 15) {
+        let most = if self.panel.nodes.is_some() { 12 } else { 15 };
+        for line in wrapped(&visible_line(&family.title()), most) {
             drawing.text(self.at(right, y), &line, "tick", "start");
             y += 16.0;
         }

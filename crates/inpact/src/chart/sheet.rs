@@ -1,9 +1,11 @@
 //! Panels on one sheet: those of one deck in two columns, several decks side by side with the same axes.
 
+use super::colours;
 use super::panel::{self, Plot, Scales, shortened, values_of, wrapped};
+use super::scale::{Scale, ScaleKind};
 use super::svg::Drawing;
 use super::whole;
-use crate::curves::{Figure, LawKind, Panel};
+use crate::curves::{Figure, LawKind, Panel, number};
 use inpact_diagnostics::visible::visible_line;
 
 /// The room around panels.
@@ -53,6 +55,46 @@ pub(crate) fn svg(figures: &[Figure], scales: Scales) -> String {
     for (line, note) in notes.iter().enumerate() {
         let y = TITLE + rows.len() as f64 * panel::HEIGHT + LINE * (line as f64 + 0.5);
         drawing.text((MARGIN + 22.0, y), note, "note", "start");
+    }
+    drawing.finish()
+}
+
+/// One panel as an SVG document.
+pub(crate) fn svg_of_panel(of: &Panel, scales: Scales) -> String {
+    let mut drawing = Drawing::new(panel::WIDTH, panel::HEIGHT, &visible_line(&of.description()));
+    Plot::new(of, (0.0, 0.0), scales, &values_of(std::iter::once(of))).draw(&mut drawing);
+    drawing.finish()
+}
+
+/// A sum over an interface against time as an SVG document.
+pub(crate) fn svg_of_history(interaction: &str, output: &str, points: &[(f64, f64)]) -> String {
+    let (width, height) = (panel::WIDTH, 300.0);
+    let (left, right, top, bottom) = (92.0, width - 24.0, 24.0, height - 58.0);
+    let title = format!("{output} of {interaction} against time, {} times", points.len());
+    let mut drawing = Drawing::new(width, height, &visible_line(&title));
+    let x = Scale::around(points.iter().map(|point| point.0), ScaleKind::Linear);
+    let y = Scale::around(points.iter().map(|point| point.1), ScaleKind::Linear);
+    let across = |at: f64| left + x.part(at) * (right - left);
+    let up = |at: f64| bottom - y.part(at) * (bottom - top);
+    for (tick, label) in y.ticks(5) {
+        drawing.line((left, up(tick)), (right, up(tick)), "grid");
+        drawing.text((left - 8.0, up(tick) + 4.5), &label, "tick", "end");
+    }
+    for (tick, label) in x.ticks(7) {
+        drawing.line((across(tick), bottom), (across(tick), bottom + 5.0), "tick-line");
+        drawing.text((across(tick), bottom + 19.0), &label, "tick", "middle");
+    }
+    drawing.line((left, bottom), (right, bottom), "axis");
+    drawing.line((left, top), (left, bottom), "axis");
+    drawing.text((f64::midpoint(left, right), bottom + 40.0), "time", "axis-title", "middle");
+    drawing.upright_text((18.0, f64::midpoint(top, bottom)), output, "axis-title");
+    let places: Vec<(f64, f64)> = points.iter().map(|(time, value)| (across(*time), up(*value))).collect();
+    let colour = colours::of_curve(0, 1);
+    drawing.polyline(&places, &format!(r#"fill="none" stroke="{colour}" stroke-width="2""#));
+    if places.len() <= 100 {
+        for (place, (time, value)) in places.iter().zip(points) {
+            drawing.mark(*place, 0, &colour, &format!("time {}: {}", number(*time), number(*value)));
+        }
     }
     drawing.finish()
 }

@@ -142,6 +142,11 @@ enum NodesInput {
 }
 
 impl EvaluableArguments {
+    /// Everything that a deck gives on a node table in full accuracy; nodes start at their first rows.
+    pub(crate) fn of_nodes(deck: PathBuf, nodes: PathBuf) -> Self {
+        Self { nodes: Some(nodes), ..Self::of_results(deck, Vec::new(), HistoryStartChoice::FirstRow) }
+    }
+
     /// Everything that a deck and the results of its job give, in full accuracy.
     pub(crate) fn of_results(deck: PathBuf, results: Vec<PathBuf>, history_start: HistoryStartChoice) -> Self {
         Self {

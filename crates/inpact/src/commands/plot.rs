@@ -1,6 +1,9 @@
 //! `inpact plot`: decks in, the curves of their laws out.
 
+use super::evaluable::{Evaluable, EvaluableArguments};
+use super::findings::{FindingFormat, say_data_findings};
 use super::laws::LawArguments;
+use super::node_sample::{Gathered, gather};
 use crate::chart::panel::Scales;
 use crate::chart::scale::ScaleKind;
 use crate::chart::{sheet, terminal};
@@ -8,6 +11,7 @@ use crate::curves::{self, Detail, Figure, LawKind, Probing, Request, Units};
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::input;
+use crate::report;
 use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
@@ -22,12 +26,15 @@ pub(crate) struct PlotArguments {
     decks: Vec<PathBuf>,
     #[command(flatten)]
     drawing: DrawingArguments,
-    /// Where to draw: FILE ends in .svg or .png; without it a plot in letters goes to standard output.
+    /// Where to draw: FILE ends in .svg, .png or .html; without it a plot in letters goes to standard output.
     #[arg(short, long, value_name = "FILE", value_parser = picture)]
     output: Option<Picture>,
     /// Which axes are logarithmic; that of the values where none is named.
     #[arg(long, value_enum, value_name = "AXES", num_args = 0..=1, require_equals = true, default_missing_value = "y")]
     log: Option<LogAxes>,
+    /// Draw the rows of a node table on the curves, with their histograms and the share that is beyond the tables.
+    #[arg(long, value_name = "TABLE")]
+    nodes: Option<PathBuf>,
     /// Mark what a check of the deck finds in the rows that are drawn.
     #[arg(long)]
     findings: bool,
@@ -87,10 +94,14 @@ struct Picture {
 enum PictureKind {
     Svg,
     Png,
+    Html,
 }
 
 /// The most panels of a picture.
 const MOST_PANELS: usize = 40;
+
+/// The most changes between two decks that are named.
+const MOST_CHANGES: usize = 20;
 
 /// The number of values of a curve on logarithmic axes, where it is not straight between its rows.
 const ON_LOGARITHMIC: usize = 160;
@@ -105,6 +116,7 @@ impl DrawingArguments {
             LawName::Permeability => LawKind::Permeability,
         };
         Request {
+            held_places: Vec::new(),
             interactions: self.interaction.iter().map(|name| Name::new(name)).collect(),
             laws: self.law.iter().map(law).collect(),
             at: self.at.clone(),
@@ -146,10 +158,20 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
     files::name_as_inputs(&arguments.decks);
     let target = arguments.output.as_ref().map(|picture| picture.path.as_path());
     files::check_targets(&[target])?;
+    if arguments.nodes.is_some() && 1 < arguments.decks.len() {
+        return Err(Failure::Usage("`--nodes` is for one deck".to_owned()));
+    }
     let decks = arguments.decks.iter().map(|path| read(path, arguments)).collect::<Result<Vec<_>, _>>()?;
     let models: Vec<&Model> = decks.iter().map(|deck| &deck.model).collect();
     arguments.drawing.refuse_unknown(&models)?;
-    let figures = figures(arguments, &decks)?;
+    let nodes = match &arguments.nodes {
+        None => None,
+        Some(nodes) => match gathered(arguments, nodes)? {
+            None => return Ok(Outcome::HasErrors),
+            gathered => gathered,
+        },
+    };
+    let figures = figures(arguments, &decks, nodes.as_ref())?;
     if figures.iter().all(|figure| figure.panels.is_empty()) {
         return Err(nothing_to_draw(&figures));
     }
@@ -162,11 +184,26 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
         }
         Some(picture) => {
             figures.iter().flat_map(|figure| &figure.notes).for_each(|note| say(&format!("note: {note}")));
-            let svg = sheet::svg(&figures, scales(arguments));
-            files::write_result(Some(&picture.path), &drawn(svg, picture.kind)?)?;
+            let bytes = match picture.kind {
+                PictureKind::Html => report::page_of_curves(&figures).into_bytes(),
+                kind => drawn(sheet::svg(&figures, scales(arguments)), kind)?,
+            };
+            files::write_result(Some(&picture.path), &bytes)?;
         }
     }
     Ok(Outcome::Clean)
+}
+
+/// Evaluates the node table; `None` after saying what is wrong with it or with the deck.
+fn gathered(arguments: &PlotArguments, nodes: &Path) -> Result<Option<(Gathered, Evaluable)>, Failure> {
+    let evaluable = EvaluableArguments::of_nodes(arguments.decks[0].clone(), nodes.to_owned());
+    files::name_as_inputs(&evaluable.inputs());
+    let format = FindingFormat::Concise;
+    let prepared = evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
+    let Some(mut prepared) = prepared.filter(|prepared| !prepared.deck_has_errors) else { return Ok(None) };
+    let gathered = gather(&evaluable, &mut prepared)?;
+    say_data_findings(gathered.findings.list().to_vec(), &prepared.settings, format);
+    Ok(Some((gathered, prepared)))
 }
 
 fn read(path: &Path, arguments: &PlotArguments) -> Result<DrawnDeck, Failure> {
@@ -178,21 +215,46 @@ fn read(path: &Path, arguments: &PlotArguments) -> Result<DrawnDeck, Failure> {
     Ok(DrawnDeck { name: path.display().to_string(), settings, model, findings })
 }
 
-fn figures(arguments: &PlotArguments, decks: &[DrawnDeck]) -> Result<Vec<Figure>, Failure> {
+fn figures(
+    arguments: &PlotArguments,
+    decks: &[DrawnDeck],
+    nodes: Option<&(Gathered, Evaluable)>,
+) -> Result<Vec<Figure>, Failure> {
     let scales = scales(arguments);
     let detail = match scales {
         Scales { x: ScaleKind::Linear, y: ScaleKind::Linear } => Detail::Rows,
         Scales { x: ScaleKind::Linear, .. } => Detail::Even(ON_LOGARITHMIC),
         _ => Detail::Geometric(ON_LOGARITHMIC),
     };
-    let request = arguments.drawing.request(detail, MOST_PANELS, Probing::Off);
+    let is_page = arguments.output.as_ref().is_some_and(|picture| picture.kind == PictureKind::Html);
+    let mut request = if is_page {
+        arguments.drawing.request(Detail::Even(report::VALUES), MOST_PANELS, Probing::On)
+    } else {
+        arguments.drawing.request(detail, MOST_PANELS, Probing::Off)
+    };
+    if let Some((gathered, evaluable)) = nodes {
+        request.held_places = gathered.held_places(evaluable);
+    }
     let Some(first) = decks.first() else { return Ok(Vec::new()) };
     let grammar = first.settings.grammar;
     let choices = arguments.laws.choices(&first.model, grammar.dialect(), None)?;
     let named: Vec<(&str, &Model)> = decks.iter().map(|deck| (deck.name.as_str(), &deck.model)).collect();
     let mut figures = curves::figures(&named, grammar, &choices, &request);
+    if let (Some((gathered, evaluable)), Some(figure)) = (nodes, figures.first_mut()) {
+        gathered.place(figure, evaluable);
+    }
     for (figure, deck) in figures.iter_mut().zip(decks) {
         curves::mark_findings(figure, &deck.model, &deck.findings);
+        if !std::ptr::eq(deck, first) {
+            let changed = curves::changes(&first.model, &deck.model, &request.laws);
+            let more = changed.len().saturating_sub(MOST_CHANGES);
+            if changed.is_empty() {
+                figure.notes.push(format!("the same as {}", first.name));
+            }
+            let since = |line: String| format!("changed since {}: {line}", first.name);
+            figure.notes.extend(changed.into_iter().take(MOST_CHANGES).map(since));
+            figure.notes.extend((0 < more).then(|| format!("{more} more changes")));
+        }
     }
     Ok(figures)
 }
@@ -220,7 +282,7 @@ pub(crate) fn nothing_to_draw(figures: &[Figure]) -> Failure {
 
 fn drawn(svg: String, kind: PictureKind) -> Result<Vec<u8>, Failure> {
     match kind {
-        PictureKind::Svg => Ok(svg.into_bytes()),
+        PictureKind::Svg | PictureKind::Html => Ok(svg.into_bytes()),
         #[cfg(feature = "png")]
         PictureKind::Png => {
             crate::chart::png::render(&svg).map_err(|error| Failure::Usage(format!("cannot draw the picture: {error}")))
@@ -236,7 +298,8 @@ fn picture(text: &str) -> Result<Picture, String> {
     let kind = match extension.to_str() {
         Some("svg") => PictureKind::Svg,
         Some("png") => PictureKind::Png,
-        _ => return Err("the name of a picture must end in .svg or .png".to_owned()),
+        Some("html") => PictureKind::Html,
+        _ => return Err("the name of a picture must end in .svg, .png or .html".to_owned()),
     };
     Ok(Picture { path: path.to_owned(), kind })
 }

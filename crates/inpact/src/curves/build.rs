@@ -20,6 +20,9 @@ const MOST_MULTIPLES: usize = 6;
 /// The most lines about what is not drawn.
 const MOST_NOTES: usize = 20;
 
+/// The most abscissae that all curves of a panel are evaluated at.
+const MOST_SHARED: usize = 400;
+
 /// The end of an axis, as a multiple of the last abscissa.
 const BEYOND: f64 = 1.15;
 
@@ -34,12 +37,27 @@ pub struct Request {
     pub at: Vec<(String, f64)>,
     /// The names of units.
     pub units: Units,
+    /// Places that the axes of a law shall hold besides its rows.
+    pub held_places: Vec<HeldPlace>,
     /// The number of values of a curve.
     pub detail: Detail,
     /// The most panels of a deck.
     pub most_panels: usize,
     /// Values at other temperatures and field variables are found as well.
     pub probing: Probing,
+}
+
+/// A place that the axes of a law shall hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldPlace {
+    /// The interaction.
+    pub interaction: Name,
+    /// Its law.
+    pub law: LawKind,
+    /// On which side of contact.
+    pub side: Side,
+    /// Clearance or contact pressure.
+    pub x: f64,
 }
 
 /// Values of panels for sliders.
@@ -85,6 +103,19 @@ pub fn figures(decks: &[(&str, &Model)], grammar: &Grammar, choices: &Choices, r
                 let of = extents.entry((interaction.name.canonical().to_owned(), kind)).or_default();
                 of.widen(&rows, Law::of(&laws, kind, choices.characteristic_length));
             }
+        }
+    }
+    for place in &request.held_places {
+        let key = (place.interaction.canonical().to_owned(), place.law);
+        match (place.side, extents.get_mut(&key)) {
+            (Side::Open, Some(Extents { open: Some(end), .. }))
+            | (Side::Closed, Some(Extents { closed: Some((_, end)), .. }))
+                if *end < place.x =>
+            {
+                *end = place.x;
+            }
+            (Side::Closed, Some(Extents { closed: Some((start, _)), .. })) if place.x < *start => *start = place.x,
+            _ => {}
         }
     }
     let builder = Builder { grammar, choices, request, extents: &extents };
@@ -285,13 +316,35 @@ impl Builder<'_> {
         let (curves, all_curves) = if subject.law.is_some() {
             let places =
                 family.map_or_else(|| vec![None], |(_, family)| family.values.iter().copied().map(Some).collect());
-            let curves = spread(&places, MOST_CURVES).into_iter().map(|at| {
+            let places_drawn = spread(&places, MOST_CURVES);
+            let variables_at = |at: &Option<f64>| {
                 let mut variables = variables.to_vec();
                 if let (Some(at), Some((index, _))) = (at, family) {
-                    variables[index] = at;
+                    variables[index] = *at;
                 }
-                let [open, closed] = [0, 1].map(|side| self.branch(subject, side, &halves[side], &variables));
-                Curve { at, open, closed }
+                variables
+            };
+            // Whoever points at one curve reads all of them.
+            let shared = (self.request.probing == Probing::On).then(|| {
+                [0, 1].map(|side| {
+                    let all = places_drawn
+                        .iter()
+                        .flat_map(|at| self.abscissae(subject, side, &halves[side], &variables_at(at)));
+                    let mut all: Vec<f64> = all.collect();
+                    all.sort_unstable_by(f64::total_cmp);
+                    all.dedup();
+                    spread(&all, MOST_SHARED)
+                })
+            });
+            let curves = places_drawn.iter().map(|at| {
+                let variables = variables_at(at);
+                let [open, closed] = [0, 1].map(|side| {
+                    let abscissae = shared.as_ref().map(|shared| shared[side].clone());
+                    let abscissae =
+                        abscissae.unwrap_or_else(|| self.abscissae(subject, side, &halves[side], &variables));
+                    branch(subject, side, abscissae, &variables)
+                });
+                Curve { at: *at, open, closed }
             });
             (curves.collect::<Vec<_>>(), places.len())
         } else {
@@ -344,19 +397,24 @@ impl Builder<'_> {
         }
     }
 
-    fn branch(&self, subject: &Subject<'_>, side: usize, half: &Half, variables: &[f64]) -> Branch {
-        let of = &subject.sides[side];
-        let Some(law) = subject.law else { return Branch::default() };
-        let (knots, knot_count) = of.knots(of.group(variables));
-        let side = Side::BOTH[side];
-        let jumps: Vec<f64> = law.cutoff().filter(|_| side == Side::Open).into_iter().collect();
-        let abscissae = of.abscissae(variables, (half.start, half.end), &jumps, self.request.detail);
-        let samples = abscissae.into_iter().filter_map(|x| {
-            let value = law.value(side, x, variables)?;
-            Some(Sample { x, y: value.y, reach: value.reach })
-        });
-        Branch { knots, knot_count, samples: thinned(samples.collect()) }
+    /// Where a curve is evaluated.
+    fn abscissae(&self, subject: &Subject<'_>, side: usize, half: &Half, variables: &[f64]) -> Vec<f64> {
+        let is_open = Side::BOTH[side] == Side::Open;
+        let jumps: Vec<f64> = subject.law.and_then(Law::cutoff).filter(|_| is_open).into_iter().collect();
+        subject.sides[side].abscissae(variables, (half.start, half.end), &jumps, self.request.detail)
     }
+}
+
+/// A curve on one side of contact.
+fn branch(subject: &Subject<'_>, side: usize, abscissae: Vec<f64>, variables: &[f64]) -> Branch {
+    let Some(law) = subject.law else { return Branch::default() };
+    let of = &subject.sides[side];
+    let (knots, knot_count) = of.knots(of.group(variables));
+    let samples = abscissae.into_iter().filter_map(|x| {
+        let value = law.value(Side::BOTH[side], x, variables)?;
+        Some(Sample { x, y: value.y, reach: value.reach })
+    });
+    Branch { knots, knot_count, samples: thinned(samples.collect()) }
 }
 
 /// The reason why a law of the interaction has no values.

@@ -23,6 +23,13 @@ impl Summary<'_> {
     pub(super) fn text(&self) -> Vec<String> {
         let seconds = self.time.as_secs_f64();
         let mut lines = vec![format!("{} in, {} out, {seconds:.3} s", rows(self.tally.rows), rows(self.rows_out))];
+        lines.extend(self.of_interactions());
+        lines
+    }
+
+    /// What is to be said of the interactions.
+    pub(super) fn of_interactions(&self) -> Vec<String> {
+        let mut lines = Vec::new();
         if self.plan.interactions.len() > MOST_INTERACTIONS {
             let whole = self.tally.whole();
             let sum = |count: fn(&InteractionPlan) -> u64| self.plan.interactions.iter().map(count).sum();

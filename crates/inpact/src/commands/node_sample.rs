@@ -1,0 +1,187 @@
+//! What an evaluation of a node table tells of curves and interfaces: where its rows are, and what they add up to time by time. For `plot` and `report`.
+
+use super::evaluable::{Evaluable, EvaluableArguments};
+use crate::curves::{Figure, HeldPlace, LawKind, NodeRows, NodeSample, Side};
+use crate::failure::Failure;
+use crate::report::History;
+use inpact_evaluation::evaluate::{Evaluation, Tally};
+use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::nodes::{Batch, Column, Findings, Selection};
+use inpact_evaluation::numbers::UnboundedSum;
+use inpact_evaluation::plan::{Plan, RowInteractions};
+use inpact_evaluation::results::{Output, ResultBatch, Status};
+use std::collections::{BTreeMap, HashMap};
+
+/// About how many rows are drawn.
+const SAMPLE: u64 = 3000;
+
+/// The most times of which sums are kept.
+const MOST_TIMES: usize = 20_000;
+
+/// The laws with a column of their own among the results.
+const LAWS: [(LawKind, Output); 3] = [
+    (LawKind::Electrical, Output::Conductance),
+    (LawKind::Thermal, Output::ThermalConductance),
+    (LawKind::Permeability, Output::Permeability),
+];
+
+/// What came of an evaluation.
+pub(crate) struct Gathered {
+    /// The rows of each law of each interaction, by its place in the model.
+    rows: HashMap<(usize, LawKind), NodeRows>,
+    /// Sums over the nodes of each interface.
+    pub(crate) histories: Vec<History>,
+    pub(crate) tally: Tally,
+    pub(crate) findings: Findings,
+}
+
+/// Times as keys: by their order, whatever they are.
+type Sums = BTreeMap<(usize, usize, u64), (Option<f64>, UnboundedSum)>;
+
+/// Evaluates a node table for what is drawn of it.
+///
+/// # Errors
+/// A node table that cannot be read.
+pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) -> Result<Gathered, Failure> {
+    let path = arguments.nodes_path();
+    let unreadable = |error| Failure::read(path, error);
+    let Evaluable { model, plan, choices, nodes_name, rows, .. } = evaluable;
+    // A column with one value is folded away, and still says where its rows are.
+    let mut selection = plan.selection.clone();
+    let located = [Column::Clearance, Column::Pressure, Column::Closed, Column::Time];
+    selection.numbers.extend(located.into_iter().filter(|column| !plan.selection.numbers.contains(column)));
+    let mut given = rows.give_back(&selection).map_err(unreadable)?;
+    let mut evaluation = Evaluation::new(model, plan, choices);
+    let label = plan.selection.label(Column::Interaction);
+    let mut interactions = RowInteractions::new(model, plan.governed_by, label);
+    let mut results = ResultBatch::default();
+    let places = Places::of(plan, &selection);
+    let step = plan.rows.div_ceil(SAMPLE).max(1);
+    let mut rows: HashMap<(usize, LawKind), NodeRows> = HashMap::new();
+    let mut sums = Sums::new();
+    while let Some(mut batch) = given.next_batch().map_err(unreadable)? {
+        plan.name_rows(&mut batch);
+        evaluation.evaluate(&batch, &mut results);
+        for row in 0..batch.rows {
+            let Some(interaction) = interactions.of_row(&batch, row) else { continue };
+            let is_drawn = (batch.first_row + row as u64).is_multiple_of(step);
+            places.take_point((&batch, &results, row), interaction, is_drawn, &mut rows);
+            places.take_sums(&batch, &results, row, interaction, &mut sums);
+        }
+    }
+    let tally = evaluation.finish();
+    let mut findings = Findings::new(nodes_name);
+    tally.report_user_faults(&mut findings);
+    tally.report(plan, &mut findings);
+    let mut histories: BTreeMap<(usize, usize), History> = BTreeMap::new();
+    for ((interaction, output, _), (time, sum)) in sums {
+        let history = histories.entry((interaction, output)).or_insert_with(|| History {
+            interaction: model.interactions[interaction].name.written().to_owned(),
+            output: places.summed[output].0.to_string(),
+            points: Vec::new(),
+        });
+        history.points.push((time, sum.total()));
+    }
+    Ok(Gathered { rows, histories: histories.into_values().collect(), tally, findings })
+}
+
+impl Gathered {
+    /// The places that axes must hold so that every row that is drawn is on them.
+    pub(crate) fn held_places(&self, evaluable: &Evaluable) -> Vec<HeldPlace> {
+        let names: Vec<_> = evaluable.model.interactions.keys().collect();
+        let places = self.rows.iter().flat_map(|((interaction, law), rows)| {
+            let name = names[*interaction].clone();
+            let ends = Side::BOTH.into_iter().flat_map(|side| {
+                let xs = rows.sample.iter().filter(|node| node.side == side).map(|node| node.x);
+                let ends = [xs.clone().reduce(f64::min), xs.reduce(f64::max)];
+                ends.into_iter().flatten().map(move |x| (side, x)).collect::<Vec<_>>()
+            });
+            ends.map(|(side, x)| HeldPlace { interaction: name.clone(), law: *law, side, x }).collect::<Vec<_>>()
+        });
+        places.collect()
+    }
+
+    /// Puts the rows on the curves of their laws.
+    pub(crate) fn place(&self, figure: &mut Figure, evaluable: &Evaluable) {
+        for panel in &mut figure.panels {
+            let is_meant = |name: &inpact_parser::model::Name| name.written() == panel.interaction;
+            let Some(index) = evaluable.model.interactions.keys().position(is_meant) else { continue };
+            panel.nodes = self.rows.get(&(index, panel.law)).cloned();
+        }
+    }
+}
+
+/// Where batches and results have what is drawn.
+struct Places {
+    clearance: Option<usize>,
+    pressure: Option<usize>,
+    closed: Option<usize>,
+    time: Option<usize>,
+    laws: Vec<(LawKind, usize)>,
+    summed: Vec<(Output, usize)>,
+}
+
+impl Places {
+    fn of(plan: &Plan, selection: &Selection) -> Self {
+        let number = |column| selection.number(column);
+        let output = |wanted: Output| plan.outputs.iter().position(|output| *output == wanted);
+        let is_summed = |output: &Output| {
+            matches!(output, Output::Ecda | Output::Sjda | Output::Hfla | Output::Sfdra | Output::Pfla)
+        };
+        let outputs = plan.outputs.iter().copied().enumerate();
+        Self {
+            clearance: number(Column::Clearance),
+            pressure: number(Column::Pressure),
+            closed: number(Column::Closed),
+            time: number(Column::Time),
+            laws: LAWS.into_iter().filter_map(|(law, of)| Some((law, output(of)?))).collect(),
+            summed: outputs.filter(|(_, output)| is_summed(output)).map(|(place, output)| (output, place)).collect(),
+        }
+    }
+
+    fn take_point(
+        &self,
+        (batch, results, row): (&Batch, &ResultBatch, usize),
+        interaction: usize,
+        is_drawn: bool,
+        rows: &mut HashMap<(usize, LawKind), NodeRows>,
+    ) {
+        let cell = |place: Option<usize>| batch.numbers[place?].get(row);
+        let (clearance, pressure) = (cell(self.clearance), cell(self.pressure));
+        let (side, x) = match ContactState::of(cell(self.closed), clearance, pressure) {
+            Some(ContactState::Open) => (Side::Open, clearance.map(|clearance| clearance.max(0.0))),
+            Some(ContactState::Closed) => (Side::Closed, pressure),
+            _ => return,
+        };
+        for (law, place) in &self.laws {
+            let Some(y) = results.numbers[*place].get(row) else { continue };
+            let statuses = match law {
+                LawKind::Electrical => &results.status_by_law.electrical,
+                LawKind::Permeability => &results.status_by_law.pore,
+                LawKind::Thermal | LawKind::ViewFactor => &results.status_by_law.thermal,
+            };
+            let of = rows.entry((interaction, *law)).or_default();
+            let index = usize::from(side == Side::Closed);
+            of.count[index] += 1;
+            of.beyond[index] += u64::from(statuses.get(row) == Some(&Some(Status::BeyondTable)));
+            // Without a pressure a closed row of a table against clearance is at contact.
+            if let (true, Some(x)) = (is_drawn && y.is_finite(), x.or(Some(0.0)).filter(|x| x.is_finite())) {
+                of.sample.push(NodeSample { side, x, y });
+            }
+        }
+    }
+
+    fn take_sums(&self, batch: &Batch, results: &ResultBatch, row: usize, interaction: usize, sums: &mut Sums) {
+        let time = self.time.and_then(|place| batch.numbers[place].get(row));
+        // Positive and negative times in their order.
+        let bits = time.unwrap_or(0.0).to_bits();
+        let key = if bits >> 63 == 0 { bits | 1 << 63 } else { !bits };
+        for (output, (_, place)) in self.summed.iter().enumerate() {
+            let Some(value) = results.numbers[*place].get(row) else { continue };
+            if MOST_TIMES < sums.len() && !sums.contains_key(&(interaction, output, key)) {
+                continue;
+            }
+            sums.entry((interaction, output, key)).or_insert_with(|| (time, UnboundedSum::default())).1.add(value);
+        }
+    }
+}

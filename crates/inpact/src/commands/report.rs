@@ -1,0 +1,154 @@
+//! `inpact report`: a deck in, a page about its interfaces out.
+
+use super::eval::summary_lines;
+use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice};
+use super::findings::{FindingFormat, say_data_findings};
+use super::job_results::RESULTS_HELP;
+use super::laws::LawArguments;
+use super::node_sample::{Gathered, gather};
+use super::plot::DrawingArguments;
+use crate::curves::{self, Detail, Probing};
+use crate::deck::Deck;
+use crate::failure::{Failure, Outcome};
+use crate::files;
+use crate::report::{Evaluation, Input, Report, VALUES};
+use crate::settings::DeckArguments;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    /// The deck or fragment; `-` reads standard input.
+    #[arg(value_name = "DECK")]
+    deck: PathBuf,
+    /// A node table: its rows on the curves, and what the deck gives on them.
+    #[arg(long, value_name = "TABLE", conflicts_with = "results")]
+    nodes: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", help = RESULTS_HELP)]
+    results: Vec<PathBuf>,
+    /// Where to write the page, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    drawing: DrawingArguments,
+    #[command(flatten)]
+    laws: LawArguments,
+    #[command(flatten)]
+    reading: DeckArguments,
+}
+
+/// The most panels of a report.
+const MOST_PANELS: usize = 250;
+
+pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
+    files::name_as_inputs(std::slice::from_ref(&arguments.deck));
+    files::name_as_inputs(&arguments.nodes.iter().chain(&arguments.results).collect::<Vec<_>>());
+    files::check_targets(&[arguments.output.as_deref()])?;
+    let deck = Deck::read(&arguments.deck, &arguments.reading.options()).map_err(crate::error::Error::into_failure)?;
+    arguments.drawing.refuse_unknown(&[deck.model()])?;
+    let findings = deck.check();
+    let choices = arguments.laws.choices(deck.model(), deck.grammar().dialect(), None)?;
+    let mut request = arguments.drawing.request(Detail::Even(VALUES), MOST_PANELS, Probing::On);
+    let mut evaluated = if arguments.nodes.is_none() && arguments.results.is_empty() {
+        None
+    } else {
+        let Some(evaluated) = evaluated(arguments)? else { return Ok(Outcome::HasErrors) };
+        Some(evaluated)
+    };
+    if let Some(Evaluated { prepared, gathered: Some(gathered), .. }) = &evaluated {
+        request.held_places = gathered.held_places(prepared);
+    }
+    let mut figure = curves::figure((deck.name(), deck.model()), deck.grammar(), &choices, &request);
+    curves::mark_findings(&mut figure, deck.model(), &findings);
+    if let Some(Evaluated { prepared, gathered: Some(gathered), .. }) = &evaluated {
+        gathered.place(&mut figure, prepared);
+    }
+    let evaluation = evaluated.as_mut().map(Evaluated::in_words);
+    // What the deck includes is known now.
+    files::check_targets(&[arguments.output.as_deref()])?;
+    let inputs = inputs(arguments, &deck)?;
+    let report =
+        Report { deck: &deck, findings: &findings, figure: &figure, evaluation, inputs, command: command(arguments) };
+    files::write_result(arguments.output.as_deref(), report.html().as_bytes())?;
+    Ok(Outcome::Clean)
+}
+
+/// A node table that was evaluated; a deck that is wrong where the table needs it gives a plan alone.
+struct Evaluated {
+    prepared: Evaluable,
+    gathered: Option<Gathered>,
+}
+
+/// Evaluates the node table; `None` after saying what is wrong with it.
+fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> {
+    let deck = arguments.deck.clone();
+    let evaluable = match &arguments.nodes {
+        Some(nodes) => EvaluableArguments::of_nodes(deck, nodes.clone()),
+        None => EvaluableArguments::of_results(deck, arguments.results.clone(), HistoryStartChoice::FirstRow),
+    };
+    let format = FindingFormat::Concise;
+    let Some(mut prepared) = evaluable.prepare(&arguments.laws, &arguments.reading, format)? else { return Ok(None) };
+    if prepared.deck_has_errors {
+        return Ok(Some(Evaluated { prepared, gathered: None }));
+    }
+    let gathered = gather(&evaluable, &mut prepared)?;
+    say_data_findings(gathered.findings.list().to_vec(), &prepared.settings, format);
+    Ok(Some(Evaluated { prepared, gathered: Some(gathered) }))
+}
+
+impl Evaluated {
+    fn in_words(&mut self) -> Evaluation {
+        let (nodes, plan) = (self.prepared.nodes_name.clone(), self.prepared.plan.to_string());
+        match &mut self.gathered {
+            Some(gathered) => Evaluation {
+                nodes,
+                plan,
+                summary: summary_lines(&gathered.tally, &self.prepared.plan),
+                histories: std::mem::take(&mut gathered.histories),
+            },
+            None => {
+                let nothing = "The deck is wrong where the node table needs it: nothing was evaluated.";
+                Evaluation { nodes, plan, summary: vec![nothing.to_owned()], histories: Vec::new() }
+            }
+        }
+    }
+}
+
+/// The files that the page is made from.
+fn inputs(arguments: &ReportArguments, deck: &Deck) -> Result<Vec<Input>, Failure> {
+    let is_stream = arguments.deck.as_os_str() == files::STANDARD_STREAM;
+    let mut inputs = vec![Input::of(&arguments.deck)?];
+    // By the names that the deck has for them: where they are is nobody's business.
+    let names = deck.syntax().sources().iter().map(inpact_parser::deck::Source::name);
+    let included = deck
+        .files()
+        .iter()
+        .zip(names)
+        .skip(1)
+        .map(|(path, name)| Ok(Input { name: name.to_owned(), ..Input::of(path)? }));
+    inputs.extend(if is_stream { Vec::new() } else { included.collect::<Result<Vec<_>, Failure>>()? });
+    for path in arguments.nodes.iter().chain(&arguments.results) {
+        inputs.push(Input::of(path)?);
+    }
+    Ok(inputs)
+}
+
+/// The arguments as they were given, without the folder that the program is in.
+fn command(arguments: &ReportArguments) -> String {
+    let output = arguments.output.as_ref().map(|path| path.as_os_str());
+    let is_word =
+        |text: &str| text.chars().all(|character| character.is_ascii_alphanumeric() || "-_./=,:".contains(character));
+    let quoted = |text: &str| {
+        if !text.is_empty() && is_word(text) { text.to_owned() } else { format!("'{}'", text.replace('\'', "'\\''")) }
+    };
+    let given = std::env::args_os().skip(1);
+    let given = given.map(|argument| {
+        // Two reports of the same are the same, wherever they are written.
+        if Some(argument.as_os_str()) == output {
+            "report.html".to_owned()
+        } else {
+            quoted(&argument.to_string_lossy())
+        }
+    });
+    std::iter::once("inpact".to_owned()).chain(given).collect::<Vec<_>>().join(" ")
+}

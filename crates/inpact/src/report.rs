@@ -1,0 +1,214 @@
+//! A report on a deck: one HTML file that says what its interfaces are, opens from a mail and asks nothing of a network.
+//!
+//! What is in it is decided here, section by section; [`page`] makes HTML of it, in which nothing of a deck can run:
+//! text is escaped, data is JSON that cannot end its element, and the page's own policy allows two scripts only, by their hashes.
+//! Charts are drawn by uPlot 1.6.32, whose built file stands in `uplot/` with its licence as its registry package has it.
+
+mod charts;
+mod inputs;
+mod interfaces;
+mod page;
+
+pub(crate) use inputs::Input;
+
+use crate::curves::Figure;
+use crate::deck::Deck;
+use crate::render::Format;
+use inpact_diagnostics::{Diagnostic, Severity};
+use page::Page;
+
+/// What a report is made of.
+pub(crate) struct Report<'a> {
+    pub(crate) deck: &'a Deck,
+    /// What a check of it found.
+    pub(crate) findings: &'a [Diagnostic],
+    pub(crate) figure: &'a Figure,
+    /// What an evaluation of a node table would do and leave out, and what it gave.
+    pub(crate) evaluation: Option<Evaluation>,
+    /// The files that it was made from.
+    pub(crate) inputs: Vec<Input>,
+    /// The arguments that made it.
+    pub(crate) command: String,
+}
+
+/// An evaluation of a node table in words.
+pub(crate) struct Evaluation {
+    /// What the node table is called.
+    pub(crate) nodes: String,
+    /// The plan, as `inpact plan` prints it.
+    pub(crate) plan: String,
+    /// The summary, as `inpact eval` prints it.
+    pub(crate) summary: Vec<String>,
+    /// Sums over the nodes of an interface at each time.
+    pub(crate) histories: Vec<History>,
+}
+
+/// What an output adds up to over the nodes of an interface, time by time.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct History {
+    /// The interaction.
+    pub(crate) interaction: String,
+    /// The output, such as `ECDA`.
+    pub(crate) output: String,
+    /// Times and sums; a table without times has one sum without one.
+    pub(crate) points: Vec<(Option<f64>, f64)>,
+}
+
+/// How many values a curve has at least, so that pointing at it finds one nearby.
+pub(crate) const VALUES: usize = 48;
+
+/// The curves of decks as a page, with nothing else.
+pub(crate) fn page_of_curves(figures: &[Figure]) -> String {
+    let decks: Vec<&str> = figures.iter().map(|figure| figure.deck.as_str()).collect();
+    let mut page = Page::new(&decks.join(", "));
+    page.open("main", &[]);
+    page.element("h1", &[], &decks.join(", "));
+    for (deck, figure) in figures.iter().enumerate() {
+        page.element("h2", &[], &figure.deck);
+        let is_same =
+            |a: &crate::curves::Panel, b: &crate::curves::Panel| a.interaction == b.interaction && a.law == b.law;
+        for (law, panels) in figure.panels.chunk_by(is_same).enumerate() {
+            page.element("h3", &[], &format!("{}: {}", panels[0].interaction, panels[0].law.name()));
+            charts::law(&mut page, &format!("law-{}-{}", deck + 1, law + 1), &panels.iter().collect::<Vec<_>>());
+        }
+        for note in &figure.notes {
+            page.element("p", &[], note);
+        }
+    }
+    page.finish()
+}
+
+/// The most findings that are shown in full.
+const MOST_FINDINGS: usize = 200;
+
+impl Report<'_> {
+    /// The page.
+    pub(crate) fn html(&self) -> String {
+        let mut page = Page::new(&format!("{}: contact interfaces", self.deck.name()));
+        self.head(&mut page);
+        self.interfaces(&mut page);
+        self.findings(&mut page);
+        self.evaluation(&mut page);
+        self.reproduction(&mut page);
+        page.finish()
+    }
+
+    fn head(&self, page: &mut Page) {
+        page.open("header", &[]);
+        page.element("h1", &[], self.deck.name());
+        let model = self.deck.model();
+        let interactions = model.interactions.len();
+        let pairs: usize = model.contact_pairs.iter().map(|pair| pair.pairs.len()).sum();
+        let count = |severity: Severity| self.findings.iter().filter(|found| found.severity == severity).count();
+        let line = format!(
+            "{}, {}; {}, {}, {}",
+            counted(interactions, "surface interaction"),
+            counted(pairs, "contact pair"),
+            counted(count(Severity::Error), "error"),
+            counted(count(Severity::Warning), "warning"),
+            counted(count(Severity::Note), "note"),
+        );
+        page.element("p", &[], &line);
+        page.open("nav", &[("aria-label", "Sections")]);
+        page.open("ul", &[]);
+        let mut sections = vec![("interfaces", "Interfaces"), ("findings", "Findings"), ("plan", "Plan")];
+        sections.extend(self.evaluation.as_ref().map(|_| ("results", "Results")));
+        sections.push(("reproduction", "Inputs and versions"));
+        for (id, title) in sections {
+            page.open("li", &[]);
+            page.element("a", &[("href", &format!("#{id}"))], title);
+            page.close("li");
+        }
+        page.close("ul");
+        page.close("nav");
+        page.close("header");
+        page.open("main", &[]);
+    }
+
+    fn findings(&self, page: &mut Page) {
+        page.element("h2", &[("id", "findings")], "Findings");
+        if self.findings.is_empty() {
+            page.element("p", &[], "None.");
+        }
+        let rows = interfaces::row_places(self.deck.model());
+        for (number, found) in self.findings.iter().take(MOST_FINDINGS).enumerate() {
+            let class = format!("finding {}", found.severity.name());
+            let id = format!("finding-{}", number + 1);
+            page.open("article", &[("class", &class), ("id", &id)]);
+            page.open("h3", &[]);
+            page.element("span", &[("class", "word")], &format!("{} {}", found.severity.name(), found.code));
+            page.text(&format!(" {}: {}", found.name, found.message));
+            page.close("h3");
+            if let Some(place) = rows.iter().find(|place| place.span.contains(found.primary.span)) {
+                page.open("p", &[]);
+                page.element("a", &[("href", &format!("#{}", place.id()))], &place.in_words());
+                page.close("p");
+            }
+            page.element(
+                "pre",
+                &[("tabindex", "0")],
+                self.deck.render(std::slice::from_ref(found), Format::Full).trim_end(),
+            );
+            if let Some(fix) = &found.fix {
+                page.element("p", &[], &format!("Fix: {}", fix.title));
+            }
+            page.close("article");
+        }
+        if MOST_FINDINGS < self.findings.len() {
+            let more = self.findings.len() - MOST_FINDINGS;
+            page.element("p", &[], &format!("{more} more: see `inpact check`."));
+        }
+    }
+
+    fn evaluation(&self, page: &mut Page) {
+        page.element("h2", &[("id", "plan")], "Plan, and what is left out");
+        for note in &self.figure.notes {
+            page.element("p", &[], note);
+        }
+        let Some(evaluation) = &self.evaluation else {
+            page.element("p", &[], "No node table was given: nothing was evaluated (`--nodes TABLE`).");
+            return;
+        };
+        page.element("pre", &[("tabindex", "0")], evaluation.plan.trim_end());
+        page.element("h2", &[("id", "results")], "Results");
+        page.element("p", &[], &format!("Of the node table {}:", evaluation.nodes));
+        page.element("pre", &[("tabindex", "0")], &evaluation.summary.join("\n"));
+        charts::histories(page, &evaluation.histories);
+    }
+
+    fn reproduction(&self, page: &mut Page) {
+        page.element("h2", &[("id", "reproduction")], "Inputs and versions");
+        let grammar = self.deck.grammar();
+        let language = match grammar.dialect() {
+            inpact_parser::grammar::Dialect::Abaqus => format!("Abaqus {}", grammar.release()),
+            inpact_parser::grammar::Dialect::Calculix => "CalculiX".to_owned(),
+        };
+        let versions =
+            format!("inpact {}, charts by uPlot 1.6.32; keyword language of {language}", env!("CARGO_PKG_VERSION"));
+        page.element("p", &[], &versions);
+        page.element("pre", &[("tabindex", "0")], &self.command);
+        page.open("div", &[("class", "scroll"), ("tabindex", "0")]);
+        page.open("table", &[]);
+        page.header_row(&["file", "bytes", "SHA-256"]);
+        page.open("tbody", &[]);
+        for input in &self.inputs {
+            page.open("tr", &[]);
+            page.element("td", &[("class", "text")], &input.name);
+            page.element("td", &[], &input.bytes.map_or_else(|| "unknown".to_owned(), |bytes| bytes.to_string()));
+            page.element("td", &[("class", "text")], input.hash.as_deref().unwrap_or("not a file that stays"));
+            page.close("tr");
+        }
+        page.close("tbody");
+        page.close("table");
+        page.close("div");
+    }
+}
+
+/// `1 error`, `2 errors`, `no error`.
+fn counted(count: usize, singular: &str) -> String {
+    match count {
+        0 => format!("no {singular}"),
+        1 => format!("1 {singular}"),
+        _ => format!("{count} {singular}s"),
+    }
+}

@@ -1,0 +1,216 @@
+//! Reports in a real browser: Debian's chromium, headless.
+//!
+//! Without it the tests say that they are skipped, unless `INPACT_REQUIRE_CHROMIUM` is set. axe-core is used where `INPACT_AXE` names its built file.
+#![expect(clippy::print_stderr, reason = "whoever runs the tests must learn that there was no browser")]
+
+mod devtools;
+
+use devtools::{Browser, chromium};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+fn inpact(folder: &Path, arguments: &[&str]) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let arguments = arguments.iter().map(|argument| argument.replace("ROOT", root.to_str().expect("text")));
+    let run = Command::new(env!("CARGO_BIN_EXE_inpact-under-test")).args(arguments).current_dir(folder).output();
+    let run = run.expect("the program runs");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    String::from_utf8(run.stdout).expect("text")
+}
+
+/// A report in a folder of its own.
+fn report(arguments: &[&str]) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    inpact(folder.path(), &[&["report"], arguments, &["-o", "report.html"]].concat());
+    let path = folder.path().join("report.html");
+    (folder, path)
+}
+
+const BUSBAR: &[&str] =
+    &["ROOT/decks/busbar-joint/busbar-joint.inp", "--nodes", "ROOT/decks/busbar-joint/busbar-joint-nodes.csv"];
+
+/// Makes a chart as soon as its figure is on the screen, and scrolls there.
+fn show(browser: &mut Browser, figure: &str) {
+    browser.value(&format!("document.querySelector('{figure}').scrollIntoView({{block: 'center'}})"));
+    browser.until(&format!("Boolean(document.querySelector('{figure}').inpact)"));
+}
+
+/// Where a value is drawn, in pixels of the window.
+fn place(browser: &mut Browser, figure: &str, side: usize, x: f64, y: f64) -> (f64, f64) {
+    let expression = format!(
+        "(() => {{ const plot = document.querySelector('{figure}').inpact.plots[{side}]; const box = plot.over.getBoundingClientRect(); \
+         return [box.left + plot.valToPos({x:?}, 'x'), box.top + plot.valToPos({y:?}, 'y')]; }})()"
+    );
+    let found = browser.value(&expression);
+    (found[0].as_f64().expect("a place"), found[1].as_f64().expect("a place"))
+}
+
+fn read(browser: &mut Browser, figure: &str) -> String {
+    browser.value(&format!("document.querySelector('{figure} output').textContent")).as_str().expect("text").to_owned()
+}
+
+#[test]
+fn a_report_asks_nothing_of_a_network_and_reads_values_where_one_points() {
+    let Some(program) = chromium() else { return };
+    let mut browser = Browser::start(program);
+    let (folder, path) = report(BUSBAR);
+    browser.open(&path);
+    let figure = "figure.law[data-live]";
+    show(&mut browser, figure);
+
+    // A row of the table, to its last digit.
+    let data = browser.value(&format!("document.querySelector('{figure}').inpact.data"));
+    let curve = &data["curves"][1]["sides"][1];
+    let (knot, row) = (curve["knots"][2].as_f64().expect("a row"), curve["rows"][2].as_u64().expect("a row"));
+    let index = data["halves"][1]["x"].as_array().expect("numbers").iter().position(|x| x.as_f64() == Some(knot));
+    let value = curve["y"][index.expect("the row is a sample")].as_f64().expect("a value");
+    let (x, y) = place(&mut browser, figure, 1, knot, value);
+    browser.point_at(x, y);
+    browser.until(&format!("document.querySelector('{figure} output').textContent.includes('row')"));
+    let said = read(&mut browser, figure);
+    let number = |value: f64| browser_number(value);
+    assert!(said.contains(&format!("pressure {}:", number(knot))), "{said}");
+    assert!(said.contains(&format!("= {} (row {})", number(value), row + 1)), "{said}");
+
+    // By keyboard: the next value, and a slider, whose curve is what `eval` gives.
+    browser.value(&format!("document.querySelector('{figure} .plots').focus()"));
+    browser.press("ArrowRight");
+    assert_ne!(read(&mut browser, figure), said);
+    browser.press("ArrowLeft");
+    assert_eq!(read(&mut browser, figure), said);
+    browser.value(&format!("document.querySelector('{figure} input[type=range]').focus()"));
+    browser.press("ArrowRight");
+    browser.until(&format!("document.querySelector('{figure} output').textContent.includes('sliders')"));
+    let said = read(&mut browser, figure);
+    let probe = &data["probe"]["axes"][0];
+    assert_eq!(probe["column"], "fv1");
+    let stop = probe["stops"][1].as_f64().expect("a stop");
+    let table = format!("clearance,pressure,closed,fv1\n0,{knot:?},1,{stop:?}\n");
+    std::fs::write(folder.path().join("one.csv"), table).expect("writable");
+    let deck = BUSBAR[0];
+    let evaluated = inpact(folder.path(), &["eval", deck, "--nodes", "one.csv", "--outputs", "conductance"]);
+    let evaluated: f64 = evaluated.lines().nth(1).expect("a row").parse().expect("a number");
+    assert!(said.contains(&format!("sliders, fv1 {} = {}", number(stop), number(evaluated))), "{said}: {evaluated}");
+
+    // The legend switches a curve off, by keyboard too.
+    let shown = format!("document.querySelector('{figure}').inpact.plots[1].series[1].show");
+    assert_eq!(browser.value(&shown), true);
+    browser.value(&format!("document.querySelector('{figure} .legend button').click()"));
+    assert_eq!(browser.value(&shown), false);
+
+    // Logarithmic axes and zoom.
+    browser.value(&format!("document.querySelectorAll('{figure} .tools button').forEach((button) => button.click())"));
+    assert_eq!(browser.faults(), Vec::<&Value>::new());
+    assert_eq!(browser.requests(), Vec::<String>::new());
+}
+
+/// A number as the page writes it.
+fn browser_number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 || (1e-3..1e5).contains(&magnitude) { format!("{value}") } else { format!("{value:e}") }
+}
+
+#[test]
+fn paper_has_every_panel() {
+    let Some(program) = chromium() else { return };
+    let mut browser = Browser::start(program);
+    let (_folder, path) = report(&["ROOT/decks/spot-weld/spot-weld.inp"]);
+    browser.open(&path);
+    show(&mut browser, "figure.law[data-live]");
+    browser.call("Emulation.setEmulatedMedia", &json!({"media": "print"}));
+    let heights = browser.value(
+        "[...document.querySelectorAll('figure.law')].map((figure) => [figure.querySelector('svg').getBoundingClientRect().height, \
+         (figure.querySelector('.chart') || figure).getBoundingClientRect().height])",
+    );
+    let heights = heights.as_array().expect("figures");
+    assert_eq!(heights.len(), 4);
+    for height in heights {
+        assert!(100.0 < height[0].as_f64().expect("a height"), "a drawing that is not printed");
+        assert_eq!(height[1], 0, "a canvas that is printed");
+    }
+    let printed = browser.call("Page.printToPDF", &json!({}));
+    let pdf = printed["data"].as_str().expect("a file");
+    assert!(pdf.starts_with("JVBERi0") && 20_000 < pdf.len(), "no PDF");
+    let open = "document.querySelectorAll('details:not([open])').length";
+    assert_ne!(browser.value(open), 0, "what was opened to be printed stays open");
+    assert_eq!(browser.faults(), Vec::<&Value>::new());
+}
+
+/// Names that would run are text, also where a script reads them from its data.
+#[test]
+fn nothing_of_a_deck_runs() {
+    let Some(program) = chromium() else { return };
+    let mut browser = Browser::start(program);
+    let folder = tempfile::tempdir().expect("a folder");
+    let hostile = "</script><script>window.ran=1</script><img src=x onerror=window.ran=1><svg onload=window.ran=1>";
+    let deck = format!(
+        "*SURFACE INTERACTION, NAME=\"{hostile}\"\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE, DEPENDENCIES=1\n\
+         1., 0., 20., 1.\n2., 5., 20., 1.\n3., 0., 90., 1.\n4., 5., 90., 1.\n2., 0., 20., 2.\n3., 5., 20., 2.\n\
+         *CONTACT PAIR, INTERACTION=\"{hostile}\"\n\"{hostile}\", B\n"
+    );
+    std::fs::write(folder.path().join("a.inp"), deck).expect("writable");
+    let units = "temp=</script><img src=x onerror=window.ran=1>";
+    inpact(folder.path(), &["report", "a.inp", "--units", units, "-o", "report.html"]);
+    browser.open(&folder.path().join("report.html"));
+    show(&mut browser, "figure.law[data-live]");
+    assert_eq!(browser.value("typeof window.ran"), "undefined");
+    assert_eq!(browser.value("document.querySelectorAll('img').length"), 0);
+    assert_eq!(browser.value("document.querySelector('h3').textContent.includes('<img src=x')"), true);
+    // Were a script in it after all, the page's policy would refuse it.
+    browser.value("(() => { const script = document.createElement('script'); script.textContent = 'window.ran = 1'; document.body.append(script); })()");
+    assert_eq!(browser.value("typeof window.ran"), "undefined");
+}
+
+#[test]
+fn a_hundred_interactions_open_at_once() {
+    let Some(program) = chromium() else { return };
+    let mut browser = Browser::start(program);
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut deck = String::new();
+    for index in 0..100 {
+        let _ = write!(
+            deck,
+            "*SURFACE INTERACTION, NAME=I{index}\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n1., 0., 20.\n2., 5., 20.\n3., 0., 90.\n4., 5., 90.\n"
+        );
+    }
+    std::fs::write(folder.path().join("a.inp"), deck).expect("writable");
+    inpact(folder.path(), &["report", "a.inp", "-o", "report.html"]);
+    let start = Instant::now();
+    browser.open(&folder.path().join("report.html"));
+    browser.until("Boolean(document.querySelector('figure.law[data-live]').inpact)");
+    let own = browser.value("performance.getEntriesByType('navigation')[0].loadEventEnd");
+    assert!(own.as_f64().is_some_and(|time| time < 2000.0), "{own} ms of the page's own, {:?} in all", start.elapsed());
+    show(&mut browser, "#law-100-1-1");
+    assert_eq!(browser.faults(), Vec::<&Value>::new());
+}
+
+/// axe-core finds no serious fault, in light and in dark.
+#[test]
+fn axe_finds_no_serious_fault() {
+    let Some(program) = chromium() else { return };
+    let Some(axe) = std::env::var_os("INPACT_AXE") else {
+        assert!(std::env::var_os("INPACT_REQUIRE_CHROMIUM").is_none(), "axe-core is required with chromium");
+        eprintln!("skipped: no axe-core");
+        return;
+    };
+    let axe = std::fs::read_to_string(axe).expect("the built file of axe-core");
+    let mut browser = Browser::start(program);
+    for arguments in [BUSBAR, &["ROOT/decks/faulty/first-mistakes.inp"]] {
+        let (_folder, path) = report(arguments);
+        for scheme in ["light", "dark"] {
+            let feature = json!({"features": [{"name": "prefers-color-scheme", "value": scheme}]});
+            browser.call("Emulation.setEmulatedMedia", &feature);
+            browser.open(&path);
+            browser.until("document.documentElement.classList.contains('js')");
+            browser.value(&format!("{axe}; null"));
+            let found = browser.value(
+                "axe.run().then((found) => found.violations.filter((of) => ['serious', 'critical'].includes(of.impact)) \
+                 .map((of) => of.id + ': ' + of.nodes.map((node) => node.html.slice(0, 120) + ' ' + node.failureSummary).join(' | ')))",
+            );
+            assert_eq!(found, json!([]), "{arguments:?} in {scheme}: {found:#}");
+        }
+    }
+}
