@@ -1,7 +1,7 @@
-//! The shape of a scene file: which keys there are and what stands behind each, held against the text in one pass.
+//! The shape of a scene file: its keys and the kinds of their values, checked against the text in one pass.
 //!
-//! Everything that is not so is reported, with its place: keys that are unknown or missing, values of another kind. What is wrong is taken out,
-//! an entry as a whole, so that the rest can be read and has its own problems told in the same run.
+//! Every departure is reported, with its place: keys that are unknown or missing, values of another kind. Faulty parts are taken out,
+//! an entry as a whole, so that the rest can be read and its problems are reported in the same run.
 //! The keys are those of `file.rs`; a test compares them with its schema.
 
 use super::file;
@@ -14,7 +14,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
 
-/// What is longer is not quoted.
+/// The longest text that is quoted, in characters.
 const LONGEST_QUOTE: usize = 60;
 
 /// Something that is not as a scene is.
@@ -29,9 +29,9 @@ pub(super) struct Problem {
 /// A scene file whose every key is known and has a value of its kind.
 #[derive(Default)]
 pub(super) struct Shaped<'t> {
-    /// What is left of it; `None` where its head is wrong.
+    /// The sound part of it; `None` where its head is wrong.
     pub(super) table: Option<Spanned<DeTable<'t>>>,
-    /// What was not, in the order of the text.
+    /// The problems, in the order of the text.
     pub(super) problems: Vec<Problem>,
     /// Whether an entry was taken out that may define nodes.
     pub(super) lacks_nodes: bool,
@@ -61,12 +61,12 @@ enum Need {
     Optional,
 }
 
-/// What stands behind a key.
+/// Kinds of values of keys.
 enum Kind {
     Number,
     Text,
     Flag,
-    Word(&'static [&'static str]),
+    OneOf(&'static [&'static str]),
     Numbers,
     Course,
     TwoNames,
@@ -89,7 +89,7 @@ const fn shape<T: Entry>(keys: &'static [Key]) -> Shape {
 static SCENE: Shape = Shape {
     keys: &[
         needed("deck", Kind::Text),
-        key("procedure", Kind::Word(&["steady", "transient"])),
+        key("procedure", Kind::OneOf(&["steady", "transient"])),
         key("time", Kind::Table(&TIME)),
         key("initial", Kind::Table(&INITIAL)),
         key("joule_heat_fraction", Kind::Number),
@@ -111,8 +111,8 @@ static TIME: Shape = shape::<file::TimeEntry>(&[
     key("step", Kind::Number),
     key("tolerance", Kind::Number),
     key("first_step", Kind::Number),
-    key("start_from", Kind::Word(&["first-row", "at-rest"])),
-    key("closing_heat", Kind::Word(&["balanced", "manual"])),
+    key("start_from", Kind::OneOf(&["first-row", "at-rest"])),
+    key("closing_heat", Kind::OneOf(&["balanced", "manual"])),
 ]);
 
 static INITIAL: Shape =
@@ -168,7 +168,7 @@ static LINK_FILE: Shape = Shape {
     defines_nodes: true,
     ..shape::<file::LinkFileEntry>(&[
         needed("file", Kind::Text),
-        key("conducts", Kind::Word(&["electrical", "thermal", "hydraulic"])),
+        key("conducts", Kind::OneOf(&["electrical", "thermal", "hydraulic"])),
         key("prefix", Kind::Text),
     ])
 };
@@ -180,7 +180,7 @@ static INTERFACE_FILE: Shape = shape::<file::FileEntry>(&[needed("file", Kind::T
 /// `without` tells where lines were taken out: what these entries lack is not missing.
 pub(super) fn shaped<'t>(text: &'t str, without: &[usize]) -> Shaped<'t> {
     let mut walk = Walk { text, without, problems: Vec::new(), lacks_nodes: false };
-    // What is no TOML was taken out before.
+    // Lines that are no TOML were taken out before.
     let table = DeTable::parse(text).ok().and_then(|parsed| {
         let span = parsed.span();
         walk.table(parsed.into_inner(), &span, &SCENE).map(|table| Spanned::new(span, table))
@@ -189,7 +189,7 @@ pub(super) fn shaped<'t>(text: &'t str, without: &[usize]) -> Shaped<'t> {
     Shaped { table, problems: walk.problems, lacks_nodes: walk.lacks_nodes }
 }
 
-/// Which part of a value is meant.
+/// Parts of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     /// All of it.
@@ -198,7 +198,7 @@ pub(super) enum Part {
     Inside,
 }
 
-/// What should stand behind a key under a heading, where that is known.
+/// The value expected after a key under a heading, where it is known.
 pub(super) fn expected_of(heading: Option<&str>, name: &str, part: Part) -> Option<String> {
     let below = |name: &str| {
         SCENE.keys.iter().find(|key| key.is_called(name)).and_then(|key| match key.kind {
@@ -281,12 +281,12 @@ impl<'t> Walk<'_, 't> {
             }
         }
         let is_cut = self.is_cut(span);
-        // What is left of a scene can be read, what is left of an entry says something else.
+        // The rest of a scene can be read, the rest of an entry has another meaning.
         is_whole &= !is_cut || std::ptr::eq(shape, &raw const SCENE);
         let missing = shape.keys.iter().filter(|key| key.need == Need::Needed && !seen.contains(&key.name));
         for key in missing {
             is_whole = false;
-            // A misspelt name was told of already.
+            // A misspelt name was reported already.
             if !meant.contains(&key.name) && !is_cut {
                 let help = match key.name {
                     "deck" => "begin the scene with the name of its deck, such as deck = \"joint.inp\"".to_owned(),
@@ -317,10 +317,10 @@ impl<'t> Walk<'_, 't> {
         match (kind, value.get_ref()) {
             (Kind::Number, _) => self.number(&value).then_some(value),
             (Kind::Text, DeValue::String(_)) | (Kind::Flag, DeValue::Boolean(_)) => Some(value),
-            (Kind::Word(words), DeValue::String(word)) if words.contains(&word.as_ref()) => Some(value),
-            (Kind::Word(words), DeValue::String(word)) => {
-                let message = format!("`{word}` is none of {}", listed(words));
-                let help = meant_or(word, words.iter().copied(), "");
+            (Kind::OneOf(names), DeValue::String(name)) if names.contains(&name.as_ref()) => Some(value),
+            (Kind::OneOf(names), DeValue::String(name)) => {
+                let message = format!("`{name}` is none of {}", listed(names));
+                let help = meant_or(name, names.iter().copied(), "");
                 self.report(span.start, message, help);
                 None
             }
@@ -379,7 +379,7 @@ impl<'t> Walk<'_, 't> {
         entry
     }
 
-    /// Whether a value is a number that f64 can tell; reports one that is not.
+    /// Checks that a value is a number that f64 can hold; reports one that is not.
     fn number(&mut self, value: &Spanned<DeValue<'t>>) -> bool {
         let written = match value.get_ref() {
             DeValue::Float(float) => float.as_str(),
@@ -414,13 +414,13 @@ impl<'t> Walk<'_, 't> {
 }
 
 impl Kind {
-    /// What stands there, for a message.
+    /// The expected value, for a message.
     fn expected(&self) -> String {
         match self {
             Self::Number => "a number".to_owned(),
             Self::Text => "a text in quotes".to_owned(),
             Self::Flag => "`true` or `false`".to_owned(),
-            Self::Word(words) => format!("one of {}", listed(words)),
+            Self::OneOf(names) => format!("one of {}", listed(names)),
             Self::Numbers => Number::LIST.to_owned(),
             Self::Course => file::COURSE.to_owned(),
             Self::TwoNames => file::TWO_NAMES.to_owned(),
@@ -446,13 +446,13 @@ mod tests {
     use serde_json::Value;
     use std::collections::BTreeSet;
 
-    /// The keys of a shape and of all below it, with the words of each.
+    /// The keys of a shape and of all below it, with the names of each.
     fn keys_of(shape: &'static Shape, keys: &mut BTreeSet<String>) {
         for key in shape.keys {
             keys.insert(key.name.to_owned());
             match key.kind {
                 Kind::Table(below) | Kind::Entries(below) => keys_of(below, keys),
-                Kind::Word(words) => keys.extend(words.iter().map(|word| format!("\"{word}\""))),
+                Kind::OneOf(names) => keys.extend(names.iter().map(|word| format!("\"{word}\""))),
                 _ => {}
             }
         }

@@ -1,7 +1,7 @@
-//! Where the text of a scene file is no TOML: every such place in one pass, in our words.
+//! Places where the text of a scene file is no TOML: all of them in one pass, with our messages.
 //!
-//! The parser of TOML goes on behind what it cannot read and says where that was; what is wrong there is found out from the text.
-//! Lines that are wrong are read as empty, so that the rest of the scene can be read and has its own problems told in the same run.
+//! The parser of TOML goes on after what it cannot read and says where that was; what is wrong there is found out from the text.
+//! Faulty lines are read as empty, so that the rest of the scene can be read and its problems are reported in the same run.
 
 use super::rules::MALFORMED_SCENE;
 use super::shape::{Part, Problem, expected_of};
@@ -17,13 +17,13 @@ const LONGEST_QUOTE: usize = 40;
 pub(super) struct Sound<'t> {
     /// The text; the lines that are wrong hold blanks, so that every byte is where it was. `None` where too much is wrong.
     pub(super) text: Option<Cow<'t, str>>,
-    /// Where lines were taken out, in ascending order.
+    /// The lines taken out, in ascending order.
     pub(super) without: Vec<usize>,
-    /// What was wrong, in the order of the text.
+    /// The problems, in the order of the text.
     pub(super) problems: Vec<Problem>,
 }
 
-/// How often the text is read at most: behind a key without a value its parser sees keys and values only once that is taken out.
+/// The most readings of the text: after a key without a value its parser sees keys and values only once that is taken out.
 const MOST_PASSES: usize = 4;
 
 /// Of so many places is said what is wrong there; more of a kind are counted.
@@ -53,7 +53,7 @@ fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sou
     let mut without: BTreeSet<usize> = std::mem::take(&mut sound.without).into_iter().collect();
     for place in places {
         let line = line_at(text, place.start);
-        // What follows in a line from what is wrong in it says nothing more.
+        // The rest of a faulty line is not reported.
         if !without.insert(line.start) {
             continue;
         }
@@ -68,7 +68,7 @@ fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sou
     String::from_utf8(rest).ok().filter(|_| before < sound.without.len())
 }
 
-/// Where the parser meets something that it cannot read, in ascending order.
+/// The places that the parser cannot read, in ascending order.
 fn places(text: &str) -> Vec<Range<usize>> {
     let (_, errors) = DeTable::parse_recoverable(text);
     let mut places: Vec<_> = errors.iter().map(|error| error.span().unwrap_or(text.len()..text.len())).collect();
@@ -89,7 +89,7 @@ fn floor(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
-/// What is wrong at a place of a line, and what to do.
+/// The problem at a place of a line, and its remedy.
 fn said(text: &str, line: &Range<usize>, place: &Range<usize>) -> (String, String) {
     let written = &text[line.clone()];
     let at = floor(written, place.start.clamp(line.start, line.end) - line.start);
@@ -103,9 +103,9 @@ fn said(text: &str, line: &Range<usize>, place: &Range<usize>) -> (String, Strin
         return key(written, at, place);
     }
     let name = written[..equals].trim_end().rsplit([' ', '\t', '{', ',']).next().unwrap_or_default();
-    let behind = &written[equals + 1..];
-    if let Some(quote) = open_quote(behind) {
-        return (format!("`{}` has no closing `{quote}`", quoted(behind.trim())), format!("close it with `{quote}`"));
+    let rest = &written[equals + 1..];
+    if let Some(quote) = open_quote(rest) {
+        return (format!("`{}` has no closing `{quote}`", quoted(rest.trim())), format!("close it with `{quote}`"));
     }
     let value = written[equals + 1..at].trim();
     let found = word(&written[at..]);
@@ -122,7 +122,7 @@ fn said(text: &str, line: &Range<usize>, place: &Range<usize>) -> (String, Strin
     let expected = match open {
         Some('[') => "`,` or `]`".to_owned(),
         Some(_) => "`,` or `}`".to_owned(),
-        None => format!("the end of the line behind the value of `{}`", quoted(name)),
+        None => format!("the end of the line after the value of `{}`", quoted(name)),
     };
     (format!("expected {expected}, found {found}"), none)
 }
@@ -133,7 +133,7 @@ fn heading_before(text: &str) -> Option<&str> {
     last.trim_start_matches('[').split([']', '.', '#']).next().map(str::trim)
 }
 
-/// What is wrong in a heading.
+/// The problem of a heading.
 fn heading(written: &str, before: &str, at: usize, place: &Range<usize>) -> (String, String) {
     let shown = quoted(written.trim());
     let is_whole = place.len() == whole_key(&written[at..])
@@ -151,11 +151,11 @@ fn heading(written: &str, before: &str, at: usize, place: &Range<usize>) -> (Str
     (format!("expected a heading such as `[time]` or `[[node]]`, found `{shown}`"), String::new())
 }
 
-/// What is wrong where a key should be.
+/// The problem where a key should be.
 fn key(written: &str, at: usize, place: &Range<usize>) -> (String, String) {
     let length = whole_key(&written[at..]);
-    let behind = written[at + length..].trim_start();
-    let is_key = 0 < length && place.len() == length && behind.starts_with(['=', '.']);
+    let rest = written[at + length..].trim_start();
+    let is_key = 0 < length && place.len() == length && rest.starts_with(['=', '.']);
     let is_alone = written.matches('=').count() < 2;
     if is_key {
         return (
@@ -233,7 +233,7 @@ fn whole_word(written: &str, from: usize, at: usize) -> Option<String> {
     (!found.is_empty()).then(|| format!("`{}`", quoted(found)))
 }
 
-/// What stands at the beginning of a text, up to a comma, a closing bracket or a comment.
+/// The beginning of a text, up to a comma, a closing bracket or a comment.
 fn word(text: &str) -> &str {
     let text = text.trim_start();
     let end = match text.chars().next() {
@@ -271,7 +271,7 @@ mod tests {
         assert_eq!(said(text), expected, "{text}");
     }
 
-    /// What is said of a line of an interface.
+    /// Checks the message about a line of an interface.
     fn in_interface(line: &str, expected: &str) {
         let text = format!("[[interface]]\n{line}\nslave = \"a\"\n");
         let found = sound(&text).problems;
@@ -288,7 +288,7 @@ mod tests {
         in_interface("area = 1 2", "expected a number, found `1 2`");
         in_interface(
             "interaction = \"a\" \"b\"",
-            "expected the end of the line behind the value of `interaction`, found `\"b\"`",
+            "expected the end of the line after the value of `interaction`, found `\"b\"`",
         );
         in_interface("clearance = { fixed = 1.0, fixed = 2.0 }", "`fixed` is given twice");
         in_interface("closed = yes", "expected `true` or `false`, found `yes`");

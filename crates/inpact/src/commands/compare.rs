@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
     let Some(mut prepared) = prepared.filter(|prepared| !prepared.deck_has_errors) else {
         return Ok(Outcome::HasErrors);
     };
-    // What the deck includes is known now.
+    // The included files are known now.
     files::check_targets(&[output.as_deref()])?;
     let mut comparison = of_geometry(arguments, &prepared)?;
     comparison.extend(evaluable.with_threads(|| of_outputs(deck, &mut prepared, format))?);

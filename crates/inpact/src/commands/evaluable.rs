@@ -109,7 +109,7 @@ pub(crate) struct Evaluable {
     pub(crate) deck_has_errors: bool,
     /// The rows of the node table, and how long it took to read them.
     pub(crate) rows: KeptRows,
-    /// What rows were made of, where they are of the deck's mesh.
+    /// The source of the rows, where they are of the deck's mesh.
     pub(crate) made: Option<Made>,
     pub(crate) reading: Duration,
 }

@@ -11,7 +11,7 @@ use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What a picture is made of: the surfaces, and the states that rows were made of.
+/// The sources of a picture: the surfaces, and the states of the rows.
 #[derive(Debug)]
 pub(crate) struct Drawn {
     pub(crate) faces: SlaveFaces,
@@ -26,7 +26,7 @@ impl Drawn {
         rows.map(|(state, pair, node)| value(state, pair, node)).collect()
     }
 
-    /// What the rows are called, and their times.
+    /// The names of the rows, and their times.
     pub(crate) fn names_and_times(&self) -> (Vec<String>, Vec<Option<f64>>) {
         let rows =
             self.states.iter().flat_map(|state| self.faces.rows().map(move |(.., name)| (name, state.moment.time)));
@@ -34,7 +34,7 @@ impl Drawn {
     }
 }
 
-/// Whether a name asks for a picture: it ends in `.vtu` or `.pvd`.
+/// Whether a file name is that of a picture: it ends in `.vtu` or `.pvd`.
 pub(crate) fn is_picture(path: &Path) -> bool {
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     extension.is_some_and(|extension| extension == "vtu" || extension == "pvd")
@@ -46,7 +46,7 @@ pub(crate) struct PictureWriter<'a> {
     target: &'a Path,
     names: Vec<String>,
     columns: Vec<Vec<f64>>,
-    /// What was drawn so far; the files get their names when all of them are complete.
+    /// The files so far; they get their names when all of them are complete.
     files: Vec<ResultFile>,
     moments: Vec<Moment>,
 }

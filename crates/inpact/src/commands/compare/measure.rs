@@ -1,4 +1,4 @@
-//! How far both values of each quantity are from each other.
+//! Differences of both values of each quantity.
 
 use crate::commands::evaluable::Evaluable;
 
@@ -10,7 +10,7 @@ pub(super) struct Quantity {
     pub(super) solvers: Vec<Option<f64>>,
 }
 
-/// Where two values differ most.
+/// The place of the largest difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Largest {
     /// The row.
@@ -24,7 +24,7 @@ pub(super) struct Largest {
 /// All quantities, and what rows are called.
 #[derive(Debug)]
 pub(super) struct Comparison {
-    /// What rows were made of.
+    /// The source of the rows.
     pub(super) made_of: String,
     pub(super) quantities: Vec<Quantity>,
     pub(super) tolerance: Option<f64>,
@@ -52,7 +52,7 @@ impl Quantity {
         self.ours.iter().zip(&self.solvers).filter(|(ours, solvers)| ours.is_none() && solvers.is_some()).count()
     }
 
-    /// Where the values differ most; a difference that is no number is the largest of all. `None` where nothing is compared.
+    /// The largest difference; one that is no number is the largest of all. `None` where nothing is compared.
     pub(super) fn largest(&self) -> Option<Largest> {
         let scale = self.both().map(|(_, _, solvers)| solvers.abs()).fold(0.0, f64::max);
         let difference = |ours: f64, solvers: f64| if ours == solvers { 0.0 } else { (ours - solvers).abs() };
@@ -79,7 +79,7 @@ impl Comparison {
         self.names.len()
     }
 
-    /// What a row is called, and its time.
+    /// The name of a row, and its time.
     pub(super) fn name(&self, row: usize) -> (&str, Option<f64>) {
         (&self.names[row], self.times[row])
     }

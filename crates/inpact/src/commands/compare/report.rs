@@ -5,7 +5,7 @@ use inpact_evaluation::results::push_number;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What is printed: a line a quantity, where it differs most.
+/// The comparison as text: a line a quantity, with its largest difference.
 pub(super) fn text(comparison: &Comparison) -> String {
     let mut text = format!("{}, {} rows: ours beside the solver's\n\n", comparison.made_of, comparison.rows());
     let mut lines = vec![

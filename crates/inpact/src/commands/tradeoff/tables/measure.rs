@@ -17,7 +17,7 @@ pub(super) struct Measured {
     /// One of so many was taken.
     pub(super) one_of: u64,
     pub(super) rounds: u32,
-    /// What `eval` takes for a row in all.
+    /// The time of `eval` for a row in all.
     pub(super) whole: WholeRow,
     /// One for each table and, where there are several, one for all of them.
     pub(super) groups: Vec<Group>,

@@ -32,7 +32,7 @@ pub(super) struct Sample {
     pub(super) whole: WholeRow,
 }
 
-/// What `eval` takes for a row of the node table, on as many threads as it has, in ns.
+/// The time of `eval` for a row of the node table, on as many threads as it has, ns.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WholeRow {
     /// Reading it and looking through it.
