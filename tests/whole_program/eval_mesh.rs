@@ -16,7 +16,9 @@ fn timeless(text: &str) -> String {
 
 fn both_ways(folder: &Folder, results: &[&str], more: &[&str]) -> [Run; 2] {
     let mut of_results: Vec<&str> = Vec::new();
-    results.iter().for_each(|file| of_results.extend(["--results", file]));
+    for file in results {
+        of_results.extend(["--results", file]);
+    }
     let made = folder.inpact(&[&["nodes", "job.inp", "-o", "n.csv"], of_results.as_slice(), dialect()].concat());
     assert_eq!(made.code, 0, "{}", made.errors);
     let by_table = folder.inpact(&[&["eval", "job.inp", "--nodes", "n.csv"], more, dialect()].concat());

@@ -108,7 +108,7 @@ fn states_are_pictures_and_a_collection_over_time() {
     // A collection may be asked for by its name.
     let run = folder.inpact(&["nodes", "job.inp", "--dialect", "calculix", "--results", "job.frd", "-o", "n.pvd"]);
     assert_eq!(run.code, 0, "{}", run.errors);
-    assert_eq!(folder.names().iter().filter(|name| name.starts_with("n")).count(), 3);
+    assert_eq!(folder.names().iter().filter(|name| name.starts_with('n')).count(), 3);
     // What was drawn is where the nodes have moved to, which the deck does not say.
     let run = folder.inpact(&["nodes", "job.inp", "--dialect", "calculix", "--results", "out-1.vtu"]);
     assert_eq!(run.code, 1, "{}", run.errors);

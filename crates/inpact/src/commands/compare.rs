@@ -143,7 +143,9 @@ fn of_outputs(deck: &Path, prepared: &mut Evaluable, format: FindingFormat) -> R
     let places: Vec<Option<usize>> =
         said.iter().map(|output| numbers.clone().position(|planned| planned == output)).collect();
     if places.iter().all(Option::is_none) {
-        quantities.iter_mut().for_each(|quantity| quantity.ours = vec![None; quantity.solvers.len()]);
+        for quantity in &mut quantities {
+            quantity.ours = vec![None; quantity.solvers.len()];
+        }
         return Ok(quantities);
     }
     let unreadable = |error| Failure::read(deck, error);

@@ -122,7 +122,7 @@ pub(crate) struct Made {
 
 /// Sources of rows, with the deck.
 enum Source<'a> {
-    Table(ReadDeck, &'a Path),
+    Table(Box<ReadDeck>, &'a Path),
     Mesh(Box<MeshedDeck>),
 }
 
@@ -186,7 +186,7 @@ impl EvaluableArguments {
         format.confine(&mut settings, &self.deck);
         let grammar = settings.grammar;
         let source = match &self.nodes {
-            Some(nodes) => Source::Table(ReadDeck::read(&self.deck, &settings)?, nodes),
+            Some(nodes) => Source::Table(Box::new(ReadDeck::read(&self.deck, &settings)?), nodes),
             None => Source::Mesh(Box::new(MeshedDeck::read(&self.deck, &settings)?)),
         };
         let model = &source.deck().model;
@@ -324,7 +324,7 @@ impl Source<'_> {
 
     fn into_deck(self) -> ReadDeck {
         match self {
-            Self::Table(deck, _) => deck,
+            Self::Table(deck, _) => *deck,
             Self::Mesh(meshed) => meshed.read,
         }
     }

@@ -62,7 +62,7 @@ impl Quantity {
         let (row, difference) =
             differences.reduce(|most, other| if rank(most.1) < rank(other.1) { other } else { most })?;
         let relative = match difference {
-            difference if difference == 0.0 => 0.0,
+            0.0 => 0.0,
             difference => difference / scale,
         };
         Some(Largest { row, difference, relative })

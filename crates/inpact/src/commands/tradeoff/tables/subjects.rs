@@ -91,7 +91,9 @@ pub(super) fn gather(evaluable: &mut Evaluable, nodes_path: &Path, most: u64) ->
         let mut each = window.iter().zip(&results);
         each.try_for_each(|(batch, results)| writer.write(batch, results)).map_err(unreadable)?;
         write += start.elapsed();
-        window.iter().for_each(|batch| coordinates.take(batch, one_of));
+        for batch in &window {
+            coordinates.take(batch, one_of);
+        }
     }
     let a_row = |time: Duration| time.as_secs_f64() * 1e9 / plan.rows.max(1) as f64;
     let whole = WholeRow { read: a_row(*reading), laws: a_row(laws), write: a_row(write) };
