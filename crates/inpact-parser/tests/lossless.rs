@@ -51,9 +51,9 @@ proptest! {
             let mut pieces = Scanner::new("x", options);
             let mut rest = &bytes[..];
             for cut in cuts.iter().cycle() {
-                let (piece, behind) = rest.split_at((*cut).min(rest.len()));
+                let (piece, after) = rest.split_at((*cut).min(rest.len()));
                 pieces.push(piece);
-                rest = behind;
+                rest = after;
                 if rest.is_empty() {
                     break;
                 }

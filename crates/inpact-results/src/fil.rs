@@ -4,15 +4,15 @@
 //! Nodes are numbered anew by the solver where a model has parts and instances; record 1901 gives their coordinates.
 
 mod quantities;
-mod words;
+mod records;
 
 use crate::collect::{self, PassedOver, Row};
 use crate::problem::{Place, Problem, Read, ended};
 use crate::recognise::Format;
 use crate::results::{Field, Frame, Name, Region, Results, Surface, SurfaceFace};
 use quantities::{Kind, Quantity, quantity};
+use records::{CUT, Record, Records, Word};
 use std::collections::HashMap;
-use words::{CUT, Record, Records, Word};
 
 /// Reads an ASCII results file of Abaqus.
 ///
@@ -202,9 +202,8 @@ impl Reader {
         let Some(frame) = &mut self.frame else {
             return Err(misplaced(record, "the begin of an increment, record 2000, before it"));
         };
-        let words = &record.attributes[first..];
         self.values.clear();
-        for word in words {
+        for word in &record.attributes[first..] {
             self.values.push(word.real().ok_or_else(|| misplaced(record, "values"))?);
         }
         let values = self.values.as_slice();

@@ -130,20 +130,20 @@ impl Encoding {
         if !bytes.len().is_multiple_of(width) {
             return Err(format!("{} bytes are no numbers of {width} bytes", bytes.len()));
         }
-        let words = bytes.chunks_exact(width).map(|word| self.unsigned(word));
+        let patterns = bytes.chunks_exact(width).map(|pattern| self.unsigned(pattern));
         Ok(match of_type {
             NumberType::Float(4) => {
-                #[expect(clippy::cast_possible_truncation, reason = "the word has 4 bytes")]
-                let narrow = words.map(|word| f64::from(f32::from_bits(word as u32)));
+                #[expect(clippy::cast_possible_truncation, reason = "the pattern has 4 bytes")]
+                let narrow = patterns.map(|pattern| f64::from(f32::from_bits(pattern as u32)));
                 Values::Reals(narrow.collect())
             }
-            NumberType::Float(_) => Values::Reals(words.map(f64::from_bits).collect()),
+            NumberType::Float(_) => Values::Reals(patterns.map(f64::from_bits).collect()),
             NumberType::Signed(_) | NumberType::Unsigned(8) => {
                 // The sign of a narrow word is its highest bit.
                 let unused = 64 - 8 * width;
-                Values::Integers(words.map(|word| (word << unused).cast_signed() >> unused).collect())
+                Values::Integers(patterns.map(|pattern| (pattern << unused).cast_signed() >> unused).collect())
             }
-            NumberType::Unsigned(_) => Values::Integers(words.map(u64::cast_signed).collect()),
+            NumberType::Unsigned(_) => Values::Integers(patterns.map(u64::cast_signed).collect()),
         })
     }
 

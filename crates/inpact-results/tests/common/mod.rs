@@ -65,10 +65,11 @@ impl Fil {
     }
 
     pub(crate) fn begin(&mut self, step: i64, increment: i64, total: f64, within: f64) -> &mut Self {
-        let mut words = vec![W::D(total), W::D(within), W::D(0.0), W::D(0.0), W::I(1), W::I(step), W::I(increment)];
-        words.extend([W::I(0), W::D(0.0), W::D(0.0), W::D(0.1)]);
-        words.extend((0..10).map(|_| W::A("")));
-        self.record(2000, &words)
+        let mut attributes =
+            vec![W::D(total), W::D(within), W::D(0.0), W::D(0.0), W::I(1), W::I(step), W::I(increment)];
+        attributes.extend([W::I(0), W::D(0.0), W::D(0.0), W::D(0.1)]);
+        attributes.extend((0..10).map(|_| W::A("")));
+        self.record(2000, &attributes)
     }
 
     /// Ends an increment, and fills two lines with blanks as the solver does.

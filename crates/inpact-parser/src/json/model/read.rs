@@ -55,11 +55,11 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
 
 /// The dialect whose names these are: JSON does not say which, and only CalculiX tells `"SI"` and `SI` apart (CX-02).
 fn dialect_of<'key>(keys: &(impl Iterator<Item = &'key str> + Clone)) -> Dialect {
-    let is_told_apart = |dialect| {
+    let is_distinguished = |dialect| {
         let mut names = HashSet::new();
         keys.clone().all(|key| names.insert(Name::in_dialect(key, dialect)))
     };
-    let is_of_calculix = !is_told_apart(Dialect::Abaqus) && is_told_apart(Dialect::Calculix);
+    let is_of_calculix = !is_distinguished(Dialect::Abaqus) && is_distinguished(Dialect::Calculix);
     if is_of_calculix { Dialect::Calculix } else { Dialect::Abaqus }
 }
 

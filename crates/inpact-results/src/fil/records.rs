@@ -59,14 +59,14 @@ pub(super) struct Records<'a> {
     lines: Lines<'a>,
     line: Option<Line<'a>>,
     column: usize,
-    words: Vec<Word>,
+    record: Vec<Word>,
 }
 
 impl<'a> Records<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let mut lines = Lines::new(bytes);
         let line = lines.next();
-        Self { lines, line, column: 0, words: Vec::new() }
+        Self { lines, line, column: 0, record: Vec::new() }
     }
 
     /// The current place.
@@ -89,12 +89,12 @@ impl<'a> Records<'a> {
             }
         };
         let count = self.count(place)?;
-        self.words.clear();
+        self.record.clear();
         for _ in 1..count {
             let word = self.word()?;
-            self.words.push(word);
+            self.record.push(word);
         }
-        match self.words.split_first() {
+        match self.record.split_first() {
             Some((Word::Integer(key), attributes)) => Ok(Some(Record { key: *key, attributes, place })),
             _ => Err(Problem::new(place, "expected the key of a record, an integer", FOREIGN)),
         }
