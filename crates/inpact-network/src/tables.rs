@@ -163,13 +163,9 @@ pub struct InterfaceTable<'a> {
 impl<'a> InterfaceTable<'a> {
     /// The table of a problem whose interactions are those of `model`.
     pub fn new(problem: &'a Problem<'a>, model: &'a Model) -> Self {
-        let (mut keys, mut numbers) = (vec![Column::Node, Column::Interaction], Vec::new());
-        if Times::of(problem) == Times::Many {
-            keys.push(Column::Time);
-            numbers.push(Column::Time);
-        }
-        numbers.extend(interface_columns(problem));
-        let selection = Selection { labels: keys, numbers };
+        let mut labels = vec![Column::Node, Column::Interaction];
+        labels.extend((Times::of(problem) == Times::Many).then_some(Column::Time));
+        let selection = Selection { labels, numbers: interface_columns(problem) };
         Self { problem, model, labels: interface_labels(problem), selection }
     }
 
@@ -192,10 +188,7 @@ impl<'a> InterfaceTable<'a> {
                 column.push(text);
             }
             for (column, to) in self.selection.numbers.iter().zip(&mut batch.numbers) {
-                to.push(match column {
-                    Column::Time => Some(state.time),
-                    column => cell(self.problem, state, number, row, *column),
-                });
+                to.push(cell(self.problem, state, number, row, *column));
             }
             batch.rows += 1;
         }

@@ -1,7 +1,6 @@
 //! The rows of one reading, kept so that the table is read once: in memory up to a limit, the rest in a file that the caller gives.
 
 use super::batch::Batch;
-use super::header::Header;
 use super::reader::Selection;
 use super::spill;
 use std::collections::VecDeque;
@@ -96,14 +95,6 @@ impl KeptRows {
             take(&spill::read(&mut reader)?);
         }
         file.seek(SeekFrom::End(0)).map(drop)
-    }
-
-    /// The columns of the batches as the header of a table.
-    pub(super) fn header(&self) -> Header {
-        let Selection { labels, numbers } = &self.selection;
-        let others = numbers.iter().filter(|column| !labels.contains(column));
-        let names: Vec<String> = labels.iter().chain(others).map(ToString::to_string).collect();
-        Header::new(names.iter().map(String::as_str))
     }
 
     /// Gives the rows back one batch after the other, with the columns that are selected now; none stay kept.

@@ -10,7 +10,6 @@ use super::columnar::{ColumnarReader, Storage};
 use super::csv::CsvReader;
 use super::foreign;
 use super::header::Header;
-use super::kept::{GivenBack, KeptRows};
 use super::made::{MadeBatches, MadeReader};
 use inpact_diagnostics::Findings;
 use std::fmt;
@@ -31,16 +30,7 @@ enum Table<'a> {
     Csv(Box<CsvReader<'a>>),
     #[cfg(feature = "columnar")]
     Columnar(Box<ColumnarReader>),
-    Kept(Box<KeptTable>),
     Made(Box<MadeReader<'a>>),
-}
-
-/// Rows that were made as batches.
-struct KeptTable {
-    header: Header,
-    rows: KeptRows,
-    /// The rows once the first batch is read.
-    begun: Option<GivenBack>,
 }
 
 /// What a table that is stored as columns can be read from.
@@ -142,11 +132,6 @@ impl<'a> NodeReader<'a> {
         NodeReader::new(Table::Columnar(Box::new(table)))
     }
 
-    /// The rows that were kept, as a table of their columns; its batches are those that were kept.
-    pub fn of_kept(rows: KeptRows) -> Self {
-        Self::new(Table::Kept(Box::new(KeptTable { header: rows.header(), rows, begun: None })))
-    }
-
     /// Opens a node table that is made while it is read: key columns, which the labels of its batches are, and columns of numbers.
     pub fn of_made(keys: &[Column], numbers: &[Column], batches: MadeBatches<'a>) -> Self {
         Self::new(Table::Made(Box::new(MadeReader::new(keys, numbers, batches))))
@@ -162,7 +147,6 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.header(),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.header(),
-            Table::Kept(table) => &table.header,
             Table::Made(table) => table.header(),
         }
     }
@@ -170,7 +154,7 @@ impl<'a> NodeReader<'a> {
     /// What the table itself says of a column of numbers: Parquet files may, for all of their rows, until the first batch is read.
     pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
         match &self.table {
-            Table::Csv(_) | Table::Kept(..) | Table::Made(_) => None,
+            Table::Csv(_) | Table::Made(_) => None,
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.statistics(table.header().position(column)?),
         }
@@ -199,7 +183,7 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.set_read_ahead(pieces),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.set_reads_ahead(0 < pieces),
-            Table::Kept(..) | Table::Made(_) => {}
+            Table::Made(_) => {}
         }
     }
 
@@ -212,14 +196,6 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.read_batch(batch, findings),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.read_batch(batch, findings),
-            Table::Kept(table) => {
-                let given = match &mut table.begun {
-                    Some(given) => given,
-                    None => table.begun.insert(table.rows.give_back(&self.selection)?),
-                };
-                let next = given.next_batch()?;
-                Ok(next.map(|next| *batch = next).is_some())
-            }
             Table::Made(table) => table.read_batch(batch),
         }
     }
@@ -233,8 +209,6 @@ impl<'a> NodeReader<'a> {
             Table::Csv(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
             #[cfg(feature = "columnar")]
             Table::Columnar(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
-            // It goes by the names of the columns, once the first batch is read.
-            Table::Kept(..) => {}
             Table::Made(table) => table.select(&labels, &numbers, self.rows_of_a_batch),
         }
     }

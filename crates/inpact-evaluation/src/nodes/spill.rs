@@ -27,12 +27,12 @@ pub(super) fn read(input: &mut dyn Read) -> io::Result<Batch> {
     let mut batch = Batch::with_columns(0, 0);
     batch.rows = as_length(rows)?;
     batch.first_row = first_row;
-    batch.lines = read_words(input)?;
+    batch.lines = read_words(input, u64::from_ne_bytes)?;
     for _ in 0..labels {
         batch.labels.push(read_label(input)?);
     }
     for _ in 0..numbers {
-        let values: Vec<f64> = read_words(input)?;
+        let values = read_words(input, f64::from_ne_bytes)?;
         let present: Vec<bool> = read_bytes(input)?.into_iter().map(|byte| byte != 0).collect();
         let mut column = NumberColumn::default();
         column.extend_from_slices(&values, Some(present.as_slice()).filter(|present| !present.is_empty()));
@@ -67,7 +67,7 @@ fn read_label(input: &mut dyn Read) -> io::Result<LabelColumn> {
     #[cfg(not(feature = "columnar"))]
     let _: u64 = read_count(input)?;
     let bytes = read_bytes(input)?;
-    let ends = read_words::<u64>(input)?.into_iter().map(as_length).collect::<io::Result<Vec<usize>>>()?;
+    let ends = read_words(input, u64::from_ne_bytes)?.into_iter().map(as_length).collect::<io::Result<Vec<usize>>>()?;
     Ok(LabelColumn::from_texts(bytes, ends))
 }
 
@@ -106,8 +106,8 @@ fn write_words<T: pulp::bytemuck::Pod>(output: &mut dyn Write, words: &[T]) -> i
     write_bytes(output, pulp::bytemuck::cast_slice(words))
 }
 
-fn read_words<T: pulp::bytemuck::Pod>(input: &mut dyn Read) -> io::Result<Vec<T>> {
-    Ok(pulp::bytemuck::pod_collect_to_vec(&read_bytes(input)?))
+fn read_words<T>(input: &mut dyn Read, of: fn([u8; 8]) -> T) -> io::Result<Vec<T>> {
+    Ok(read_bytes(input)?.as_chunks().0.iter().map(|bytes| of(*bytes)).collect())
 }
 
 fn read_count(input: &mut dyn Read) -> io::Result<u64> {

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_diagnostics::{Cell, Diagnostic, Findings, Place};
 use inpact_evaluation::evaluate::{Evaluation, RunFailure};
-use inpact_evaluation::nodes::{CONTRADICTORY_RATE, KeptRows, NodeReader};
+use inpact_evaluation::nodes::{CONTRADICTORY_RATE, KeptRows, NodeReader, Selection};
 use inpact_evaluation::plan::{make, survey_keeping};
 use inpact_evaluation::results::{ResultWriter, TableFormat};
 use inpact_network::scene::Scene;
@@ -16,14 +16,17 @@ use std::path::Path;
 /// Evaluates the rows, and writes the result.
 pub(super) fn write(
     prepared: &SolvableScene,
-    rows: KeptRows,
+    columns: &Selection,
+    mut made: KeptRows,
     target: &Path,
     format: FindingFormat,
 ) -> Result<(), Failure> {
     let SolvableScene { settings, model, choices, name, scene, .. } = prepared;
     let unreadable = |error| Failure::read(Path::new("the interface rows"), error);
     let mut findings = Findings::new(name);
-    let (reader, mut rows) = (NodeReader::of_kept(rows), kept_rows());
+    let mut made = made.give_back(columns).map_err(unreadable)?;
+    let made = std::iter::from_fn(move || made.next_batch().transpose());
+    let (reader, mut rows) = (NodeReader::of_made(&columns.labels, &columns.numbers, Box::new(made)), kept_rows());
     let surveyed = survey_keeping(reader, model, choices, &mut findings, &mut rows).map_err(unreadable)?;
     let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else {
         say_data_findings(of_scene(findings, scene), settings, format);

@@ -151,8 +151,8 @@ impl<'a> Outputs<'a> {
         if let Some(file) = self.link_file {
             file.finish()?;
         }
-        if let Some(Interfaces { target, rows, .. }) = self.interfaces {
-            interfaces::write(self.prepared, rows, &target, findings)?;
+        if let Some(Interfaces { target, table, rows, .. }) = self.interfaces {
+            interfaces::write(self.prepared, table.selection(), rows, &target, findings)?;
         }
         Ok(())
     }
