@@ -47,6 +47,9 @@ enum Command {
     Tradeoff(commands::tradeoff::TradeoffArguments),
     /// Explain a rule, a keyword, or a column of node tables and results.
     Explain(commands::explain::ExplainArguments),
+    /// Serve an editor: findings while typing, fixes, hover, completion, over standard input and output.
+    #[cfg(feature = "server")]
+    Server(commands::server::ServerArguments),
     /// Print the completions of a shell.
     Completions(commands::shell::CompletionsArguments),
     /// Print the manual page.
@@ -79,6 +82,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
+        #[cfg(feature = "server")]
+        Command::Server(arguments) => commands::server::run(&arguments),
         Command::Completions(arguments) => commands::shell::completions(&arguments, Arguments::command()),
         Command::Man => commands::shell::manual(&Arguments::command()),
     };

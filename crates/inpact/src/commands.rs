@@ -11,10 +11,13 @@ pub(crate) mod nodes;
 pub(crate) mod plan;
 pub(crate) mod plot;
 pub(crate) mod report;
+#[cfg(feature = "server")]
+pub(crate) mod server;
 pub(crate) mod shell;
 pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
+mod decks;
 pub(crate) mod evaluable;
 pub(crate) mod findings;
 pub(crate) mod job_results;

@@ -9,6 +9,7 @@ use crate::fixing::{self, FixReach, FixSelection, Mended, Need, Purpose, Subject
 use crate::input::HeldFiles;
 use crate::rules;
 use crate::settings::ReadOptions;
+use inpact_parser::deck::EditedText;
 use std::path::{Path, PathBuf};
 
 /// The fixes to apply, and the files.
@@ -83,7 +84,7 @@ impl Fixed {
         let selection = fixes.selection()?;
         let held = HeldFiles::default();
         for (place, content) in &deck.options.overlay {
-            held.hold(place, content);
+            held.hold(place, content.to_bytes().into());
         }
         let name = Path::new(deck.name());
         let places = deck.files().to_vec();
@@ -124,7 +125,7 @@ impl Fixed {
     pub fn deck(&self) -> Result<Deck, Error> {
         let mut options = self.options.clone();
         for file in &self.files {
-            options.overlay.insert(file.path.clone(), file.after.clone());
+            options.overlay.insert(file.path.clone(), EditedText::new(&file.after));
         }
         Deck::read(&self.name, &options)
     }

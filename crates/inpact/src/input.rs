@@ -66,7 +66,7 @@ fn push(
 ) -> Result<(), Failure> {
     match (held, settings.known_content(path)) {
         (Some(held), _) => scanner.push(&held.content(path, name)?),
-        (None, Some(content)) => scanner.push(content),
+        (None, Some(content)) => content.push_into(scanner),
         (None, None) => files::push_all(path, scanner)?,
     }
     Ok(())

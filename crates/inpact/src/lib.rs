@@ -50,6 +50,8 @@ mod render;
 mod report;
 mod rules;
 mod scene;
+#[cfg(feature = "server")]
+mod server;
 mod settings;
 mod threads;
 mod user_library;

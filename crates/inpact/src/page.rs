@@ -134,7 +134,8 @@ fn product_name(product: Product) -> &'static str {
     }
 }
 
-fn parameter_item(parameter: &ParameterDefinition) -> String {
+/// A parameter as an item of a list.
+pub(crate) fn parameter_item(parameter: &ParameterDefinition) -> String {
     let kind = match parameter.kind {
         ParameterKind::Flag | ParameterKind::Choice => "",
         ParameterKind::Integer => "=integer",

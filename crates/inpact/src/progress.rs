@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Less than this is done before anybody wonders.
 const LONG: u64 = 200_000_000;
@@ -15,8 +15,8 @@ pub(crate) struct Progress {
 
 impl Progress {
     /// A bar over the files, if they are long and standard error is a terminal.
-    pub(crate) fn over(files: &[PathBuf], is_quiet: bool) -> Self {
-        let total: u64 = files.iter().map(|path| size(path)).sum();
+    pub(crate) fn over<'a>(files: impl Iterator<Item = &'a Path>, is_quiet: bool) -> Self {
+        let total: u64 = files.map(size).sum();
         if is_quiet || total < LONG || !std::io::stderr().is_terminal() {
             return Self { bar: None };
         }

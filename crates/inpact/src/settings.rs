@@ -11,12 +11,12 @@ use crate::rules;
 use clap::ValueEnum;
 use globset::{Glob, GlobMatcher};
 use inpact_diagnostics::{Diagnostic, Severity};
-use inpact_parser::deck::Keep;
+use inpact_parser::deck::{EditedText, Keep};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// The name of the configuration file.
 pub(crate) const FILE_NAME: &str = "inpact.toml";
@@ -56,7 +56,7 @@ pub(crate) enum Configuration {
 }
 
 /// Files whose content is known without their being read, by their whole paths: what an editor has open, or what was parsed from a text.
-pub(crate) type Overlay = BTreeMap<PathBuf, Arc<[u8]>>;
+pub(crate) type Overlay = BTreeMap<PathBuf, EditedText>;
 
 impl ReadOptions {
     /// Everything as the configuration above the deck has it.
@@ -123,7 +123,7 @@ impl ReadOptions {
     /// Takes `content` for what is in the file at `path`, be it there or not: the unsaved text of an editor.
     #[must_use]
     pub fn file(mut self, path: impl AsRef<Path>, content: impl Into<Vec<u8>>) -> Self {
-        self.overlay.insert(files::whole_path(path.as_ref()), content.into().into());
+        self.overlay.insert(files::whole_path(path.as_ref()), EditedText::new(&content.into()));
         self
     }
 }
@@ -173,6 +173,12 @@ struct File {
     rules: BTreeMap<String, Level>,
     #[serde(default)]
     ignore: Vec<IgnoreEntry>,
+    /// Which files of a folder are decks besides `*.inp`; paths relative to this file, with `*`, `**` and `?`.
+    #[serde(default)]
+    include: Vec<String>,
+    /// Which files of a folder are none.
+    #[serde(default)]
+    exclude: Vec<String>,
 }
 
 /// `include-root`: a folder, relative to the configuration file, or `true` for the repository.
@@ -216,6 +222,9 @@ pub(crate) struct Settings {
     has_named_root: bool,
     levels: BTreeMap<String, Level>,
     ignores: Vec<(Vec<GlobMatcher>, Vec<String>)>,
+    /// Which files of a folder are decks besides `*.inp`, and which are none.
+    include: Vec<GlobMatcher>,
+    exclude: Vec<GlobMatcher>,
     /// The folder of the configuration file, which the paths in `ignores` are relative to.
     root: PathBuf,
     /// Files whose content is known.
@@ -258,15 +267,37 @@ impl Settings {
             relative_to: options.relative_to.or(file.relative_to).unwrap_or(RelativeTo::Deck),
             levels: file.rules,
             ignores: file.ignore.iter().map(|entry| matchers(entry, &found)).collect::<Result<_, _>>()?,
+            include: globs(&file.include, &found, "include")?,
+            exclude: globs(&file.exclude, &found, "exclude")?,
             root: found.canonicalize().ok().and_then(|found| Some(found.parent()?.to_owned())).unwrap_or_default(),
             overlay: options.overlay.clone(),
         })
     }
 }
 
+impl Settings {
+    /// The settings where nothing says anything.
+    pub(crate) fn unconfigured(overlay: Overlay) -> Self {
+        Self {
+            grammar: Grammar::builtin(),
+            include_dirs: Vec::new(),
+            named_include_dirs: Vec::new(),
+            relative_to: RelativeTo::Deck,
+            include_roots: Vec::new(),
+            has_named_root: false,
+            levels: BTreeMap::new(),
+            ignores: Vec::new(),
+            include: Vec::new(),
+            exclude: Vec::new(),
+            root: PathBuf::new(),
+            overlay,
+        }
+    }
+}
+
 impl ReadOptions {
     /// The configuration file that counts for a deck: the one that is named, or the nearest above the deck.
-    fn configuration_of(&self, path: &Path) -> Option<PathBuf> {
+    pub(crate) fn configuration_of(&self, path: &Path) -> Option<PathBuf> {
         match &self.configuration {
             Configuration::Nothing => return None,
             Configuration::File(file) => return Some(file.clone()),
@@ -326,11 +357,16 @@ fn in_file(file: &Path, message: &str) -> Failure {
 }
 
 fn matchers(entry: &IgnoreEntry, file: &Path) -> Result<(Vec<GlobMatcher>, Vec<String>), Failure> {
+    Ok((globs(&entry.paths, file, "ignore.paths")?, entry.rules.clone()))
+}
+
+/// The patterns of a key of the configuration.
+fn globs(patterns: &[String], file: &Path, key: &str) -> Result<Vec<GlobMatcher>, Failure> {
     let compile = |pattern: &String| {
-        let glob = Glob::new(pattern).map_err(|error| in_file(file, &format!("`ignore.paths`: {error}")))?;
+        let glob = Glob::new(pattern).map_err(|error| in_file(file, &format!("`{key}`: {error}")))?;
         Ok(glob.compile_matcher())
     };
-    Ok((entry.paths.iter().map(compile).collect::<Result<_, Failure>>()?, entry.rules.clone()))
+    patterns.iter().map(compile).collect()
 }
 
 /// The language of a dialect and release; made once, and there are few.
@@ -360,7 +396,7 @@ impl Settings {
     }
 
     /// The content of a file, where it is known without reading.
-    pub(crate) fn known_content(&self, path: &Path) -> Option<&Arc<[u8]>> {
+    pub(crate) fn known_content(&self, path: &Path) -> Option<&EditedText> {
         if self.overlay.is_empty() { None } else { self.overlay.get(&files::whole_path(path)) }
     }
 
@@ -390,10 +426,23 @@ impl Settings {
         judged.collect()
     }
 
-    fn is_ignored(&self, code: &str, file: &Path) -> bool {
+    /// Whether a file of a folder is a deck: `*.inp` and what `include` adds, but for what `exclude` names.
+    pub(crate) fn takes(&self, file: &Path) -> bool {
+        let relative = self.relative(file);
+        let matches = |matchers: &[GlobMatcher]| matchers.iter().any(|matcher| matcher.is_match(&relative));
+        let is_deck = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
+        (is_deck || matches(&self.include)) && !matches(&self.exclude)
+    }
+
+    /// A file as the patterns of the configuration name it.
+    fn relative(&self, file: &Path) -> PathBuf {
         let whole = file.canonicalize().unwrap_or_else(|_| file.to_owned());
-        let relative = whole.strip_prefix(&self.root).unwrap_or(&whole);
-        let matches = |matchers: &[GlobMatcher]| matchers.iter().any(|matcher| matcher.is_match(relative));
+        whole.strip_prefix(&self.root).map(Path::to_owned).unwrap_or(whole)
+    }
+
+    fn is_ignored(&self, code: &str, file: &Path) -> bool {
+        let relative = self.relative(file);
+        let matches = |matchers: &[GlobMatcher]| matchers.iter().any(|matcher| matcher.is_match(&relative));
         self.ignores.iter().any(|(paths, codes)| codes.iter().any(|ignored| ignored == code) && matches(paths))
     }
 }

@@ -9,7 +9,7 @@ use super::lines::{count_line_ends, lines, without_line_end};
 use super::survey::Survey;
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// About how many bytes a piece has; a line is never cut.
 const PIECE: usize = 32 * 1024;
@@ -20,6 +20,8 @@ const PIECE: usize = 32 * 1024;
 #[derive(Debug, Clone, Default)]
 pub struct EditedText {
     pieces: Vec<Arc<Piece>>,
+    /// Where each piece begins: its byte and its line.
+    starts: Vec<Start>,
     length: u64,
 }
 
@@ -29,12 +31,56 @@ struct Piece {
     bytes: Box<[u8]>,
     line_ends: u64,
     survey: Survey,
+    /// Where its lines begin; found out when somebody asks for a place in it.
+    line_starts: OnceLock<Box<[usize]>>,
+}
+
+/// Where a piece begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Start {
+    offset: u64,
+    line: u64,
+}
+
+impl Piece {
+    fn of(bytes: &[u8]) -> Self {
+        let line_ends = count_line_ends(bytes);
+        Self { bytes: bytes.into(), line_ends, survey: Survey::of(bytes), line_starts: OnceLock::new() }
+    }
+
+    /// Where its lines begin; after the last line end one more, where another piece goes on.
+    fn line_starts(&self) -> &[usize] {
+        self.line_starts.get_or_init(|| {
+            let after = ends_line(&self.bytes).then_some(self.bytes.len());
+            lines(&self.bytes).map(|range| range.start).chain(after).collect()
+        })
+    }
 }
 
 impl EditedText {
     /// The text of those bytes.
     pub fn new(bytes: &[u8]) -> Self {
-        Self { pieces: cut(bytes, PIECE), length: bytes.len() as u64 }
+        Self::in_pieces(bytes, PIECE)
+    }
+
+    fn in_pieces(bytes: &[u8], piece_length: usize) -> Self {
+        let mut text = Self { pieces: cut(bytes, piece_length), ..Self::default() };
+        text.place_pieces(0);
+        text
+    }
+
+    /// Finds out where the pieces begin, from one of them on.
+    fn place_pieces(&mut self, first: usize) {
+        self.starts.truncate(first);
+        let mut next = match first.checked_sub(1) {
+            Some(before) => self.starts[before].after(&self.pieces[before]),
+            None => Start { offset: 0, line: 0 },
+        };
+        for piece in &self.pieces[first..] {
+            self.starts.push(next);
+            next = next.after(piece);
+        }
+        self.length = next.offset;
     }
 
     /// The number of bytes.
@@ -60,11 +106,11 @@ impl EditedText {
             first = before;
             first_start -= self.pieces[before].bytes.len() as u64;
         }
-        let (mut after, mut after_start) = (first, first_start);
+        let (mut after, mut behind_start) = (first, first_start);
         let mut joined = Vec::new();
-        while after < self.pieces.len() && after_start <= end {
+        while after < self.pieces.len() && behind_start <= end {
             joined.extend_from_slice(&self.pieces[after].bytes);
-            after_start += self.pieces[after].bytes.len() as u64;
+            behind_start += self.pieces[after].bytes.len() as u64;
             after += 1;
         }
         let index = |offset: u64| usize::try_from(offset - first_start).unwrap_or(usize::MAX).min(joined.len());
@@ -75,7 +121,7 @@ impl EditedText {
             after += 1;
         }
         self.pieces.splice(first..after, cut(&joined, piece_length));
-        self.length = self.length - (end - start) + with.len() as u64;
+        self.place_pieces(first);
     }
 
     /// The bytes of a range, as far as there are.
@@ -109,37 +155,24 @@ impl EditedText {
 
     /// The bytes of a line without its line end, and where it begins; lines are counted from 0, and one after the last is empty.
     pub fn line(&self, line: u64) -> (u64, &[u8]) {
-        let mut left = line;
-        let mut start = 0;
-        for piece in &self.pieces {
-            // The line after the last line end of a piece begins the next one.
-            if left < piece.line_ends || (left == piece.line_ends && !ends_line(&piece.bytes)) {
-                let index = usize::try_from(left).unwrap_or(usize::MAX);
-                let range = lines(&piece.bytes).nth(index).unwrap_or(piece.bytes.len()..piece.bytes.len());
-                return (start + range.start as u64, without_line_end(&piece.bytes[range]));
-            }
-            left -= piece.line_ends;
-            start += piece.bytes.len() as u64;
-        }
-        (start, &[])
+        let index = self.starts.partition_point(|start| start.line <= line).saturating_sub(1);
+        let (Some(piece), Some(start)) = (self.pieces.get(index), self.starts.get(index)) else { return (0, &[]) };
+        let line_starts = piece.line_starts();
+        let local = usize::try_from(line - start.line).unwrap_or(usize::MAX);
+        let Some(from) = line_starts.get(local).copied() else { return (self.length, &[]) };
+        let to = line_starts.get(local.saturating_add(1)).copied().unwrap_or(piece.bytes.len());
+        (start.offset + from as u64, without_line_end(&piece.bytes[from..to]))
     }
 
     /// The line that a byte lies in, counted from 0, and where it begins.
     pub fn line_of(&self, offset: u64) -> (u64, u64) {
-        let (index, piece_start) = self.piece_at(offset.min(self.length));
-        let before: u64 = self.pieces[..index].iter().map(|piece| piece.line_ends).sum();
-        let Some(piece) = self.pieces.get(index) else { return (before, piece_start) };
-        let local = usize::try_from(offset.min(self.length) - piece_start).unwrap_or(usize::MAX);
-        let (mut line, mut start) = (before, piece_start);
-        for range in lines(&piece.bytes) {
-            let is_last = range.end == piece.bytes.len() && !ends_line(&piece.bytes);
-            if local < range.end || is_last {
-                return (line, start);
-            }
-            line += 1;
-            start = piece_start + range.end as u64;
-        }
-        (line, start)
+        let offset = offset.min(self.length);
+        let index = self.starts.partition_point(|start| start.offset <= offset).saturating_sub(1);
+        let (Some(piece), Some(start)) = (self.pieces.get(index), self.starts.get(index)) else { return (0, 0) };
+        let line_starts = piece.line_starts();
+        let local = usize::try_from(offset - start.offset).unwrap_or(usize::MAX);
+        let line = line_starts.partition_point(|from| *from <= local).saturating_sub(1);
+        (start.line + line as u64, start.offset + line_starts[line] as u64)
     }
 
     /// Pushes the text into a scanner; pieces of rows that nobody keeps are passed over.
@@ -149,7 +182,7 @@ impl EditedText {
         }
     }
 
-    /// The lengths of the common prefix and suffix with another text, in bytes; they do not overlap.
+    /// How many bytes at the beginning and at the end are shared with another text; they do not overlap.
     ///
     /// Whole pieces are compared by being the same ones.
     pub fn shared_with(&self, other: &Self) -> (u64, u64) {
@@ -163,15 +196,23 @@ impl EditedText {
 
     /// The piece that a byte lies in and where that begins; after the last byte the last piece, where it does not end a line.
     fn piece_at(&self, offset: u64) -> (usize, u64) {
-        let mut start = 0;
-        for (index, piece) in self.pieces.iter().enumerate() {
-            let end = start + piece.bytes.len() as u64;
-            if offset < end || (index + 1 == self.pieces.len() && !ends_line(&piece.bytes)) {
-                return (index, start);
+        let index = self.starts.partition_point(|start| start.offset <= offset).saturating_sub(1);
+        match (self.pieces.get(index), self.starts.get(index)) {
+            (Some(piece), Some(start))
+                if start.offset + piece.bytes.len() as u64 <= offset && ends_line(&piece.bytes) =>
+            {
+                (index + 1, start.offset + piece.bytes.len() as u64)
             }
-            start = end;
+            (Some(_), Some(start)) => (index, start.offset),
+            _ => (0, 0),
         }
-        (self.pieces.len(), start)
+    }
+}
+
+impl Start {
+    /// Where the piece after one that begins here does.
+    fn after(self, piece: &Piece) -> Self {
+        Self { offset: self.offset + piece.bytes.len() as u64, line: self.line + piece.line_ends }
     }
 }
 
@@ -185,11 +226,7 @@ fn cut(bytes: &[u8], length: usize) -> Vec<Arc<Piece>> {
             end += memchr::memchr2(b'\n', b'\r', &rest[end..]).map_or(rest.len() - end, |found| found + 1);
         }
         let (piece, after) = rest.split_at(end);
-        pieces.push(Arc::new(Piece {
-            bytes: piece.into(),
-            line_ends: count_line_ends(piece),
-            survey: Survey::of(piece),
-        }));
+        pieces.push(Arc::new(Piece::of(piece)));
         rest = after;
     }
     pieces
@@ -258,7 +295,7 @@ mod tests {
             edits in prop::collection::vec((any::<prop::sample::Index>(), 0_usize..60, text()), 1..8),
         ) {
             const LENGTH: usize = 24;
-            let mut text = EditedText { pieces: cut(&first, LENGTH), length: first.len() as u64 };
+            let mut text = EditedText::in_pieces(&first, LENGTH);
             let mut expected = first;
             check(&text, &expected);
             for (at, removed, inserted) in edits {
@@ -279,7 +316,7 @@ mod tests {
 
         #[test]
         fn any_range_of_bytes(text in text(), from in 0_u64..400, length in 0_u64..400) {
-            let edited = EditedText { pieces: cut(&text, 24), length: text.len() as u64 };
+            let edited = EditedText::in_pieces(&text, 24);
             let index = |offset: u64| usize::try_from(offset).unwrap().min(text.len());
             let bytes = edited.bytes(from..from + length);
             prop_assert_eq!(&*bytes, &text[index(from)..index(from + length)]);

@@ -2,9 +2,11 @@
 
 mod mending;
 mod tally;
+mod watch;
 
 use self::mending::Mending;
 use self::tally::Tally;
+use super::decks::{self, Changed, Named};
 use super::meshed::mesh_of;
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
@@ -27,7 +29,9 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// Decks or fragments; `-` reads standard input.
+    /// Decks, fragments, or folders of them; `-` reads standard input.
+    ///
+    /// In a folder every `.inp` is checked, but for what `.gitignore` or `exclude` of the configuration names; one that another includes is judged there.
     #[arg(required = true, value_name = "DECK")]
     decks: Vec<PathBuf>,
     /// How to print what was found.
@@ -53,6 +57,12 @@ pub(crate) struct CheckArguments {
     /// Print how often each rule found something, instead of the findings.
     #[arg(long)]
     statistics: bool,
+    /// Check only decks that have files which differ from where this branch left REF, as git says.
+    #[arg(long, value_name = "REF")]
+    since: Option<String>,
+    /// Go on, and check the decks again whose files change.
+    #[arg(long, conflicts_with_all = ["fix", "fix_also", "fix_included", "diff", "output", "timings"])]
+    watch: bool,
     /// End with 0 even when there are errors.
     #[arg(long)]
     exit_zero: bool,
@@ -115,21 +125,55 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     if arguments.timings {
         return time_rules(arguments);
     }
+    if arguments.watch {
+        return watch::watch(arguments);
+    }
+    let decks = decks::find(&arguments.decks, &arguments.reading)?;
+    if decks.is_empty() {
+        let folders: Vec<String> = arguments.decks.iter().map(|path| format!("`{}`", path.display())).collect();
+        say(&format!("warning: there is no deck in {}", folders.join(", ")));
+    }
+    Ok(check_all(&decks, arguments)?.outcome)
+}
+
+/// What came of checking some decks.
+struct Round {
+    outcome: Outcome,
+    /// The files of each deck; none for one that could not be read.
+    places: Vec<Vec<PathBuf>>,
+}
+
+/// Checks decks, mends them where that is asked for, and says what was found.
+fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failure> {
     let style = if arguments.output.is_some() { Style::Plain } else { Style::of_standard_output() };
-    let progress = Progress::over(&arguments.decks, arguments.quiet);
+    let changed = arguments.since.as_deref().map(Changed::since).transpose()?;
+    let progress = Progress::over(decks.iter().map(|deck| deck.path.as_path()), arguments.quiet);
     let selection = arguments.selection();
     let mut checked: Vec<Result<Checked<'_>, Failure>> = with_threads(0, || {
-        let decks = arguments.decks.par_iter();
-        decks.map(|path| check_deck(path, arguments, selection.as_ref(), style, &progress)).collect()
+        let decks = decks.par_iter();
+        decks.map(|deck| check_deck(&deck.path, arguments, selection.as_ref(), style, &progress)).collect()
     });
     progress.finish();
+    let places_of = |result: &Result<Checked<'_>, Failure>| match result {
+        Ok(checked) => checked.places.clone(),
+        Err(_) => Vec::new(),
+    };
+    let places: Vec<Vec<PathBuf>> = checked.iter().map(places_of).collect();
+    let mut parts = decks::parts_of_others(decks, &places).into_iter();
+    checked.retain(|result| {
+        let is_part = parts.next() == Some(true);
+        let has_changed = |checked: &Checked<'_>| {
+            changed.as_ref().is_none_or(|changed| checked.places.iter().any(|place| changed.has(place)))
+        };
+        !is_part && result.as_ref().map_or(true, has_changed)
+    });
     let mending = match &selection {
         Some(selection) => with_threads(0, || mending::mend(&mut checked, arguments, selection, style)),
         None => Mending::default(),
     };
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
     let mut total = Tally::default();
-    let (mut unreadable, mut decks) = (mending.has_failed, 0);
+    let (mut unreadable, mut count) = (mending.has_failed, 0);
     let document = render::document(arguments.format);
     let has_frame = !arguments.statistics && !arguments.diff;
     let mut text = if has_frame { document.head } else { String::new() };
@@ -137,7 +181,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     for result in checked {
         match result {
             Ok(checked) => {
-                decks += 1;
+                count += 1;
                 if !is_first && !checked.text.is_empty() {
                     text += document.separator;
                 }
@@ -162,14 +206,16 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     text += &mending.differences;
     output.write_all(text.as_bytes()).map_err(|error| output.failure(error))?;
     output.finish()?;
-    if !arguments.quiet && decks > 0 {
-        say(&total.summary(decks));
+    if !arguments.quiet && (count > 0 || changed.is_some()) {
+        say(&total.summary(count));
     }
-    match () {
-        () if unreadable => Err(Failure::AlreadySaid),
-        () if total.of(Severity::Error) > 0 && !arguments.exit_zero => Ok(Outcome::HasErrors),
-        () => Ok(Outcome::Clean),
-    }
+    let outcome = match () {
+        // Whoever watches can mend a file that cannot be read.
+        () if unreadable && !arguments.watch => return Err(Failure::AlreadySaid),
+        () if total.of(Severity::Error) > 0 && !arguments.exit_zero => Outcome::HasErrors,
+        () => Outcome::Clean,
+    };
+    Ok(Round { outcome, places })
 }
 
 /// Checks a deck as it is; the files of one that needs mending are held.

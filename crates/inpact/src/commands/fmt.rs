@@ -2,21 +2,26 @@
 //!
 //! A file is formatted by itself; what it includes is formatted only when it is named as well.
 
+use super::decks;
 use crate::difference;
 use crate::failure::{Failure, Outcome, say};
 use crate::files::transaction::{self, Change, Snapshot};
 use crate::files::{self, STANDARD_STREAM};
 use crate::settings::DeckArguments;
+use crate::threads::with_threads;
 use clap::Args;
 use inpact_parser::deck::scan;
 use inpact_parser::format::format;
 use inpact_parser::span::SourceId;
+use rayon::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct FormatArguments {
-    /// Decks or fragments; `-` reads standard input and writes to standard output.
+    /// Decks, fragments, or folders of them; `-` reads standard input and writes to standard output.
+    ///
+    /// In a folder every `.inp` is formatted, but for what `.gitignore` or `exclude` of the configuration names.
     #[arg(required = true, value_name = "DECK")]
     decks: Vec<PathBuf>,
     /// List the files that would change, and write nothing; ends with 1 if there are any.
@@ -28,6 +33,9 @@ pub(crate) struct FormatArguments {
     #[command(flatten)]
     reading: DeckArguments,
 }
+
+/// The number of decks that are held in memory at a time.
+const AT_A_TIME: usize = 32;
 
 /// Counts of the files.
 #[derive(Debug, Default, Clone, Copy)]
@@ -43,8 +51,13 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     let mut tally = Tally::default();
     // Files are formatted even when standard output is closed.
     let mut unwritten = None;
-    for path in &arguments.decks {
-        let done = read(path, arguments).and_then(|(before, after)| {
+    let decks = decks::find(&arguments.decks, &arguments.reading)?;
+    // Many at a time are read and formatted; they are written one by one, in their order.
+    let formatted = decks.chunks(AT_A_TIME).flat_map(|decks| {
+        with_threads(0, || decks.par_iter().map(|deck| (&deck.path, read(&deck.path, arguments))).collect::<Vec<_>>())
+    });
+    for (path, read) in formatted {
+        let done = read.and_then(|(before, after)| {
             let is_changed = *before.bytes() != after;
             let to_standard_output = if !only_shown {
                 match before {

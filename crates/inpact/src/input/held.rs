@@ -46,9 +46,9 @@ impl HeldFiles {
     }
 
     /// Holds a file whose content is known, be it there or not; it cannot be written back.
-    pub(crate) fn hold(&self, place: &Path, content: &Arc<[u8]>) {
+    pub(crate) fn hold(&self, place: &Path, content: Arc<[u8]>) {
         let read = Snapshot::of_text(place, content.clone());
-        self.files().entry(place.to_owned()).or_insert(Held { read, now: content.clone() });
+        self.files().entry(place.to_owned()).or_insert(Held { read, now: content });
     }
 
     /// Gives a file that is held new content.

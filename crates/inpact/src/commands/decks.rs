@@ -1,0 +1,116 @@
+//! Decks by what arguments name: files as they are, folders by the decks in them.
+//!
+//! In a folder every `.inp` counts, and what `include` of the configuration adds; what `.gitignore` or `exclude` names does not, nor
+//! does what is hidden. The order is that of the names, whatever the file system says.
+
+mod changed;
+
+pub(crate) use changed::Changed;
+
+use crate::failure::Failure;
+use crate::files;
+use crate::settings::DeckArguments;
+use ignore::WalkBuilder;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A deck to be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Named {
+    pub(crate) path: PathBuf,
+    pub(crate) origin: Origin,
+}
+
+/// How a deck came to be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// Somebody named it.
+    Argument,
+    /// It is in a folder that somebody named: where another deck includes it, it is judged there.
+    Folder,
+}
+
+/// The decks of some paths, in the order of the paths; each once.
+pub(crate) fn find(paths: &[PathBuf], reading: &DeckArguments) -> Result<Vec<Named>, Failure> {
+    let mut decks: Vec<Named> = Vec::new();
+    for path in paths {
+        if path.as_os_str() == files::STANDARD_STREAM || !path.is_dir() {
+            decks.push(Named { path: path.clone(), origin: Origin::Argument });
+            continue;
+        }
+        for path in in_folder(path, reading)? {
+            if !decks.iter().any(|deck| deck.path == path) {
+                decks.push(Named { path, origin: Origin::Folder });
+            }
+        }
+    }
+    Ok(decks)
+}
+
+/// The decks below a folder.
+fn in_folder(folder: &Path, reading: &DeckArguments) -> Result<Vec<PathBuf>, Failure> {
+    let by_name = |a: &std::ffi::OsStr, b: &std::ffi::OsStr| a.cmp(b);
+    // `.gitignore` says what is no source, with a repository around it or without.
+    let walk = WalkBuilder::new(folder).require_git(false).sort_by_file_name(by_name).build();
+    let mut found = Vec::new();
+    let mut of_folders = BTreeMap::new();
+    for entry in walk {
+        let entry = entry.map_err(|error| Failure::Usage(format!("`{}`: {error}", folder.display())))?;
+        if !entry.file_type().is_some_and(|kind| kind.is_file()) {
+            continue;
+        }
+        let path = entry.into_path();
+        let parent = files::folder_of(&path).to_owned();
+        let settings = match of_folders.get(&parent) {
+            Some(settings) => settings,
+            None => of_folders.entry(parent).or_insert(reading.settings(&path)?),
+        };
+        if settings.takes(&path) {
+            found.push(path);
+        }
+    }
+    Ok(found)
+}
+
+/// Which of some decks that come from folders are parts of others: those are judged where they are included, and not by themselves.
+///
+/// `places` has the files of each deck, itself first. Of decks that include one another the first stays.
+pub(crate) fn parts_of_others(decks: &[Named], places: &[Vec<PathBuf>]) -> Vec<bool> {
+    let mut includers: BTreeMap<&Path, Vec<usize>> = BTreeMap::new();
+    for (index, places) in places.iter().enumerate() {
+        for place in places.iter().skip(1) {
+            includers.entry(place).or_default().push(index);
+        }
+    }
+    let is_part = |(index, deck): (usize, &Named)| {
+        let own = places[index].first().filter(|_| deck.origin == Origin::Folder);
+        let includers = own.and_then(|own| includers.get(own.as_path()));
+        includers.into_iter().flatten().any(|other| {
+            let is_mutual = places[*other].first().is_some_and(|place| places[index][1..].contains(place));
+            *other != index && (!is_mutual || *other < index)
+        })
+    };
+    decks.iter().enumerate().map(is_part).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(places: &[&[&str]], expected: &[bool]) {
+        let decks: Vec<Named> =
+            places.iter().map(|places| Named { path: PathBuf::from(places[0]), origin: Origin::Folder }).collect();
+        let places: Vec<Vec<PathBuf>> =
+            places.iter().map(|places| places.iter().map(PathBuf::from).collect()).collect();
+        assert_eq!(parts_of_others(&decks, &places), expected);
+    }
+
+    #[test]
+    fn a_part_is_judged_where_it_is_included() {
+        check(&[&["a", "b"], &["b"], &["c"]], &[false, true, false]);
+        check(&[&["a"], &["b", "a"]], &[true, false]);
+        check(&[&["a", "b", "c"], &["b", "c"], &["c"]], &[false, true, true]);
+        check(&[&["a", "b"], &["b", "a"]], &[false, true]);
+        check(&[&["a", "a"]], &[false]);
+    }
+}

@@ -1,0 +1,74 @@
+//! The files that a branch changes, as git knows them.
+
+use crate::failure::Failure;
+use crate::files;
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Files that differ from where a branch began.
+#[derive(Debug)]
+pub(crate) struct Changed(BTreeSet<PathBuf>);
+
+impl Changed {
+    /// What differs between the files at hand and the commit where `reference` and this branch part; new files too.
+    ///
+    /// # Errors
+    /// What git says when it cannot tell, and a git that cannot be run.
+    pub(crate) fn since(reference: &str) -> Result<Self, Failure> {
+        if reference.starts_with('-') {
+            return Err(Failure::Usage(format!("`--since`: `{reference}` is no reference of git")));
+        }
+        let top = git(&["rev-parse", "--show-toplevel"])?;
+        let top = path_of(top.strip_suffix(b"\n").unwrap_or(&top));
+        let base = git(&["merge-base", "HEAD", reference])?;
+        let base = String::from_utf8_lossy(&base).trim().to_owned();
+        let changed = git(&["diff", "--name-only", "--no-renames", "-z", &base, "--"])?;
+        // Asked at the top: names of new files are relative to where one is.
+        let top_argument = top.as_os_str().to_owned();
+        let new = git_with([
+            OsString::from("-C"),
+            top_argument,
+            "ls-files".into(),
+            "--others".into(),
+            "--exclude-standard".into(),
+            "-z".into(),
+        ])?;
+        let names = changed.split(|byte| *byte == 0).chain(new.split(|byte| *byte == 0));
+        let names = names.filter(|name| !name.is_empty());
+        Ok(Self(names.map(|name| files::whole_path(&top.join(path_of(name)))).collect()))
+    }
+
+    /// Whether a file is one of them; by its whole path.
+    pub(crate) fn has(&self, place: &Path) -> bool {
+        self.0.contains(place)
+    }
+}
+
+fn git(arguments: &[&str]) -> Result<Vec<u8>, Failure> {
+    git_with(arguments.iter().map(OsString::from))
+}
+
+fn git_with(arguments: impl IntoIterator<Item = OsString>) -> Result<Vec<u8>, Failure> {
+    let output = Command::new("git")
+        .args(arguments)
+        .output()
+        .map_err(|error| Failure::Usage(format!("`--since` asks git, which cannot be run: {error}")))?;
+    if output.status.success() {
+        return Ok(output.stdout);
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    Err(Failure::Usage(format!("`--since`: git says: {}", said.trim())))
+}
+
+#[cfg(unix)]
+fn path_of(bytes: &[u8]) -> PathBuf {
+    use std::os::unix::ffi::OsStrExt;
+    PathBuf::from(std::ffi::OsStr::from_bytes(bytes))
+}
+
+#[cfg(not(unix))]
+fn path_of(bytes: &[u8]) -> PathBuf {
+    PathBuf::from(String::from_utf8_lossy(bytes).into_owned())
+}

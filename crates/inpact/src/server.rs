@@ -1,0 +1,129 @@
+//! `inpact server`: the language server, over standard input and output.
+//!
+//! Everything that it says comes from the crates that `check`, `fmt` and `explain` stand on: there is no second parser and no rule here.
+//! Messages are taken in order, one at a time. A change of a text costs the change; decks are read when somebody asks for them, or
+//! when nothing else is waiting. A request that fails, even by a fault of ours, is answered with an error and changes nothing.
+
+mod actions;
+mod analysis;
+mod blocks;
+mod capabilities;
+mod cells;
+mod completion;
+mod findings;
+mod formatting;
+mod hints;
+mod hover;
+mod names;
+mod navigation;
+mod outline;
+mod requests;
+mod session;
+mod shape;
+mod snippets;
+mod tokens;
+mod transport;
+mod uri;
+mod workspace;
+
+use self::requests::Refusal;
+use self::session::Session;
+use self::transport::{Cancelled, Client, Incoming};
+use crate::failure::{Failure, Outcome};
+use lsp_server::{ErrorCode, Message, Request, Response};
+use std::io::{self, Write};
+use std::sync::mpsc::{Receiver, TryRecvError};
+
+/// Serves until the client says that it is done, or goes away.
+pub(crate) fn run() -> Result<Outcome, Failure> {
+    let cancelled = Cancelled::default();
+    let incoming = transport::listen(cancelled.clone());
+    let served = serve(&incoming, &cancelled, &mut Client::new(io::stdout()));
+    match served {
+        Ok(outcome) => Ok(outcome),
+        // A client that is gone needs no answer.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Outcome::Clean),
+        Err(error) => Err(Failure::Output(error)),
+    }
+}
+
+/// Where a server is between its first message and its last.
+enum State {
+    /// Nothing but `initialize` is answered.
+    Waiting,
+    Running(Box<Session>),
+    /// Nothing but `exit` is expected.
+    ShutDown,
+}
+
+fn serve<W: Write>(
+    incoming: &Receiver<Incoming>,
+    cancelled: &Cancelled,
+    client: &mut Client<W>,
+) -> io::Result<Outcome> {
+    let mut state = State::Waiting;
+    loop {
+        let next = match &mut state {
+            // Findings are looked for when nothing else is waiting.
+            State::Running(session) if session.has_news() => match incoming.try_recv() {
+                Ok(message) => message,
+                Err(TryRecvError::Empty) => {
+                    session.publish(client)?;
+                    continue;
+                }
+                Err(TryRecvError::Disconnected) => return Ok(Outcome::Clean),
+            },
+            _ => match incoming.recv() {
+                Ok(message) => message,
+                Err(_) => return Ok(Outcome::Clean),
+            },
+        };
+        match next {
+            Incoming::Nonsense { id, code, reason } => client.refuse(id, code, reason)?,
+            // What the client answers to our requests changes nothing.
+            Incoming::Message(Message::Response(_)) => {}
+            Incoming::Message(Message::Notification(notification)) => {
+                if notification.method == "exit" {
+                    let is_expected = matches!(state, State::ShutDown | State::Waiting);
+                    return Ok(if is_expected { Outcome::Clean } else { Outcome::HasErrors });
+                }
+                if let State::Running(session) = &mut state {
+                    session.take(notification, client)?;
+                }
+            }
+            Incoming::Message(Message::Request(request)) => {
+                let id = request.id.clone();
+                let answer = if cancelled.has(&id) {
+                    Refusal::cancelled().answer(id.clone())
+                } else {
+                    answer(&mut state, request)
+                };
+                // It may have been cancelled meanwhile: then nobody wants the answer.
+                let answer = if cancelled.has(&id) { Refusal::cancelled().answer(id.clone()) } else { answer };
+                cancelled.forget(&id);
+                client.send(answer)?;
+            }
+        }
+    }
+}
+
+fn answer(state: &mut State, request: Request) -> Response {
+    let refuse = |id, code: ErrorCode, message: &str| Refusal::new(code, message).answer(id);
+    match (&mut *state, request.method.as_str()) {
+        (State::Waiting, "initialize") => match Session::begin(request.params) {
+            Ok((session, result)) => {
+                *state = State::Running(Box::new(session));
+                Response::new_ok(request.id, result)
+            }
+            Err(refusal) => refusal.answer(request.id),
+        },
+        (State::Waiting, _) => refuse(request.id, ErrorCode::ServerNotInitialized, "`initialize` comes first"),
+        (State::ShutDown, _) => refuse(request.id, ErrorCode::InvalidRequest, "the server has been shut down"),
+        (State::Running(_), "initialize") => refuse(request.id, ErrorCode::InvalidRequest, "`initialize` comes once"),
+        (State::Running(_), "shutdown") => {
+            *state = State::ShutDown;
+            Response::new_ok(request.id, ())
+        }
+        (State::Running(session), _) => session.answer(request),
+    }
+}

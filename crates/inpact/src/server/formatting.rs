@@ -1,0 +1,67 @@
+//! Formatting: what `inpact fmt` makes of the document by itself, as edits.
+
+use super::requests::{self, Refusal};
+use super::workspace::{View, Workspace};
+use gen_lsp_types::{DocumentFormattingParams, DocumentRangeFormattingParams, TextEdit};
+use inpact_diagnostics::Edit;
+use inpact_parser::deck::{Keep, ScanOptions, Scanner};
+use inpact_parser::format;
+use inpact_parser::span::{SourceId, Span};
+
+pub(super) fn whole(
+    workspace: &mut Workspace,
+    params: &DocumentFormattingParams,
+) -> Result<Option<Vec<TextEdit>>, Refusal> {
+    let view = requests::view(workspace, &params.text_document)?;
+    Ok(Some(edits(view, super::findings::whole(view, view.source))))
+}
+
+/// The blocks that a selection touches are formatted, each as a whole: what stands below one another depends on all rows.
+pub(super) fn range(
+    workspace: &mut Workspace,
+    params: &DocumentRangeFormattingParams,
+) -> Result<Option<Vec<TextEdit>>, Refusal> {
+    let view = requests::view(workspace, &params.text_document)?;
+    let selected = view.bytes(params.range);
+    Ok(Some(edits(view, selected)))
+}
+
+fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
+    let Some(text) = view.text_of(view.source) else { return Vec::new() };
+    let grammar = view.analysis.settings.grammar;
+    // By itself, as `fmt` takes it: what the document includes, or is included by, does not count.
+    let mut scanner = Scanner::new("", ScanOptions { grammar, keep: Keep::Interpreted });
+    text.push_into(&mut scanner);
+    let deck = scanner.finish();
+    let touches = |edit: &Edit| edit.span.start <= selected.end && selected.start <= edit.span.end;
+    let edits = format::edits(&deck, SourceId::ROOT, grammar).into_iter().filter(touches);
+    edits.map(|edit| narrowed(view, edit)).collect()
+}
+
+/// An edit without the lines at its beginning and at its end that stay as they are.
+fn narrowed(view: View<'_>, edit: Edit) -> TextEdit {
+    let before = view.text(Span::new(view.source, edit.span.start, edit.span.end)).into_owned();
+    let after = edit.replacement;
+    let same_lines = |lengths: &mut dyn Iterator<Item = (u8, u8)>, is_end: fn(u8) -> bool| {
+        let mut same = 0;
+        let mut whole = 0;
+        for (a, b) in lengths {
+            if a != b {
+                break;
+            }
+            same += 1;
+            if is_end(a) {
+                whole = same;
+            }
+        }
+        whole
+    };
+    let start = same_lines(&mut before.iter().copied().zip(after.iter().copied()), |byte| byte == b'\n');
+    let rest = (&before[start..], &after[start..]);
+    let mut from_end = rest.0.iter().rev().copied().zip(rest.1.iter().rev().copied());
+    // Counted from the end, a line begins after the line end before it.
+    let end = same_lines(&mut from_end, |byte| byte == b'\n').saturating_sub(1);
+    let span = Span::new(view.source, edit.span.start + start as u64, edit.span.end - end as u64);
+    let new_text = String::from_utf8_lossy(&after[start..after.len() - end]).into_owned();
+    TextEdit { range: view.range(span), new_text }
+}

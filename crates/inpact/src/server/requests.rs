@@ -1,0 +1,134 @@
+//! Requests by their methods, and the answers to those that cannot be answered.
+
+use super::workspace::{View, Workspace};
+use super::{actions, completion, formatting, hints, hover, navigation, outline, tokens};
+use gen_lsp_types as lsp;
+use lsp_server::{ErrorCode, Request, RequestId, Response, ResponseError};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Why a request has no answer.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Refusal {
+    code: i32,
+    message: String,
+}
+
+impl Refusal {
+    pub(super) fn new(code: ErrorCode, message: impl Into<String>) -> Self {
+        Self { code: code as i32, message: message.into() }
+    }
+
+    pub(super) fn cancelled() -> Self {
+        Self::new(ErrorCode::RequestCanceled, "the request was cancelled")
+    }
+
+    /// The request was understood and cannot be done.
+    pub(super) fn failed(message: impl Into<String>) -> Self {
+        Self::new(ErrorCode::RequestFailed, message)
+    }
+
+    pub(super) fn answer(self, id: RequestId) -> Response {
+        let Self { code, message } = self;
+        Response { id, response_result: Err(ResponseError { code, message, data: None }) }
+    }
+}
+
+/// Answers a request.
+pub(super) fn answer(workspace: &mut Workspace, request: Request) -> Response {
+    match request.method.as_str() {
+        "textDocument/hover" => by::<lsp::HoverRequest>(workspace, request, hover::hover),
+        "textDocument/completion" => by::<lsp::CompletionRequest>(workspace, request, completion::complete),
+        "textDocument/definition" => by::<lsp::DefinitionRequest>(workspace, request, navigation::definition),
+        "textDocument/references" => by::<lsp::ReferencesRequest>(workspace, request, navigation::references),
+        "textDocument/documentHighlight" => {
+            by::<lsp::DocumentHighlightRequest>(workspace, request, navigation::highlights)
+        }
+        "textDocument/prepareRename" => by::<lsp::PrepareRenameRequest>(workspace, request, navigation::prepare_rename),
+        "textDocument/rename" => by::<lsp::RenameRequest>(workspace, request, navigation::rename),
+        "textDocument/documentLink" => by::<lsp::DocumentLinkRequest>(workspace, request, navigation::links),
+        "textDocument/documentSymbol" => by::<lsp::DocumentSymbolRequest>(workspace, request, outline::symbols),
+        "textDocument/foldingRange" => by::<lsp::FoldingRangeRequest>(workspace, request, outline::folding),
+        "textDocument/selectionRange" => by::<lsp::SelectionRangeRequest>(workspace, request, outline::selection),
+        "textDocument/codeAction" => by::<lsp::CodeActionRequest>(workspace, request, actions::actions),
+        "textDocument/codeLens" => by::<lsp::CodeLensRequest>(workspace, request, hints::lenses),
+        "textDocument/inlayHint" => by::<lsp::InlayHintRequest>(workspace, request, hints::hints),
+        "textDocument/formatting" => by::<lsp::DocumentFormattingRequest>(workspace, request, formatting::whole),
+        "textDocument/rangeFormatting" => {
+            by::<lsp::DocumentRangeFormattingRequest>(workspace, request, formatting::range)
+        }
+        "textDocument/semanticTokens/full" => by::<lsp::SemanticTokensRequest>(workspace, request, tokens::full),
+        "textDocument/semanticTokens/range" => by::<lsp::SemanticTokensRangeRequest>(workspace, request, tokens::range),
+        other => {
+            let message = format!("there is no method `{other}`");
+            Refusal::new(ErrorCode::MethodNotFound, message).answer(request.id)
+        }
+    }
+}
+
+/// Answers a request by a function; a panic in it is an answer too.
+fn by<R: lsp::Request>(
+    workspace: &mut Workspace,
+    Request { id, method, params }: Request,
+    function: impl FnOnce(&mut Workspace, &R::Params) -> Result<R::Result, Refusal>,
+) -> Response {
+    let params: R::Params = match serde_json::from_value(params) {
+        Ok(params) => params,
+        Err(error) => {
+            let message = format!("the parameters of `{method}` cannot be read: {error}");
+            return Refusal::new(ErrorCode::InvalidParams, message).answer(id);
+        }
+    };
+    // What is open is changed by notifications only, and those change a copy: nothing is left half done.
+    match catch_unwind(AssertUnwindSafe(|| function(workspace, &params))) {
+        Ok(Ok(result)) => Response::new_ok(id, result),
+        Ok(Err(refusal)) => refusal.answer(id),
+        Err(_) => {
+            let message = format!("`{method}` failed by a fault of inpact; what is open is not affected");
+            Refusal::new(ErrorCode::InternalError, message).answer(id)
+        }
+    }
+}
+
+/// The document of a request, where it stands in its deck.
+///
+/// # Errors
+/// For a document that is not open.
+pub(super) fn view<'a>(
+    workspace: &'a mut Workspace,
+    document: &lsp::TextDocumentIdentifier,
+) -> Result<View<'a>, Refusal> {
+    let message = format!("`{}` is not open", document.uri.0);
+    workspace.view(&document.uri).ok_or_else(|| Refusal::new(ErrorCode::InvalidParams, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_panic_is_answered_and_loses_no_document() {
+        let mut workspace = Workspace::default();
+        let uri = lsp::Uri("untitled:deck".to_owned());
+        workspace.open(uri.clone(), 1, "*HEADING\n");
+        let params = json!({"textDocument": {"uri": uri.0}, "position": {"line": 0, "character": 2}});
+        let request = |id: i32| Request::new(id.into(), "textDocument/hover".to_owned(), params.clone());
+        let failed = by::<lsp::HoverRequest>(&mut workspace, request(1), |_, _| panic!("a fault"));
+        assert_eq!(failed.response_result.unwrap_err().code, ErrorCode::InternalError as i32);
+        let answered = answer(&mut workspace, request(2));
+        assert!(answered.response_result.unwrap()["contents"]["value"].as_str().unwrap().contains("# *HEADING"));
+    }
+
+    #[test]
+    fn what_is_no_request_of_ours_is_refused() {
+        let mut workspace = Workspace::default();
+        let code = |workspace: &mut Workspace, method: &str, params| {
+            let response = answer(workspace, Request::new(1.into(), method.to_owned(), params));
+            response.response_result.unwrap_err().code
+        };
+        assert_eq!(code(&mut workspace, "textDocument/nothing", json!({})), ErrorCode::MethodNotFound as i32);
+        assert_eq!(code(&mut workspace, "textDocument/hover", json!([1])), ErrorCode::InvalidParams as i32);
+        let nowhere = json!({"textDocument": {"uri": "file:///nowhere"}, "position": {"line": 0, "character": 0}});
+        assert_eq!(code(&mut workspace, "textDocument/hover", nowhere), ErrorCode::InvalidParams as i32);
+    }
+}

@@ -1,0 +1,224 @@
+//! A session with one editor: what it tells us, and what it is told without asking.
+
+use super::capabilities::{self, ClientTraits};
+use super::findings;
+use super::requests::{self, Refusal};
+use super::transport::Client;
+use super::workspace::Workspace;
+use crate::settings::{ReadOptions, RelativeTo};
+use gen_lsp_types::{
+    Diagnostic, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, FileSystemWatcher,
+    GlobPattern, InitializeParams, InitializeResult, LogMessageParams, MessageType, PublishDiagnosticsParams,
+    Registration, RegistrationParams, Uri,
+};
+use inpact_parser::grammar::{Dialect, Release};
+use lsp_server::{ErrorCode, Notification, Request, Response};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+
+/// What is between an editor and us.
+#[derive(Debug)]
+pub(super) struct Session {
+    workspace: Workspace,
+    client: ClientTraits,
+    /// What the editor has been told of each file, by its URI.
+    published: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)>,
+    /// Whether something may have changed since.
+    has_news: bool,
+}
+
+/// The settings of an editor: those of `inpact.toml` that make sense for all decks.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "camelCase", default)]
+struct EditorSettings {
+    dialect: Option<DialectName>,
+    release: Option<String>,
+    include_dirs: Vec<PathBuf>,
+    include_root: Option<PathBuf>,
+    relative_to: Option<RelativeTo>,
+    config: Option<PathBuf>,
+    isolated: bool,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum DialectName {
+    Abaqus,
+    Calculix,
+}
+
+impl Session {
+    /// Begins with the parameters of `initialize`.
+    pub(super) fn begin(params: Value) -> Result<(Self, InitializeResult), Refusal> {
+        let params: InitializeParams = serde_json::from_value(params)
+            .map_err(|error| Refusal::new(ErrorCode::InvalidParams, format!("`initialize`: {error}")))?;
+        let unit = capabilities::column_unit(&params);
+        let traits = capabilities::traits(&params);
+        let mut workspace = Workspace::new(unit, traits);
+        // What is wrong with the settings is said when they come again; nothing may be sent before the answer.
+        if let Some(Ok(options)) = params.initialization_options.as_ref().map(options_of) {
+            workspace.set_options(options);
+        }
+        let client = capabilities::of_client(&params);
+        let session = Self { workspace, client, published: BTreeMap::new(), has_news: false };
+        Ok((session, capabilities::of_server(unit)))
+    }
+
+    pub(super) fn answer(&mut self, request: Request) -> Response {
+        requests::answer(&mut self.workspace, request)
+    }
+
+    /// Takes what the editor tells; what cannot be read is said to the log.
+    pub(super) fn take<W: Write>(
+        &mut self,
+        Notification { method, params }: Notification,
+        client: &mut Client<W>,
+    ) -> io::Result<()> {
+        let taken = match method.as_str() {
+            "initialized" => return self.watch(client),
+            "textDocument/didOpen" => with(params, |params: DidOpenTextDocumentParams| {
+                let document = params.text_document;
+                self.workspace.open(document.uri, document.version, &document.text);
+            }),
+            "textDocument/didChange" => with(params, |params: DidChangeTextDocumentParams| {
+                let document = params.text_document;
+                let uri = document.text_document_identifier.uri;
+                self.workspace.change(&uri, document.version, params.content_changes);
+            }),
+            "textDocument/didClose" => with(params, |params: DidCloseTextDocumentParams| {
+                self.workspace.close(&params.text_document.uri);
+            }),
+            "textDocument/didSave" | "workspace/didChangeWatchedFiles" => {
+                self.workspace.forget();
+                Ok(())
+            }
+            "workspace/didChangeConfiguration" => {
+                options_of(params.get("settings").unwrap_or(&Value::Null)).map(|options| {
+                    self.workspace.set_options(options);
+                })
+            }
+            _ => return Ok(()),
+        };
+        self.has_news = true;
+        match taken {
+            Ok(()) => Ok(()),
+            Err(error) => log_error(client, format!("`{method}`: {error}")),
+        }
+    }
+
+    /// Asks the editor to tell us when files change that decks may include, and configurations.
+    fn watch<W: Write>(&self, client: &mut Client<W>) -> io::Result<()> {
+        if !self.client.watches_files {
+            return Ok(());
+        }
+        let watcher =
+            |pattern: &str| FileSystemWatcher { glob_pattern: GlobPattern::Pattern(pattern.to_owned()), kind: None };
+        // Included files may be called anything, but are seldom something else.
+        let watchers = ["**/inpact.toml", "**/*.inp", "**/*.inc", "**/*.dat", "**/*.txt"].map(watcher).to_vec();
+        let options = serde_json::json!({"watchers": watchers});
+        let registration = Registration {
+            id: "inpact-files".to_owned(),
+            method: "workspace/didChangeWatchedFiles".to_owned(),
+            register_options: Some(options),
+        };
+        client.request("client/registerCapability", RegistrationParams { registrations: vec![registration] })
+    }
+
+    /// Whether findings may have changed.
+    pub(super) fn has_news(&self) -> bool {
+        self.has_news
+    }
+
+    /// Tells the editor what is wrong now, where that is something else than before.
+    pub(super) fn publish<W: Write>(&mut self, client: &mut Client<W>) -> io::Result<()> {
+        self.has_news = false;
+        let workspace = &mut self.workspace;
+        // A fault of ours in one deck must not end the session.
+        let found = catch_unwind(AssertUnwindSafe(|| {
+            workspace.refresh();
+            findings::by_file(workspace)
+        }));
+        let Ok(found) = found else {
+            let message = "a deck could not be checked, by a fault of inpact; what is open is not affected".to_owned();
+            return log_error(client, message);
+        };
+        let mut found: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)> = found;
+        for uri in self.published.keys() {
+            // What is wrong no more is said once.
+            found.entry(uri.clone()).or_default();
+        }
+        for (uri, (version, diagnostics)) in found {
+            let news = (version, diagnostics);
+            let is_nothing = news == (None, Vec::new()) && !self.published.contains_key(&uri);
+            if is_nothing || self.published.get(&uri) == Some(&news) {
+                continue;
+            }
+            let (version, diagnostics) = news;
+            let params = PublishDiagnosticsParams { uri: Uri(uri.clone()), version, diagnostics: diagnostics.clone() };
+            client.notify("textDocument/publishDiagnostics", params)?;
+            if diagnostics.is_empty() && version.is_none() {
+                self.published.remove(&uri);
+            } else {
+                self.published.insert(uri, (version, diagnostics));
+            }
+        }
+        let refreshes = self.client.refreshes;
+        let requests = [
+            (refreshes.lenses, "workspace/codeLens/refresh"),
+            (refreshes.hints, "workspace/inlayHint/refresh"),
+            (refreshes.tokens, "workspace/semanticTokens/refresh"),
+        ];
+        for (_, method) in requests.iter().filter(|(is_wanted, _)| *is_wanted) {
+            client.request(method, Value::Null)?;
+        }
+        Ok(())
+    }
+}
+
+/// Says something in the log of the editor.
+fn log_error<W: Write>(client: &mut Client<W>, message: String) -> io::Result<()> {
+    client.notify("window/logMessage", LogMessageParams { kind: MessageType::Error, message })
+}
+
+/// Reads the parameters of a notification and takes them.
+fn with<T: DeserializeOwned>(params: Value, take: impl FnOnce(T)) -> Result<(), String> {
+    let params = serde_json::from_value(params).map_err(|error| error.to_string())?;
+    catch_unwind(AssertUnwindSafe(|| take(params))).map_err(|_| "failed by a fault of inpact".to_owned())
+}
+
+/// How decks are read by the settings of an editor, which may stand below `inpact` or by themselves.
+fn options_of(settings: &Value) -> Result<ReadOptions, String> {
+    let settings = settings.get("inpact").unwrap_or(settings);
+    if settings.is_null() {
+        return Ok(ReadOptions::new());
+    }
+    let settings = EditorSettings::deserialize(settings).map_err(|error| error.to_string())?;
+    let mut options = ReadOptions::new();
+    options = match settings.dialect {
+        Some(DialectName::Abaqus) => options.dialect(Dialect::Abaqus),
+        Some(DialectName::Calculix) => options.dialect(Dialect::Calculix),
+        None => options,
+    };
+    if let Some(release) = settings.release.filter(|release| !release.is_empty()) {
+        let release: Release = release.parse().map_err(|error| format!("`release`: {error}"))?;
+        options = options.release(release);
+    }
+    for folder in settings.include_dirs {
+        options = options.include_dir(folder);
+    }
+    if let Some(folder) = settings.include_root.filter(|folder| !folder.as_os_str().is_empty()) {
+        options = options.include_root(folder);
+    }
+    if let Some(relative_to) = settings.relative_to {
+        options = options.relative_to(relative_to);
+    }
+    if let Some(file) = settings.config.filter(|file| !file.as_os_str().is_empty()) {
+        options = options.configuration(file);
+    }
+    Ok(if settings.isolated { options.isolated() } else { options })
+}

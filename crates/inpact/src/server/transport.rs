@@ -1,0 +1,270 @@
+//! Messages over standard input and output: a header with a length, then JSON.
+//!
+//! A thread of its own reads, so that a request can be cancelled while another is answered, and so that neither side waits for the other.
+//! What is no message is answered, and the next one is read: a client that sends nonsense ends nothing.
+
+use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::io::{self, BufRead, Read, Write};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The most bytes of a message: more than any editor opens.
+const LONGEST_MESSAGE: u64 = 4 << 30;
+
+/// The most bytes of a line of a header.
+const LONGEST_HEADER_LINE: u64 = 8 << 10;
+
+/// What came in.
+#[derive(Debug)]
+pub(super) enum Incoming {
+    Message(Message),
+    /// No message, or one that cannot be told: the answer to it.
+    Nonsense {
+        id: Option<RequestId>,
+        code: ErrorCode,
+        reason: String,
+    },
+}
+
+/// The requests that the client does not want answered any more.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cancelled(Arc<Mutex<BTreeSet<RequestId>>>);
+
+impl Cancelled {
+    pub(super) fn add(&self, id: RequestId) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(id);
+    }
+
+    pub(super) fn has(&self, id: &RequestId) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).contains(id)
+    }
+
+    /// Forgets a request that has been answered.
+    pub(super) fn forget(&self, id: &RequestId) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).remove(id);
+    }
+}
+
+/// Reads standard input in a thread; the messages end where it does.
+pub(super) fn listen(cancelled: Cancelled) -> Receiver<Incoming> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || read_all(&mut io::stdin().lock(), &sender, &cancelled));
+    receiver
+}
+
+fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Cancelled) {
+    // An input that breaks off ends like one that ends.
+    while let Ok(Some(body)) = read_body(input) {
+        let incoming = match body {
+            Body::Whole(body) => decode(body),
+            Body::TooLong(length) => {
+                let reason = format!("a message of {length} bytes is longer than any that is read");
+                Incoming::Nonsense { id: None, code: ErrorCode::InvalidRequest, reason }
+            }
+        };
+        if let Incoming::Message(Message::Notification(notification)) = &incoming
+            && notification.method == "$/cancelRequest"
+        {
+            if let Some(id) = notification.params.get("id").and_then(request_id) {
+                cancelled.add(id);
+            }
+            continue;
+        }
+        if sender.send(incoming).is_err() {
+            return;
+        }
+    }
+}
+
+/// What stands after a header.
+enum Body {
+    Whole(Vec<u8>),
+    /// It was passed over.
+    TooLong(u64),
+}
+
+/// Reads up to the end of the next message; `None` at the end of the input.
+///
+/// A line that is no header is passed over: what follows nonsense may make sense again.
+fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
+    let mut length: Option<u64> = None;
+    loop {
+        let mut line = Vec::new();
+        if input.by_ref().take(LONGEST_HEADER_LINE).read_until(b'\n', &mut line)? == 0 {
+            return Ok(None);
+        }
+        let line = String::from_utf8_lossy(&line);
+        let line = line.trim();
+        if let (true, Some(length)) = (line.is_empty(), length) {
+            if LONGEST_MESSAGE < length {
+                io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
+                return Ok(Some(Body::TooLong(length)));
+            }
+            // Not as much as the header promises, but as much as there is.
+            let mut body = Vec::new();
+            let read = input.by_ref().take(length).read_to_end(&mut body)?;
+            return Ok((read as u64 == length).then_some(Body::Whole(body)));
+        }
+        if let Some((name, value)) = line.split_once(':')
+            && name.trim().eq_ignore_ascii_case("Content-Length")
+        {
+            length = value.trim().parse().ok();
+        }
+    }
+}
+
+/// Makes a message of JSON; the text of a deck in it is moved, not copied.
+fn decode(body: Vec<u8>) -> Incoming {
+    let nonsense = |id, code, reason: &str| Incoming::Nonsense { id, code, reason: reason.to_owned() };
+    let value: Value = match serde_json::from_slice(&body) {
+        Ok(value) => value,
+        Err(error) => return nonsense(None, ErrorCode::ParseError, &format!("the message is no JSON: {error}")),
+    };
+    drop(body);
+    let Value::Object(mut fields) = value else {
+        return nonsense(None, ErrorCode::InvalidRequest, "a message is an object; several in a list are not taken");
+    };
+    let id = match fields.remove("id") {
+        None => None,
+        Some(id) => match request_id(&id) {
+            Some(id) => Some(id),
+            None => {
+                return nonsense(None, ErrorCode::InvalidRequest, "`id` is neither an integer of 32 bits nor a text");
+            }
+        },
+    };
+    let params = fields.remove("params").unwrap_or_default();
+    match (fields.remove("method"), id) {
+        (Some(Value::String(method)), Some(id)) => Incoming::Message(Request { id, method, params }.into()),
+        (Some(Value::String(method)), None) => Incoming::Message(Notification { method, params }.into()),
+        (Some(_), id) => nonsense(id, ErrorCode::InvalidRequest, "`method` is no text"),
+        (None, Some(id)) if fields.contains_key("result") || fields.contains_key("error") => {
+            // Nothing depends on what the client answers.
+            let response_result = Ok(fields.remove("result").unwrap_or_default());
+            Incoming::Message(Response { id, response_result }.into())
+        }
+        (None, id) => nonsense(id, ErrorCode::InvalidRequest, "a message has a `method`, a `result` or an `error`"),
+    }
+}
+
+fn request_id(value: &Value) -> Option<RequestId> {
+    match value {
+        Value::Number(number) => number.as_i64().and_then(|number| i32::try_from(number).ok()).map(RequestId::from),
+        Value::String(text) => Some(RequestId::from(text.clone())),
+        _ => None,
+    }
+}
+
+/// The way to the client.
+#[derive(Debug)]
+pub(super) struct Client<W: Write> {
+    output: W,
+    /// The number of the next request to the client.
+    next_id: i32,
+}
+
+impl<W: Write> Client<W> {
+    pub(super) fn new(output: W) -> Self {
+        Self { output, next_id: 1 }
+    }
+
+    pub(super) fn send(&mut self, message: impl Into<Message>) -> io::Result<()> {
+        message.into().write(&mut self.output)
+    }
+
+    /// Tells the client of something.
+    pub(super) fn notify(&mut self, method: &str, params: impl serde::Serialize) -> io::Result<()> {
+        self.send(Notification::new(method.to_owned(), params))
+    }
+
+    /// Asks the client for something whose answer nobody waits for.
+    pub(super) fn request(&mut self, method: &str, params: impl serde::Serialize) -> io::Result<()> {
+        let id = RequestId::from(format!("inpact-{}", self.next_id));
+        self.next_id += 1;
+        self.send(Request::new(id, method.to_owned(), params))
+    }
+
+    /// Answers what is no request.
+    pub(super) fn refuse(&mut self, id: Option<RequestId>, code: ErrorCode, message: String) -> io::Result<()> {
+        match id {
+            Some(id) => self
+                .send(Response { id, response_result: Err(ResponseError { code: code as i32, message, data: None }) }),
+            // An answer to nobody in particular has the id null, which the type of answers does not know.
+            None => {
+                let text = json!({"jsonrpc": "2.0", "id": null, "error": {"code": code as i32, "message": message}});
+                let text = text.to_string();
+                write!(self.output, "Content-Length: {}\r\n\r\n{text}", text.len())?;
+                self.output.flush()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The messages of an input, as few words.
+    fn check(input: &[u8], expected: &[&str]) {
+        let (sender, receiver) = channel();
+        read_all(&mut &*input, &sender, &Cancelled::default());
+        drop(sender);
+        let found: Vec<String> = receiver
+            .iter()
+            .map(|incoming| match incoming {
+                Incoming::Message(Message::Request(request)) => format!("request {}", request.method),
+                Incoming::Message(Message::Notification(notification)) => {
+                    format!("notification {}", notification.method)
+                }
+                Incoming::Message(Message::Response(response)) => format!("response {}", response.id),
+                Incoming::Nonsense { reason, .. } => format!("nonsense: {reason}"),
+            })
+            .collect();
+        assert_eq!(found, expected, "{}", String::from_utf8_lossy(input));
+    }
+
+    fn framed(body: &str) -> Vec<u8> {
+        format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes()
+    }
+
+    #[test]
+    fn messages_of_each_kind() {
+        let input = [
+            framed(r#"{"jsonrpc":"2.0","id":1,"method":"a","params":{}}"#),
+            framed(r#"{"jsonrpc":"2.0","method":"b"}"#),
+            framed(r#"{"jsonrpc":"2.0","id":"x","result":null}"#),
+        ];
+        check(&input.concat(), &["request a", "notification b", "response \"x\""]);
+    }
+
+    #[test]
+    fn what_follows_nonsense_is_read() {
+        let good = framed(r#"{"id":1,"method":"a"}"#);
+        for nonsense in
+            ["hello\r\n", "\r\n\r\n", "Content-Length: many\r\n\r\n", "X: y\r\n", "\u{0}\n", "Content-Length: -5\n\n"]
+        {
+            check(&[nonsense.as_bytes(), &good].concat(), &["request a"]);
+        }
+        let reasons = [
+            ("{", "nonsense: the message is no JSON: EOF while parsing an object at line 1 column 1"),
+            ("[]", "nonsense: a message is an object; several in a list are not taken"),
+            (r#"{"id":1.5,"method":"a"}"#, "nonsense: `id` is neither an integer of 32 bits nor a text"),
+            (r#"{"id":1,"method":2}"#, "nonsense: `method` is no text"),
+            ("{}", "nonsense: a message has a `method`, a `result` or an `error`"),
+        ];
+        for (body, reason) in reasons {
+            check(&[framed(body), good.clone()].concat(), &[reason, "request a"]);
+        }
+    }
+
+    #[test]
+    fn an_input_that_breaks_off_ends() {
+        let too_long = "nonsense: a message of 99999999999 bytes is longer than any that is read";
+        check(b"Content-Length: 99999999999\r\n\r\n{}", &[too_long]);
+        check(b"Content-Length: 9999\r\n\r\n{}", &[]);
+        check(b"Content-Length: 10\r\n\r\n{}", &[]);
+        check(b"", &[]);
+    }
+}

@@ -1,0 +1,363 @@
+//! What the editor has open, and what there is to know of it.
+//!
+//! A document is text; a deck is a document with what it includes, open or not, saved or not.
+//! An open document that another one includes is no deck of its own: it is judged where it stands.
+//! Decks are read again when they are asked for, not at every keystroke.
+
+use super::analysis::{Analysis, Fault};
+use super::uri;
+use crate::files;
+use crate::settings::ReadOptions;
+use gen_lsp_types::{Location, Position, Range, TextDocumentContentChangeEvent, Uri};
+use indexmap::IndexMap;
+use inpact_diagnostics::ColumnUnit;
+use inpact_parser::deck::EditedText;
+use inpact_parser::deck::lines::{LineKind, line_kind, lines, without_line_end};
+use inpact_parser::grammar::Dialect;
+use inpact_parser::span::{SourceId, Span};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// The documents of an editor, and the decks that they are.
+#[derive(Debug, Default)]
+pub(super) struct Workspace {
+    /// What the editor counts columns in.
+    pub(super) unit: ColumnUnit,
+    pub(super) traits: Traits,
+    /// How decks are read, by the settings of the editor.
+    options: ReadOptions,
+    /// By their places, in the order in which they were opened.
+    documents: IndexMap<PathBuf, Document>,
+    /// Files that decks include and nobody has open.
+    files: BTreeMap<PathBuf, FileOnDisk>,
+    analyses: BTreeMap<PathBuf, Analysis>,
+    /// The decks that must be read again.
+    stale: BTreeSet<PathBuf>,
+}
+
+/// What the editor makes of what it is given.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Traits {
+    /// Whether completions may have places to fill in.
+    pub(super) knows_snippets: bool,
+    /// Whether edits may say for which version of a document they are.
+    pub(super) knows_versions: bool,
+}
+
+/// A document that is open.
+#[derive(Debug)]
+struct Document {
+    uri: Uri,
+    version: i32,
+    text: EditedText,
+}
+
+/// A file that is not open, as it was read.
+#[derive(Debug)]
+struct FileOnDisk {
+    stamp: Stamp,
+    text: EditedText,
+}
+
+/// What tells whether a file is the one that was read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stamp {
+    modified: Option<SystemTime>,
+    length: u64,
+}
+
+/// A document where it stands in a deck.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) workspace: &'a Workspace,
+    pub(super) analysis: &'a Analysis,
+    /// Which of the files of the deck it is.
+    pub(super) source: SourceId,
+}
+
+impl Workspace {
+    /// Nothing is open yet.
+    pub(super) fn new(unit: ColumnUnit, traits: Traits) -> Self {
+        Self { unit, traits, ..Self::default() }
+    }
+
+    /// Decks are read in this way from now on.
+    pub(super) fn set_options(&mut self, options: ReadOptions) {
+        self.options = options;
+        self.forget();
+    }
+
+    /// Reads everything again when it is asked for: files may have changed, come or gone.
+    pub(super) fn forget(&mut self) {
+        self.stale = self.documents.keys().cloned().collect();
+    }
+
+    pub(super) fn open(&mut self, uri: Uri, version: i32, text: &str) {
+        let place = place_of(&uri);
+        let text = EditedText::new(text.as_bytes());
+        self.files.remove(&place);
+        self.documents.insert(place, Document { uri, version, text });
+        self.forget();
+    }
+
+    pub(super) fn close(&mut self, uri: &Uri) {
+        let place = place_of(uri);
+        self.documents.shift_remove(&place);
+        self.analyses.remove(&place);
+        self.forget();
+    }
+
+    /// Changes a document; all changes of it or none, should one be a surprise to us.
+    pub(super) fn change(&mut self, uri: &Uri, version: i32, changes: Vec<TextDocumentContentChangeEvent>) {
+        let place = place_of(uri);
+        let Some(document) = self.documents.get_mut(&place) else { return };
+        let mut text = document.text.clone();
+        for change in changes {
+            match change {
+                TextDocumentContentChangeEvent::TextDocumentContentChangePartial(change) => {
+                    let start = offset_of(&text, change.range.start, self.unit);
+                    let end = offset_of(&text, change.range.end, self.unit);
+                    text.replace(start.min(end)..start.max(end), change.text.as_bytes());
+                }
+                TextDocumentContentChangeEvent::TextDocumentContentChangeWholeDocument(change) => {
+                    text = EditedText::new(change.text.as_bytes());
+                }
+            }
+        }
+        document.text = text;
+        document.version = version;
+        self.files_changed(&[place]);
+    }
+
+    /// Reads the decks again that these files are part of.
+    fn files_changed(&mut self, places: &[PathBuf]) {
+        let is_concerned = |(root, analysis): (&PathBuf, &Analysis)| {
+            let is_part = places.iter().any(|place| analysis.places().any(|part| part == place));
+            (is_part || places.contains(root)).then(|| root.clone())
+        };
+        self.stale.extend(self.analyses.iter().filter_map(is_concerned));
+        self.stale.extend(places.iter().filter(|place| self.documents.contains_key(*place)).cloned());
+    }
+
+    /// Reads the decks again that have changed, and settles which documents are decks.
+    pub(super) fn refresh(&mut self) {
+        if self.stale.is_empty() {
+            return;
+        }
+        self.refresh_files();
+        let roots: Vec<PathBuf> = self.documents.keys().cloned().collect();
+        // Those that were decks first: what they include need not be read by itself.
+        let (known, new): (Vec<_>, Vec<_>) = roots.into_iter().partition(|root| self.analyses.contains_key(root));
+        for root in known.into_iter().chain(new) {
+            if !self.stale.remove(&root) {
+                continue;
+            }
+            if self.includer_of(&root).is_some() {
+                self.analyses.remove(&root);
+                continue;
+            }
+            let analysis = self.analyse(&root);
+            self.load_files(&analysis);
+            self.analyses.insert(root, analysis);
+        }
+        let covered: Vec<PathBuf> =
+            self.analyses.keys().filter(|root| self.includer_of(root).is_some()).cloned().collect();
+        for root in covered {
+            // Two that include one another do not cover each other away.
+            if self.includer_of(&root).is_some() {
+                self.analyses.remove(&root);
+            }
+        }
+        // A document that was included and is no more has become a deck.
+        let uncovered = self.documents.keys().filter(|root| !self.analyses.contains_key(*root));
+        let uncovered: Vec<PathBuf> = uncovered.filter(|root| self.includer_of(root).is_none()).cloned().collect();
+        for root in uncovered {
+            let analysis = self.analyse(&root);
+            self.load_files(&analysis);
+            self.analyses.insert(root, analysis);
+        }
+        self.stale.clear();
+    }
+
+    /// The deck that includes a document.
+    fn includer_of(&self, place: &Path) -> Option<&Path> {
+        let is_current = |root: &PathBuf| !self.stale.contains(root) && root != place;
+        let mut others = self.analyses.iter().filter(|(root, _)| is_current(root));
+        others.find(|(_, analysis)| analysis.places().any(|part| part == place)).map(|(root, _)| root.as_path())
+    }
+
+    fn analyse(&self, root: &Path) -> Analysis {
+        Analysis::of(root, &self.options_with_texts())
+    }
+
+    /// How decks are read, with what is open and what is known of files that are not.
+    fn options_with_texts(&self) -> ReadOptions {
+        let open = self.documents.iter().map(|(place, document)| (place, &document.text));
+        let on_disk = self.files.iter().map(|(place, file)| (place, &file.text));
+        let mut options = self.options.clone();
+        for (place, text) in on_disk.chain(open) {
+            options.overlay.insert(place.clone(), text.clone());
+        }
+        options
+    }
+
+    /// A deck as it would be with another text in one of its files.
+    pub(super) fn analyse_with(&self, analysis: &Analysis, place: &Path, text: &EditedText) -> Analysis {
+        let mut options = self.options_with_texts();
+        options.overlay.insert(place.to_owned(), text.clone());
+        Analysis::of(analysis.place(SourceId::ROOT), &options)
+    }
+
+    /// A deck as it would be for another solver.
+    pub(super) fn analyse_for(&self, analysis: &Analysis, dialect: Dialect) -> Analysis {
+        Analysis::of(analysis.place(SourceId::ROOT), &self.options_with_texts().dialect(dialect))
+    }
+
+    /// Forgets the files that are not what they were.
+    fn refresh_files(&mut self) {
+        self.files.retain(|place, file| Stamp::of(place) == Some(file.stamp));
+    }
+
+    /// Keeps the files that a deck includes, so that they are not read at every keystroke.
+    fn load_files(&mut self, analysis: &Analysis) {
+        for place in analysis.places() {
+            if self.documents.contains_key(place) || self.files.contains_key(place) {
+                continue;
+            }
+            if let (Some(stamp), Ok(bytes)) = (Stamp::of(place), std::fs::read(place)) {
+                self.files.insert(place.clone(), FileOnDisk { stamp, text: EditedText::new(&bytes) });
+            }
+        }
+    }
+
+    /// The decks, each with what is wrong in it.
+    pub(super) fn analyses(&self) -> impl Iterator<Item = &Analysis> {
+        self.analyses.values()
+    }
+
+    /// What the files of configuration have wrong.
+    pub(super) fn faults(&self) -> impl Iterator<Item = &Fault> {
+        self.analyses.values().filter_map(|analysis| analysis.fault.as_ref())
+    }
+
+    /// A document in the deck that it is or that includes it; the decks are read again where they changed.
+    pub(super) fn view(&mut self, uri: &Uri) -> Option<View<'_>> {
+        self.refresh();
+        let place = place_of(uri);
+        let own = self.analyses.get(&place);
+        let analysis = own.or_else(|| self.analyses.get(self.includer_of(&place)?))?;
+        let source = analysis.source_of(&place)?;
+        Some(View { workspace: self, analysis, source })
+    }
+
+    /// The text of a file, open or not.
+    pub(super) fn text(&self, place: &Path) -> Option<&EditedText> {
+        let open = self.documents.get(place).map(|document| &document.text);
+        open.or_else(|| self.files.get(place).map(|file| &file.text))
+    }
+
+    /// What the editor calls a file.
+    pub(super) fn uri(&self, place: &Path) -> Uri {
+        self.documents.get(place).map_or_else(|| Uri(uri::uri_of(place)), |document| document.uri.clone())
+    }
+
+    /// The version of a document; `None` for a file that is not open.
+    pub(super) fn version(&self, place: &Path) -> Option<i32> {
+        self.documents.get(place).map(|document| document.version)
+    }
+
+    /// The place of bytes of a text as the editor counts it.
+    pub(super) fn range_in(&self, text: &EditedText, start: u64, end: u64) -> Range {
+        let position = |offset| position_of(text, offset, self.unit);
+        Range { start: position(start), end: position(end.max(start)) }
+    }
+}
+
+impl<'a> View<'a> {
+    /// Where the document is.
+    pub(super) fn place(&self) -> &'a Path {
+        self.analysis.place(self.source)
+    }
+
+    /// The text of one of the files of the deck.
+    pub(super) fn text_of(&self, source: SourceId) -> Option<&'a EditedText> {
+        self.workspace.text(self.analysis.place(source))
+    }
+
+    /// The byte that a position of the document stands before.
+    pub(super) fn offset(&self, position: Position) -> u64 {
+        self.text_of(self.source).map_or(0, |text| offset_of(text, position, self.workspace.unit))
+    }
+
+    /// The bytes of a range of the document.
+    pub(super) fn bytes(&self, range: Range) -> Span {
+        let (start, end) = (self.offset(range.start), self.offset(range.end));
+        Span::new(self.source, start.min(end), start.max(end))
+    }
+
+    /// A span as the editor counts it.
+    pub(super) fn range(&self, span: Span) -> Range {
+        let text = self.text_of(span.source);
+        text.map(|text| self.workspace.range_in(text, span.start, span.end)).unwrap_or_default()
+    }
+
+    /// The bytes of a span, kept by the deck or not.
+    pub(super) fn text(&self, span: Span) -> Cow<'a, [u8]> {
+        self.text_of(span.source).map_or(Cow::Borrowed(&[]), |text| text.bytes(span.start..span.end))
+    }
+
+    /// The text of a span for a person to read.
+    pub(super) fn shown(&self, span: Span) -> String {
+        String::from_utf8_lossy(&self.text(span)).into_owned()
+    }
+
+    /// The lines of a span of rows that are no comments, each with its bytes; those that nobody keeps too.
+    pub(super) fn lines(&self, rows: Span) -> Vec<(Span, Vec<u8>)> {
+        let bytes = self.text(rows);
+        let found = lines(&bytes)
+            .filter(|range| !matches!(line_kind(&bytes[range.clone()]), LineKind::Comment | LineKind::IndentedComment));
+        let of = |range: std::ops::Range<usize>| {
+            let line = without_line_end(&bytes[range.clone()]);
+            let start = rows.start + range.start as u64;
+            (Span::new(rows.source, start, start + line.len() as u64), line.to_vec())
+        };
+        found.map(of).collect()
+    }
+
+    /// A place as the editor names it.
+    pub(super) fn location(&self, span: Span) -> Location {
+        Location { uri: self.uri(span.source), range: self.range(span) }
+    }
+
+    /// What the editor calls one of the files of the deck.
+    pub(super) fn uri(&self, source: SourceId) -> Uri {
+        self.workspace.uri(self.analysis.place(source))
+    }
+}
+
+/// Where a document is.
+pub(super) fn place_of(uri: &Uri) -> PathBuf {
+    files::whole_path(&uri::path_of(&uri.0))
+}
+
+fn offset_of(text: &EditedText, position: Position, unit: ColumnUnit) -> u64 {
+    let (start, line) = text.line(u64::from(position.line));
+    start + unit.offset(line, u64::from(position.character)) as u64
+}
+
+fn position_of(text: &EditedText, offset: u64, unit: ColumnUnit) -> Position {
+    let (line, start) = text.line_of(offset);
+    let character = unit.count(&text.bytes(start..offset.max(start)));
+    let narrow = |number: u64| u32::try_from(number).unwrap_or(u32::MAX);
+    Position { line: narrow(line), character: narrow(character) }
+}
+
+impl Stamp {
+    /// `None` for what is no file.
+    fn of(place: &Path) -> Option<Self> {
+        let found = place.metadata().ok().filter(std::fs::Metadata::is_file)?;
+        Some(Self { modified: found.modified().ok(), length: found.len() })
+    }
+}

@@ -1,0 +1,11 @@
+//! Speaks the language server protocol to the real process, as an editor does.
+//!
+//! What each request gives is held by snapshots; what is wrong in a text is what `check` says of it, after any edits.
+
+mod capabilities;
+mod client;
+mod editing;
+mod findings;
+mod neovim;
+mod protocol;
+mod random_edits;
