@@ -122,12 +122,12 @@ fn exact_flows(network: &LinearNetwork) -> Vec<BigRational> {
         rows[node][nodes] += &conductance * all_digits(store.before);
         rows[node][node] += conductance;
     }
-    for node in 0..nodes {
-        rows[node][nodes] += exactly(network.sources[node]);
+    for (node, row) in rows.iter_mut().enumerate() {
+        row[nodes] += exactly(network.sources[node]);
         if let Some(value) = network.held[node] {
-            rows[node].fill(BigRational::zero());
-            rows[node][node] = exactly(1.0);
-            rows[node][nodes] = exactly(value);
+            row.fill(BigRational::zero());
+            row[node] = exactly(1.0);
+            row[nodes] = exactly(value);
         }
     }
     for pivot in 0..nodes {
