@@ -41,8 +41,9 @@ fn show(browser: &mut Browser, figure: &str) {
 /// Where a value is drawn, in pixels of the window.
 fn place(browser: &mut Browser, figure: &str, side: usize, x: f64, y: f64) -> (f64, f64) {
     let expression = format!(
-        "(() => {{ const plot = document.querySelector('{figure}').inpact.plots[{side}]; const box = plot.over.getBoundingClientRect(); \
-         return [box.left + plot.valToPos({x:?}, 'x'), box.top + plot.valToPos({y:?}, 'y')]; }})()"
+        "(() => {{ const chart = document.querySelector('{figure}').inpact; const plot = chart.plots[{side}]; \
+         const box = plot.over.getBoundingClientRect(); const axes = chart.axes[{side}]; \
+         return [box.left + plot.valToPos(axes.x.part({x:?}), 'x'), box.top + plot.valToPos(axes.y.part({y:?}), 'y')]; }})()"
     );
     let found = browser.value(&expression);
     (found[0].as_f64().expect("a place"), found[1].as_f64().expect("a place"))
@@ -162,6 +163,43 @@ fn nothing_of_a_deck_runs() {
     // Were a script in it after all, the page's policy would refuse it.
     browser.value("(() => { const script = document.createElement('script'); script.textContent = 'window.ran = 1'; document.body.append(script); })()");
     assert_eq!(browser.value("typeof window.ran"), "undefined");
+}
+
+/// Numbers that charting libraries have no increments for: on linear and on logarithmic axes, to the last digit.
+#[test]
+fn the_largest_and_the_smallest_numbers_are_drawn() {
+    let Some(program) = chromium() else { return };
+    let mut browser = Browser::start(program);
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = |name: &str, kind: &str, rows: &str| {
+        format!("*SURFACE INTERACTION, NAME={name}\n*GAP ELECTRICAL CONDUCTANCE{kind}\n{rows}\n")
+    };
+    let deck = table("WIDE", ", PRESSURE", "1.e-300, 0.\n1., 1.e-300\n1.e300, 1.e300")
+        + &table("ONE", ", PRESSURE", "1.e6, 0.")
+        + &table("ALL", ", PRESSURE", "-1.7e308, -1.7e308\n1.7e308, 1.7e308")
+        + &table("SMALL", "", "5.e-324, 0.\n0., 5.e-324");
+    std::fs::write(folder.path().join("a.inp"), deck).expect("writable");
+    inpact(folder.path(), &["report", "a.inp", "-o", "report.html"]);
+    browser.open(&folder.path().join("report.html"));
+    for number in 1..=4 {
+        let figure = format!("#law-{number}-1-1");
+        show(&mut browser, &figure);
+        for _ in 0..2 {
+            let labels = format!(
+                "document.querySelector('{figure}').inpact.plots.every((plot) => plot.data.flat().every((part) => part === null || part === undefined || Number.isFinite(part)))"
+            );
+            assert_eq!(browser.value(&labels), true, "{figure}");
+            browser.value(&format!(
+                "document.querySelectorAll('{figure} .tools button').forEach((button) => button.click())"
+            ));
+        }
+        browser.value(&format!("document.querySelector('{figure} .plots').focus()"));
+        browser.press("ArrowRight");
+        assert!(read(&mut browser, &figure).contains("conductance = "), "{figure}");
+    }
+    let ticks = browser.value("document.querySelector('#law-1-1-1').inpact.axes[1].y.ticks(0, 1, 6)");
+    assert!(3 < ticks.as_array().map_or(0, Vec::len), "{ticks}");
+    assert_eq!(browser.faults(), Vec::<&Value>::new());
 }
 
 #[test]

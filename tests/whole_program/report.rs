@@ -206,3 +206,29 @@ fn what_is_wrong_with_the_data_is_said() {
     assert_eq!(run.code, 2, "{}", run.errors);
     assert_eq!(folder.read("a.inp"), DECK);
 }
+
+/// What a deck's own job wrote: its states are times, and what interfaces add up to are histories of it.
+#[test]
+fn results_of_a_job_are_taken_instead_of_a_node_table() {
+    let Some(folder) = crate::nodes_results::ccx(crate::nodes_results::PRESSED) else { return };
+    let options = ["job.inp", "--dialect", "calculix", "--results", "job.frd"];
+    let run = folder.inpact(&[&["report"], &options[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    check_page(&run.output);
+    assert!(run.output.contains("HFLA of I, over all nodes"), "no history");
+    assert!(run.output.contains("<td class=\"text\">job.frd</td>"), "no hash of the results");
+    // The sums of `eval`, which prints the rows.
+    let table = folder.inpact(&[&["eval"], &options[..], &["--outputs", "HFLA"]].concat());
+    assert_eq!(table.code, 0, "{}", table.errors);
+    let header: Vec<&str> = table.output.lines().next().expect("a header").split(',').collect();
+    let place = |name| header.iter().position(|column| *column == name).expect("a column");
+    for time in ["1", "2"] {
+        let rows = table.output.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+        let rows = rows.filter(|row| row[place("time")] == time && !row[place("HFLA")].is_empty());
+        let sum: f64 = rows.map(|row| row[place("HFLA")].parse::<f64>().expect("a number")).sum();
+        let history = run.output.split("HFLA of I, over all nodes").nth(1).expect("a history");
+        let shown = history.split(&format!("<td>{time}</td>\n<td>")).nth(1).expect("a row of that time");
+        let shown: f64 = shown.split('<').next().expect("an end").parse().expect("a number");
+        assert!((shown - sum).abs() <= 1e-12 * sum.abs(), "{shown} {sum}");
+    }
+}

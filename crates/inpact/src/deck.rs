@@ -1,5 +1,6 @@
 //! A deck that was read with everything it includes.
 
+use crate::curves::{self, Figure, Request};
 use crate::error::Error;
 use crate::failure::Failure;
 use crate::fixes::{Fixed, Fixes};
@@ -8,6 +9,7 @@ use crate::json_deck;
 use crate::render::{self, Format, Style};
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::Diagnostic;
+use inpact_evaluation::plan::Choices;
 use inpact_parser::deck::Deck as Syntax;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::json;
@@ -128,6 +130,26 @@ impl Deck {
     pub fn check(&self) -> Vec<Diagnostic> {
         let found = inpact_validation::check(&self.located.deck, self.settings.grammar, &self.model, &self.problems);
         self.settings.apply(found)
+    }
+
+    /// The curves of its laws against clearance and contact pressure, as `inpact plot` draws them.
+    ///
+    /// ```
+    /// use inpact::curves::Request;
+    /// use inpact::{Deck, ReadOptions};
+    ///
+    /// let text = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n2., 0.\n0., 1.\n";
+    /// let deck = Deck::parse("a.inp", text, &ReadOptions::new().isolated())?;
+    /// let figure = deck.figure(&Request::default());
+    /// assert_eq!(figure.panels[0].title(), "A: electrical conductance");
+    /// assert!(figure.svg().starts_with("<svg"));
+    /// assert!(figure.letters().contains("clearance (L)"));
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    pub fn figure(&self, request: &Request) -> Figure {
+        let grammar = self.settings.grammar;
+        let choices = Choices { dialect: grammar.dialect(), ..Choices::default() };
+        curves::figure((&self.name, &self.model), grammar, &choices, request)
     }
 
     /// Findings of this deck as text in a format of `inpact check`, without colours.

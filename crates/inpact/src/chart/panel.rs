@@ -16,6 +16,11 @@ pub(crate) struct Scales {
     pub(crate) y: ScaleKind,
 }
 
+impl Scales {
+    /// None is.
+    pub(crate) const LINEAR: Self = Self { x: ScaleKind::Linear, y: ScaleKind::Linear };
+}
+
 /// The size of a panel.
 pub(crate) const WIDTH: f64 = 640.0;
 pub(crate) const HEIGHT: f64 = 420.0;

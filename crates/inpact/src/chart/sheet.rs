@@ -59,6 +59,18 @@ pub(crate) fn svg(figures: &[Figure], scales: Scales) -> String {
     drawing.finish()
 }
 
+impl Figure {
+    /// The panels as an SVG document, on linear axes.
+    pub fn svg(&self) -> String {
+        svg(std::slice::from_ref(self), Scales::LINEAR)
+    }
+
+    /// The panels in letters, for 80 columns, on linear axes.
+    pub fn letters(&self) -> String {
+        super::terminal::text(std::slice::from_ref(self), Scales::LINEAR)
+    }
+}
+
 /// One panel as an SVG document.
 pub(crate) fn svg_of_panel(of: &Panel, scales: Scales) -> String {
     let mut drawing = Drawing::new(panel::WIDTH, panel::HEIGHT, &visible_line(&of.description()));

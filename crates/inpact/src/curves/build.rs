@@ -47,6 +47,22 @@ pub struct Request {
     pub probing: Probing,
 }
 
+impl Default for Request {
+    /// All laws of all interactions, at the abscissae of their rows.
+    fn default() -> Self {
+        Self {
+            interactions: Vec::new(),
+            laws: Vec::new(),
+            at: Vec::new(),
+            units: Units::default(),
+            held_places: Vec::new(),
+            detail: Detail::Rows,
+            most_panels: 40,
+            probing: Probing::Off,
+        }
+    }
+}
+
 /// A place that the axes of a law shall hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldPlace {

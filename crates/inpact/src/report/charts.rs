@@ -3,13 +3,10 @@
 use super::History;
 use super::page::Page;
 use crate::chart::panel::Scales;
-use crate::chart::scale::ScaleKind;
 use crate::chart::sheet;
 use crate::curves::{Curve, Panel, Reach, Side, number};
 use serde_json::{Value, json};
 use std::collections::HashMap;
-
-const LINEAR: Scales = Scales { x: ScaleKind::Linear, y: ScaleKind::Linear };
 
 /// The panels of one law, of which the first can be asked by pointing at it.
 pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
@@ -23,7 +20,7 @@ pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
         }
         page.open("figure", &attributes);
         page.open("div", &[("class", "static")]);
-        page.drawing(&sheet::svg_of_panel(panel, LINEAR));
+        page.drawing(&sheet::svg_of_panel(panel, Scales::LINEAR));
         page.close("div");
         if is_live {
             page.element("div", &[("class", "chart")], "");
@@ -49,6 +46,7 @@ fn data(panel: &Panel) -> Value {
                 "start": half.start,
                 "end": half.end,
                 "x": x,
+                "rows": panel.curves.iter().flat_map(|curve| &curve.branch(side).knots).map(|knot| knot.x).collect::<Vec<_>>(),
             })
         })
         .collect();

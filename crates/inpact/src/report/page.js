@@ -28,6 +28,59 @@
   };
   const SIDES = ["open", "closed"];
 
+  // From numbers to parts of an axis, 0 at its start and 1 at its end, for all finite numbers: uPlot itself knows increments of 1e-32 to 1e32 only.
+  const ZERO_PART = 0.08;
+  class Axis {
+    constructor(least, greatest, log, numbers) {
+      const magnitudes = numbers.filter((value) => value !== null && value !== 0).map(Math.abs);
+      Object.assign(this, { least, greatest, log: log && magnitudes.length > 0 });
+      this.most = Math.max(Math.abs(least), Math.abs(greatest)) || 1;
+      if (!this.log) return;
+      this.hasNegative = numbers.some((value) => value < 0);
+      this.low = Math.log10(Math.max(magnitudes.reduce((a, b) => Math.min(a, b)) / 2, 5e-324));
+      this.high = Math.max(Math.log10(this.most), this.low + 1);
+    }
+
+    part(value) {
+      if (value === null || value === undefined) return value;
+      if (!this.log) return (value / this.most - this.least / this.most) / (this.greatest / this.most - this.least / this.most);
+      const size = Math.abs(value);
+      const above = size === 0 ? -1 : (Math.log10(size) - this.low) / (this.high - this.low);
+      const from = above < 0 ? (size === 0 ? 0 : ZERO_PART * Math.min(1, size / 10 ** this.low)) : ZERO_PART + (1 - ZERO_PART) * above;
+      return this.hasNegative ? 0.5 + (value < 0 ? -from : from) / 2 : value < 0 ? 0 : from;
+    }
+
+    value(part) {
+      if (!this.log) return (this.least / this.most + part * (this.greatest / this.most - this.least / this.most)) * this.most;
+      const from = this.hasNegative ? Math.abs(part - 0.5) * 2 : part;
+      const size = from <= ZERO_PART ? 0 : 10 ** (this.low + (from - ZERO_PART) / (1 - ZERO_PART) * (this.high - this.low));
+      return this.hasNegative && part < 0.5 ? -size : size;
+    }
+
+    // Round numbers between two parts, about so many.
+    ticks(first, last, most) {
+      const [a, b] = [this.value(Math.max(first, 0)), this.value(Math.min(last, 1))];
+      let found = [];
+      if (!this.log) {
+        const rough = (b / most - a / most) || this.most / most;
+        let exponent = Math.floor(Math.log10(rough));
+        const digits = rough / Number("1e" + exponent);
+        let step = digits <= 1 ? 1 : digits <= 2 ? 2 : digits <= 5 ? 5 : 10;
+        if (step === 10) { step = 1; exponent += 1; }
+        const unit = Number(step + "e" + exponent);
+        const [from, to] = [Math.ceil(a / unit - 1e-9), Math.floor(b / unit + 1e-9)];
+        if (!(to - from < 100)) return [a, b];
+        for (let multiple = from; multiple <= to; multiple++) found.push(Number(multiple * step + "e" + exponent));
+      } else {
+        const decades = [];
+        const step = [1, 2, 3, 5, 10, 20, 50, 100, 200].find((step) => (this.high - this.low) / step <= most) || 200;
+        for (let power = Math.floor(this.low); power <= this.high; power++) if (power % step === 0) decades.push(Number("1e" + power));
+        found = [...(this.hasNegative ? decades.map((value) => -value).reverse() : []), 0, ...decades];
+      }
+      return found.filter((value) => { const part = this.part(value); return Number.isFinite(value) && part >= first - 1e-9 && part <= last + 1e-9; });
+    }
+  }
+
   class Chart {
     constructor(figure) {
       this.figure = figure;
@@ -130,7 +183,8 @@
         series.push(all.map((value) => values.has(value) ? values.get(value) : undefined));
         x = all;
       }
-      return [x, ...series];
+      const { x: across, y: up } = this.axes[side];
+      return { x, parts: [x.map((value) => across.part(value)), ...series.map((of) => of.map((value) => up.part(value)))] };
     }
 
     range() {
@@ -143,13 +197,6 @@
       return [least === 0 ? 0 : Math.max(least - room, -Number.MAX_VALUE), Math.min(greatest + room, Number.MAX_VALUE)];
     }
 
-    // Below this magnitude a logarithmic axis is linear.
-    threshold(values) {
-      let least = Infinity;
-      for (const value of values) if (value !== null && value !== 0) least = Math.min(least, Math.abs(value));
-      return least === Infinity ? 1 : least;
-    }
-
     draw() {
       this.plots.forEach((plot) => plot && plot.destroy());
       const width = Math.max(this.area.clientWidth || this.figure.clientWidth - 30, 300);
@@ -158,13 +205,15 @@
       const part = scaled[0] && scaled[1] ? 0.5 : scaled[0] ? 0.84 : 0.16;
       const left = 84;
       const widths = [left + (width - left) * part, (width - left) * (1 - part)];
-      this.bounds = this.range();
+      const ys = this.data.curves.flatMap((curve) => curve.sides.flatMap((of) => of.y));
+      const up = new Axis(...this.range(), this.log.y, ys);
+      this.axes = halves.map((half) => ({ x: new Axis(half.start, half.end, this.log.x && half.scaled, half.rows), y: up }));
       this.plots = SIDES.map((_, side) => this.plot(side, widths[side]));
     }
 
     plot(side, width) {
       const half = this.data.halves[side];
-      const columns = this.columns(side);
+      const { x: abscissae, parts } = this.columns(side);
       const count = this.data.curves.length;
       const text = style("--text"), grid = { stroke: style("--fine"), width: 1 };
       const font = "12px 'DejaVu Sans', Verdana, sans-serif";
@@ -172,50 +221,61 @@
       this.data.curves.forEach((curve, index) => {
         const line = { stroke: colour(index, count), width: 2, show: this.shown[index], spanGaps: false };
         const knots = new Set(curve.sides[side].knots);
-        const chosen = columns[0].flatMap((x, place) => knots.has(x) ? [place] : []);
+        const chosen = abscissae.flatMap((x, place) => knots.has(x) ? [place] : []);
         series.push({ ...line, points: { show: true, size: 7, fill: colour(index, count), filter: () => chosen } });
         series.push({ ...line, dash: [5, 4], points: { show: false } });
       });
       if (this.probing) series.push({ stroke: text, width: 3, spanGaps: true, points: { show: false } });
-      const values = (_, splits) => splits.map((split) => split === null ? "" : number(Number(split.toPrecision(12))));
       // At contact both sides have the same zero: the right one says it.
       const isDouble = side === 0 && this.data.halves[1].scaled;
-      const abscissae = (plot, splits) => splits.map((split) => split === null || (isDouble && split === 0) ? "" : number(Number(split.toPrecision(12))));
-      const axis = { stroke: text, grid, ticks: grid, font, labelFont: font, values };
-      const scale = (log, numbers, fixed) => log ? { time: false, distr: 4, asinh: this.threshold(numbers), range: () => fixed } : { time: false, auto: false, range: (_, least, greatest) => least === null || least === greatest ? fixed : [least, greatest] };
-      const ys = this.data.curves.flatMap((curve) => curve.sides.flatMap((of) => of.y));
+      const marks = (of, most, isLabelled) => {
+        const labels = new Map();
+        return {
+          splits: (plot, _, first, last) => of.ticks(first, last, most).map((value) => {
+            const part = of.part(value);
+            labels.set(part, isLabelled(value) ? number(value) : "");
+            return part;
+          }),
+          values: (_, splits) => splits.map((split) => labels.get(split) || ""),
+        };
+      };
+      const { x: across, y: up } = this.axes[side];
+      const axis = { stroke: text, grid, ticks: grid, font, labelFont: font };
+      const none = { values: (_, splits) => splits.map(() => ""), ticks: { show: false } };
+      const scale = { time: false, auto: false, range: (_, least, greatest) => least === null || least === greatest ? [0, 1] : [least, greatest] };
       const node = this.area.appendChild(element("div"));
       const made = new uPlot({
         width, height: 340, legend: { show: false }, padding: [14, side === 0 ? 0 : 14, 0, side === 0 ? 0 : 2],
         cursor: { y: false, drag: { x: true, y: false }, points: { size: 9 } },
         focus: { prox: -1 },
         scales: {
-          x: { ...scale(this.log.x, half.x, [half.start, half.end]), dir: side === 0 ? -1 : 1 },
-          y: { ...scale(this.log.y, ys, this.bounds), range: () => this.bounds },
+          x: { ...scale, dir: side === 0 ? -1 : 1 },
+          y: { ...scale, range: () => [0, 1] },
         },
         axes: [
-          half.scaled ? { ...axis, label: half.title, space: 60, labelSize: 22, values: abscissae } : { ...axis, label: SIDES[side], values: (_, splits) => splits.map(() => ""), labelSize: 22, grid: { show: false }, ticks: { show: false } },
-          side === 0 ? { ...axis, label: this.data.value, size: 62, labelSize: 22 } : { ...axis, show: true, size: 0, values: (_, splits) => splits.map(() => ""), ticks: { show: false }, side: 3 },
+          half.scaled ? { ...axis, ...marks(across, Math.max(width / 75, 2), (value) => !(isDouble && value === 0)), label: half.title, labelSize: 22 } : { ...axis, ...none, label: SIDES[side], labelSize: 22, grid: { show: false } },
+          side === 0 ? { ...axis, ...marks(up, 7, () => true), label: this.data.value, size: 62, labelSize: 22 } : { ...axis, splits: marks(up, 7, () => true).splits, ...none, size: 0, side: 3 },
         ],
         series,
         hooks: {
           setCursor: [(plot) => { if (plot.cursor.idx !== null && plot.cursor.idx !== undefined && plot.cursor.left >= 0) this.read({ side, index: plot.cursor.idx }); }],
           draw: [(plot) => this.overlay(plot, side)],
         },
-      }, columns, node);
-      made.columns = columns;
+      }, parts, node);
+      made.abscissae = abscissae;
       return made;
     }
 
     // Contact, the rows of the node table and the findings.
     overlay(plot, side) {
       const { ctx, bbox } = plot;
-      const place = (x, y) => [plot.valToPos(x, "x", true), plot.valToPos(y, "y", true)];
+      const { x: across, y: up } = this.axes[side];
+      const place = (x, y) => [plot.valToPos(across.part(x), "x", true), plot.valToPos(up.part(y), "y", true)];
       ctx.save();
       ctx.strokeStyle = style("--quiet");
       ctx.lineWidth = devicePixelRatio;
       ctx.setLineDash([]);
-      const contact = Math.round(plot.valToPos(0, "x", true)) + (side === 0 ? -0.5 : 0.5);
+      const contact = Math.round(plot.valToPos(across.part(this.data.halves[side].start), "x", true)) + (side === 0 ? -0.5 : 0.5);
       if (contact >= bbox.left - 1 && contact <= bbox.left + bbox.width + 1) {
         ctx.beginPath();
         ctx.moveTo(contact, bbox.top);
@@ -255,7 +315,7 @@
       this.cursor = cursor;
       const { side, index } = cursor;
       const half = this.data.halves[side];
-      const x = this.plots[side].columns[0][index];
+      const x = this.plots[side].abscissae[index];
       const lines = [(half.scaled ? half.column + " " + number(x) : SIDES[side]) + ":"];
       const place = half.x.indexOf(x);
       this.data.curves.forEach((curve, number_) => {
@@ -281,16 +341,16 @@
         // To the right on the open side is towards contact.
         let { side, index } = at;
         index += side === 0 ? -by : by;
-        if (index < 0 && plot(1 - side).columns[0].length) { side = 1 - side; index = 0; }
-        index = Math.min(Math.max(index, 0), plot(side).columns[0].length - 1);
-        const left = plot(side).valToPos(plot(side).columns[0][index], "x");
+        if (index < 0 && plot(1 - side).abscissae.length) { side = 1 - side; index = 0; }
+        index = Math.min(Math.max(index, 0), plot(side).abscissae.length - 1);
+        const left = plot(side).valToPos(plot(side).data[0][index], "x");
         this.read({ side, index });
         plot(side).setCursor({ left, top: 10 }, false);
       };
       const zoom = (factor) => {
         const { side } = at;
         const { min, max } = plot(side).scales.x;
-        const middle = this.cursor ? plot(side).columns[0][this.cursor.index] : (min + max) / 2;
+        const middle = this.cursor ? plot(side).data[0][this.cursor.index] : (min + max) / 2;
         plot(side).setScale("x", { min: middle - (middle - min) * factor, max: middle + (max - middle) * factor });
       };
       const keys = { ArrowLeft: () => move(-1), ArrowRight: () => move(1), "+": () => zoom(0.5), "-": () => zoom(2), 0: () => this.draw() };
@@ -299,7 +359,16 @@
   }
 
   const charts = [];
-  const make = (figure) => { if (!figure.inpact) { charts.push(new Chart(figure)); } };
+  const make = (figure) => {
+    if (figure.inpact) return;
+    try {
+      charts.push(new Chart(figure));
+    } catch (error) {
+      // Its drawing stays.
+      figure.querySelector(".chart").replaceChildren();
+      console.error(error);
+    }
+  };
   const figures = [...document.querySelectorAll("figure.law[data-live]")];
   const seen = new IntersectionObserver((entries) => entries.forEach((entry) => {
     if (entry.isIntersecting) { seen.unobserve(entry.target); make(entry.target); }
