@@ -102,6 +102,11 @@ fn decks_are_read() {
 }
 
 #[test]
+fn meshes_are_read() {
+    run(targets::mesh, &decks(), &tokens("decks.dict"), 300);
+}
+
+#[test]
 fn decks_are_checked() {
     run(targets::check, &decks(), &tokens("decks.dict"), 400);
 }

@@ -10,10 +10,12 @@
 use inpact_parser::deck::{Deck, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner, scan};
 use inpact_parser::expression::{Parameters, StatementLine, define, references, substitute};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
+use inpact_parser::mesh::{KeptRows, SeekableRows, read as read_mesh};
 use inpact_parser::model::Model;
 use inpact_parser::span::{SourceId, Span};
 use inpact_parser::{format as layout, json, model};
 use inpact_validation::{Diagnostic, Edit, FixSafety, apply};
+use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
@@ -56,6 +58,27 @@ pub fn read(bytes: &[u8]) {
             assert!(full.print(source_id(index)) == *text, "JSON gives other bytes back");
         }
         model_survives_json(&model);
+    }
+}
+
+/// Any bytes as decks with includes: a mesh comes out, the same from rows that were kept and from the files, and its pairs have a geometry or a reason.
+pub fn mesh(bytes: &[u8]) {
+    let files: Vec<&[u8]> = bytes.split(|byte| *byte == 0).collect();
+    for grammar in &*DIALECTS {
+        let full = deck_of(bytes, ScanOptions { grammar, keep: Keep::Everything });
+        let lean = deck_of(bytes, ScanOptions { grammar, keep: Keep::Interpreted });
+        let (model, _) = model::read(&full, grammar);
+        let kept = read_mesh(&full, grammar, &model, &mut KeptRows(&full)).expect("rows that were kept");
+        let opened = (0..).zip(lean.sources()).map(|(index, source)| {
+            let number: usize = source.name().parse().unwrap_or(0);
+            (source_id(index), Cursor::new(files.get(number).copied().unwrap_or_default()))
+        });
+        let sought = read_mesh(&lean, grammar, &model, &mut SeekableRows::new(opened)).expect("files in memory");
+        assert_eq!(format!("{kept:?}"), format!("{sought:?}"), "the mesh depends on what is kept");
+        for pair in &kept.pairs {
+            // A geometry that is none is an error, never a panic.
+            let _ = kept.contact(pair, 1.0);
+        }
     }
 }
 

@@ -11,6 +11,7 @@
 pub mod deck;
 pub mod extremes;
 pub mod interface;
+pub mod mesh;
 pub mod network;
 pub mod nodes;
 pub mod plate;

@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use inpact_bench::deck::{self, Content, DeckRequest};
 use inpact_bench::extremes;
+use inpact_bench::mesh;
 use inpact_bench::network::grid::{Assembled, Grid};
 use inpact_bench::network::{accuracy, run};
 use inpact_bench::nodes::{self, NodesRequest};
@@ -73,6 +74,18 @@ enum Command {
         /// The number of solutions, each from nothing; the fastest counts.
         #[arg(long, default_value_t = 3, value_parser = at_least::<1>)]
         rounds: usize,
+    },
+    /// Print the page of meshes: how long it takes to read those of so many nodes along an edge, and how much memory (docs/mesh-speed.md).
+    Mesh {
+        /// Nodes along an edge of the cube.
+        #[arg(default_values_t = [22, 100, 215], value_parser = clap::value_parser!(u32).range(3..=1000))]
+        sides: Vec<u32>,
+    },
+    /// Read the mesh of a deck once and print its measures.
+    #[command(hide = true)]
+    MeshOnce {
+        /// The deck.
+        deck: PathBuf,
     },
     /// Write the assembled matrix of a grid in Matrix Market form, for other solvers.
     GridMatrix {
@@ -188,6 +201,8 @@ fn run(command: Command) -> io::Result<()> {
             let line = line.map_err(|failure| io::Error::other(format!("not solved: {failure:?}")))?;
             writeln!(io::stdout(), "{line}")
         }
+        Command::Mesh { sides } => io::stdout().lock().write_all(mesh::page(&sides)?.as_bytes()),
+        Command::MeshOnce { deck } => writeln!(io::stdout(), "{}", mesh::measure(&deck)?.line()),
         Command::GridMatrix { out, grid } => Assembled::of(&grid.grid().network()).write(&mut open(&out)?),
     }
 }

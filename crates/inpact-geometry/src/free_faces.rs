@@ -2,6 +2,8 @@
 
 use crate::{ElementShape, FaceLabel, NodeId};
 use std::collections::HashMap;
+use std::collections::hash_map::{Entry, RandomState};
+use std::hash::{BuildHasher, Hash, Hasher};
 
 /// Gathers elements and forgets each face as soon as a second element has it: memory follows the front between the elements that came and those that did not,
 /// which is that of a surface where neighbours come soon after each other.
@@ -18,8 +20,57 @@ use std::collections::HashMap;
 /// ```
 #[derive(Debug, Default)]
 pub struct FreeFaces {
-    /// By the corners, ascending; faces with fewer than four end with the largest number.
-    open: HashMap<[u32; 4], Option<(u32, FaceLabel)>>,
+    open: HashMap<Corners, Option<(u64, FaceLabel)>, Mixing>,
+}
+
+/// The corners of a face, ascending; faces with fewer than four end with the largest number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Corners([u32; 4]);
+
+impl Hash for Corners {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let Self([a, b, c, d]) = *self;
+        state.write_u64(u64::from(a) << 32 | u64::from(b));
+        state.write_u64(u64::from(c) << 32 | u64::from(d));
+    }
+}
+
+/// Makes hashes of a few multiplications, which millions of faces need; the seed is by chance, so that no deck can be made to collide.
+#[derive(Debug, Clone, Copy)]
+struct Mixing(u64);
+
+impl Default for Mixing {
+    fn default() -> Self {
+        Self(RandomState::new().build_hasher().finish())
+    }
+}
+
+impl BuildHasher for Mixing {
+    type Hasher = Mix;
+
+    fn build_hasher(&self) -> Mix {
+        Mix(self.0)
+    }
+}
+
+/// The hash so far: each word is folded in by a product of 128 bits, whose halves are joined (as foldhash and wyhash do).
+struct Mix(u64);
+
+impl Hasher for Mix {
+    fn write_u64(&mut self, word: u64) {
+        let product = u128::from(self.0 ^ word) * u128::from(0x9E37_79B9_7F4A_7C15_u64);
+        #[expect(clippy::cast_possible_truncation, reason = "its lower half")]
+        let low = product as u64;
+        self.0 = low ^ (product >> 64) as u64;
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
 }
 
 impl FreeFaces {
@@ -29,7 +80,7 @@ impl FreeFaces {
     }
 
     /// Adds an element, by the caller's number, whose free faces are wanted. Sheets are left out: both of their sides are free.
-    pub fn add(&mut self, element: u32, shape: ElementShape, nodes: &[NodeId]) {
+    pub fn add(&mut self, element: u64, shape: ElementShape, nodes: &[NodeId]) {
         self.meet(shape, nodes, Some(element));
     }
 
@@ -38,7 +89,7 @@ impl FreeFaces {
         self.meet(shape, nodes, None);
     }
 
-    fn meet(&mut self, shape: ElementShape, nodes: &[NodeId], element: Option<u32>) {
+    fn meet(&mut self, shape: ElementShape, nodes: &[NodeId], element: Option<u64>) {
         if shape.is_sheet() {
             return;
         }
@@ -49,15 +100,16 @@ impl FreeFaces {
             }
             key.sort_unstable();
             let Some(key) = distinct(key, face.shape.corners()) else { continue };
-            if self.open.remove(&key).is_none() {
-                self.open.insert(key, element.map(|element| (element, face.label)));
+            match self.open.entry(Corners(key)) {
+                Entry::Occupied(met) => drop(met.remove()),
+                Entry::Vacant(new) => drop(new.insert(element.map(|element| (element, face.label)))),
             }
         }
     }
 
     /// The wanted faces that no other element has, by element and label.
-    pub fn finish(self) -> Vec<(u32, FaceLabel)> {
-        let mut faces: Vec<(u32, FaceLabel)> = self.open.into_values().flatten().collect();
+    pub fn finish(self) -> Vec<(u64, FaceLabel)> {
+        let mut faces: Vec<(u64, FaceLabel)> = self.open.into_values().flatten().collect();
         faces.sort_unstable();
         faces
     }

@@ -65,7 +65,7 @@ fn second_order_faces_meet_by_their_corners() {
     for (element, corners) in (0..).zip(corners) {
         let nodes: Vec<NodeId> =
             corners.into_iter().chain(10 * (element + 1)..10 * (element + 1) + 6).map(NodeId).collect();
-        free.add(element, ElementShape::Tetrahedron10, &nodes);
+        free.add(element.into(), ElementShape::Tetrahedron10, &nodes);
     }
     assert_eq!(free.finish().len(), 6);
 }

@@ -51,7 +51,7 @@ pub fn run(grid: Grid, method: Method, tolerance: Option<f64>, rounds: usize) ->
 }
 
 /// The memory of this process, now (`VmRSS:`) or at most so far (`VmHWM:`), in MiB; where the system tells.
-fn memory(key: &str) -> Option<f64> {
+pub(crate) fn memory(key: &str) -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with(key))?;
     let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;

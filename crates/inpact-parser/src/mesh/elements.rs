@@ -67,14 +67,14 @@ impl Reader<'_, '_> {
             if here.is_empty() {
                 continue;
             }
-            let mut free: Vec<(&Pick, FreeFaces)> = Vec::new();
-            free.extend(here.iter().filter(|pick| pick.face.is_none()).map(|pick| (*pick, FreeFaces::new())));
+            // Which faces are free does not depend on who asks: one map does for all picks.
+            let mut free = here.iter().any(|pick| pick.face.is_none()).then(Free::default);
             let options: Vec<Entry<'_>> =
                 self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.elements.clone()).collect();
             for option in options {
                 self.rows_of(option, &here, &mut free, &mut faces)?;
             }
-            named.extend(free.into_iter().flat_map(|(pick, free)| picks_of(pick, free)));
+            named.extend(free.into_iter().flat_map(|free| free.picks(&here)));
         }
         Ok((faces, named))
     }
@@ -83,12 +83,12 @@ impl Reader<'_, '_> {
         &mut self,
         option: Entry<'_>,
         picks: &[&Pick],
-        free: &mut [(&Pick, FreeFaces)],
+        free: &mut Option<Free>,
         faces: &mut Vec<RawFace>,
     ) -> io::Result<()> {
         let key = option.keyword.span;
         let touched = picks.iter().any(|pick| pick.elements.may_touch(key));
-        if !touched && free.is_empty() {
+        if !touched && free.is_none() {
             return Ok(());
         }
         if option.parameter("INPUT").is_some() {
@@ -107,7 +107,15 @@ impl Reader<'_, '_> {
         let mut incomplete: Vec<(Span, String)> = Vec::new();
         let mut without_face: Vec<(Span, String)> = Vec::new();
         let mut row: Vec<u32> = Vec::with_capacity(1 + kind.shape.nodes());
+        if let Some(free) = free {
+            free.options.push(key);
+        }
+        let needs_all = free.is_some();
         data_lines(&mut *self.rows, option.block, &mut |line, span| {
+            // Of a row on one line that nobody picks, the number of the element is all that is looked at.
+            if !needs_all && row.is_empty() && is_passed_over(line, kind.shape, &any, key) {
+                return;
+            }
             if !integers(line, &mut row) {
                 wrong.get_or_insert_with(|| {
                     (
@@ -157,9 +165,12 @@ impl Reader<'_, '_> {
                     }
                 }
             }
-            if !free.is_empty() {
-                let nodes: Vec<NodeId> = nodes.iter().copied().map(NodeId).collect();
-                add_to_free(free, element, key, kind.shape, &nodes);
+            if let Some(free) = free {
+                let mut ids = [NodeId(0); MAX_ELEMENT_NODES];
+                ids.iter_mut().zip(nodes).for_each(|(id, node)| *id = NodeId(*node));
+                let is_wanted =
+                    picked && picks.iter().any(|pick| pick.face.is_none() && pick.elements.contains(element, key));
+                free.meet(element, is_wanted, kind.shape, &ids[..nodes.len().min(MAX_ELEMENT_NODES)]);
             }
             row.clear();
         })?;
@@ -205,31 +216,62 @@ impl Reader<'_, '_> {
     }
 }
 
-fn add_to_free(free: &mut [(&Pick, FreeFaces)], element: u32, option: Span, shape: ElementShape, nodes: &[NodeId]) {
-    for (pick, free) in free {
-        if pick.elements.contains(element, option) {
-            free.add(element, shape, nodes);
+/// The most nodes of an element whose faces are known.
+const MAX_ELEMENT_NODES: usize = 20;
+
+/// The free faces of an instance.
+#[derive(Default)]
+struct Free {
+    faces: FreeFaces,
+    /// The *ELEMENT options met so far.
+    options: Vec<Span>,
+}
+
+impl Free {
+    /// Takes an element of the last option.
+    fn meet(&mut self, element: u32, is_wanted: bool, shape: ElementShape, nodes: &[NodeId]) {
+        if is_wanted {
+            let option = self.options.len().saturating_sub(1) as u64;
+            self.faces.add(option << 32 | u64::from(element), shape, nodes);
         } else {
-            free.cover(shape, nodes);
+            self.faces.cover(shape, nodes);
         }
+    }
+
+    /// The free faces of each pick, as picks by name.
+    fn picks(self, picks: &[&Pick]) -> Vec<Pick> {
+        let mut found: Vec<(usize, Pick)> = Vec::new();
+        for (number, label) in self.faces.finish() {
+            #[expect(clippy::cast_possible_truncation, reason = "the lower half is the number of the element")]
+            let element = number as u32;
+            let option = usize::try_from(number >> 32).ok().and_then(|option| self.options.get(option));
+            let Some(option) = option else { continue };
+            let wanted = picks.iter().enumerate().filter(|(_, pick)| pick.face.is_none());
+            for (at, pick) in wanted.filter(|(_, pick)| pick.elements.contains(element, *option)) {
+                let known = found.iter().position(|(of, other)| *of == at && other.face == Some(label));
+                let place = known.unwrap_or_else(|| {
+                    let Pick { surface, instance, span, .. } = **pick;
+                    found.push((
+                        at,
+                        Pick { surface, instance, elements: Selection::default(), face: Some(label), span },
+                    ));
+                    found.len() - 1
+                });
+                found[place].1.elements.labels.add(element);
+            }
+        }
+        found.iter_mut().for_each(|(_, pick)| pick.elements.labels.sort());
+        found.into_iter().map(|(_, pick)| pick).collect()
     }
 }
 
-/// The free faces of a pick, as picks by name.
-fn picks_of(pick: &Pick, free: FreeFaces) -> Vec<Pick> {
-    let mut by_face: Vec<Pick> = Vec::new();
-    for (element, label) in free.finish() {
-        let known = by_face.iter().position(|other| other.face == Some(label));
-        let at = known.unwrap_or_else(|| {
-            by_face.push(Pick { elements: Selection::default(), face: Some(label), ..pick.clone() });
-            by_face.len() - 1
-        });
-        by_face[at].elements.labels.add(element);
-    }
-    for pick in &mut by_face {
-        pick.elements.labels.sort();
-    }
-    by_face
+/// Whether a line is a whole row by itself, of an element that is in no pick.
+fn is_passed_over(line: &[u8], shape: ElementShape, any: &Selection, option: Span) -> bool {
+    let end = memchr::memchr(b',', line).unwrap_or(line.len());
+    let element = unsigned(line[..end].trim_ascii());
+    element.is_some_and(|element| !any.contains(element, option))
+        && memchr::memchr_iter(b',', line).count() == shape.nodes()
+        && !goes_on(line)
 }
 
 /// Whether the row of an element continues after this line: it ends in a comma, or has the 16 items that a line may have.
