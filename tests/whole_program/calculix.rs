@@ -304,6 +304,23 @@ fn cx_02_names_that_quotes_tell_apart_survive_json() {
     assert!(refused.code == 1 && refused.errors.contains("duplicate interaction"), "{}", refused.errors);
 }
 
+/// CX-05: what CalculiX cannot read in 20 characters is a text in JSON, and comes back.
+#[test]
+fn cx_05_numbers_that_are_none_survive_json() {
+    let deck = format!("{PAD}*GAP CONDUCTANCE\n1.2345678901234568e-05, 0.\n2., 500.\n");
+    let folder = Folder::with(&[("d.inp", &deck)]);
+    let json = folder.inpact(&[&["json", "d.inp"], &CALCULIX[..]].concat()).output;
+    assert!(json.contains("\"1.2345678901234568e-05\""), "{json}");
+    folder.write("m.json", &json);
+    let written = folder.inpact(&["inp", "m.json"]);
+    assert!(
+        written.code == 0 && written.output.contains("1.2345678901234568e-05"),
+        "{}{}",
+        written.output,
+        written.errors
+    );
+}
+
 /// K-06, CX-11: of two interactions of one name the first counts.
 #[test]
 fn cx_11_the_first_of_two_interactions() {

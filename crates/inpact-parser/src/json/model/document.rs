@@ -6,7 +6,7 @@
 
 use crate::expression::references;
 use crate::json::required;
-use crate::number::read_float;
+use crate::number::{FortranNumber, read_float, read_fortran};
 use indexmap::IndexMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -352,10 +352,14 @@ impl Cell {
     }
 }
 
-/// Whether a text can occur in a cell of a deck and is no number there.
+/// Whether a text can occur in a cell of a deck and is no number there, in either dialect: CalculiX reads 20 characters alone (CX-05).
 fn is_no_number(text: &str) -> bool {
     let item = text.trim_matches(|character: char| character.is_ascii_whitespace());
-    !text.is_empty() && item.len() == text.len() && read_float(text.as_bytes()).is_err()
+    let is_none = || {
+        let of_calculix = read_fortran(text.as_bytes());
+        read_float(text.as_bytes()).is_err() || matches!(of_calculix, Err(_) | Ok(FortranNumber::CutToNothing))
+    };
+    !text.is_empty() && item.len() == text.len() && is_none()
 }
 
 /// An object none of whose keys occurs twice: the second would replace the first without a word.
