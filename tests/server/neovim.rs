@@ -14,6 +14,7 @@ const MAIN: &str = "\
 
 const PAIRS: &str = "*CONTACT PAIR, INTERACTION=joint\nA, A\n";
 
+#[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that there was no editor")]
 #[test]
 fn neovim_attaches_mends_renames_and_formats() {
     if Command::new("nvim").arg("--version").output().is_err() {

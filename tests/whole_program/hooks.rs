@@ -31,6 +31,7 @@ fn git(folder: &Path, arguments: &[&str]) -> String {
 }
 
 #[cfg(unix)]
+#[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that nothing was tried")]
 #[test]
 fn pre_commit_runs_them() {
     let Some(program) = std::env::var_os("INPACT_PRE_COMMIT").map(PathBuf::from) else {
