@@ -11,7 +11,6 @@
 //! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
 //! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
 
-pub(crate) mod asked;
 mod choices;
 mod columns;
 mod concern;
@@ -23,6 +22,7 @@ mod outline;
 mod print;
 pub(crate) mod reason;
 pub(crate) mod regime;
+pub(crate) mod requested;
 pub(crate) mod source;
 mod survey;
 pub(crate) mod tables;

@@ -1,5 +1,6 @@
 //! The interface laws of a deck on record batches: Arrow in, Arrow out.
 
+use crate::commands::evaluable::kept_rows;
 use crate::deck::Deck;
 use crate::error::Error;
 use crate::failure::Failure;
@@ -12,7 +13,7 @@ use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::evaluate::{Evaluation, RunFailure};
 use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::law::user::{UserConductance, UserLaw};
-use inpact_evaluation::nodes::{KeptRows, NodeReader, RecordBatches};
+use inpact_evaluation::nodes::{NodeReader, RecordBatches};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, concerning, make, survey_keeping};
 use inpact_evaluation::results::{Output, ResultRecords};
 use inpact_parser::model::{Name, Regime};
@@ -213,7 +214,7 @@ impl Deck {
         }
         let mut findings = Findings::new(TABLE);
         let reader = NodeReader::of_batches(schema, batches, &mut findings);
-        let mut rows = KeptRows::new(ROOM_FOR_ROWS, Box::new(|| Ok(Box::new(tempfile::tempfile()?))));
+        let mut rows = kept_rows();
         let surveyed = survey_keeping(reader, &self.model, choices, &mut findings, &mut rows);
         let surveyed = surveyed.map_err(|error| unreadable(&error))?;
         let mut found = self.judged(findings, "the table has errors")?;
@@ -299,7 +300,6 @@ impl Deck {
 }
 
 /// The number of bytes of the rows that stay in memory; the rest waits in a temporary file.
-const ROOM_FOR_ROWS: usize = 128 << 20;
 
 /// The name of a table in memory, in messages.
 const TABLE: &str = "<table>";

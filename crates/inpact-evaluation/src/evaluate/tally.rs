@@ -241,8 +241,8 @@ impl Tally {
                     let ends = [(count.below, axis.least, "below"), (count.above, axis.greatest, "above")];
                     for (rows, end, side) in ends.into_iter().filter(|(rows, ..)| *rows > 0) {
                         let Beyond { severity, help } = beyond(planned, table, axis.along, side);
-                        let words = Words { name: &interaction.name, what, against: planned.against };
-                        let message = words.message(axis.along, rows, side, end);
+                        let table = TableLabel { name: &interaction.name, what, against: planned.against };
+                        let message = table.message(axis.along, rows, side, end);
                         let place = Place { column: Some(axis.along.to_string()), ..Place::default() };
                         findings.report_as(severity, &BEYOND_TABLE, place, message, help);
                     }
@@ -279,13 +279,13 @@ fn beyond(planned: &TablePlan, table: usize, along: Along, side: &str) -> Beyond
 }
 
 /// The table that a message is about.
-struct Words<'a> {
+struct TableLabel<'a> {
     name: &'a Name,
     what: &'a str,
     against: Along,
 }
 
-impl Words<'_> {
+impl TableLabel<'_> {
     fn message(&self, along: Along, rows: u64, side: &str, end: f64) -> String {
         let Self { name, what, against } = self;
         let mut number = Vec::new();

@@ -74,10 +74,13 @@ impl KeptRows {
         }
         let file = match &mut self.spilled {
             Some(file) => file,
-            None => self.spilled.insert(BufWriter::with_capacity(BUFFER, (self.make_file)()?)),
+            None => {
+                let file = (self.make_file)().map_err(not_kept)?;
+                self.spilled.insert(BufWriter::with_capacity(BUFFER, file))
+            }
         };
         self.spilled_batches += 1;
-        spill::write(file, &batch)
+        spill::write(file, &batch).map_err(not_kept)
     }
 
     /// Goes through the rows, which stay kept.
@@ -121,6 +124,11 @@ impl KeptRows {
             numbers: selection.numbers.iter().map(|column| place(&self.selection.numbers, *column)).collect(),
         })
     }
+}
+
+/// An error that is not one of reading the table.
+fn not_kept(error: io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("a temporary file cannot hold its rows until they are evaluated: {error}"))
 }
 
 /// Kept rows on their way out.

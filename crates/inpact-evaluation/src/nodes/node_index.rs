@@ -5,7 +5,7 @@
 
 use std::collections::hash_map::RandomState;
 use std::collections::{HashMap, HashSet};
-use std::hash::BuildHasher;
+use std::hash::{BuildHasher, Hasher};
 
 /// Of so many nodes it is remembered that they were met; a table of more nodes must have ascending numbers for labels.
 const MOST_REMEMBERED: usize = 1 << 20;
@@ -26,9 +26,61 @@ pub enum HistoryOrder {
 #[derive(Debug, Clone, Default)]
 pub struct NodeIndex {
     order: HistoryOrder,
-    numbers: Vec<HashMap<Box<[u8]>, usize>>,
+    numbers: Vec<HashMap<Box<[u8]>, usize, LabelHash>>,
+    hash: LabelHash,
     count: usize,
     current: Option<(usize, Vec<u8>)>,
+}
+
+/// Hashes labels, which are short, eight bytes at a time; a key of chance keeps a table from being made of labels that collide.
+#[derive(Debug, Clone, Copy)]
+struct LabelHash {
+    key: u64,
+}
+
+/// A label on its way through [`LabelHash`].
+struct LabelHasher(u64);
+
+impl Default for LabelHash {
+    fn default() -> Self {
+        Self { key: RandomState::new().hash_one(0_u8) }
+    }
+}
+
+impl BuildHasher for LabelHash {
+    type Hasher = LabelHasher;
+
+    fn build_hasher(&self) -> LabelHasher {
+        LabelHasher(self.key)
+    }
+}
+
+impl LabelHasher {
+    /// Two rounds of the finaliser of splitmix64.
+    fn mix(&mut self, word: u64) {
+        let mixed = (self.0 ^ word).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 32)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        self.0 = mixed ^ (mixed >> 29);
+    }
+}
+
+impl Hasher for LabelHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        let (words, rest) = bytes.as_chunks();
+        for word in words {
+            self.mix(u64::from_le_bytes(*word));
+        }
+        let last = rest.iter().fold(rest.len() as u64, |last, byte| last << 8 | u64::from(*byte));
+        self.mix(last);
+    }
+
+    fn write_usize(&mut self, length: usize) {
+        self.mix(length as u64);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
 }
 
 /// Where the history of a row's node is kept.
@@ -88,7 +140,8 @@ impl NodeIndex {
     #[inline]
     pub fn number(&mut self, interaction: usize, label: &[u8]) -> usize {
         if interaction >= self.numbers.len() {
-            self.numbers.resize_with(interaction + 1, HashMap::new);
+            let hash = self.hash;
+            self.numbers.resize_with(interaction + 1, || HashMap::with_hasher(hash));
         }
         let label = label.trim_ascii();
         let numbers = &mut self.numbers[interaction];

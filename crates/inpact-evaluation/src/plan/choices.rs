@@ -48,7 +48,7 @@ impl Choices {
 
     /// Whether an output that fulfils a condition is asked for, by name or because all are.
     pub(crate) fn asks_where(&self, is_meant: impl Fn(&Output) -> bool) -> bool {
-        self.outputs.as_ref().is_none_or(|asked| asked.iter().any(is_meant))
+        self.outputs.as_ref().is_none_or(|requested| requested.iter().any(is_meant))
     }
 }
 

@@ -187,7 +187,7 @@ impl<'a> Uses<'a> {
             Column::ClearanceRate | Column::BulkPermeability(_) if self.has_pore && self.is_pore_steady => {
                 Reason::SteadyState
             }
-            Column::Potential(_) | Column::Area if self.choices.outputs.is_some() => Reason::NotAsked,
+            Column::Potential(_) | Column::Area if self.choices.outputs.is_some() => Reason::NotRequested,
             _ => Reason::NotNeeded,
         }
     }

@@ -1,10 +1,10 @@
 //! From a deck's model, a survey of a node table and the user's choices to the plan.
 
-use super::asked::keep_asked;
 use super::choices::{Choices, Derivatives};
 use super::columns::column_plans;
 use super::governing::GovernedBy;
 use super::reason::{LeftOut, Missing, Reason};
+use super::requested::keep_requested;
 use super::source::{Presence, cell};
 use super::survey::{InteractionSurvey, Survey, key_columns};
 use super::tables::{BuiltTables, InteractionTables, matters};
@@ -41,7 +41,7 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
     }
     give_status_by_law(&mut interactions, choices);
     for plan in &mut interactions {
-        keep_asked(plan, choices);
+        keep_requested(plan, choices);
     }
     let outputs: BTreeSet<Output> = interactions.iter().flat_map(|plan| plan.outputs.iter().copied()).collect();
     let selection = selection(survey, &interactions);
@@ -68,7 +68,7 @@ fn give_status_by_law(interactions: &mut [InteractionPlan], choices: &Choices) {
         laws.into_iter().filter(|(is_there, _)| *is_there).map(|(_, output)| output).collect::<Vec<_>>()
     };
     let are_several = interactions.iter().any(|plan| laws(plan).len() > 1);
-    let is_named = |output: &Output| choices.outputs.as_ref().is_some_and(|asked| asked.contains(output));
+    let is_named = |output: &Output| choices.outputs.as_ref().is_some_and(|requested| requested.contains(output));
     for plan in interactions {
         let given = laws(plan).into_iter().filter(|output| are_several || is_named(output));
         let with_status = plan.outputs.iter().copied().chain(given).collect::<BTreeSet<Output>>();

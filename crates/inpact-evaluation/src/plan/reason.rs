@@ -79,7 +79,7 @@ pub enum Reason {
     /// It has no number in any row that could use it.
     Empty,
     /// Other outputs were asked for by name.
-    NotAsked,
+    NotRequested,
     /// It has the same value in every row, and the tables are folded along it.
     Folded(f64),
 }
@@ -173,7 +173,7 @@ impl fmt::Display for Reason {
             Self::NoTableDepends => formatter.write_str("no table in use depends on it"),
             Self::NotNeeded => formatter.write_str("nothing that is evaluated needs it"),
             Self::SteadyState => formatter.write_str("steady state does not need it"),
-            Self::NotAsked => formatter.write_str("not asked for"),
+            Self::NotRequested => formatter.write_str("not asked for"),
             Self::Folded(value) => {
                 write!(formatter, "{} in every row, for which the tables are folded", number_text(*value))
             }

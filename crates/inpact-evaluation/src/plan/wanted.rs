@@ -1,8 +1,8 @@
 //! The columns of a node table that some law of a deck could use, before its rows are known.
 
-use super::asked::{OF_AREA, is_of_history};
 use super::choices::Choices;
 use super::governing::GovernedBy;
+use super::requested::{OF_AREA, is_of_history};
 use super::tables::{InteractionTables, matters};
 use crate::law::electrical::plan::{want_electrical, want_of_electrical_law};
 use crate::law::pore::plan::want_pore;

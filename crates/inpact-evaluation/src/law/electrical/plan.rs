@@ -3,11 +3,11 @@
 use crate::law::heat::HeatGeneration;
 use crate::law::user::plan::{UserPlan, plan_user};
 use crate::nodes::{Column, Part};
-use crate::plan::asked::{ELECTRICAL_FLOWS, SUMS_OF_HEAT};
 use crate::plan::folding::{fold_and_choose, table_plan};
 use crate::plan::make::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::regime::regime;
+use crate::plan::requested::{ELECTRICAL_FLOWS, SUMS_OF_HEAT};
 use crate::plan::source::{Source, whole_or_sides};
 use crate::plan::tables::{InteractionTables, electrical_axis, matters};
 use crate::plan::wanted::{columns_of, want_of_any_law, want_variables};

@@ -35,9 +35,9 @@ pub(crate) fn plan_radiation(planner: Planner<'_>, tables: &ThermalTables) -> Pl
         Some(Ok(law)) => law,
     };
     let contact = planner.contact();
-    let told_otherwise = contact.pressure.is_some() || contact.closed.is_some();
+    let is_known_otherwise = contact.pressure.is_some() || contact.closed.is_some();
     // In contact the view factor is that of zero clearance.
-    if !(told_otherwise && planner.never(planner.of.open))
+    if !(is_known_otherwise && planner.never(planner.of.open))
         && let Err(missing) = cell(Column::Clearance, |column| planner.presence(column))
     {
         return Planned::LeftOut(Reason::Missing(missing));

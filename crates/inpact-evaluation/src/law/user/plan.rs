@@ -59,7 +59,7 @@ pub(crate) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result
     let temperatures = pair(Along::Temperature)?;
     let field_variables: Vec<Source<Column>> =
         (1..).map_while(|number| pair(Along::FieldVariable(number)).ok()).collect();
-    note_fields_behind_a_gap(planner, field_variables.len(), notes);
+    note_fields_after_a_gap(planner, field_variables.len(), notes);
     let (others, lacking): (Vec<Column>, Vec<Column>) =
         with_default().partition(|column| presence(*column).has_numbers());
     note_defaults(planner, &lacking, notes);
@@ -79,16 +79,16 @@ fn sides_or_whole(columns: [Column; 3], planner: Planner<'_>) -> Result<Source<C
 }
 
 /// Field variables are numbered without gaps: what follows one is not handed over.
-fn note_fields_behind_a_gap(planner: Planner<'_>, count: usize, notes: &mut Vec<String>) {
-    let is_behind =
+fn note_fields_after_a_gap(planner: Planner<'_>, count: usize, notes: &mut Vec<String>) {
+    let is_after_gap =
         |column: &Column| matches!(column, Column::FieldVariable(number, _) if *number as usize > count + 1);
-    let behind: Vec<String> =
-        planner.survey.columns.iter().filter(|column| is_behind(column)).copied().map(quoted).collect();
-    if !behind.is_empty() {
+    let after_gap: Vec<String> =
+        planner.survey.columns.iter().filter(|column| is_after_gap(column)).copied().map(quoted).collect();
+    if !after_gap.is_empty() {
         notes.push(format!(
             "GAPELECTR is called with NPRED = {count}: field variable {} has no numbers, so {} cannot be handed over",
             count + 1,
-            behind.join(", ")
+            after_gap.join(", ")
         ));
     }
 }

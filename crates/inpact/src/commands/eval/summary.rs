@@ -214,7 +214,7 @@ fn said_in_plan(plan: &InteractionPlan) -> Vec<String> {
     });
     let notes = plan.notes.iter().map(|note| format!("note: {note}"));
     // An output that was not requested, and a table that no row reads, is no loss.
-    let is_lost = |reason: &Reason| !matches!(reason, Reason::NotAsked | Reason::NoRowClosed | Reason::NoRowOpen);
+    let is_lost = |reason: &Reason| !matches!(reason, Reason::NotRequested | Reason::NoRowClosed | Reason::NoRowOpen);
     let left_out = plan.left_out.iter().filter(|left_out| is_lost(&left_out.reason));
     let left_out = left_out.map(|left_out| format!("without {}: {}", left_out.what, left_out.reason));
     disputed.chain(notes).chain(left_out).collect()

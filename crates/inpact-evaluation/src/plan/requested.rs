@@ -112,40 +112,40 @@ fn is_of_electrical(output: &Output) -> bool {
 }
 
 /// Leaves out of the plan of an interaction what no output that is asked for needs.
-pub(crate) fn keep_asked(plan: &mut InteractionPlan, choices: &Choices) {
-    if let Some(asked) = &choices.outputs {
-        let dropped: Vec<Output> = plan.outputs.iter().copied().filter(|output| !asked.contains(output)).collect();
-        plan.outputs.retain(|output| asked.contains(output));
+pub(crate) fn keep_requested(plan: &mut InteractionPlan, choices: &Choices) {
+    if let Some(requested) = &choices.outputs {
+        let dropped: Vec<Output> = plan.outputs.iter().copied().filter(|output| !requested.contains(output)).collect();
+        plan.outputs.retain(|output| requested.contains(output));
         // What is left out for another reason and was not asked for needs no words.
         plan.left_out
-            .retain(|left| left.outputs.is_empty() || left.outputs.iter().any(|output| asked.contains(output)));
+            .retain(|left| left.outputs.is_empty() || left.outputs.iter().any(|output| requested.contains(output)));
         let has_status = plan.outputs.contains(&Output::Status);
         let has = |wanted: &[Output]| plan.outputs.iter().any(|output| wanted.contains(output));
         let needs_current = has(&SUMS_OF_HEAT) && plan.generates_by_current();
         let needs_thermal = plan.outputs.iter().any(is_of_thermal) || has(&OF_FRICTION);
         if plan.electrical.is_some() && !has_status && !needs_current && !plan.outputs.iter().any(is_of_electrical) {
             let cost = plan.electrical.iter().flat_map(|law| &law.tables).map(TablePlan::whole_cost).sum();
-            plan.dropped.push(Dropped::not_asked("electrical law", cost));
+            plan.dropped.push(Dropped::not_requested("electrical law", cost));
             plan.electrical = None;
-            plan.left_out.push(LeftOut::law("electrical law", Reason::NotAsked));
+            plan.left_out.push(LeftOut::law("electrical law", Reason::NotRequested));
         }
         if plan.thermal.is_some() && !has_status && !needs_thermal {
             let conduction = plan.thermal.iter().flat_map(|law| &law.conduction);
             let cost = conduction.flat_map(|part| &part.tables).map(TablePlan::whole_cost).sum();
-            plan.dropped.push(Dropped::not_asked("thermal law", cost));
+            plan.dropped.push(Dropped::not_requested("thermal law", cost));
             plan.thermal = None;
-            plan.left_out.push(LeftOut::law("thermal law", Reason::NotAsked));
+            plan.left_out.push(LeftOut::law("thermal law", Reason::NotRequested));
         }
         if plan.pore.is_some() && !has_status && !plan.outputs.iter().any(is_of_pore) {
             let cost = plan.pore.iter().flat_map(|law| &law.table).map(TablePlan::whole_cost).sum();
-            plan.dropped.push(Dropped::not_asked("pore fluid law", cost));
+            plan.dropped.push(Dropped::not_requested("pore fluid law", cost));
             plan.pore = None;
-            plan.left_out.push(LeftOut::law("pore fluid law", Reason::NotAsked));
+            plan.left_out.push(LeftOut::law("pore fluid law", Reason::NotRequested));
         }
         let names: Vec<String> = dropped.iter().map(|output| format!("`{output}`")).collect();
         if !names.is_empty() {
-            plan.dropped.push(Dropped::not_asked(&names.join(", "), cost_of(&dropped)));
-            plan.left_out.push(LeftOut { what: names.join(", "), outputs: dropped, reason: Reason::NotAsked });
+            plan.dropped.push(Dropped::not_requested(&names.join(", "), cost_of(&dropped)));
+            plan.left_out.push(LeftOut { what: names.join(", "), outputs: dropped, reason: Reason::NotRequested });
         }
     }
     let outputs = plan.outputs.clone();
@@ -161,7 +161,7 @@ pub(crate) fn keep_asked(plan: &mut InteractionPlan, choices: &Choices) {
         drop_from_pore(law, has);
     }
     if !plan.has_history() && plan.histories.take().is_some() {
-        plan.dropped.push(Dropped::not_asked("histories", KEEP_HISTORY));
+        plan.dropped.push(Dropped::not_requested("histories", KEEP_HISTORY));
     }
     drop_contact_columns(plan);
 }
@@ -240,8 +240,8 @@ fn drop_from_pore(law: &mut PorePlan, has: impl Fn(&[Output]) -> bool) {
 }
 
 impl Dropped {
-    fn not_asked(what: &str, cost: f64) -> Self {
-        Self { what: what.to_owned(), cost, reason: Reason::NotAsked }
+    fn not_requested(what: &str, cost: f64) -> Self {
+        Self { what: what.to_owned(), cost, reason: Reason::NotRequested }
     }
 }
 
