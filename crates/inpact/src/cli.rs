@@ -4,7 +4,7 @@
 //! Exit codes: 0 done, no errors found; 1 the deck or the data has errors; 2 wrong usage, or a file that cannot be read or written.
 //! A closed pipe (`inpact check … | head`) ends quietly with 0.
 
-use crate::{commands, failure};
+use crate::{commands, failure, files};
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -64,6 +64,7 @@ enum Command {
 /// assert_eq!(inpact::cli::run(["inpact", "--version"].map(Into::into)), ExitCode::SUCCESS);
 /// ```
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    files::remove_on_signals();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => return failure::report_usage(&error),

@@ -12,7 +12,7 @@ mod whole;
 
 pub(crate) use inputs::take_down_path as name_as_input;
 pub(crate) use result::{ResultFile, write_result};
-pub(crate) use temporary::remove_all as remove_temporary_files;
+pub(crate) use temporary::{remove_all as remove_temporary_files, remove_on_signals};
 pub(crate) use whole::{read_lines, read_text};
 
 use crate::failure::Failure;

@@ -4,11 +4,14 @@ use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::json::{self, View};
 use inpact_parser::model::{self, Model};
 
+/// The language that decks are written in where it can say them.
+pub(crate) const NEWEST: (Dialect, Release) = (Dialect::Abaqus, Release::NEWEST);
+
 /// The files that JSON says.
 pub(crate) struct Files {
     /// Their names and bytes; the deck itself first.
     pub(crate) files: Vec<(String, Vec<u8>)>,
-    /// The language that says it, where it is not the newest of Abaqus.
+    /// The language that the model view was written in; the lines of the syntax view are in whichever they are read in.
     pub(crate) language: Option<(Dialect, Release)>,
 }
 
@@ -21,7 +24,7 @@ pub(crate) fn files(text: &str) -> Result<Files, String> {
         View::Model => {
             let model = json::model::read(text).map_err(|error| error.to_string())?;
             let (deck, language) = print(&model)?;
-            Ok(Files { files: vec![("deck.inp".to_owned(), deck.into_bytes())], language })
+            Ok(Files { files: vec![("deck.inp".to_owned(), deck.into_bytes())], language: Some(language) })
         }
         View::Syntax => {
             let files = json::syntax::read(text, Grammar::builtin()).map_err(|error| error.to_string())?;
@@ -33,15 +36,15 @@ pub(crate) fn files(text: &str) -> Result<Files, String> {
 /// The deck that says this in Abaqus' newest language; where none does, in the one that the JSON was read in.
 ///
 /// Before release 2024 integers divide as integers (S-60), and CalculiX has other columns.
-fn print(model: &Model) -> Result<(String, Option<(Dialect, Release)>), String> {
+fn print(model: &Model) -> Result<(String, (Dialect, Release)), String> {
     let newest = match model::print(model, Grammar::builtin()) {
-        Ok(deck) => return Ok((deck, None)),
+        Ok(deck) => return Ok((deck, NEWEST)),
         Err(error) => error.to_string(),
     };
     let others = [(Dialect::Abaqus, Release::R2022), (Dialect::Calculix, Release::NEWEST)];
     let deck = others.into_iter().find_map(|(dialect, release)| {
         let deck = model::print(model, &Grammar::new(dialect, release)).ok()?;
-        Some((deck, Some((dialect, release))))
+        Some((deck, (dialect, release)))
     });
     deck.ok_or(newest)
 }

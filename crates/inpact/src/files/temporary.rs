@@ -7,6 +7,7 @@
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The prefix of the names of temporary files.
@@ -40,10 +41,22 @@ pub(crate) struct Temporary {
     is_there: bool,
 }
 
+/// Whether the process is ours, and with it its signals.
+static OWNS_PROCESS: AtomicBool = AtomicBool::new(false);
+
+/// From now on temporary files are removed when a signal ends the program: for the command line.
+///
+/// A program that uses the library has its own way with signals, such as Python's with Ctrl-C.
+pub(crate) fn remove_on_signals() {
+    OWNS_PROCESS.store(true, Ordering::Relaxed);
+}
+
 impl Temporary {
     /// Makes an empty file in `folder`, open for writing.
     pub(super) fn create(folder: &Path, access: Access) -> io::Result<(Self, File)> {
-        signals::watch();
+        if OWNS_PROCESS.load(Ordering::Relaxed) {
+            signals::watch();
+        }
         // A routine of the user may change the working folder.
         let folder = std::path::absolute(folder)?;
         let mut builder = tempfile::Builder::new();
