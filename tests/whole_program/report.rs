@@ -216,6 +216,7 @@ fn results_of_a_job_are_taken_instead_of_a_node_table() {
     assert_eq!(run.code, 0, "{}", run.errors);
     check_page(&run.output);
     assert!(run.output.contains("HFLA of I, over all nodes"), "no history");
+    assert!(run.output.contains("HFL on 1 face at time 2, from "), "no coloured interface");
     assert!(run.output.contains("<td class=\"text\">job.frd</td>"), "no hash of the results");
     // The sums of `eval`, which prints the rows.
     let table = folder.inpact(&[&["eval"], &options[..], &["--outputs", "HFLA"]].concat());

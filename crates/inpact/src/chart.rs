@@ -10,6 +10,7 @@ pub(crate) mod panel;
 pub(crate) mod png;
 pub(crate) mod scale;
 pub(crate) mod sheet;
+pub(crate) mod surface;
 mod svg;
 pub(crate) mod terminal;
 

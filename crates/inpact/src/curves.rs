@@ -12,16 +12,18 @@ mod law;
 mod marks;
 mod node_rows;
 mod probe;
+mod request;
 mod rows;
 mod sample;
 mod units;
 
-pub use build::{Detail, HeldPlace, Probing, Request, figure, figures};
+pub use build::{figure, figures};
 pub use changes::changes;
 pub use law::LawKind;
 pub use marks::{Mark, mark_findings};
 pub use node_rows::{NodeRows, NodeSample};
 pub use probe::{Probe, ProbeAxis, ProbeBranch};
+pub use request::{Detail, HeldPlace, Probing, Request};
 pub use units::{Units, UnitsError};
 
 /// The drawing of one deck.

@@ -11,6 +11,7 @@ mod page;
 
 pub(crate) use inputs::Input;
 
+use crate::chart::surface::Surface;
 use crate::curves::Figure;
 use crate::deck::Deck;
 use crate::render::Format;
@@ -41,6 +42,8 @@ pub(crate) struct Evaluation {
     pub(crate) summary: Vec<String>,
     /// Sums over the nodes of an interface at each time.
     pub(crate) histories: Vec<History>,
+    /// The interfaces in the colours of results, where their geometry is known.
+    pub(crate) surfaces: Vec<Surface>,
 }
 
 /// What an output adds up to over the nodes of an interface, time by time.
@@ -173,6 +176,7 @@ impl Report<'_> {
         page.element("h2", &[("id", "results")], "Results");
         page.element("p", &[], &format!("Of the node table {}:", evaluation.nodes));
         page.element("pre", &[("tabindex", "0")], &evaluation.summary.join("\n"));
+        charts::surfaces(page, &evaluation.surfaces);
         charts::histories(page, &evaluation.histories);
     }
 

@@ -134,6 +134,21 @@ impl Drawing {
         self.add(&format!(r#"<circle cx="{}" cy="{}" r="2" {look}/>"#, short(x), short(y)));
     }
 
+    /// A face of a surface; of fewer than three corners a line or a point.
+    pub(super) fn face(&mut self, corners: &[(f64, f64)], colour: &str) {
+        match corners {
+            [] => {}
+            [(x, y)] => self.add(&format!(r#"<circle cx="{}" cy="{}" r="4" fill="{colour}"/>"#, short(*x), short(*y))),
+            [_, _] => self.polyline(corners, &format!(r#"fill="none" stroke="{colour}" stroke-width="5""#)),
+            _ => {
+                let corners: Vec<String> =
+                    corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect();
+                let look = format!(r##"fill="{colour}" stroke="#ffffff" stroke-width="0.5""##);
+                self.add(&format!(r#"<polygon points="{}" {look}/>"#, corners.join(" ")));
+            }
+        }
+    }
+
     /// A bar of a histogram.
     pub(super) fn bar(&mut self, at: (f64, f64), size: (f64, f64)) {
         self.rectangle(at, size, r##"fill="#7b8794" fill-opacity="0.45""##);

@@ -1,6 +1,8 @@
 //! What an evaluation of a node table tells of curves and interfaces: where its rows are, and what they add up to time by time. For `plot` and `report`.
 
 use super::evaluable::{Evaluable, EvaluableArguments};
+use super::picture::Drawn;
+use crate::chart::surface::Surface;
 use crate::curves::{Figure, HeldPlace, LawKind, NodeRows, NodeSample, Side};
 use crate::failure::Failure;
 use crate::report::History;
@@ -10,10 +12,14 @@ use inpact_evaluation::nodes::{Batch, Column, Findings, Selection};
 use inpact_evaluation::numbers::UnboundedSum;
 use inpact_evaluation::plan::{Plan, RowInteractions};
 use inpact_evaluation::results::{Output, ResultBatch, Status};
+use inpact_results::vtu::{Cell, CellKind};
 use std::collections::{BTreeMap, HashMap};
 
 /// About how many rows are drawn.
 const SAMPLE: u64 = 3000;
+
+/// The most faces of interfaces that are drawn.
+const MOST_FACES: usize = 4000;
 
 /// The most times of which sums are kept.
 const MOST_TIMES: usize = 20_000;
@@ -31,6 +37,8 @@ pub(crate) struct Gathered {
     rows: HashMap<(usize, LawKind), NodeRows>,
     /// Sums over the nodes of each interface.
     pub(crate) histories: Vec<History>,
+    /// The interfaces in the colours of results, at the last state; empty where their geometry is not known.
+    pub(crate) surfaces: Vec<Surface>,
     pub(crate) tally: Tally,
     pub(crate) findings: Findings,
 }
@@ -45,7 +53,7 @@ type Sums = BTreeMap<(usize, usize, u64), (Option<f64>, UnboundedSum)>;
 pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) -> Result<Gathered, Failure> {
     let path = arguments.nodes_path();
     let unreadable = |error| Failure::read(path, error);
-    let Evaluable { model, plan, choices, nodes_name, rows, .. } = evaluable;
+    let Evaluable { model, plan, choices, nodes_name, rows, made, .. } = evaluable;
     // A column with one value is folded away, and still says where its rows are.
     let mut selection = plan.selection.clone();
     let located = [Column::Clearance, Column::Pressure, Column::Closed, Column::Time];
@@ -59,9 +67,13 @@ pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) 
     let step = plan.rows.div_ceil(SAMPLE).max(1);
     let mut rows: HashMap<(usize, LawKind), NodeRows> = HashMap::new();
     let mut sums = Sums::new();
+    let mut coloured: Vec<(Output, usize, Vec<f64>)> = made.iter().flat_map(|_| Places::coloured(plan)).collect();
     while let Some(mut batch) = given.next_batch().map_err(unreadable)? {
         plan.name_rows(&mut batch);
         evaluation.evaluate(&batch, &mut results);
+        for (_, place, values) in &mut coloured {
+            values.extend((0..batch.rows).map(|row| results.numbers[*place].get(row).unwrap_or(f64::NAN)));
+        }
         for row in 0..batch.rows {
             let Some(interaction) = interactions.of_row(&batch, row) else { continue };
             let is_drawn = (batch.first_row + row as u64).is_multiple_of(step);
@@ -82,7 +94,8 @@ pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) 
         });
         history.points.push((time, sum.total()));
     }
-    Ok(Gathered { rows, histories: histories.into_values().collect(), tally, findings })
+    let surfaces = made.iter().flat_map(|made| surfaces(&made.drawn, &coloured)).collect();
+    Ok(Gathered { rows, surfaces, histories: histories.into_values().collect(), tally, findings })
 }
 
 impl Gathered {
@@ -111,6 +124,39 @@ impl Gathered {
     }
 }
 
+/// The faces of the last state in the colours of their results.
+fn surfaces(drawn: &Drawn, coloured: &[(Output, usize, Vec<f64>)]) -> Vec<Surface> {
+    let Some(state) = drawn.states.last() else { return Vec::new() };
+    let grid = drawn.faces.grid(state, Vec::new());
+    if MOST_FACES < grid.cells.len() {
+        return Vec::new();
+    }
+    let first = (drawn.states.len() - 1) * drawn.faces.points();
+    let directions = Surface::directions(&grid.points);
+    let surface = |(output, _, values): &(Output, usize, Vec<f64>)| {
+        let values = values.get(first..first + drawn.faces.points())?;
+        let face = |cell: &Cell| {
+            // Corners come before the nodes between them.
+            let corners = match cell.kind {
+                CellKind::QuadraticTriangle => 3,
+                CellKind::QuadraticQuadrilateral => 4,
+                CellKind::QuadraticLine => 2,
+                _ => cell.points.len(),
+            };
+            let place = |point: &usize| directions.map(|axis| grid.points[*point][axis]);
+            let known = cell.points.iter().map(|point| values[*point]).filter(|value| value.is_finite());
+            let count = known.clone().count();
+            // Shares first: a sum of large values may have no number.
+            let mean: f64 = known.map(|value| value / count as f64).sum();
+            (0 < count).then(|| (cell.points.iter().take(corners).map(place).collect(), mean))
+        };
+        let faces: Vec<_> = grid.cells.iter().filter_map(face).collect();
+        let (output, time) = (output.to_string(), state.moment.time);
+        (!faces.is_empty()).then_some(Surface { output, time, directions, faces })
+    };
+    coloured.iter().filter_map(surface).collect()
+}
+
 /// Where batches and results have what is drawn.
 struct Places {
     clearance: Option<usize>,
@@ -137,6 +183,13 @@ impl Places {
             laws: LAWS.into_iter().filter_map(|(law, of)| Some((law, output(of)?))).collect(),
             summed: outputs.filter(|(_, output)| is_summed(output)).map(|(place, output)| (output, place)).collect(),
         }
+    }
+
+    /// The results that colour interfaces: those per area.
+    fn coloured(plan: &Plan) -> Vec<(Output, usize, Vec<f64>)> {
+        let outputs = plan.outputs.iter().copied().enumerate();
+        let is_coloured = |output: &Output| matches!(output, Output::Ecd | Output::Hfl | Output::Pfl);
+        outputs.filter(|(_, output)| is_coloured(output)).map(|(place, output)| (output, place, Vec::new())).collect()
     }
 
     fn take_point(

@@ -105,10 +105,17 @@ impl Evaluated {
                 plan,
                 summary: summary_lines(&gathered.tally, &self.prepared.plan),
                 histories: std::mem::take(&mut gathered.histories),
+                surfaces: std::mem::take(&mut gathered.surfaces),
             },
             None => {
                 let nothing = "The deck is wrong where the node table needs it: nothing was evaluated.";
-                Evaluation { nodes, plan, summary: vec![nothing.to_owned()], histories: Vec::new() }
+                Evaluation {
+                    nodes,
+                    plan,
+                    summary: vec![nothing.to_owned()],
+                    histories: Vec::new(),
+                    surfaces: Vec::new(),
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! On linear axes a curve is straight between the abscissae of its rows, so that these would do; logarithmic axes, and readers who point at a curve, want more of them.
 
-use super::build::Detail;
+use super::request::Detail;
 use super::rows::Rows;
 use super::{Knot, Sample};
 use std::ops::Range;

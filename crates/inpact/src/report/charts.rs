@@ -4,6 +4,7 @@ use super::History;
 use super::page::Page;
 use crate::chart::panel::Scales;
 use crate::chart::sheet;
+use crate::chart::surface::Surface;
 use crate::curves::{Curve, Panel, Reach, Side, number};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -116,6 +117,17 @@ fn values(curve: &Curve, side: Side, abscissae: &[f64]) -> Value {
     let knots: Vec<f64> = branch.knots.iter().map(|knot| knot.x + 0.0).collect();
     let rows: Vec<usize> = branch.knots.iter().map(|knot| knot.row).collect();
     json!({"y": y, "continued": continued, "knots": knots, "rows": rows})
+}
+
+/// The interfaces in space, a drawing a result.
+pub(super) fn surfaces(page: &mut Page, surfaces: &[Surface]) {
+    for surface in surfaces {
+        page.element("h3", &[], &format!("{} on the interfaces", surface.output));
+        page.open("figure", &[("class", "law")]);
+        page.drawing(&surface.svg());
+        page.element("figcaption", &[("class", "quiet")], &surface.description());
+        page.close("figure");
+    }
 }
 
 /// Sums over interfaces: a drawing of those with several times, a table of all.
