@@ -299,8 +299,6 @@ impl Deck {
     }
 }
 
-/// The number of bytes of the rows that stay in memory; the rest waits in a temporary file.
-
 /// The name of a table in memory, in messages.
 const TABLE: &str = "<table>";
 

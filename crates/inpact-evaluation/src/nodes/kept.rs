@@ -75,12 +75,12 @@ impl KeptRows {
         let file = match &mut self.spilled {
             Some(file) => file,
             None => {
-                let file = (self.make_file)().map_err(not_kept)?;
+                let file = (self.make_file)().map_err(|error| not_kept(&error))?;
                 self.spilled.insert(BufWriter::with_capacity(BUFFER, file))
             }
         };
         self.spilled_batches += 1;
-        spill::write(file, &batch).map_err(not_kept)
+        spill::write(file, &batch).map_err(|error| not_kept(&error))
     }
 
     /// Goes through the rows, which stay kept.
@@ -127,7 +127,7 @@ impl KeptRows {
 }
 
 /// An error that is not one of reading the table.
-fn not_kept(error: io::Error) -> io::Error {
+fn not_kept(error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("a temporary file cannot hold its rows until they are evaluated: {error}"))
 }
 
