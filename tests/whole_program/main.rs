@@ -24,6 +24,7 @@ mod fmt;
 mod folders;
 mod formats;
 mod growth;
+mod heat_balance;
 mod hooks;
 mod includes;
 mod json;
