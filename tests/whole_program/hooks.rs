@@ -33,6 +33,7 @@ fn git(folder: &Path, arguments: &[&str]) -> String {
 #[cfg(unix)]
 #[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that nothing was tried")]
 #[test]
+#[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that no hook was run")]
 fn pre_commit_runs_them() {
     let Some(program) = std::env::var_os("INPACT_PRE_COMMIT").map(PathBuf::from) else {
         assert!(std::env::var_os("INPACT_REQUIRE_PRE_COMMIT").is_none(), "`INPACT_PRE_COMMIT` names no program");

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use inpact_bench::deck::{self, Content, DeckRequest};
+use inpact_bench::editing;
 use inpact_bench::extremes;
 use inpact_bench::mesh;
 use inpact_bench::network::grid::{Assembled, Grid};
@@ -61,6 +62,14 @@ enum Command {
     Extremes,
     /// Print the page of networks: how exact their solvers are at all contrasts (docs/network.md).
     Network,
+    /// Print the page of speed in editors: the latency of the language server of a program (docs/editor-speed.md).
+    Editing {
+        /// The program `inpact`, built for release.
+        program: PathBuf,
+        /// Rounds of each measurement; a quarter of them for the largest deck.
+        #[arg(long, default_value_t = 200, value_parser = at_least::<1>)]
+        rounds: usize,
+    },
     /// Solve a grid of nodes with one interface, and print times, memory and quality as JSON.
     Grid {
         #[command(flatten)]
@@ -196,6 +205,9 @@ fn run(command: Command) -> io::Result<()> {
         }
         Command::Extremes => io::stdout().lock().write_all(extremes::page().as_bytes()),
         Command::Network => io::stdout().lock().write_all(accuracy::page().as_bytes()),
+        Command::Editing { program, rounds } => {
+            io::stdout().lock().write_all(editing::page(&program, rounds)?.as_bytes())
+        }
         Command::Grid { grid, solver, tolerance, rounds } => {
             let line = run::run(grid.grid(), solver.method(), tolerance, rounds);
             let line = line.map_err(|failure| io::Error::other(format!("not solved: {failure:?}")))?;

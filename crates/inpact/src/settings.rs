@@ -275,6 +275,7 @@ impl Settings {
     }
 }
 
+#[cfg(feature = "server")]
 impl Settings {
     /// The settings where nothing says anything.
     pub(crate) fn unconfigured(overlay: Overlay) -> Self {
