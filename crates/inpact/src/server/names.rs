@@ -322,14 +322,12 @@ pub(super) fn at(view: View<'_>, offset: u64) -> Option<Occurrence> {
     let whole = Name::in_dialect(&String::from_utf8_lossy(&text), dialect);
     let part = Name::in_dialect(&part, dialect);
     let candidates = [(whole, span), (part, part_span)];
-    let is_defined =
-        |kind: Kind, name: &Name| occurrences(view, kind, name).into_iter().any(|occurrence| occurrence.is_definition);
     let guess = meaning.kinds.len() > 1;
     if !is_name {
         return None;
     }
     for (name, span) in &candidates {
-        let kind = meaning.kinds.iter().find(|kind| meaning.is_definition || is_defined(**kind, name));
+        let kind = meaning.kinds.iter().find(|kind| meaning.is_definition || is_defined(view, **kind, name));
         if let Some(kind) = kind {
             let (name, scope) = (name.clone(), String::new());
             return Some(Occurrence {
@@ -346,6 +344,18 @@ pub(super) fn at(view: View<'_>, offset: u64) -> Option<Occurrence> {
     let (name, span) = candidates.into_iter().next()?;
     let kind = (!guess).then_some(meaning.kinds[0])?;
     Some(Occurrence { kind, name, span, is_definition: false, is_guess: false, scope: String::new() })
+}
+
+/// Whether the deck defines something of that kind by that name; looks at keyword lines alone.
+fn is_defined(view: View<'_>, kind: Kind, name: &Name) -> bool {
+    let dialect = view.analysis.settings.grammar.dialect();
+    let mut is_defined = false;
+    visit(view, &[], |meaning, _, text, _, _| {
+        is_defined |= meaning.is_definition
+            && meaning.kinds.contains(&kind)
+            && Name::in_dialect(&String::from_utf8_lossy(text), dialect) == *name;
+    });
+    is_defined
 }
 
 fn of_parameter(name: &str, span: Span) -> Occurrence {

@@ -215,9 +215,12 @@ impl Workspace {
         Analysis::of(analysis.place(SourceId::ROOT), &self.options_with_texts().dialect(dialect))
     }
 
-    /// Forgets the files that are not what they were.
+    /// Forgets the files that are not what they were, and reads the decks again that include them.
     fn refresh_files(&mut self) {
-        self.files.retain(|place, file| Stamp::of(place) == Some(file.stamp));
+        let is_other = |(place, file): &(&PathBuf, &FileOnDisk)| Stamp::of(place) != Some(file.stamp);
+        let changed: Vec<PathBuf> = self.files.iter().filter(is_other).map(|(place, _)| place.clone()).collect();
+        self.files.retain(|place, _| !changed.contains(place));
+        self.files_changed(&changed);
     }
 
     /// Keeps the files that a deck includes, so that they are not read at every keystroke.
