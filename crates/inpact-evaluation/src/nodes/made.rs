@@ -59,7 +59,9 @@ impl<'a> MadeReader<'a> {
         batch.rows = rows.len();
         for (to, from) in batch.labels.iter_mut().zip(&self.labels) {
             let column = self.current.labels.get(*from);
-            rows.clone().for_each(|row| to.push(column.map_or(&b""[..], |column| column.get(row))));
+            for row in rows.clone() {
+                to.push(column.map_or(&b""[..], |column| column.get(row)));
+            }
         }
         for (to, from) in batch.numbers.iter_mut().zip(&self.numbers) {
             // A time is a text that is passed through and a number that is computed with.

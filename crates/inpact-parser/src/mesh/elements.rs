@@ -166,11 +166,7 @@ impl Reader<'_, '_> {
                 }
             }
             if let Some(free) = free {
-                let mut ids = [NodeId(0); MAX_ELEMENT_NODES];
-                ids.iter_mut().zip(nodes).for_each(|(id, node)| *id = NodeId(*node));
-                let is_wanted =
-                    picked && picks.iter().any(|pick| pick.face.is_none() && pick.elements.contains(element, key));
-                free.meet(element, is_wanted, kind.shape, &ids[..nodes.len().min(MAX_ELEMENT_NODES)]);
+                free.meet(element, picked && is_wanted(picks, element, key), kind.shape, nodes);
             }
             row.clear();
         })?;
@@ -229,7 +225,12 @@ struct Free {
 
 impl Free {
     /// Takes an element of the last option.
-    fn meet(&mut self, element: u32, is_wanted: bool, shape: ElementShape, nodes: &[NodeId]) {
+    fn meet(&mut self, element: u32, is_wanted: bool, shape: ElementShape, numbers: &[u32]) {
+        let mut nodes = [NodeId(0); MAX_ELEMENT_NODES];
+        for (node, number) in nodes.iter_mut().zip(numbers) {
+            *node = NodeId(*number);
+        }
+        let nodes = &nodes[..numbers.len().min(MAX_ELEMENT_NODES)];
         if is_wanted {
             let option = self.options.len().saturating_sub(1) as u64;
             self.faces.add(option << 32 | u64::from(element), shape, nodes);
@@ -260,9 +261,17 @@ impl Free {
                 found[place].1.elements.labels.add(element);
             }
         }
-        found.iter_mut().for_each(|(_, pick)| pick.elements.labels.sort());
-        found.into_iter().map(|(_, pick)| pick).collect()
+        let sorted = |(_, mut pick): (usize, Pick)| {
+            pick.elements.labels.sort();
+            pick
+        };
+        found.into_iter().map(sorted).collect()
     }
+}
+
+/// Whether the free faces of an element are picked.
+fn is_wanted(picks: &[&Pick], element: u32, option: Span) -> bool {
+    picks.iter().any(|pick| pick.face.is_none() && pick.elements.contains(element, option))
 }
 
 /// Whether a line is a whole row by itself, of an element that is in no pick.
