@@ -278,6 +278,7 @@ impl Settings {
 #[cfg(feature = "server")]
 impl Settings {
     /// The settings where nothing says anything.
+    #[cfg(feature = "server")]
     pub(crate) fn unconfigured(overlay: Overlay) -> Self {
         Self {
             grammar: Grammar::builtin(),
