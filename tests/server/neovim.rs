@@ -16,7 +16,6 @@ const PAIRS: &str = "*CONTACT PAIR, INTERACTION=joint\nA, A\n";
 
 #[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that there was no editor")]
 #[test]
-#[expect(clippy::print_stderr, reason = "whoever runs the tests must learn that there was no editor")]
 fn neovim_attaches_mends_renames_and_formats() {
     if Command::new("nvim").arg("--version").output().is_err() {
         assert!(std::env::var_os("INPACT_REQUIRE_NVIM").is_none(), "nvim is not installed");
