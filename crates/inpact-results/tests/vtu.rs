@@ -135,7 +135,7 @@ fn every_other_thing_is_a_problem_with_what_to_do() {
         ("format=\"ascii\" RangeMin", "format=\"appended\" offset=\"0\" RangeMin", "no raw bytes"),
         ("byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order", "vtkLZ4DataCompressor"),
         (">0 1 2<", ">0 1 3<", "point that is not there"),
-        (">3<", ">4<", "offset 4"),
+        (">3<", ">4<", "expected an offset from 0 to 3, found 4"),
         ("1.5 2 3e-1", "1.5 2", "expected 1 numbers for each of 3, found 2"),
         ("1.5 2 3e-1", "1.5 2 x", "found `x`"),
         ("</VTKFile>", "", "ends before `</VTKFile>`"),

@@ -262,7 +262,8 @@ impl Reader<'_> {
         for (offset, kind) in self.offsets.iter().zip(&self.types) {
             let end = usize::try_from(*offset).ok();
             let Some(of_cell) = end.and_then(|end| self.connectivity.get(begin..end)) else {
-                return Err(wrong(format!("expected an offset after {begin}, found {offset}")));
+                let end = self.connectivity.len();
+                return Err(wrong(format!("expected an offset from {begin} to {end}, found {offset}")));
             };
             begin += of_cell.len();
             let kind = u8::try_from(*kind).map_err(|_| wrong(format!("{kind} is no type")))?;
