@@ -67,7 +67,11 @@ impl LabelColumn {
 
     /// A column of texts that stand one after the other and end there.
     pub(super) fn from_texts(bytes: Vec<u8>, ends: Vec<usize>) -> Self {
-        Self { texts: Texts { bytes, ends }, ..Self::default() }
+        Self {
+            texts: Texts { bytes, ends },
+            #[cfg(feature = "columnar")]
+            array: None,
+        }
     }
 
     /// The texts one after the other, and where each ends.
