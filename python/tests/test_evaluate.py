@@ -197,7 +197,15 @@ def test_progress():
         inpact.evaluate(inpact.parse(JOINT), large(200_000), progress=stop)
 
 
-def test_ctrl_c_stops():
+@pytest.fixture
+def interruptible():
+    """Ctrl-C as a terminal has it: a shell's background job begins with SIGINT ignored, and Python leaves it so."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_stops(interruptible: None):
     deck, table = inpact.parse(JOINT), large(1_000_000)
     start = time.perf_counter()
     timer = threading.Timer(0.1, signal.raise_signal, [signal.SIGINT])
