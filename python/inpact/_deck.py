@@ -63,20 +63,8 @@ def read(
     ValueError
         For a configuration or an argument that says what it cannot say.
     """
-    folders = [os.fspath(folder) for folder in include_dirs]
-    return Deck(
-        _inpact.read(
-            os.fspath(path),
-            dialect,
-            release,
-            folders,
-            include_root,
-            relative_to,
-            config,
-            isolated,
-            keep_everything,
-        )
-    )
+    reading = _inpact.Reading(dialect, release, include_dirs, include_root, relative_to, config, isolated)
+    return Deck(_inpact.read(os.fspath(path), reading, keep_everything))
 
 
 def parse(
@@ -110,10 +98,8 @@ def parse(
     a.inp:1:1: error[K006] `*SURFACE INTERACTION` lacks its parameter `NAME`
     """
     content = text.encode() if isinstance(text, str) else bytes(text)
-    folders = [os.fspath(folder) for folder in include_dirs]
-    return Deck(
-        _inpact.parse(content, os.fspath(name), dialect, release, folders, include_root, relative_to, config, isolated)
-    )
+    reading = _inpact.Reading(dialect, release, include_dirs, include_root, relative_to, config, isolated)
+    return Deck(_inpact.parse(content, os.fspath(name), reading))
 
 
 def from_dict(document: Mapping[str, Any], *, dialect: Dialect | None = None, release: str | None = None) -> Deck:
@@ -141,7 +127,7 @@ def from_dict(document: Mapping[str, Any], *, dialect: Dialect | None = None, re
 
 def from_json(text: str, *, dialect: Dialect | None = None, release: str | None = None) -> Deck:
     """Make a deck from JSON of ``inpact json``, either view, as `from_dict` does."""
-    return Deck(_inpact.from_json(text, dialect, release))
+    return Deck(_inpact.from_json(text, _inpact.Reading(dialect, release, isolated=True)))
 
 
 class Deck:

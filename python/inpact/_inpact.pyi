@@ -1,7 +1,7 @@
 """What the compiled module has; the package around it is what users see."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -165,40 +165,36 @@ class Solution:
     def flat_values(self, field: str) -> _Floats: ...
     def flat_flows(self, field: str) -> _Floats: ...
 
+class Reading:
+    """How a deck is read."""
+
+    def __init__(
+        self,
+        dialect: str | None = None,
+        release: str | None = None,
+        include_dirs: Sequence[_Path] = (),
+        include_root: _Path | None = None,
+        relative_to: str | None = None,
+        config: _Path | None = None,
+        isolated: bool = False,
+    ) -> None: ...
+
 def read(
     path: _Path,
-    dialect: str | None,
-    release: str | None,
-    include_dirs: list[str],
-    include_root: _Path | None,
-    relative_to: str | None,
-    config: _Path | None,
-    isolated: bool,
+    reading: Reading,
     keep_everything: bool,
 ) -> Deck: ...
 def parse(
     text: bytes,
     name: _Path,
-    dialect: str | None,
-    release: str | None,
-    include_dirs: list[str],
-    include_root: _Path | None,
-    relative_to: str | None,
-    config: _Path | None,
-    isolated: bool,
+    reading: Reading,
 ) -> Deck: ...
-def from_json(json: str, dialect: str | None, release: str | None) -> Deck: ...
+def from_json(json: str, reading: Reading) -> Deck: ...
 def solve(
     path: _Path,
     solver: str,
     tolerance: float | None,
-    dialect: str | None,
-    release: str | None,
-    include_dirs: list[str],
-    include_root: _Path | None,
-    relative_to: str | None,
-    config: _Path | None,
-    isolated: bool,
+    reading: Reading,
     progress: Callable[[int], object] | None,
 ) -> Solution: ...
 def explain(what: str) -> str:

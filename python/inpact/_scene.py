@@ -53,22 +53,8 @@ def solve(
     DeckError
         For a scene or a deck with errors, and for a scene without a solution.
     """
-    folders = [os.fspath(folder) for folder in include_dirs]
-    return Solution(
-        _inpact.solve(
-            os.fspath(path),
-            solver,
-            tolerance,
-            dialect,
-            release,
-            folders,
-            include_root,
-            relative_to,
-            config,
-            isolated,
-            progress,
-        )
-    )
+    reading = _inpact.Reading(dialect, release, include_dirs, include_root, relative_to, config, isolated)
+    return Solution(_inpact.solve(os.fspath(path), solver, tolerance, reading, progress))
 
 
 class Solution:

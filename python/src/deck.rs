@@ -4,7 +4,7 @@ use crate::errors::raise;
 use crate::evaluate::Result;
 use crate::findings::Finding;
 use crate::laws::GapConductance;
-use crate::options::{one_of, read_options};
+use crate::options::{Reading, one_of};
 use inpact::{Dialect, Fixes, Format};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -29,48 +29,26 @@ fn deck_of(py: Python<'_>, read: std::result::Result<inpact::Deck, inpact::Error
 
 /// Reads a deck from a file.
 #[pyfunction]
-#[pyo3(signature = (path, dialect, release, include_dirs, include_root, relative_to, config, isolated, keep_everything))]
-pub(crate) fn read(
-    py: Python<'_>,
-    path: PathBuf,
-    dialect: Option<&str>,
-    release: Option<&str>,
-    include_dirs: Vec<PathBuf>,
-    include_root: Option<PathBuf>,
-    relative_to: Option<&str>,
-    config: Option<PathBuf>,
-    isolated: bool,
-    keep_everything: bool,
-) -> PyResult<Deck> {
-    let options = read_options(dialect, release, include_dirs, include_root, relative_to, config, isolated)?;
+#[pyo3(signature = (path, reading, keep_everything))]
+pub(crate) fn read(py: Python<'_>, path: PathBuf, reading: &Reading, keep_everything: bool) -> PyResult<Deck> {
+    let options = reading.0.clone();
     let options = if keep_everything { options.keep_everything() } else { options };
     deck_of(py, py.detach(|| inpact::Deck::read(&path, &options)))
 }
 
 /// Reads a deck from a text.
 #[pyfunction]
-#[pyo3(signature = (text, name, dialect, release, include_dirs, include_root, relative_to, config, isolated))]
-pub(crate) fn parse(
-    py: Python<'_>,
-    text: Vec<u8>,
-    name: PathBuf,
-    dialect: Option<&str>,
-    release: Option<&str>,
-    include_dirs: Vec<PathBuf>,
-    include_root: Option<PathBuf>,
-    relative_to: Option<&str>,
-    config: Option<PathBuf>,
-    isolated: bool,
-) -> PyResult<Deck> {
-    let options = read_options(dialect, release, include_dirs, include_root, relative_to, config, isolated)?;
-    deck_of(py, py.detach(|| inpact::Deck::parse(&name, text, &options.keep_everything())))
+#[pyo3(signature = (text, name, reading))]
+pub(crate) fn parse(py: Python<'_>, text: Vec<u8>, name: PathBuf, reading: &Reading) -> PyResult<Deck> {
+    let options = reading.0.clone().keep_everything();
+    deck_of(py, py.detach(|| inpact::Deck::parse(&name, text, &options)))
 }
 
 /// Makes a deck from JSON, either view.
 #[pyfunction]
-#[pyo3(signature = (json, dialect, release))]
-pub(crate) fn from_json(py: Python<'_>, json: &str, dialect: Option<&str>, release: Option<&str>) -> PyResult<Deck> {
-    let options = read_options(dialect, release, Vec::new(), None, None, None, true)?.keep_everything();
+#[pyo3(signature = (json, reading))]
+pub(crate) fn from_json(py: Python<'_>, json: &str, reading: &Reading) -> PyResult<Deck> {
+    let options = reading.0.clone().keep_everything();
     deck_of(py, py.detach(|| inpact::Deck::from_json(json, &options)))
 }
 

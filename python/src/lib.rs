@@ -40,6 +40,7 @@ fn _inpact(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<findings::Fix>()?;
     module.add_class::<laws::GapConductance>()?;
     module.add_class::<evaluate::Result>()?;
+    module.add_class::<options::Reading>()?;
     module.add_class::<scene::Solution>()?;
     module.add_function(wrap_pyfunction!(deck::read, module)?)?;
     module.add_function(wrap_pyfunction!(deck::parse, module)?)?;

@@ -1,7 +1,7 @@
 //! Scenes: what is held, what conducts, and the states that follow.
 
 use crate::errors::raise;
-use crate::options::{one_of, read_options};
+use crate::options::{Reading, one_of};
 use crate::watch::{self, Watch};
 use inpact::{Field, Method, Scene, SolveOptions};
 use numpy::PyArray1;
@@ -18,22 +18,15 @@ const FIELDS: [(&str, Field); 3] =
 
 /// Solves the scene of a file.
 #[pyfunction]
-#[pyo3(signature = (path, solver, tolerance, dialect, release, include_dirs, include_root, relative_to, config, isolated, progress))]
+#[pyo3(signature = (path, solver, tolerance, reading, progress))]
 pub(crate) fn solve(
     py: Python<'_>,
     path: PathBuf,
     solver: &str,
     tolerance: Option<f64>,
-    dialect: Option<&str>,
-    release: Option<&str>,
-    include_dirs: Vec<PathBuf>,
-    include_root: Option<PathBuf>,
-    relative_to: Option<&str>,
-    config: Option<PathBuf>,
-    isolated: bool,
+    reading: &Reading,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Solution> {
-    let reading = read_options(dialect, release, include_dirs, include_root, relative_to, config, isolated)?;
     let methods = [("direct", Method::Direct), ("mixed", Method::Mixed), ("iterative", Method::Iterative)];
     let mut options = SolveOptions::new().method(one_of("solver", solver, &methods)?);
     if let Some(tolerance) = tolerance {
@@ -42,7 +35,7 @@ pub(crate) fn solve(
     let watch = Watch::default();
     let mut states = 0;
     let solved = watch::run(py, &watch, progress, || {
-        let scene = Scene::read(&path, &reading)?;
+        let scene = Scene::read(&path, &reading.0)?;
         scene.solve_watched(&options, |_| {
             states += 1;
             if watch.advance(states) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -34,10 +34,13 @@ impl fmt::Display for Format {
 /// The number of bytes examined.
 const HEAD: usize = 1 << 16;
 
-/// Of which kind a file is.
+/// The kinds that are read, for a message.
+const READ: &str = "expected .fil in ASCII or .rpt of Abaqus, .frd in ASCII or .dat of CalculiX, or .vtu of ParaView";
+
+/// The kind of a file, found by its first bytes.
 ///
 /// # Errors
-/// A file of no kind that is read: the kind it seems to be, and how to get one that is read.
+/// A file of another kind: the kind it seems to be, and how to get one that is read.
 pub fn recognise(bytes: &[u8]) -> Result<Format, Problem> {
     let head = &bytes[..bytes.len().min(HEAD)];
     if let Some((message, help)) = foreign(head) {
@@ -76,8 +79,6 @@ fn contains(text: &[u8], part: &[u8]) -> bool {
 
 /// A kind that is not read, recognised by its first bytes.
 fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
-    const READ: &str =
-        "what is read: .fil in ASCII and .rpt of Abaqus, .frd in ASCII and .dat of CalculiX, .vtu of ParaView";
     const FIL: &str = "put `*FILE FORMAT, ASCII` into the deck, or convert the file with `abaqus ascfil job=NAME`";
     if head.trim_ascii().is_empty() {
         return Some(("the file is empty", "let the job run to its end, or name another file"));
@@ -103,7 +104,7 @@ fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
         return Some(if every_second {
             ("the file is in UTF-16", "save it as UTF-8 or ASCII")
         } else {
-            ("the file is binary, of no kind that is read (.odb files, for one, are not)", READ)
+            ("the kind of this binary file is unknown (.odb files are not read)", READ)
         });
     }
     None
@@ -123,8 +124,5 @@ fn other_text(begin: &[u8]) -> (&'static str, &'static str) {
             "ask for `*CONTACT FILE` and `*NODE FILE` with `*FILE FORMAT, ASCII` and name the .fil",
         );
     }
-    (
-        "the file is of no kind that is read",
-        "what is read: .fil in ASCII and .rpt of Abaqus, .frd in ASCII and .dat of CalculiX, .vtu of ParaView",
-    )
+    ("the kind of this file is unknown", READ)
 }

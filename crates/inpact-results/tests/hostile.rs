@@ -135,7 +135,7 @@ fn other_kinds_of_files_are_named() {
         (b"\x1f\x8b\x08", "gzip"),
         (b"*HEADING\n*NODE\n", "a deck, not results"),
         (b"1\n\n   Abaqus 2024   Date 30-Nov-2026\n", "printed by Abaqus"),
-        (b"a,b,c\n1,2,3\n", "of no kind that is read"),
+        (b"a,b,c\n1,2,3\n", "the kind of this file is unknown"),
         (b"# vtk DataFile Version 3.0\n", "`meshio convert`"),
         (b"\x01\x02\x00\xff\xff\x00\x07", "binary"),
     ];

@@ -18,6 +18,7 @@ pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
 mod decks;
+mod drawing;
 pub(crate) mod evaluable;
 pub(crate) mod findings;
 pub(crate) mod job_results;

@@ -201,7 +201,7 @@ impl<const HALVINGS: u32, const DROPS: bool> Registers<HALVINGS, DROPS> {
     #[inline(always)]
     fn values(&self, x: __m512d) -> (__m512d, u8) {
         let avx = self.simd.avx512f;
-        let asked = x;
+        let unclamped = x;
         // With x as the second operand NaN stays NaN.
         let x = avx._mm512_min_pd(self.last, avx._mm512_max_pd(self.first, x));
         let mut index: __m512i = cast([0_u64; 8]);
@@ -231,7 +231,7 @@ impl<const HALVINGS: u32, const DROPS: bool> Registers<HALVINGS, DROPS> {
         let correction = avx._mm512_add_pd(avx._mm512_mul_pd(offset, low), avx._mm512_mul_pd(offset_error, high));
         let mut value = avx._mm512_add_pd(value, correction);
         if DROPS {
-            let beyond = avx._mm512_cmp_pd_mask::<_CMP_GT_OQ>(asked, self.last);
+            let beyond = avx._mm512_cmp_pd_mask::<_CMP_GT_OQ>(unclamped, self.last);
             value = avx._mm512_mask_mov_pd(value, beyond, cast([0.0_f64; 8]));
         }
         (value, avx._mm512_cmp_pd_mask::<_CMP_UNORD_Q>(value, value))

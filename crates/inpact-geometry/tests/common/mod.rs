@@ -1,5 +1,5 @@
 //! Meshes for the tests, and what is needed to compare.
-#![allow(dead_code)]
+#![allow(dead_code, reason = "each test uses some of it")]
 
 use inpact_geometry::{Face, FaceShape, NodeId, Placed, Point, Surface, Vector};
 

@@ -133,10 +133,10 @@ impl<'a> PictureWriter<'a> {
         self.target.with_file_name(name)
     }
 
-    /// The file that lists the pictures; none for a single one, unless it was asked for.
+    /// The file that lists the pictures; none for a single one, unless its name is that of a list.
     fn collection(&self) -> Option<PathBuf> {
-        let asked = self.target.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pvd"));
-        (asked || self.drawn.states.len() != 1).then(|| self.target.with_extension("pvd"))
+        let is_requested = self.target.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pvd"));
+        (is_requested || self.drawn.states.len() != 1).then(|| self.target.with_extension("pvd"))
     }
 }
 

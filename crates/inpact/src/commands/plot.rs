@@ -1,5 +1,6 @@
 //! `inpact plot`: decks in, the curves of their laws out.
 
+use super::drawing::DrawingFormat;
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::{FindingFormat, say_data_findings};
 use super::laws::LawArguments;
@@ -92,9 +93,8 @@ struct Picture {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PictureKind {
-    Svg,
-    Png,
-    Html,
+    Drawing(DrawingFormat),
+    Page,
 }
 
 /// The most panels of a picture.
@@ -185,8 +185,8 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
         Some(picture) => {
             figures.iter().flat_map(|figure| &figure.notes).for_each(|note| say(&format!("note: {note}")));
             let bytes = match picture.kind {
-                PictureKind::Html => report::page_of_curves(&figures).into_bytes(),
-                kind => drawn(sheet::svg(&figures, scales(arguments)), kind)?,
+                PictureKind::Page => report::page_of_curves(&figures).into_bytes(),
+                PictureKind::Drawing(format) => format.bytes(sheet::svg(&figures, scales(arguments)))?,
             };
             files::write_result(Some(&picture.path), &bytes)?;
         }
@@ -226,7 +226,7 @@ fn figures(
         Scales { x: ScaleKind::Linear, .. } => Detail::Even(ON_LOGARITHMIC),
         _ => Detail::Geometric(ON_LOGARITHMIC),
     };
-    let is_page = arguments.output.as_ref().is_some_and(|picture| picture.kind == PictureKind::Html);
+    let is_page = arguments.output.as_ref().is_some_and(|picture| picture.kind == PictureKind::Page);
     let mut request = if is_page {
         arguments.drawing.request(Detail::Even(report::VALUES), MOST_PANELS, Probing::On)
     } else {
@@ -280,26 +280,13 @@ pub(crate) fn nothing_to_draw(figures: &[Figure]) -> Failure {
     ))
 }
 
-fn drawn(svg: String, kind: PictureKind) -> Result<Vec<u8>, Failure> {
-    match kind {
-        PictureKind::Svg | PictureKind::Html => Ok(svg.into_bytes()),
-        #[cfg(feature = "png")]
-        PictureKind::Png => {
-            crate::chart::png::render(&svg).map_err(|error| Failure::Usage(format!("cannot draw the picture: {error}")))
-        }
-        #[cfg(not(feature = "png"))]
-        PictureKind::Png => Err(Failure::Usage("this inpact was built without PNG: draw an .svg".to_owned())),
-    }
-}
-
 fn picture(text: &str) -> Result<Picture, String> {
     let path = Path::new(text);
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let kind = match extension.to_str() {
-        Some("svg") => PictureKind::Svg,
-        Some("png") => PictureKind::Png,
-        Some("html") => PictureKind::Html,
-        _ => return Err("the name of a picture must end in .svg, .png or .html".to_owned()),
+    let is_page = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("html"));
+    let kind = match DrawingFormat::of_name(path) {
+        Some(format) => PictureKind::Drawing(format),
+        None if is_page => PictureKind::Page,
+        None => return Err("the name of a picture must end in .svg, .png or .html".to_owned()),
     };
     Ok(Picture { path: path.to_owned(), kind })
 }

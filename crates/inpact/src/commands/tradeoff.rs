@@ -8,6 +8,7 @@ mod rounds;
 mod solvers;
 mod tables;
 
+use super::drawing::DrawingFormat;
 use super::evaluable::EvaluableArguments;
 use super::findings::FindingFormat;
 use super::laws::LawArguments;
@@ -85,13 +86,7 @@ enum TradeoffFormat {
 #[derive(Debug, Clone)]
 struct Picture {
     path: PathBuf,
-    kind: PictureKind,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum PictureKind {
-    Svg,
-    Png,
+    format: DrawingFormat,
 }
 
 /// The measurements, as they are shown.
@@ -130,31 +125,15 @@ pub(crate) fn run(arguments: &TradeoffArguments) -> Result<Outcome, Failure> {
     let Some(Shown { text, chart }) = shown else { return Ok(Outcome::HasErrors) };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
     if let Some(picture) = &arguments.plot {
-        files::write_result(Some(&picture.path), &draw(&chart, picture.kind)?)?;
+        files::write_result(Some(&picture.path), &picture.format.bytes(chart.svg())?)?;
     }
     Ok(Outcome::Clean)
 }
 
-fn draw(chart: &Chart, kind: PictureKind) -> Result<Vec<u8>, Failure> {
-    let svg = chart.svg();
-    match kind {
-        PictureKind::Svg => Ok(svg.into_bytes()),
-        #[cfg(feature = "png")]
-        PictureKind::Png => {
-            crate::chart::png::render(&svg).map_err(|error| Failure::Usage(format!("cannot draw the picture: {error}")))
-        }
-        #[cfg(not(feature = "png"))]
-        PictureKind::Png => Err(Failure::Usage("this inpact was built without PNG: draw an .svg".to_owned())),
-    }
-}
-
 fn picture(text: &str) -> Result<Picture, String> {
     let path = Path::new(text);
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let kind = match extension.to_str() {
-        Some("svg") => PictureKind::Svg,
-        Some("png") => PictureKind::Png,
-        _ => return Err("the name of a picture must end in .svg or .png".to_owned()),
-    };
-    Ok(Picture { path: path.to_owned(), kind })
+    match DrawingFormat::of_name(path) {
+        Some(format) => Ok(Picture { path: path.to_owned(), format }),
+        None => Err("the name of a picture must end in .svg or .png".to_owned()),
+    }
 }
