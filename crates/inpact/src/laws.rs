@@ -231,17 +231,10 @@ fn point(clearance: Option<f64>, pressure: Option<f64>, variables: &[f64]) -> Co
     ContactPoint { clearance: Clearance(clearance), pressure: ContactPressure(pressure), state, variables }
 }
 
-/// Closed where d ≤ 0 or p ≠ 0; without a clearance closed, as nothing is apart.
+/// The contact state (T-22). A point that has no clearance, and so no gap, is closed at zero pressure too: callers of one law may leave the clearance out.
 #[inline]
 fn state_of(clearance: Option<f64>, pressure: Option<f64>) -> ContactState {
-    match (clearance, pressure) {
-        (Some(clearance), pressure) => {
-            let pressure = ContactPressure(pressure.unwrap_or(0.0));
-            ContactState::from_clearance_and_pressure(Clearance(clearance), pressure)
-        }
-        (None, Some(pressure)) if pressure.is_nan() => ContactState::Undetermined,
-        (None, _) => ContactState::Closed,
-    }
+    ContactState::of(None, clearance, pressure).unwrap_or(ContactState::Closed)
 }
 
 fn without_table(state: ContactState) -> f64 {
