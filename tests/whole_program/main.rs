@@ -27,6 +27,7 @@ mod growth;
 mod heat_balance;
 mod hooks;
 mod includes;
+mod interfaces;
 mod json;
 mod nodes;
 mod nodes_results;

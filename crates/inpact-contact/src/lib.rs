@@ -11,6 +11,7 @@
 //! too, and what of a result file could not be used is named.
 
 mod check;
+mod interfaces;
 mod join;
 mod naming;
 mod pair;
@@ -24,6 +25,7 @@ pub use check::{
     BEYOND_CUTOFF, DEEP_OVERCLOSURE, GEOMETRY_RULES, NODE_BASED_SURFACE, TABLE_NOT_REACHED, WITHOUT_MASTER, WRONG_SIDE,
     check_geometry,
 };
+pub use interfaces::{InterfaceRow, Interfaces, LumpedPair, PairInterfaces, ProjectionRow, WeightedMean};
 pub use join::{FileSummary, Join, JoinError, Joined, MatchedBy, ResultNote};
 pub use picture::SlaveFaces;
 pub use rows::{NodeRows, RowsError};

@@ -24,3 +24,8 @@ impl Names {
         format!("{name}:{}", mesh.surfaces[pair.master].name.written())
     }
 }
+
+/// The name of the point of a master across from a slave node: `12@TOP`, where `12` is the node.
+pub(crate) fn across_name(slave: &str, master: &str) -> String {
+    format!("{slave}@{master}")
+}

@@ -151,6 +151,14 @@ impl<'a> NodeRows<'a> {
         self.pairs.iter().map(|pair| &pair.summary)
     }
 
+    pub(crate) fn mesh(&self) -> &'a Mesh {
+        self.mesh
+    }
+
+    pub(crate) fn pairs(&self) -> &[Pair<'a>] {
+        &self.pairs
+    }
+
     /// The slave surfaces of the pairs, to be drawn.
     pub fn slave_faces(&self) -> SlaveFaces {
         SlaveFaces::of(self.mesh, &self.pairs)

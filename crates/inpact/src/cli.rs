@@ -29,6 +29,8 @@ enum Command {
     Inp(commands::inp::InpArguments),
     /// Make the node table of a deck's contact pairs from its mesh: a row a slave node.
     Nodes(commands::nodes::NodesArguments),
+    /// Make the interfaces of a scene from the mesh of a deck: a row a slave node, or one a contact pair.
+    Interfaces(commands::interfaces::InterfacesArguments),
     /// Evaluate the interface laws of a deck on node data.
     #[command(after_long_help = commands::evaluable::columns_help())]
     Eval(commands::eval::EvalArguments),
@@ -75,6 +77,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Json(arguments) => commands::json::run(&arguments),
         Command::Inp(arguments) => commands::inp::run(&arguments),
         Command::Nodes(arguments) => commands::nodes::run(&arguments),
+        Command::Interfaces(arguments) => commands::interfaces::run(&arguments),
         Command::Eval(arguments) => commands::eval::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),

@@ -6,6 +6,7 @@ pub(crate) mod eval;
 pub(crate) mod explain;
 pub(crate) mod fmt;
 pub(crate) mod inp;
+pub(crate) mod interfaces;
 pub(crate) mod json;
 pub(crate) mod nodes;
 pub(crate) mod plan;

@@ -134,7 +134,8 @@ pub(crate) fn counted(number: u64, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
-fn number_text(value: f64) -> String {
+/// The shortest text of a number that reads back as it.
+pub(crate) fn number_text(value: f64) -> String {
     let mut text = Vec::new();
     push_number(&mut text, value);
     String::from_utf8_lossy(&text).into_owned()

@@ -1,0 +1,262 @@
+//! Interfaces of scenes: the rows of contact pairs in one state, a row a slave node or one a pair, and what is across from each slave node.
+//!
+//! The numbers are those of [`NodeRows`]: no second reader, and no other decision on what a clearance or an area is.
+
+use crate::naming::across_name;
+use crate::pair::across;
+use crate::rows::{NodeRows, RowsError};
+use crate::state::State;
+use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::nodes::{Column, Part};
+use inpact_geometry::FaceLabel;
+use inpact_parser::mesh::{MeshNode, SurfaceKind};
+use inpact_parser::model::Name;
+use inpact_parser::span::Span;
+
+/// The interfaces of a deck in one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interfaces {
+    /// The quantities of its rows beside the area, means of both sides where both have one.
+    pub quantities: Vec<Column>,
+    /// The pairs, in the order of the deck.
+    pub pairs: Vec<PairInterfaces>,
+}
+
+/// The interfaces of a contact pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairInterfaces {
+    /// The slave surface.
+    pub slave: Name,
+    /// The master surface.
+    pub master: Name,
+    /// The interaction.
+    pub interaction: Name,
+    /// The keyword line of the pair.
+    pub span: Span,
+    /// The slave nodes that something is known of: with a master face across, or with a clearance or a pressure of a result file.
+    pub rows: Vec<InterfaceRow>,
+    /// The names of the slave nodes that have neither: nothing is conducted there.
+    pub beside: Vec<String>,
+    /// What is across from each slave node that is nearest to some face of the master.
+    pub projections: Vec<ProjectionRow>,
+}
+
+/// A slave node and the point of the master across from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InterfaceRow {
+    /// The name of the slave node.
+    pub slave: String,
+    /// The name of the point across.
+    pub master: String,
+    /// The area of the slave node (L²).
+    pub area: f64,
+    /// A value a quantity of [`Interfaces::quantities`]; `None` where it is not known.
+    pub values: Vec<Option<f64>>,
+}
+
+/// Projection of a slave node onto its master.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProjectionRow {
+    /// The name of the slave node.
+    pub slave: String,
+    /// The name of the point across.
+    pub master: String,
+    /// The element and the face that are nearest.
+    pub face: (MeshNode, FaceLabel),
+    /// The nodes of the face and their weights: a field of the master at the point is their sum.
+    pub weights: Vec<(MeshNode, f64)>,
+    /// The distance along the master's normal, open > 0 (L).
+    pub clearance: f64,
+    /// How far the node hangs over the edge of the master (L); 0 inside.
+    pub overhang: f64,
+    /// Whether the node counts as across from the master: the overhang is within the extension of its edge.
+    pub projects: bool,
+}
+
+/// A pair as one interface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LumpedPair {
+    /// The sum of the areas of its slave nodes that something is known of (L²).
+    pub area: f64,
+    /// A mean a quantity of [`Interfaces::quantities`]; `None` where no node has a value.
+    pub means: Vec<Option<WeightedMean>>,
+    /// The number of nodes that are closed, and of those that are open.
+    pub states: [usize; 2],
+}
+
+/// The mean of a quantity, weighted by the areas of the nodes that have it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WeightedMean {
+    /// The mean.
+    pub mean: f64,
+    /// The least value.
+    pub least: f64,
+    /// The largest value.
+    pub largest: f64,
+    /// The number of nodes with a value.
+    pub nodes: usize,
+}
+
+impl NodeRows<'_> {
+    /// The interfaces in a state.
+    ///
+    /// # Errors
+    /// The nodes have moved to places that have no geometry.
+    pub fn interfaces(&mut self, state: &State) -> Result<Interfaces, RowsError> {
+        let sources: Vec<(Column, Vec<usize>)> = quantities(self.numbers());
+        let mut batches = Vec::new();
+        self.write(state, |batch| {
+            batches.push(batch.clone());
+            Ok::<(), RowsError>(())
+        })?;
+        let mut pairs = Vec::new();
+        for (pair, batch) in self.pairs().iter().zip(&batches) {
+            let mesh = self.mesh();
+            let master = &mesh.surfaces[pair.of.master];
+            let master_name = master.name.written();
+            let area = self.numbers().iter().position(|column| *column == Column::Area);
+            let mut of = PairInterfaces {
+                slave: pair.summary.slave.clone(),
+                master: pair.summary.master.clone(),
+                interaction: pair.summary.interaction.clone(),
+                span: pair.of.span,
+                rows: Vec::new(),
+                beside: Vec::new(),
+                projections: Vec::new(),
+            };
+            for (row, node) in pair.contact(mesh, state)?.iter().enumerate() {
+                // A node of several pairs is one node of a scene, whatever its rows are called in a table of histories.
+                let name = mesh.nodes[node.node.index()].to_string();
+                let at_master = across_name(&name, master_name);
+                if let (Some(nearest), SurfaceKind::Faces(faces)) = (&node.across, &master.kind) {
+                    let face = faces.surface.face(nearest.face);
+                    let nodes = face.nodes.iter().map(|node| mesh.nodes[node.index()].clone());
+                    of.projections.push(ProjectionRow {
+                        slave: name.clone(),
+                        master: at_master.clone(),
+                        face: faces.elements[nearest.face.index()].clone(),
+                        weights: nodes.zip(nearest.weights(face.shape)).collect(),
+                        clearance: nearest.clearance,
+                        overhang: nearest.overhang,
+                        projects: nearest.projects,
+                    });
+                }
+                let value = |column: usize| batch.numbers[column].get(row);
+                let values: Vec<Option<f64>> = sources.iter().map(|(_, of)| mean_of(of, &value)).collect();
+                let is_said = |column: &Column| matches!(column, Column::Clearance | Column::Pressure);
+                let is_known =
+                    sources.iter().zip(&values).any(|((column, _), value)| is_said(column) && value.is_some());
+                if across(node).is_none() && !is_known {
+                    of.beside.push(name);
+                    continue;
+                }
+                let area = area.and_then(value).unwrap_or(node.area);
+                of.rows.push(InterfaceRow { slave: name, master: at_master, area, values });
+            }
+            pairs.push(of);
+        }
+        let quantities = sources.into_iter().map(|(column, _)| column).collect();
+        Ok(Interfaces { quantities, pairs })
+    }
+}
+
+/// The quantities of interfaces, and the columns that each is the mean of.
+fn quantities(numbers: &[Column]) -> Vec<(Column, Vec<usize>)> {
+    let place = |wanted: Column| numbers.iter().position(|column| *column == wanted);
+    let mut found = Vec::new();
+    for (at, column) in numbers.iter().enumerate() {
+        let (quantity, other) = match *column {
+            Column::Clearance | Column::Pressure | Column::Shear | Column::SlipRate => (*column, None),
+            Column::Temperature(Part::Slave) => {
+                (Column::Temperature(Part::Both), place(Column::Temperature(Part::Master)))
+            }
+            Column::FieldVariable(number, Part::Slave) => {
+                (Column::FieldVariable(number, Part::Both), place(Column::FieldVariable(number, Part::Master)))
+            }
+            _ => continue,
+        };
+        found.push((quantity, std::iter::once(at).chain(other).collect()));
+    }
+    found
+}
+
+/// The mean of one column or two; `None` where one of them has no value.
+fn mean_of(columns: &[usize], value: &impl Fn(usize) -> Option<f64>) -> Option<f64> {
+    match *columns {
+        [only] => value(only),
+        [slave, master] => Some(0.5 * value(slave)? + 0.5 * value(master)?),
+        _ => None,
+    }
+}
+
+impl Interfaces {
+    /// A pair as one interface; `None` where nothing is known of any of its nodes.
+    pub fn lumped(&self, pair: &PairInterfaces) -> Option<LumpedPair> {
+        if pair.rows.is_empty() {
+            return None;
+        }
+        let area = pair.rows.iter().map(|row| row.area).sum();
+        let means = (0..self.quantities.len()).map(|quantity| {
+            WeightedMean::of(pair.rows.iter().filter_map(|row| Some((row.area, row.values[quantity]?))))
+        });
+        let place = |column: Column| self.quantities.iter().position(|quantity| *quantity == column);
+        let (clearance, pressure) = (place(Column::Clearance), place(Column::Pressure));
+        let mut states = [0; 2];
+        for row in &pair.rows {
+            let value = |at: Option<usize>| at.and_then(|at| row.values[at]);
+            match ContactState::of(None, value(clearance), value(pressure)) {
+                Some(ContactState::Closed) => states[0] += 1,
+                Some(ContactState::Open) => states[1] += 1,
+                Some(ContactState::Undetermined) | None => {}
+            }
+        }
+        Some(LumpedPair { area, means: means.collect(), states })
+    }
+}
+
+impl WeightedMean {
+    /// The mean of values with their weights; `None` without any.
+    ///
+    /// It is found by differences from the first, so that a value that all have is the mean, to the last digit.
+    fn of(values: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
+        let mut found: Option<(Self, f64)> = None;
+        let (mut weights, mut sum) = (0.0, 0.0);
+        for (weight, value) in values {
+            let (so_far, first) =
+                found.get_or_insert((Self { mean: value, least: value, largest: value, nodes: 0 }, value));
+            so_far.least = so_far.least.min(value);
+            so_far.largest = so_far.largest.max(value);
+            so_far.nodes += 1;
+            weights += weight;
+            sum += weight * (value - *first);
+        }
+        let (mut found, first) = found?;
+        if 0.0 < weights {
+            found.mean = (first + sum / weights).clamp(found.least, found.largest);
+        }
+        Some(found)
+    }
+
+    /// Whether all values are one.
+    pub fn is_uniform(&self) -> bool {
+        self.least.to_bits() == self.largest.to_bits()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::WeightedMean;
+
+    #[test]
+    fn a_value_that_all_have_is_the_mean() {
+        let mean = WeightedMean::of([0.1, 0.7, 0.3].into_iter().map(|weight| (weight, 0.1))).expect("values");
+        assert_eq!((mean.mean.to_bits(), mean.nodes, mean.is_uniform()), (0.1_f64.to_bits(), 3, true));
+    }
+
+    #[test]
+    fn weights_count() {
+        let mean = WeightedMean::of([(1.0, 4.0), (3.0, 8.0)].into_iter()).expect("values");
+        assert_eq!((mean.mean, mean.least, mean.largest, mean.is_uniform()), (7.0, 4.0, 8.0, false));
+        assert_eq!(WeightedMean::of(std::iter::empty()), None);
+    }
+}
