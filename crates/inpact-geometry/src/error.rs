@@ -57,4 +57,12 @@ pub enum GeometryError {
         /// The number given.
         found: usize,
     },
+    /// A solid element is inside out or flat.
+    #[error(
+        "the element is inside out or flat: expected a Jacobian determinant above 0 at its integration points, found {determinant:?}"
+    )]
+    Inverted {
+        /// The determinant at the first such point (L³).
+        determinant: f64,
+    },
 }

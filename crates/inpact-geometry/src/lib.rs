@@ -1,4 +1,5 @@
-//! The geometry of contact surfaces: faces of elements, areas and normals of nodes, the closest point on the other surface.
+//! The geometry of contact surfaces and of what solids conduct: faces of elements, areas and normals of nodes, the closest point on the other surface,
+//! element matrices.
 //!
 //! Numbers in, numbers out: nothing here knows a deck, a law or a file. Nodes and faces are positions in arrays ([`NodeId`], [`FaceId`]).
 //! Lengths have the unit of the coordinates (L), areas its square (L²); weights, normals and places on faces have none.
@@ -7,7 +8,7 @@
 //!
 //! | | symbolic: which | numeric: where |
 //! |---|---|---|
-//! | elements | [`ElementType`], [`ElementShape`], [`FaceLabel`], [`FreeFaces`] | |
+//! | elements | [`ElementType`], [`ElementShape`], [`FaceLabel`], [`FreeFaces`], [`Integration`] | [`SolidElement`] |
 //! | faces | [`FaceShape`] | [`Patch`] |
 //! | surfaces | [`Surface`] | [`Placed`], [`node_areas`], [`node_normals`] |
 //! | pairs | | [`Master`], [`Projection`], [`sheet_shift`], [`contact_nodes`] |
@@ -52,16 +53,19 @@ mod coordinates;
 
 mod area;
 mod closest;
+mod conduction;
 mod normal;
 mod pair;
 mod projection;
 mod search;
 mod sheet;
+mod solid;
 
 mod error;
 
 pub use area::{Extent, Shares, face_areas, node_areas};
 pub use closest::Closest;
+pub use conduction::{Conductivity, SolidElement, SolidIntegrals};
 pub use coordinates::Placed;
 pub use element::{ElementShape, FaceLabel, LocalFace, NoFaceLabel};
 pub use element_type::{ElementSpace, ElementType};
@@ -75,5 +79,6 @@ pub use patch::Patch;
 pub use projection::{DEFAULT_EXTENSION, Projection};
 pub use search::Master;
 pub use sheet::{node_shifts, sheet_shift};
+pub use solid::{Integration, MAX_SOLID_NODES};
 pub use surface::{Face, Surface};
 pub use vector::{Point, Vector};

@@ -39,7 +39,7 @@ fn square(points: usize) -> Vec<Node> {
 }
 
 /// Gauss and Legendre's points and weights: roots of the polynomial by Newton's iteration from Chebyshev's.
-fn gauss(points: usize) -> Vec<(f64, f64)> {
+pub(crate) fn gauss(points: usize) -> Vec<(f64, f64)> {
     let n = points as f64;
     (0..points)
         .map(|i| {
