@@ -6,15 +6,19 @@
 //! The bytes come from the caller ([`RowBytes`]).
 //! Temperatures, pore pressures and field variables that *INITIAL CONDITIONS gives these nodes are read with them.
 //!
+//! [`read_bodies`] reads the solid elements of a deck instead, with their nodes and materials, and the surfaces and node sets where they end.
+//!
 //! Nothing is guessed: the parts of a surface or a pair that are not read here are named in [`Mesh::notes`], with its place.
 //!
 //! Not read, and named where it matters: nodes and elements made by *NGEN, *NFILL, *NCOPY, *NMAP, *ELGEN, *ELCOPY and *SYSTEM, rows in files of their own (INPUT
 //! on *NODE and *ELEMENT), surfaces that are neither of elements nor of nodes, COMBINE, self-contact, and the surfaces that general contact finds by itself.
 
+mod bodies;
 mod elements;
 mod initial;
 mod labels;
 mod layout;
+mod materials;
 mod nodes;
 mod pairs;
 mod place;
@@ -24,7 +28,9 @@ mod sections;
 mod selection;
 mod surfaces;
 
+pub use bodies::{BodyMesh, ElementBlock, MeshTerminal};
 pub use initial::{InitialField, InitialQuantity};
+pub use materials::{BodyMaterial, MaterialProperty, TensorKind};
 pub use pairs::{MeshPair, Sliding};
 pub use place::position;
 pub use rows::{KeptRows, RowBytes, SeekableRows};
@@ -134,4 +140,18 @@ pub struct MeshNote {
 /// Bytes that cannot be read. Problems of the deck are in [`Mesh::notes`].
 pub fn read(deck: &Deck, grammar: &Grammar, model: &Model, rows: &mut dyn RowBytes) -> io::Result<Mesh> {
     reader::Reader::new(deck, grammar, rows).read(model)
+}
+
+/// Reads the solid elements of a deck, their materials, and the surfaces and node sets of these names.
+///
+/// # Errors
+///
+/// Bytes that cannot be read. Problems of the deck are in [`BodyMesh::faults`] and [`BodyMesh::left_out`].
+pub fn read_bodies(
+    deck: &Deck,
+    grammar: &Grammar,
+    terminals: &[Name],
+    rows: &mut dyn RowBytes,
+) -> io::Result<BodyMesh> {
+    reader::Reader::new(deck, grammar, rows).read_bodies(terminals)
 }

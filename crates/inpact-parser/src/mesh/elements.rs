@@ -102,40 +102,19 @@ impl Reader<'_, '_> {
         let mut any = Selection::default();
         picks.iter().filter(|pick| pick.elements.may_touch(key)).for_each(|pick| any.add_all(&pick.elements));
         any.labels.sort();
-        let mut wrong: Option<(Span, String)> = None;
         let mut both_sides = false;
-        let mut incomplete: Vec<(Span, String)> = Vec::new();
         let mut without_face: Vec<(Span, String)> = Vec::new();
-        let mut row: Vec<u32> = Vec::with_capacity(1 + kind.shape.nodes());
+        let mut rows = ElementRows::new(kind.shape, name);
         if let Some(free) = free {
             free.options.push(key);
         }
         let needs_all = free.is_some();
         data_lines(&mut *self.rows, option.block, &mut |line, span| {
             // Of a row on one line that nobody picks, the number of the element is all that is looked at.
-            if !needs_all && row.is_empty() && is_passed_over(line, kind.shape, &any, key) {
+            if !needs_all && rows.is_between() && is_passed_over(line, kind.shape, &any, key) {
                 return;
             }
-            if !integers(line, &mut row) {
-                wrong.get_or_insert_with(|| {
-                    (
-                        span,
-                        format!(
-                            "expected numbers of an element and its nodes, found `{}`",
-                            String::from_utf8_lossy(line).trim()
-                        ),
-                    )
-                });
-                return row.clear();
-            }
-            if row.len() <= kind.shape.nodes() {
-                if !goes_on(line) {
-                    incomplete.push((span, too_few(&row, name, kind.shape)));
-                    row.clear();
-                }
-                return;
-            }
-            let (element, nodes) = (row[0], &row[1..=kind.shape.nodes()]);
+            let Some((element, nodes)) = rows.take(line, span) else { return };
             let picked = any.contains(element, key);
             for pick in picks.iter().filter(|pick| picked && pick.elements.contains(element, key)) {
                 let Some(label) = pick.face else {
@@ -168,15 +147,8 @@ impl Reader<'_, '_> {
             if let Some(free) = free {
                 free.meet(element, picked && is_wanted(picks, element, key), kind.shape, nodes);
             }
-            row.clear();
         })?;
-        if let Some((span, message)) = wrong {
-            self.note(span, format!("{message}; the row was not read"));
-        }
-        if !row.is_empty() {
-            incomplete.push((option.span(), too_few(&row, name, kind.shape)));
-        }
-        self.note_first(incomplete, "and was not read");
+        self.note_rows(rows, option.span());
         self.note_first(without_face, "and was left out");
         if both_sides {
             self.note(
@@ -187,6 +159,17 @@ impl Reader<'_, '_> {
             );
         }
         Ok(())
+    }
+
+    /// Says which rows of an option were not read.
+    pub(super) fn note_rows(&mut self, mut rows: ElementRows<'_>, option: Span) {
+        if let Some((span, message)) = rows.wrong.take() {
+            self.note(span, format!("{message}; the row was not read"));
+        }
+        if !rows.row.is_empty() && !rows.is_whole {
+            rows.incomplete.push((option, rows.too_few()));
+        }
+        self.note_first(rows.incomplete, "and was not read");
     }
 
     /// Says so where a surface picks elements of a type whose faces are not known.
@@ -288,9 +271,59 @@ fn goes_on(line: &[u8]) -> bool {
     line.trim_ascii_end().ends_with(b",") || 15 <= memchr::memchr_iter(b',', line).count()
 }
 
-fn too_few(row: &[u32], name: &str, shape: ElementShape) -> String {
-    let found = row.len().saturating_sub(1);
-    format!("element {} of type {name} has {found} nodes where {} are due", row.first().unwrap_or(&0), shape.nodes())
+/// Puts the rows of elements together from the lines they are written on.
+pub(super) struct ElementRows<'a> {
+    shape: ElementShape,
+    /// The name of the type.
+    name: &'a str,
+    row: Vec<u32>,
+    is_whole: bool,
+    /// The first line that has something else than numbers.
+    wrong: Option<(Span, String)>,
+    incomplete: Vec<(Span, String)>,
+}
+
+impl<'a> ElementRows<'a> {
+    pub(super) fn new(shape: ElementShape, name: &'a str) -> Self {
+        let row = Vec::with_capacity(1 + shape.nodes());
+        Self { shape, name, row, is_whole: true, wrong: None, incomplete: Vec::new() }
+    }
+
+    /// Whether the next line begins an element.
+    fn is_between(&self) -> bool {
+        self.is_whole || self.row.is_empty()
+    }
+
+    /// Takes a line: the number of the element and its nodes, where it ends one.
+    pub(super) fn take(&mut self, line: &[u8], span: Span) -> Option<(u32, &[u32])> {
+        if self.is_whole {
+            self.row.clear();
+        }
+        self.is_whole = false;
+        if !integers(line, &mut self.row) {
+            self.wrong.get_or_insert_with(|| {
+                let found = String::from_utf8_lossy(line);
+                (span, format!("expected numbers of an element and its nodes, found `{}`", found.trim()))
+            });
+            self.row.clear();
+            return None;
+        }
+        if self.row.len() <= self.shape.nodes() {
+            if !goes_on(line) {
+                self.incomplete.push((span, self.too_few()));
+                self.row.clear();
+            }
+            return None;
+        }
+        self.is_whole = true;
+        Some((self.row[0], &self.row[1..=self.shape.nodes()]))
+    }
+
+    fn too_few(&self) -> String {
+        let (element, found) = (self.row.first().unwrap_or(&0), self.row.len().saturating_sub(1));
+        let (name, expected) = (self.name, self.shape.nodes());
+        format!("element {element} of type {name} has {found} nodes where {expected} are due")
+    }
 }
 
 /// Adds the numbers of a line to a row; false where something is no number.

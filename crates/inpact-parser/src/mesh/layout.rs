@@ -57,6 +57,15 @@ pub(super) struct Instance<'deck> {
     pub(super) own: Definitions<'deck>,
 }
 
+/// A *MATERIAL with the options that say what it conducts and holds.
+#[derive(Debug, Clone)]
+pub(super) struct MaterialEntries<'deck> {
+    pub(super) name: Name,
+    pub(super) entry: Entry<'deck>,
+    /// By the canonical names of their keywords.
+    pub(super) properties: Vec<(String, Entry<'deck>)>,
+}
+
 /// The deck by levels.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Layout<'deck> {
@@ -67,6 +76,9 @@ pub(super) struct Layout<'deck> {
     pub(super) clearances: Vec<Entry<'deck>>,
     pub(super) initial_conditions: Vec<Entry<'deck>>,
     pub(super) assembly_name: Option<Name>,
+    pub(super) materials: Vec<MaterialEntries<'deck>>,
+    /// Options that join nodes beside the elements, or let heat out by radiation, by their names.
+    pub(super) beside_elements: Vec<(&'static str, Entry<'deck>)>,
     /// The names of the steps.
     pub(super) steps: Vec<Option<Name>>,
 }
@@ -108,7 +120,19 @@ impl<'deck> Layout<'deck> {
                 "STEP" => layout.steps.push(entry.named("NAME")),
                 "CLEARANCE" => layout.clearances.push(entry),
                 "INITIALCONDITIONS" => layout.initial_conditions.push(entry),
-                _ => layout.at(&level).add(&name, entry),
+                "MATERIAL" => {
+                    let name = entry.named("NAME").unwrap_or_else(|| Name::new(""));
+                    layout.materials.push(MaterialEntries { name, entry, properties: Vec::new() });
+                }
+                "CONDUCTIVITY" | "ELECTRICALCONDUCTIVITY" | "DENSITY" | "SPECIFICHEAT" => {
+                    if let Some(material) = layout.materials.last_mut() {
+                        material.properties.push((name, entry));
+                    }
+                }
+                _ => match BESIDE_ELEMENTS.iter().find(|shown| canonical(shown.as_bytes()) == name) {
+                    Some(shown) => layout.beside_elements.push((shown, entry)),
+                    None => layout.at(&level).add(&name, entry),
+                },
             }
         }
         layout
@@ -140,6 +164,22 @@ impl<'deck> Definitions<'deck> {
         }
     }
 }
+
+/// Options that join nodes beside the elements, or let heat out by radiation.
+const BESIDE_ELEMENTS: [&str; 12] = [
+    "TIE",
+    "EQUATION",
+    "MPC",
+    "COUPLING",
+    "EMBEDDED ELEMENT",
+    "SHELL TO SOLID COUPLING",
+    "RIGID BODY",
+    "RADIATE",
+    "SRADIATE",
+    "CRADIATE",
+    "CAVITY DEFINITION",
+    "RADIATION VIEWFACTOR",
+];
 
 /// Upper case, without blanks.
 pub(super) fn canonical(text: &[u8]) -> String {

@@ -1,7 +1,7 @@
 //! The way from a deck to its mesh: surfaces, sets, elements, nodes, in this order.
 
 use super::elements::RawFace;
-use super::layout::{Definitions, Entry, Layout};
+use super::layout::{Definitions, Entry, Layout, MaterialEntries};
 use super::nodes::{Placement, Wanted};
 use super::pairs::Request;
 use super::rows::RowBytes;
@@ -52,6 +52,8 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) sets: HashMap<(Kind, Context, String), Selected>,
     pub(super) clearances: Vec<Entry<'deck>>,
     pub(super) initial_conditions: Vec<Entry<'deck>>,
+    pub(super) materials: Vec<MaterialEntries<'deck>>,
+    pub(super) beside_elements: Vec<(&'static str, Entry<'deck>)>,
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
     steps: Vec<Option<Name>>,
@@ -81,6 +83,8 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             sets: HashMap::new(),
             clearances: layout.clearances,
             initial_conditions: layout.initial_conditions,
+            materials: layout.materials,
+            beside_elements: layout.beside_elements,
             assembly: layout.assembly,
             assembly_name: layout.assembly_name,
             steps: layout.steps,
@@ -100,11 +104,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             pick.elements.labels.sort();
         }
         let faces = self.faces(&picks.faces)?;
-        for instance in 1..self.instances.len() {
-            if let Some(entry) = self.instances[instance].entry {
-                self.instances[instance].placement = self.placement(entry)?;
-            }
-        }
+        self.place_instances()?;
         let located = self.locate(&faces, &picks.nodes)?;
         let mut surfaces = Vec::new();
         for (surface, (name, found)) in names.into_iter().zip(found).enumerate() {
@@ -126,6 +126,22 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         let Located { points, nodes, .. } = located;
         let surfaces = surfaces.into_iter().flatten().collect();
         Ok(Mesh { points, nodes, surfaces, pairs, initial, steps: self.steps, notes: self.notes })
+    }
+
+    /// Reads where the instances are.
+    pub(super) fn place_instances(&mut self) -> io::Result<()> {
+        for instance in 1..self.instances.len() {
+            if let Some(entry) = self.instances[instance].entry {
+                self.instances[instance].placement = self.placement(entry)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The notes so far.
+    pub(super) fn take_notes(&mut self) -> Vec<MeshNote> {
+        self.noted.clear();
+        std::mem::take(&mut self.notes)
     }
 
     pub(super) fn note(&mut self, span: Span, message: String) {
@@ -215,6 +231,28 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         makers.find(|(name, _)| name == "SYSTEM").map(|(_, span)| *span)
     }
 
+    /// The options of an instance that make or move nodes or elements and are not read.
+    pub(super) fn makers_of(&self, instance: usize) -> Vec<(String, Span)> {
+        self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.makers.clone()).collect()
+    }
+
+    /// Names of the surfaces and node sets of the model, then those of the instances, each once.
+    pub(super) fn known_names(&self) -> Vec<Name> {
+        let mut names: Vec<Name> = Vec::new();
+        let mut seen = HashSet::new();
+        let top = self.chain(Context::Top).flat_map(named_in).map(|name| (None, name));
+        let others = self.instances.iter().filter_map(|instance| Some((instance.name.as_ref()?, &instance.chain)));
+        let of_instances = others
+            .flat_map(|(instance, chain)| chain.iter().flat_map(named_in).map(move |name| (Some(instance), name)));
+        for (instance, name) in top.chain(of_instances) {
+            let name = instance.map_or(name.clone(), |instance| Name::new(&format!("{instance}.{name}")));
+            if seen.insert(name.clone()) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
     /// The options of a instance that make nodes or elements and are not read, as text.
     pub(super) fn makers(&self, instance: usize) -> String {
         let mut names: Vec<&str> = self
@@ -226,6 +264,15 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         names.dedup();
         names.iter().map(|name| format!(" (*{name} is not read)")).collect()
     }
+}
+
+/// The names of surfaces and node sets.
+fn named_in<'a>(definitions: &'a Definitions<'_>) -> impl Iterator<Item = Name> + 'a {
+    let of = |entries: &'a [Entry<'_>], parameter: &'static str| {
+        entries.iter().filter_map(move |entry| entry.named(parameter))
+    };
+    let surfaces = of(&definitions.surfaces, "NAME");
+    surfaces.chain(of(&definitions.nsets, "NSET")).chain(of(&definitions.nodes, "NSET"))
 }
 
 /// The nodes that were found, numbered.

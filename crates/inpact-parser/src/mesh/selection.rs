@@ -87,7 +87,7 @@ impl<'deck> Reader<'deck, '_> {
     }
 
     /// The sets of this name, and the *NODE or *ELEMENT options that put their rows into it.
-    fn definitions_of(&self, kind: Kind, context: Context, name: &Name) -> (Vec<Entry<'deck>>, Vec<Span>) {
+    pub(super) fn definitions_of(&self, kind: Kind, context: Context, name: &Name) -> (Vec<Entry<'deck>>, Vec<Span>) {
         let parameter = if kind == Kind::Elements { "ELSET" } else { "NSET" };
         let mut sets = Vec::new();
         let mut options = Vec::new();

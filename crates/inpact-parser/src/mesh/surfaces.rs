@@ -8,7 +8,7 @@ use super::sections::Section;
 use super::selection::{Kind, Selection};
 use super::{FaceSurface, MeshNode, MeshSurface, NodeSurface, SurfaceKind};
 use crate::deck::items;
-use crate::model::Reference;
+use crate::model::{Name, Reference};
 use crate::number::read_float;
 use crate::span::Span;
 use inpact_geometry::{ElementSpace, Face, FaceLabel, NodeId, Surface, sheet_shift};
@@ -25,7 +25,7 @@ pub(super) struct Picks {
 /// The nodes that a row of *SURFACE, TYPE=NODE picks in one instance.
 #[derive(Debug)]
 pub(super) struct NodePick {
-    surface: usize,
+    pub(super) surface: usize,
     pub(super) instance: usize,
     pub(super) nodes: Selection,
     /// The number, where it is but one.
@@ -98,7 +98,7 @@ impl<'deck> Reader<'deck, '_> {
         Ok(Some(Found { span, of_nodes }))
     }
 
-    fn find_surface(&self, reference: &Reference) -> Option<(Context, Entry<'deck>)> {
+    pub(super) fn find_surface(&self, reference: &Reference) -> Option<(Context, Entry<'deck>)> {
         let (context, name) = self.without_prefix(Context::Top, reference.name.clone());
         let mut surfaces = self.chain(context).flat_map(|definitions| definitions.surfaces.iter().copied());
         surfaces.find(|entry| entry.named("NAME").as_ref() == Some(&name)).map(|entry| (context, entry))
@@ -146,6 +146,20 @@ impl<'deck> Reader<'deck, '_> {
         let area = area.and_then(Result::ok);
         for (instance, nodes) in self.select(Kind::Nodes, context, first, span)? {
             picks.nodes.push(NodePick { surface, instance, number: nodes.single(), nodes, area, span });
+        }
+        Ok(())
+    }
+
+    /// Picks the nodes of a set.
+    pub(super) fn pick_set(
+        &mut self,
+        surface: usize,
+        (context, name): (Context, &Name),
+        span: Span,
+        picks: &mut Picks,
+    ) -> io::Result<()> {
+        for (instance, nodes) in self.select(Kind::Nodes, context, name.written(), span)? {
+            picks.nodes.push(NodePick { surface, instance, number: nodes.single(), nodes, area: None, span });
         }
         Ok(())
     }
