@@ -37,6 +37,7 @@ mod plot;
 mod program;
 mod report;
 mod rule_pages;
+mod scene_conditions;
 mod solve;
 mod solve_ccx;
 mod solve_hard;

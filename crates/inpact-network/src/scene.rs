@@ -17,8 +17,8 @@ mod values;
 pub use course::Course;
 pub use read::{SceneFiles, read, read_as_far_as_it_goes};
 pub use rules::{
-    CONTRADICTORY_VALUES, DUPLICATE_NODE, FLOATING_BODY, MALFORMED_SCENE, MALFORMED_TIME, MISSING_QUANTITY,
-    NOT_CONVERGED, SCENE_RULES, UNKNOWN_NODE, UNUSABLE_NUMBER,
+    CONDITION_LEFT_OUT, CONTRADICTORY_VALUES, DUPLICATE_NODE, FLOATING_BODY, MALFORMED_SCENE, MALFORMED_TIME,
+    MISSING_QUANTITY, NOT_CONVERGED, NOT_ONE_CONDITION, SCENE_RULES, UNKNOWN_NODE, UNKNOWN_PART, UNUSABLE_NUMBER,
 };
 
 use inpact_evaluation::history::{ClosingHeat, HistoryStart};
@@ -42,12 +42,45 @@ pub struct Scene {
     pub nodes: Vec<String>,
     /// The line of the scene file of each node that has one.
     pub node_lines: BTreeMap<u32, u64>,
+    /// The parts of the deck that nodes stand for.
+    pub parts: BTreeMap<u32, NodePart>,
+    /// The conditions that are taken from the deck at these; `None` where the scene gives all of its own.
+    pub deck_conditions: Option<ConditionsOfDeck>,
     /// Given values of each field at the nodes, by [`Field`].
     pub conditions: [Conditions; 3],
     /// The bulk conductances.
     pub links: Vec<SceneLink>,
     /// The interfaces.
     pub interfaces: Vec<SceneInterface>,
+}
+
+/// A part of the deck's mesh that a node stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodePart {
+    /// The kind of part.
+    pub kind: PartKind,
+    /// Its name in the deck.
+    pub name: Name,
+    /// The line of the scene file.
+    pub line: u64,
+}
+
+/// Kinds of parts of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    /// A node set.
+    Set,
+    /// A surface.
+    Surface,
+}
+
+/// The conditions of the deck that a scene takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ConditionsOfDeck {
+    /// The step, from 1; `None` for the only one.
+    pub step: Option<usize>,
+    /// The line of the scene file.
+    pub line: u64,
 }
 
 /// Steady state or transient.

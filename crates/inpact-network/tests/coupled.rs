@@ -111,6 +111,8 @@ fn random_scene(random: &mut Random) -> Scene {
         initial_pore_pressure: None,
         nodes: vec!["room".to_owned(), "ground".to_owned(), "drive".to_owned()],
         node_lines: BTreeMap::new(),
+        parts: BTreeMap::new(),
+        deck_conditions: None,
         conditions: std::array::from_fn(|_| Conditions::default()),
         links: Vec::new(),
         interfaces: Vec::new(),

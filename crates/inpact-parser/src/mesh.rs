@@ -13,7 +13,9 @@
 //! Not read, and named where it matters: nodes and elements made by *NGEN, *NFILL, *NCOPY, *NMAP, *ELGEN, *ELCOPY and *SYSTEM, rows in files of their own (INPUT
 //! on *NODE and *ELEMENT), surfaces that are neither of elements nor of nodes, COMBINE, self-contact, and the surfaces that general contact finds by itself.
 
+mod amplitudes;
 mod bodies;
+mod conditions;
 mod elements;
 mod initial;
 mod labels;
@@ -28,7 +30,9 @@ mod sections;
 mod selection;
 mod surfaces;
 
+pub use amplitudes::{Amplitude, AmplitudeTime, AmplitudeValue};
 pub use bodies::{BodyMesh, ElementBlock, MeshTerminal};
+pub use conditions::{Condition, ConditionField, ConditionKind, DeckConditions, Target};
 pub use initial::{InitialField, InitialQuantity};
 pub use materials::{BodyMaterial, MaterialProperty, TensorKind};
 pub use pairs::{MeshPair, Sliding};
@@ -139,7 +143,32 @@ pub struct MeshNote {
 ///
 /// Bytes that cannot be read. Problems of the deck are in [`Mesh::notes`].
 pub fn read(deck: &Deck, grammar: &Grammar, model: &Model, rows: &mut dyn RowBytes) -> io::Result<Mesh> {
-    reader::Reader::new(deck, grammar, rows).read(model)
+    Ok(reader::Reader::new(deck, grammar, rows).read(model, &[])?.0)
+}
+
+/// Reads the mesh around the contact pairs of a model, the targets given, and the conditions that hold in a step with what they are on.
+///
+/// Gives the positions of the targets in [`Mesh::surfaces`], `None` where nothing of one was found: nodes of a set are a surface of nodes.
+///
+/// # Errors
+///
+/// Bytes that cannot be read. Problems of the deck are in [`Mesh::notes`] and [`DeckConditions::not_taken`].
+pub fn read_with_conditions(
+    deck: &Deck,
+    grammar: &Grammar,
+    model: &Model,
+    rows: &mut dyn RowBytes,
+    (targets, step): (&[Target], usize),
+) -> io::Result<(Mesh, Vec<Option<usize>>, DeckConditions)> {
+    let mut reader = reader::Reader::new(deck, grammar, rows);
+    let (mut conditions, theirs) = reader.conditions(step, grammar.dialect())?;
+    let all: Vec<Target> = targets.iter().chain(&theirs).cloned().collect();
+    let (mesh, mut places) = reader.read(model, &all)?;
+    let of_conditions = places.split_off(targets.len());
+    for condition in &mut conditions.conditions {
+        condition.on = condition.on.and_then(|target| of_conditions[target]);
+    }
+    Ok((mesh, places, conditions))
 }
 
 /// Reads the solid elements of a deck, their materials, and the surfaces and node sets of these names.

@@ -53,6 +53,7 @@ mod scene;
 #[cfg(feature = "server")]
 mod server;
 mod settings;
+mod terminals;
 mod threads;
 mod user_library;
 

@@ -17,6 +17,24 @@ impl Course {
         Self(points)
     }
 
+    /// Its points of time and value; one, whose time means nothing, where it is the same at all times.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.0
+    }
+
+    /// The sum of numbers that follow time, each times a factor; 0 without any.
+    pub fn sum(parts: &[(f64, Self)]) -> Self {
+        let mut times: Vec<f64> = parts.iter().flat_map(|(_, course)| course.corners()).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let at = |time: f64| parts.iter().map(|(factor, course)| factor * course.at(time)).sum();
+        if times.is_empty() {
+            Self::constant(at(0.0))
+        } else {
+            Self(times.into_iter().map(|time| [time, at(time)]).collect())
+        }
+    }
+
     /// The number at a time.
     pub fn at(&self, time: f64) -> f64 {
         let after = self.0.partition_point(|point| point[0] <= time);
@@ -50,5 +68,12 @@ mod tests {
         assert_eq!(Course::constant(7.0).at(-3.0), 7.0);
         assert_eq!(course.corners().collect::<Vec<_>>(), [1.0, 3.0]);
         assert_eq!(Course::constant(7.0).corners().count(), 0);
+        let sum = Course::sum(&[
+            (2.0, course),
+            (1.0, Course::constant(1.0)),
+            (1.0, Course::through(vec![[2.0, 0.0], [4.0, 8.0]])),
+        ]);
+        assert_eq!(sum.points(), [[1.0, 21.0], [2.0, 31.0], [3.0, 45.0], [4.0, 49.0]]);
+        assert_eq!(Course::sum(&[]), Course::constant(0.0));
     }
 }

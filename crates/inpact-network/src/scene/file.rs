@@ -26,6 +26,9 @@ pub(crate) struct SceneFile {
     pub(crate) initial: Keyed<InitialEntry>,
     /// The share of the energy dissipated in links that becomes heat in their nodes, where a link gives none; 0 unless given.
     pub(crate) joule_heat_fraction: Option<Number>,
+    /// Conditions of the deck at the nodes that name a set or a surface of it.
+    #[cfg_attr(test, schemars(with = "Option<ConditionsEntry>"))]
+    pub(crate) conditions: Option<Spanned<Keyed<ConditionsEntry>>>,
     /// The nodes.
     #[serde(default, rename = "node")]
     #[cfg_attr(test, schemars(with = "Vec<NodeEntry>"))]
@@ -122,6 +125,15 @@ pub(crate) struct InitialEntry {
     pub(crate) pore_pressure: Option<Number>,
 }
 
+/// Conditions that are taken from the deck: what is held, what flows in, films, and initial values.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct ConditionsEntry {
+    /// The step of the deck whose conditions hold, from 1; not needed where the deck has only one.
+    pub(crate) step: Option<Number>,
+}
+
 /// A node.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -130,6 +142,12 @@ pub(crate) struct NodeEntry {
     /// Its name.
     #[cfg_attr(test, schemars(with = "String"))]
     pub(crate) name: Spanned<String>,
+    /// The node set of the deck that it stands for, whose conditions it takes with [conditions].
+    #[cfg_attr(test, schemars(with = "Option<String>"))]
+    pub(crate) set: Option<Spanned<String>>,
+    /// The surface of the deck that it stands for, instead of a set.
+    #[cfg_attr(test, schemars(with = "Option<String>"))]
+    pub(crate) surface: Option<Spanned<String>>,
     /// Its electric potential.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
     pub(crate) potential: Option<Spanned<Keyed<Condition>>>,
@@ -292,6 +310,7 @@ macro_rules! entries {
 entries! {
     TimeEntry: "a table such as { end = 1.0, step = 0.1 }", "tables such as { end = 1.0, step = 0.1 }";
     InitialEntry: "a table such as { temperature = 20.0 }", "tables such as { temperature = 20.0 }";
+    ConditionsEntry: "a table such as { step = 1 }", "tables such as { step = 1 }";
     Condition: "a table such as { fixed = 1.0 }", "tables such as { fixed = 1.0 }";
     NodeEntry: "an entry under [[node]]", "entries under [[node]]";
     LinkEntry: "an entry under [[link]]", "entries under [[link]]";

@@ -5,6 +5,7 @@
 mod entries;
 mod files;
 mod names;
+mod parts;
 mod time;
 
 use super::course::Course;
@@ -171,6 +172,8 @@ impl<'a> Reader<'a> {
             initial_pore_pressure: initial("pore_pressure", entry.pore_pressure.as_ref()),
             nodes: Vec::new(),
             node_lines: BTreeMap::new(),
+            parts: BTreeMap::new(),
+            deck_conditions: self.deck_conditions(file.conditions.as_ref()),
             conditions: std::array::from_fn(|_| Conditions::default()),
             links: Vec::new(),
             interfaces: Vec::new(),
@@ -204,6 +207,7 @@ impl<'a> Reader<'a> {
         for entry in file.interface_files.0 {
             self.take_interface_file(&entry.into_inner().0.file, files, &mut scene);
         }
+        self.check_parts(&scene);
         // Whatever else is wrong comes first.
         if scene.nodes.is_empty() && !self.lacks_nodes && !self.findings.has_errors() && self.found.is_empty() {
             let help = "add a [[node]] for each point whose potential, temperature or pore pressure is sought or held, or a [[node_file]]";

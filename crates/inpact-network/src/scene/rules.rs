@@ -1,4 +1,4 @@
-//! Rules about scenes, D011 to D019, beside those of node tables.
+//! Rules about scenes, D011 to D019 and D023 to D025, beside those of node tables.
 
 use inpact_diagnostics::data_rules;
 
@@ -61,4 +61,24 @@ data_rules! {
     /// The finding says for each field how far the equations are from balance and at which node.
     /// Remedies: values to begin with under `[initial]` that are near the solution, shorter increments in a transient, and a look at the tables: a conductance that falls steeply with temperature, or a current that heats what conducts it, may have no steady state.
     NOT_CONVERGED = "D019", "not-converged", Error, source: "docs/scenes.md";
+
+    /// A node of a scene stands for a set or a surface that the deck does not have.
+    ///
+    /// Names of sets are those of *NSET and of NSET on *NODE, names of surfaces those of *SURFACE; in a deck with instances the name of the instance goes before, `PLATE-1.TOP`.
+    /// A set without a node, and a surface without a face or a node, is none.
+    UNKNOWN_PART = "D023", "unknown-part", Error, source: "docs/deck-scenes.md";
+
+    /// The conditions of the deck on a set or a surface are not those of one node.
+    ///
+    /// A node of a scene has one value: a set of which only some nodes are held, or which is held at several values, has none.
+    /// Name a smaller set, or give the condition in the scene.
+    /// A condition whose course is not read (an *AMPLITUDE that is not tabular, a ramp over a transient step) is none either.
+    NOT_ONE_CONDITION = "D024", "not-one-condition", Error, source: "docs/deck-scenes.md";
+
+    /// A condition of the deck is not in the scene.
+    ///
+    /// It acts on a potential, a temperature or a pore pressure in the step that the scene takes its conditions from, and no node of the scene stands for all of what it acts on, or it is of a kind that is not taken over.
+    /// The finding has its line.
+    /// Add a node for its set, or give what it means in the scene; where it does not matter, `inpact.toml` turns the rule off.
+    CONDITION_LEFT_OUT = "D025", "condition-left-out", Warning, source: "docs/deck-scenes.md";
 }

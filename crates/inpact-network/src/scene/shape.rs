@@ -93,6 +93,7 @@ static SCENE: Shape = Shape {
         key("time", Kind::Table(&TIME)),
         key("initial", Kind::Table(&INITIAL)),
         key("joule_heat_fraction", Kind::Number),
+        key("conditions", Kind::Table(&CONDITIONS)),
         key("node", Kind::Entries(&NODE)),
         key("link", Kind::Entries(&LINK)),
         key("interface", Kind::Entries(&INTERFACE)),
@@ -118,10 +119,14 @@ static TIME: Shape = shape::<file::TimeEntry>(&[
 static INITIAL: Shape =
     shape::<file::InitialEntry>(&[key("temperature", Kind::Number), key("pore_pressure", Kind::Number)]);
 
+static CONDITIONS: Shape = shape::<file::ConditionsEntry>(&[key("step", Kind::Number)]);
+
 static NODE: Shape = Shape {
     defines_nodes: true,
     ..shape::<file::NodeEntry>(&[
         needed("name", Kind::Text),
+        key("set", Kind::Text),
+        key("surface", Kind::Text),
         key("potential", Kind::Table(&CONDITION)),
         key("temperature", Kind::Table(&CONDITION)),
         key("pore_pressure", Kind::Table(&CONDITION)),

@@ -1,5 +1,6 @@
 //! Structure of a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
 
+use super::conditions::{StepEntry, is_condition};
 use crate::deck::{Block, Deck, KeywordLine};
 use crate::grammar::Grammar;
 use crate::model::Name;
@@ -79,8 +80,11 @@ pub(super) struct Layout<'deck> {
     pub(super) materials: Vec<MaterialEntries<'deck>>,
     /// Options that join nodes beside the elements, or let heat out by radiation, by their names.
     pub(super) beside_elements: Vec<(&'static str, Entry<'deck>)>,
-    /// The names of the steps.
-    pub(super) steps: Vec<Option<Name>>,
+    /// The *STEP options.
+    pub(super) steps: Vec<Entry<'deck>>,
+    /// What may be conditions, in the order of the deck.
+    pub(super) conditions: Vec<StepEntry<'deck>>,
+    pub(super) amplitudes: Vec<Entry<'deck>>,
 }
 
 enum Level {
@@ -117,7 +121,8 @@ impl<'deck> Layout<'deck> {
                 }
                 "ENDINSTANCE" => level = Level::Assembly,
                 "ENDPART" | "ENDASSEMBLY" => level = Level::Model,
-                "STEP" => layout.steps.push(entry.named("NAME")),
+                "STEP" => layout.steps.push(entry),
+                "AMPLITUDE" => layout.amplitudes.push(entry),
                 "CLEARANCE" => layout.clearances.push(entry),
                 "INITIALCONDITIONS" => layout.initial_conditions.push(entry),
                 "MATERIAL" => {
@@ -129,10 +134,15 @@ impl<'deck> Layout<'deck> {
                         material.properties.push((name, entry));
                     }
                 }
-                _ => match BESIDE_ELEMENTS.iter().find(|shown| canonical(shown.as_bytes()) == name) {
-                    Some(shown) => layout.beside_elements.push((shown, entry)),
-                    None => layout.at(&level).add(&name, entry),
-                },
+                _ => {
+                    let beside = BESIDE_ELEMENTS.iter().find(|shown| canonical(shown.as_bytes()) == name);
+                    layout.beside_elements.extend(beside.map(|shown| (*shown, entry)));
+                    if is_condition(&name) {
+                        layout.conditions.push(StepEntry { step: layout.steps.len(), name, entry });
+                    } else if beside.is_none() {
+                        layout.at(&level).add(&name, entry);
+                    }
+                }
             }
         }
         layout

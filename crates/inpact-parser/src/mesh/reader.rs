@@ -1,5 +1,6 @@
 //! The way from a deck to its mesh: surfaces, sets, elements, nodes, in this order.
 
+use super::conditions::{StepEntry, Target};
 use super::elements::RawFace;
 use super::layout::{Definitions, Entry, Layout, MaterialEntries};
 use super::nodes::{Placement, Wanted};
@@ -54,9 +55,11 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) initial_conditions: Vec<Entry<'deck>>,
     pub(super) materials: Vec<MaterialEntries<'deck>>,
     pub(super) beside_elements: Vec<(&'static str, Entry<'deck>)>,
+    pub(super) step_entries: Vec<Entry<'deck>>,
+    pub(super) conditions: Vec<StepEntry<'deck>>,
+    pub(super) amplitudes: Vec<Entry<'deck>>,
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
-    steps: Vec<Option<Name>>,
     notes: Vec<MeshNote>,
     /// The same, so that each is said once.
     noted: HashSet<MeshNote>,
@@ -85,20 +88,31 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             initial_conditions: layout.initial_conditions,
             materials: layout.materials,
             beside_elements: layout.beside_elements,
+            step_entries: layout.steps,
+            conditions: layout.conditions,
+            amplitudes: layout.amplitudes,
             assembly: layout.assembly,
             assembly_name: layout.assembly_name,
-            steps: layout.steps,
             notes: Vec::new(),
             noted: HashSet::new(),
         }
     }
 
-    pub(super) fn read(mut self, model: &Model) -> io::Result<Mesh> {
+    /// Reads the contact pairs, and targets beside them; gives the positions of these among the surfaces of the mesh.
+    pub(super) fn read(mut self, model: &Model, targets: &[Target]) -> io::Result<(Mesh, Vec<Option<usize>>)> {
         let Request { names, pairs } = self.request(model);
+        let mut wanted: Vec<Target> = names.into_iter().map(Target::Surface).collect();
+        let mut places = Vec::new();
+        for target in targets {
+            places.push(wanted.iter().position(|known| known.is(target)).unwrap_or_else(|| {
+                wanted.push(target.clone());
+                wanted.len() - 1
+            }));
+        }
         let mut picks = Picks::default();
         let mut found = Vec::new();
-        for (surface, name) in names.iter().enumerate() {
-            found.push(self.pick_surface(surface, name, &mut picks)?);
+        for (surface, target) in wanted.iter().enumerate() {
+            found.push(self.pick_target(surface, target, &mut picks)?);
         }
         for pick in &mut picks.faces {
             pick.elements.labels.sort();
@@ -107,7 +121,8 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         self.place_instances()?;
         let located = self.locate(&faces, &picks.nodes)?;
         let mut surfaces = Vec::new();
-        for (surface, (name, found)) in names.into_iter().zip(found).enumerate() {
+        for (surface, (target, found)) in wanted.iter().zip(found).enumerate() {
+            let name = target.reference().clone();
             let from = faces.partition_point(|face| face.surface < surface);
             let to = faces.partition_point(|face| face.surface <= surface);
             surfaces.push(self.surface(surface, name, found, &faces[from..to], &picks.nodes, &located)?);
@@ -125,7 +140,9 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         let initial = self.initial(&located)?;
         let Located { points, nodes, .. } = located;
         let surfaces = surfaces.into_iter().flatten().collect();
-        Ok(Mesh { points, nodes, surfaces, pairs, initial, steps: self.steps, notes: self.notes })
+        let steps = self.step_entries.iter().map(|step| step.named("NAME")).collect();
+        let mesh = Mesh { points, nodes, surfaces, pairs, initial, steps, notes: self.notes };
+        Ok((mesh, places.into_iter().map(|place| positions[place]).collect()))
     }
 
     /// Reads where the instances are.

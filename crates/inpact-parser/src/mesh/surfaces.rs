@@ -41,6 +41,12 @@ pub(super) struct Found {
     of_nodes: bool,
 }
 
+impl Found {
+    pub(super) fn new(span: Span, of_nodes: bool) -> Self {
+        Self { span, of_nodes }
+    }
+}
+
 impl<'deck> Reader<'deck, '_> {
     /// Looks a surface up and reads its rows.
     pub(super) fn pick_surface(
@@ -104,7 +110,7 @@ impl<'deck> Reader<'deck, '_> {
         surfaces.find(|entry| entry.named("NAME").as_ref() == Some(&name)).map(|entry| (context, entry))
     }
 
-    fn pick_faces(
+    pub(super) fn pick_faces(
         &mut self,
         surface: usize,
         context: Context,
@@ -131,7 +137,7 @@ impl<'deck> Reader<'deck, '_> {
         Ok(())
     }
 
-    fn pick_nodes(
+    pub(super) fn pick_nodes(
         &mut self,
         surface: usize,
         context: Context,

@@ -7,10 +7,10 @@ use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
 use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::mesh::{self, KeptRows, Mesh, MeshNote, SeekableRows};
+use inpact_parser::mesh::{self, DeckConditions, KeptRows, Mesh, MeshNote, SeekableRows, Target};
 use inpact_parser::model::{self, Model};
 use inpact_parser::problem::Problem;
-use inpact_parser::span::{Position, SourceId};
+use inpact_parser::span::{Position, SourceId, Span};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::fs::File;
@@ -32,6 +32,8 @@ pub(crate) struct MeshedDeck {
     pub(crate) name: String,
     pub(crate) read: ReadDeck,
     pub(crate) mesh: Mesh,
+    /// The conditions of the step that was wanted; none where no step was.
+    pub(crate) conditions: DeckConditions,
     /// The files of the deck, where their rows are read from them; otherwise the deck has kept its rows.
     files: RefCell<Option<SeekableRows<File>>>,
 }
@@ -51,6 +53,16 @@ impl ReadDeck {
 impl MeshedDeck {
     /// Reads a deck, and the rows of its mesh that contact pairs need.
     pub(crate) fn read(path: &Path, settings: &Settings) -> Result<Self, Failure> {
+        let read = Self::read_parts(path, settings, |_| None)?;
+        Ok(read.0)
+    }
+
+    /// The same with further parts of the mesh, and the conditions of a step, where the model says that some are wanted; gives the places of the parts among the surfaces of the mesh.
+    pub(crate) fn read_parts(
+        path: &Path,
+        settings: &Settings,
+        wanted: impl FnOnce(&ReadDeck) -> Option<(Vec<Target>, usize)>,
+    ) -> Result<(Self, Vec<Option<usize>>), Failure> {
         let is_on_disk = path.metadata().is_ok_and(|metadata| metadata.is_file());
         // A stream cannot be read twice, and content that is known without reading is on no disk.
         let is_file = is_on_disk && !settings.has_known_content();
@@ -59,20 +71,43 @@ impl MeshedDeck {
         let mut files = if is_file { Some(open_all(&located)?) } else { None };
         let LocatedDeck { deck, .. } = located;
         let read = ReadDeck::of(deck, settings);
-        let mesh = read_mesh(&read.deck, &read.model, settings, files.as_mut());
-        let mesh = mesh.map_err(|error| Failure::read(path, error))?;
-        Ok(Self { name: path.display().to_string(), read, mesh, files: RefCell::new(files) })
+        let wanted = wanted(&read);
+        let mesh = match &wanted {
+            None => read_mesh(&read.deck, &read.model, settings, files.as_mut())
+                .map(|mesh| (mesh, Vec::new(), DeckConditions::default())),
+            Some((targets, step)) => {
+                let wanted = (targets.as_slice(), *step);
+                let (deck, model, grammar) = (&read.deck, &read.model, settings.grammar);
+                match files.as_mut() {
+                    Some(files) => mesh::read_with_conditions(deck, grammar, model, files, wanted),
+                    None => mesh::read_with_conditions(deck, grammar, model, &mut KeptRows(deck), wanted),
+                }
+            }
+        };
+        let (mesh, places, conditions) = mesh.map_err(|error| Failure::read(path, error))?;
+        let name = path.display().to_string();
+        Ok((Self { name, read, mesh, conditions, files: RefCell::new(files) }, places))
+    }
+
+    /// Line and column of a span, also in rows that were not kept.
+    fn position(&self, span: Span) -> Result<Position, Failure> {
+        let position = match &mut *self.files.borrow_mut() {
+            Some(files) => mesh::position(&self.read.deck, files, span),
+            None => mesh::position(&self.read.deck, &mut KeptRows(&self.read.deck), span),
+        };
+        position.map_err(|error| Failure::read(Path::new(&self.name), error))
+    }
+
+    /// Where a span is, for messages: `line 12 of `deck.inp``.
+    pub(crate) fn line_of(&self, span: Span) -> Result<String, Failure> {
+        let file = self.read.deck.source(span.source).name();
+        Ok(format!("line {} of `{file}`", self.position(span)?.line))
     }
 
     /// Says notes with their places.
     pub(crate) fn say_notes(&self, notes: &[MeshNote], format: FindingFormat) -> Result<(), Failure> {
         for note in notes.iter().take(MOST_NOTES) {
-            let unreadable = |error| Failure::read(Path::new(&self.name), error);
-            let position = match &mut *self.files.borrow_mut() {
-                Some(files) => mesh::position(&self.read.deck, files, note.span),
-                None => mesh::position(&self.read.deck, &mut KeptRows(&self.read.deck), note.span),
-            };
-            self.say_note(note, position.map_err(unreadable)?, format);
+            self.say_note(note, self.position(note.span)?, format);
         }
         let more = notes.len().saturating_sub(MOST_NOTES);
         if 0 < more && format != FindingFormat::Json {

@@ -1,8 +1,10 @@
 //! A scene that can be solved, with its deck: what `solve` and `tradeoff --scene` have in common, and what they say where it is wrong.
 
+mod deck_conditions;
 mod failures;
 
 use super::findings::Reporter;
+use super::meshed::{MeshedDeck, ReadDeck};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
@@ -13,7 +15,7 @@ use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
 use inpact_parser::deck::Keep;
-use inpact_parser::grammar::Dialect;
+use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{self, Model, Name, Regime};
 use inpact_validation::check;
 use std::collections::HashSet;
@@ -76,9 +78,28 @@ impl SolvableScene {
         }
         let mut of_deck = Settings::of(&deck_path, reading)?;
         reporter.confine(&mut of_deck, &deck_path);
-        let deck = input::read_deck(&deck_path, Keep::Interpreted, &of_deck)?;
         let grammar = of_deck.grammar;
-        let (model, problems) = model::read(&deck, grammar);
+        let mut scene = scene;
+        let read = match scene.deck_conditions {
+            None => ReadDeck::read(&deck_path, &of_deck)?,
+            Some(wanted) => {
+                let mut findings = Findings::new(&name);
+                let parts = deck_conditions::targets(&scene);
+                let mut step = None;
+                let (meshed, places) = MeshedDeck::read_parts(&deck_path, &of_deck, |read| {
+                    step = deck_conditions::step(wanted, steps_of(read, grammar), &mut findings);
+                    step.map(|step| (parts, step))
+                })?;
+                if step.is_some() {
+                    deck_conditions::take(&mut scene, &meshed, &places, &meshed.read.model, &mut findings)?;
+                }
+                if reporter.data(findings.into_list(), &settings) {
+                    return Ok(None);
+                }
+                meshed.read
+            }
+        };
+        let ReadDeck { deck, model, problems } = read;
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
         // A scene that says nothing of potentials is one of heat alone.
         let currents = if scene.mentions(Field::Potential) { Currents::OfTheDeck } else { Currents::None };
@@ -112,6 +133,12 @@ impl SolvableScene {
         let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
     }
+}
+
+/// The number of steps of a deck.
+pub(crate) fn steps_of(read: &ReadDeck, grammar: &Grammar) -> usize {
+    let ids = read.deck.blocks().iter().filter_map(|block| block.keyword_id());
+    ids.filter(|id| grammar.keyword(*id).name == "STEP").count()
 }
 
 /// Refuses a file that a scene names and that is no regular one, or lies outside of what may be read.

@@ -23,6 +23,7 @@ impl Reader<'_> {
             Err(refusal) => return self.refuse(line, refusal),
         };
         scene.node_lines.insert(number, line);
+        self.take_part(entry.set, entry.surface, number, scene);
         let conditions = [entry.potential, entry.temperature, entry.pore_pressure];
         for (field, condition) in Field::ALL.into_iter().zip(conditions) {
             let Some(condition) = condition else { continue };

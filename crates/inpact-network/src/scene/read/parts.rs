@@ -1,0 +1,78 @@
+//! Nodes that stand for a part of the deck's mesh, and the step whose conditions they take.
+
+use super::Reader;
+use crate::scene::file::ConditionsEntry;
+use crate::scene::rules::MALFORMED_SCENE;
+use crate::scene::values::Keyed;
+use crate::scene::{ConditionsOfDeck, NodePart, PartKind, Scene};
+use inpact_parser::model::Name;
+use toml::Spanned;
+
+/// The most steps that a deck can be thought to have.
+const MOST_STEPS: f64 = 1e6;
+
+impl Reader<'_> {
+    /// The conditions that are taken from the deck.
+    pub(super) fn deck_conditions(
+        &mut self,
+        entry: Option<&Spanned<Keyed<ConditionsEntry>>>,
+    ) -> Option<ConditionsOfDeck> {
+        let entry = entry?;
+        let line = self.line_of(entry);
+        let Keyed(ConditionsEntry { step }) = entry.as_ref();
+        let Some(number) = step else { return Some(ConditionsOfDeck { step: None, line }) };
+        let value = number.value();
+        if !((1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0) {
+            let message = format!("`conditions.step` is {}", self.written(number));
+            let line = self.line(number.span().start);
+            self.report(&MALFORMED_SCENE, line, message, "give the number of a step of the deck, from 1");
+            return None;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it is a whole number within limits"
+        )]
+        let step = Some(value as usize);
+        Some(ConditionsOfDeck { step, line })
+    }
+
+    /// The part of the deck that a node stands for.
+    pub(super) fn take_part(
+        &mut self,
+        set: Option<Spanned<String>>,
+        surface: Option<Spanned<String>>,
+        node: u32,
+        scene: &mut Scene,
+    ) {
+        let (kind, name) = match (set, surface) {
+            (None, None) => return,
+            (Some(set), None) => (PartKind::Set, set),
+            (None, Some(surface)) => (PartKind::Surface, surface),
+            (Some(_), Some(surface)) => {
+                let line = self.line_of(&surface);
+                let message = format!("node `{}` has `set` and `surface`", scene.nodes[node as usize]);
+                return self.report(&MALFORMED_SCENE, line, message, "a node stands for one of the two");
+            }
+        };
+        let line = self.line_of(&name);
+        scene.parts.insert(node, NodePart { kind, name: Name::new(name.as_ref()), line });
+    }
+
+    /// Reports parts from which nothing is taken, and conditions that nothing takes.
+    pub(super) fn check_parts(&mut self, scene: &Scene) {
+        match (&scene.deck_conditions, scene.parts.values().next()) {
+            (None, Some(part)) if !self.findings.has_errors() => {
+                let message =
+                    format!("the node stands for `{}` of the deck, and nothing is taken from there", part.name);
+                let help = "add [conditions], so that it takes the conditions of the deck, or leave the name out";
+                self.report(&MALFORMED_SCENE, part.line, message, help);
+            }
+            (Some(of), None) if !self.lacks_nodes && !self.findings.has_errors() => {
+                let help = "add `set` or `surface` to the nodes that take conditions of the deck";
+                self.report(&MALFORMED_SCENE, of.line, "no node takes the conditions of the deck", help);
+            }
+            _ => {}
+        }
+    }
+}
