@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use std::collections::hash_map::{Entry, RandomState};
 use std::hash::{BuildHasher, Hash, Hasher};
 
-/// Gathers elements and forgets each face as soon as a second element has it: memory follows the front between the elements that came and those that did not,
+/// Gathers elements and forgets each face once a second element has it: memory follows the front between the elements that came and those that did not,
 /// which is that of a surface where neighbours come soon after each other.
 ///
-/// A face that three elements have, which no valid mesh has, counts as free.
+/// A face that three elements have, which no valid mesh has, counts as free, of one of the three.
 ///
 /// ```
 /// use inpact_geometry::{ElementShape, FreeFaces, NodeId};
@@ -20,12 +20,112 @@ use std::hash::{BuildHasher, Hash, Hasher};
 /// ```
 #[derive(Debug, Default)]
 pub struct FreeFaces {
-    open: HashMap<Corners, Option<(u64, FaceLabel)>, Mixing>,
+    recent: Recent,
+    /// Faces that were waiting for long.
+    older: HashMap<Corners, Owner, Mixing>,
 }
 
 /// The corners of a face, ascending; faces with fewer than four end with the largest number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Corners([u32; 4]);
+
+impl Corners {
+    /// Those of no face: the corners of a face differ.
+    const NONE: Self = Self([0; 4]);
+
+    /// The corners, each once; `None` where so many coincide that the face has no area.
+    fn of(mut nodes: [u32; 4], count: usize) -> Option<Self> {
+        nodes.sort_unstable();
+        let [a, b, c, d] = nodes;
+        // Most faces have three or four corners that differ, and the largest number is that of no node.
+        let differ = if count == 4 { c < d } else { d == u32::MAX };
+        if 3 <= count && a < b && b < c && differ {
+            return Some(Self(nodes));
+        }
+        let mut kept = [u32::MAX; 4];
+        let mut found = 0;
+        for corner in &nodes[..count] {
+            if found == 0 || kept[found - 1] != *corner {
+                kept[found] = *corner;
+                found += 1;
+            }
+        }
+        (count.min(3) <= found).then_some(Self(kept))
+    }
+}
+
+/// The element that a face belongs to, and its name there; without a name it is not wanted.
+#[derive(Debug, Clone, Copy)]
+struct Owner {
+    element: u64,
+    label: Option<FaceLabel>,
+}
+
+/// A face that no second element has had so far.
+#[derive(Debug, Clone, Copy)]
+struct Waiting {
+    corners: Corners,
+    owner: Owner,
+}
+
+/// The number of faces that may share a place among the recent ones.
+const WAYS: usize = 4;
+/// The fewest and the most places for recent faces, powers of two; the most take 8 MiB.
+const FEWEST_PLACES: usize = 1 << 6;
+const MOST_PLACES: usize = 1 << 16;
+
+/// Faces that came lately. Neighbours mostly come soon after each other and have near numbers, so that most faces come and go here, in the cache of the processor.
+///
+/// The place of a face follows from its smallest node: elements with near numbers use near places. Where too many share a place, the oldest has to leave.
+/// It may leave before the second element comes, so that the same face is here and among the older ones; [`FreeFaces::finish`] brings them together.
+#[derive(Debug, Default)]
+struct Recent {
+    /// At each place the newest first; those without corners are free.
+    places: Vec<[Waiting; WAYS]>,
+    /// The number of faces that had to leave since there are so many places.
+    left: usize,
+}
+
+impl Recent {
+    const NOBODY: Waiting = Waiting { corners: Corners::NONE, owner: Owner { element: 0, label: None } };
+
+    /// Forgets the face if it is there, and takes it if not; gives the one that has to leave.
+    fn meet(&mut self, new: Waiting) -> Option<Waiting> {
+        if self.places.is_empty() {
+            self.places = vec![[Self::NOBODY; WAYS]; FEWEST_PLACES];
+        }
+        let at = self.place(new.corners);
+        let place = &mut self.places[at];
+        let mut free = WAYS - 1;
+        for (way, waiting) in place.iter_mut().enumerate() {
+            if waiting.corners == new.corners {
+                *waiting = Self::NOBODY;
+                return None;
+            }
+            if waiting.corners == Corners::NONE {
+                free = way;
+            }
+        }
+        let oldest = place[free];
+        place.copy_within(..free, 1);
+        place[0] = new;
+        (oldest.corners != Corners::NONE).then_some(oldest)
+    }
+
+    fn place(&self, Corners([a, b, c, _]): Corners) -> usize {
+        let spread = b.wrapping_add(c).wrapping_mul(0x9E37_79B9) >> 29;
+        (a ^ spread) as usize & (self.places.len() - 1)
+    }
+
+    /// Whether more places would keep more faces.
+    fn is_crowded(&self) -> bool {
+        self.places.len() < MOST_PLACES && self.places.len() < self.left
+    }
+
+    fn faces(self) -> impl Iterator<Item = Waiting> {
+        self.places.into_iter().flatten().filter(|waiting| waiting.corners != Corners::NONE)
+    }
+}
 
 impl Hash for Corners {
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -96,36 +196,42 @@ impl FreeFaces {
             return;
         }
         for face in shape.faces() {
-            let mut key = [u32::MAX; 4];
-            for (key, local) in key.iter_mut().zip(&face.nodes[..face.shape.corners()]) {
-                *key = nodes[usize::from(*local)].0;
+            let count = face.shape.corners();
+            let mut corners = [u32::MAX; 4];
+            for (corner, local) in corners.iter_mut().zip(&face.nodes[..count]) {
+                *corner = nodes[usize::from(*local)].0;
             }
-            key.sort_unstable();
-            let Some(key) = distinct(key, face.shape.corners()) else { continue };
-            match self.open.entry(Corners(key)) {
-                Entry::Occupied(met) => drop(met.remove()),
-                Entry::Vacant(new) => drop(new.insert(element.map(|element| (element, face.label)))),
-            }
+            let Some(corners) = Corners::of(corners, count) else { continue };
+            let owner = Owner { element: element.unwrap_or(0), label: element.map(|_| face.label) };
+            self.take(Waiting { corners, owner });
+        }
+    }
+
+    fn take(&mut self, face: Waiting) {
+        let Some(oldest) = self.recent.meet(face) else { return };
+        Self::toggle(&mut self.older, oldest);
+        self.recent.left += 1;
+        if self.recent.is_crowded() {
+            let places = vec![[Recent::NOBODY; WAYS]; 4 * self.recent.places.len()];
+            let crowded = std::mem::replace(&mut self.recent, Recent { places, left: 0 });
+            crowded.faces().for_each(|face| self.take(face));
+        }
+    }
+
+    fn toggle(older: &mut HashMap<Corners, Owner, Mixing>, face: Waiting) {
+        match older.entry(face.corners) {
+            Entry::Occupied(met) => drop(met.remove()),
+            Entry::Vacant(new) => drop(new.insert(face.owner)),
         }
     }
 
     /// The wanted faces that no other element has, by element and label.
     pub fn finish(self) -> Vec<(u64, FaceLabel)> {
-        let mut faces: Vec<(u64, FaceLabel)> = self.open.into_values().flatten().collect();
+        let Self { recent, mut older } = self;
+        recent.faces().for_each(|face| Self::toggle(&mut older, face));
+        let wanted = |owner: Owner| owner.label.map(|label| (owner.element, label));
+        let mut faces: Vec<(u64, FaceLabel)> = older.into_values().filter_map(wanted).collect();
         faces.sort_unstable();
         faces
     }
-}
-
-/// The corners, each once; `None` where so many coincide that the face has no area.
-fn distinct(sorted: [u32; 4], corners: usize) -> Option<[u32; 4]> {
-    let mut key = [u32::MAX; 4];
-    let mut found = 0;
-    for corner in &sorted[..corners] {
-        if found == 0 || key[found - 1] != *corner {
-            key[found] = *corner;
-            found += 1;
-        }
-    }
-    (corners.min(3) <= found).then_some(key)
 }

@@ -1,6 +1,7 @@
 //! Free faces of blocks of bricks, wedges and tetrahedra.
 
 use inpact_geometry::{ElementShape, FaceLabel, FreeFaces, NodeId};
+use std::collections::BTreeMap;
 
 fn bricks([n, m, l]: [u32; 3]) -> Vec<Vec<NodeId>> {
     let node = |i: u32, j: u32, k: u32| NodeId((k * (m + 1) + j) * (n + 1) + i);
@@ -68,4 +69,71 @@ fn second_order_faces_meet_by_their_corners() {
         free.add(element.into(), ElementShape::Tetrahedron10, &nodes);
     }
     assert_eq!(free.finish().len(), 6);
+}
+
+type Element = (ElementShape, Vec<NodeId>);
+
+/// The free faces by a table of all faces.
+fn counted(elements: &[Element]) -> Vec<(u64, FaceLabel)> {
+    let mut owners: BTreeMap<Vec<NodeId>, Vec<(u64, FaceLabel)>> = BTreeMap::new();
+    for (element, (shape, nodes)) in (0..).zip(elements) {
+        for face in shape.faces() {
+            let corners = &face.nodes[..face.shape.corners()];
+            let mut corners: Vec<NodeId> = corners.iter().map(|local| nodes[usize::from(*local)]).collect();
+            corners.sort_unstable();
+            owners.entry(corners).or_default().push((element, face.label));
+        }
+    }
+    let mut free: Vec<_> = owners.into_values().filter(|owners| owners.len() == 1).flatten().collect();
+    free.sort_unstable();
+    free
+}
+
+fn found(elements: &[Element]) -> Vec<(u64, FaceLabel)> {
+    let mut free = FreeFaces::new();
+    for (element, (shape, nodes)) in (0..).zip(elements) {
+        free.add(element, *shape, nodes);
+    }
+    free.finish()
+}
+
+/// Bricks, or two wedges for each; all are cut along the same diagonal, so that the halves of neighbours meet.
+fn cut_or_not(shape: ElementShape, number: fn(u32) -> u32) -> Vec<Element> {
+    let element = |nodes: &[NodeId]| (shape, nodes.iter().map(|node| NodeId(number(node.0))).collect());
+    let halves = |nodes: Vec<NodeId>| match (shape, &nodes[..]) {
+        (ElementShape::Wedge6, [a, b, c, d, e, f, g, h]) => {
+            vec![element(&[*a, *b, *c, *e, *f, *g]), element(&[*a, *c, *d, *e, *g, *h])]
+        }
+        (_, nodes) => vec![element(nodes)],
+    };
+    bricks([13, 12, 11]).into_iter().flat_map(halves).collect()
+}
+
+/// Whatever the numbers of the nodes and the order of the elements: only the way through the memory depends on them.
+#[test]
+fn free_faces_are_those_that_a_count_of_all_finds() {
+    // In order, far apart, all at one place among the recent faces, and without order.
+    let numberings: [fn(u32) -> u32; 4] =
+        [|node| node + 1, |node| 1000 * node + 7, |node| node << 18, |node| node.wrapping_mul(0x9E37_79B1)];
+    for number in numberings {
+        for shape in [ElementShape::Hexahedron8, ElementShape::Wedge6] {
+            let mut elements = cut_or_not(shape, number);
+            assert_eq!(found(&elements), counted(&elements));
+            // Nearly every face has to wait for long, and neighbours are not near.
+            for at in 0..elements.len() {
+                let other = (7919 * at + 13) % elements.len();
+                elements.swap(at, other);
+            }
+            assert_eq!(found(&elements), counted(&elements));
+        }
+    }
+}
+
+/// A plane of quadrilaterals, whose faces are edges.
+#[test]
+fn edges_of_a_plane_mesh_are_those_that_a_count_of_all_finds() {
+    let squares = bricks([90, 80, 1]).into_iter();
+    let elements: Vec<Element> = squares.map(|nodes| (ElementShape::Quadrilateral4, nodes[..4].to_vec())).collect();
+    assert_eq!(found(&elements).len(), 2 * (90 + 80));
+    assert_eq!(found(&elements), counted(&elements));
 }

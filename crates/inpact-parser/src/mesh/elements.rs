@@ -30,7 +30,7 @@ pub(super) struct RawFace {
     pub(super) label: FaceLabel,
     pub(super) kind: ElementType,
     pub(super) shape: FaceShape,
-    pub(super) nodes: [u32; MAX_NODES],
+    nodes: [u32; MAX_NODES],
     /// The *ELEMENT option.
     pub(super) option: Span,
 }
@@ -49,18 +49,18 @@ impl RawFace {
 impl Reader<'_, '_> {
     /// Finds the faces that are picked; free faces take a second look at the elements that have them.
     pub(super) fn faces(&mut self, picks: &[Pick]) -> io::Result<Vec<RawFace>> {
-        let (mut faces, free) = self.sweep(picks)?;
+        let mut faces = Vec::new();
+        let free = self.sweep(picks, &mut faces)?;
         if !free.is_empty() {
-            faces.extend(self.sweep(&free)?.0);
+            self.sweep(&free, &mut faces)?;
         }
         faces.sort_by_key(|face| (face.surface, face.instance, face.element, face.label));
         faces.dedup_by_key(|face| (face.surface, face.instance, face.element, face.label));
         Ok(faces)
     }
 
-    /// One look at all elements: the faces picked by name, and picks of the free faces by name.
-    fn sweep(&mut self, picks: &[Pick]) -> io::Result<(Vec<RawFace>, Vec<Pick>)> {
-        let mut faces = Vec::new();
+    /// One look at all elements: adds the faces picked by name, and gives picks of the free faces by name.
+    fn sweep(&mut self, picks: &[Pick], faces: &mut Vec<RawFace>) -> io::Result<Vec<Pick>> {
         let mut named = Vec::new();
         for instance in 0..self.instances.len() {
             let here: Vec<&Pick> = picks.iter().filter(|pick| pick.instance == instance).collect();
@@ -72,11 +72,11 @@ impl Reader<'_, '_> {
             let options: Vec<Entry<'_>> =
                 self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.elements.clone()).collect();
             for option in options {
-                self.rows_of(option, &here, &mut free, &mut faces)?;
+                self.rows_of(option, &here, &mut free, faces)?;
             }
             named.extend(free.into_iter().flat_map(|free| free.picks(&here)));
         }
-        Ok((faces, named))
+        Ok(named)
     }
 
     fn rows_of(
@@ -327,14 +327,51 @@ impl<'a> ElementRows<'a> {
 }
 
 /// Adds the numbers of a line to a row; false where something is no number.
+///
+/// In one pass: all elements go through here where free faces are wanted.
 fn integers(line: &[u8], row: &mut Vec<u32>) -> bool {
-    for item in line.split(|byte| *byte == b',') {
-        let item = item.trim_ascii();
-        match unsigned(item) {
-            Some(number) => row.push(number),
-            None if item.is_empty() => {}
-            None => return false,
+    let mut rest = line;
+    loop {
+        rest = rest.trim_ascii_start();
+        let mut value: u64 = 0;
+        let mut digits = 0;
+        while let Some(digit) = rest.get(digits).map(|byte| byte.wrapping_sub(b'0')).filter(|digit| *digit <= 9) {
+            // A number that is too large stays too large.
+            value = (10 * value + u64::from(digit)).min(1 << 40);
+            digits += 1;
+        }
+        if 0 < digits {
+            let Ok(value) = u32::try_from(value) else { return false };
+            row.push(value);
+        }
+        rest = &rest[digits..];
+        match rest {
+            [b',', behind @ ..] => rest = behind,
+            [] => return true,
+            _ => match rest.trim_ascii_start() {
+                [b',', behind @ ..] => rest = behind,
+                [] => return true,
+                _ => return false,
+            },
         }
     }
-    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::integers;
+
+    #[test]
+    fn rows_of_integers() {
+        let read = |line: &[u8]| {
+            let mut row = Vec::new();
+            integers(line, &mut row).then_some(row)
+        };
+        assert_eq!(read(b"  7, 12,3 ,\t4294967295"), Some(vec![7, 12, 3, u32::MAX]));
+        assert_eq!(read(b"007,,8,"), Some(vec![7, 8]));
+        assert_eq!(read(b" "), Some(vec![]));
+        for line in [&b"4294967296"[..], b"99999999999999999999999", b"1 2", b"1, x", b"-1", b"1.", b"1,2*", b"\xA0"] {
+            assert_eq!(read(line), None, "{}", line.escape_ascii());
+        }
+    }
 }

@@ -208,13 +208,15 @@ impl<'deck> Reader<'deck, '_> {
             return Ok(None);
         };
         let space = first.kind.space;
-        let mut kept: Vec<(&RawFace, Vec<NodeId>)> = Vec::new();
+        let mut kept: Vec<&RawFace> = Vec::with_capacity(faces.len());
+        // The nodes of those kept, one after the other.
+        let mut nodes_of_kept: Vec<NodeId> = Vec::new();
         let mut without_node: Vec<(Span, String)> = Vec::new();
         let mut of_another_space: Vec<(Span, String)> = Vec::new();
         for face in faces {
-            let nodes: Option<Vec<NodeId>> = face.nodes().iter().map(|node| located.id(face.instance, *node)).collect();
-            match nodes {
-                None => without_node.push((
+            let nodes = || face.nodes().iter().map(|node| located.id(face.instance, *node));
+            match nodes().find(Option::is_none) {
+                Some(_) => without_node.push((
                     span,
                     format!(
                         "face {} of element {} has a node that was not found{}",
@@ -223,7 +225,7 @@ impl<'deck> Reader<'deck, '_> {
                         self.makers(face.instance)
                     ),
                 )),
-                Some(_) if face.kind.space != space => {
+                None if face.kind.space != space => {
                     of_another_space.push((
                         span,
                         format!(
@@ -232,12 +234,21 @@ impl<'deck> Reader<'deck, '_> {
                         ),
                     ));
                 }
-                Some(nodes) => kept.push((face, nodes)),
+                None => {
+                    kept.push(face);
+                    nodes_of_kept.extend(nodes().flatten());
+                }
             }
         }
         self.note_first(without_node, "and was left out");
         self.note_first(of_another_space, "and was left out");
-        let surface = Surface::new(kept.iter().map(|(face, nodes)| Face { shape: face.shape, nodes }));
+        let mut nodes = &nodes_of_kept[..];
+        let surface = Surface::new(kept.iter().map(|face| {
+            let (of_face, behind) = nodes.split_at(face.shape.nodes());
+            nodes = behind;
+            Face { shape: face.shape, nodes: of_face }
+        }));
+        drop(nodes_of_kept);
         let surface = match surface {
             Ok(surface) => surface,
             Err(error) => {
@@ -247,7 +258,7 @@ impl<'deck> Reader<'deck, '_> {
         };
         let mut sections: BTreeMap<usize, Vec<Section>> = BTreeMap::new();
         let instances: BTreeSet<usize> =
-            kept.iter().filter(|(face, _)| face.needs_section()).map(|(face, _)| face.instance).collect();
+            kept.iter().filter(|face| face.needs_section()).map(|face| face.instance).collect();
         for instance in instances {
             let of_body = self.sections(instance)?;
             sections.insert(instance, of_body);
@@ -256,24 +267,21 @@ impl<'deck> Reader<'deck, '_> {
             sections.get(&face.instance).and_then(|of_body| of_body.iter().rev().find(|section| section.holds(face)))
         };
         let thickness: Vec<Option<f64>> =
-            kept.iter().map(|(face, _)| section(face).and_then(|section| section.thickness)).collect();
+            kept.iter().map(|face| section(face).and_then(|section| section.thickness)).collect();
         let shift = |face: &RawFace| {
             section(face)
                 .map_or(0.0, |section| sheet_shift(face.label, section.thickness.unwrap_or(0.0), section.offset))
         };
-        let shifts = kept.iter().map(|(face, _)| if face.kind.shape.is_sheet() { shift(face) } else { 0.0 }).collect();
-        let without_thickness = kept
-            .iter()
-            .zip(&thickness)
-            .filter(|((face, _), thickness)| face.needs_section() && thickness.is_none())
-            .count();
+        let shifts = kept.iter().map(|face| if face.kind.shape.is_sheet() { shift(face) } else { 0.0 }).collect();
+        let without_thickness =
+            kept.iter().zip(&thickness).filter(|(face, thickness)| face.needs_section() && thickness.is_none()).count();
         if 0 < without_thickness && space != ElementSpace::Axisymmetric {
             self.note(span, format!("no section gives a thickness to {without_thickness} faces of this surface"));
         }
         let element = |face: &RawFace| {
             (MeshNode { instance: self.instances[face.instance].name.clone(), label: face.element }, face.label)
         };
-        let elements = kept.iter().map(|(face, _)| element(face)).collect();
+        let elements = kept.iter().map(|face| element(face)).collect();
         Ok(Some(FaceSurface { surface, elements, space, thickness, shifts }))
     }
 }
