@@ -81,6 +81,28 @@ pub fn face_areas(placed: &Placed<'_>, extent: Extent<'_>) -> Result<Vec<f64>, G
     Ok(placed.surface().faces().map(|face| face_parts(placed, face, extent).area).collect())
 }
 
+/// ∫ N dA (L²) of each node of a surface of areas, in the order of [`Surface::nodes`](crate::Surface::nodes): what a flow that is spread evenly puts into each.
+///
+/// On second-order faces corners have negative or zero ones; the sum is the area.
+///
+/// # Errors
+///
+/// The faces are lines.
+pub fn shape_function_areas(placed: &Placed<'_>) -> Result<Vec<f64>, GeometryError> {
+    suits(placed, Extent::Spatial)?;
+    let surface = placed.surface();
+    let mut areas = vec![0.0; surface.nodes().len()];
+    for id in surface.faces() {
+        let parts = face_parts(placed, id, Extent::Spatial);
+        for (node, area) in surface.face(id).nodes.iter().zip(parts.functions) {
+            if let Some(i) = surface.position_of(*node) {
+                areas[i] += area;
+            }
+        }
+    }
+    Ok(areas)
+}
+
 /// Refuses extents that do not suit the faces.
 fn suits(placed: &Placed<'_>, extent: Extent<'_>) -> Result<(), GeometryError> {
     let surface = placed.surface();

@@ -63,7 +63,7 @@ mod solid;
 
 mod error;
 
-pub use area::{Extent, Shares, face_areas, node_areas};
+pub use area::{Extent, Shares, face_areas, node_areas, shape_function_areas};
 pub use closest::Closest;
 pub use conduction::{Conductivity, SolidElement, SolidIntegrals};
 pub use coordinates::Placed;

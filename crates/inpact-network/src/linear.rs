@@ -10,6 +10,7 @@
 //! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; what does not get there is tried again by a safer method, at last by `elimination`.
 //! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` put back what was left out: values, the flows through infinite conductances, jumps that no flow determines.
 
+mod cholesky;
 mod components;
 mod core;
 mod dead_ends;
@@ -33,6 +34,7 @@ mod strength;
 mod work;
 
 pub(crate) use self::core::{Core, NONE, Origins};
+pub use cholesky::Cholesky;
 pub(crate) use dead_ends::DeadEnds;
 pub(crate) use edges::{Balance, Edges};
 pub use factor::NoSolution;

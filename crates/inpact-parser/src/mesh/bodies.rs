@@ -29,6 +29,8 @@ pub struct BodyMesh {
     pub labels: Vec<u32>,
     /// The nodes of each instance, and its name; `None` in a deck without.
     pub instances: Vec<(Option<Name>, Range<usize>)>,
+    /// The instances that are turned, as positions in `instances`.
+    pub turned: Vec<usize>,
     /// The elements, by option, instance and section.
     pub elements: Vec<ElementBlock>,
     /// The materials of the deck.
@@ -329,6 +331,9 @@ impl<'deck> Reader<'deck, '_> {
         }
         for (pick, labels) in here.into_iter().zip(selected) {
             of_terminals[pick.surface].extend(labels.into_iter().filter_map(|label| positions.of(label)));
+        }
+        if self.instances[instance].placement.is_turned() {
+            mesh.turned.push(instance);
         }
         mesh.instances.push((name, first..mesh.points.len()));
         Ok(positions)

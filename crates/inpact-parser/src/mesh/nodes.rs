@@ -62,6 +62,10 @@ pub(super) struct Placement {
 impl Placement {
     pub(super) const NONE: Self = Self { translation: [0.0; 3], rotation: None };
 
+    pub(super) fn is_turned(&self) -> bool {
+        self.rotation.is_some()
+    }
+
     /// Translated, then rotated about the axis from a to b (Rodrigues), right-handed.
     fn put(&self, point: Point) -> Point {
         let p = [0, 1, 2].map(|k| point[k] + self.translation[k]);

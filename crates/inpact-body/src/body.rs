@@ -1,0 +1,198 @@
+//! Bodies: what solid elements connect, and where it ends.
+
+use crate::error::{BodyError, BodyFault};
+use inpact_geometry::NodeId;
+use inpact_parser::deck::Deck;
+use inpact_parser::grammar::Grammar;
+use inpact_parser::mesh::{self, BodyMesh, ElementBlock, MeshNote, MeshTerminal, RowBytes};
+use inpact_parser::model::Name;
+use std::io;
+
+/// The most names that a message lists.
+const MOST_NAMES: usize = 12;
+
+/// The bodies of a deck with their terminals.
+#[derive(Debug, Clone)]
+pub struct Body {
+    pub(crate) mesh: BodyMesh,
+    pub(crate) terminals: Vec<MeshTerminal>,
+    pub(crate) parts: Vec<BodyPart>,
+    /// The part of each node.
+    pub(crate) part_of: Vec<u32>,
+}
+
+/// A body: nodes that elements connect with each other and with no other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BodyPart {
+    /// The number of its nodes.
+    pub nodes: usize,
+    /// The number of its elements.
+    pub elements: usize,
+    /// Its terminals, as positions among all.
+    pub terminals: Vec<usize>,
+    /// The first of its nodes.
+    pub first: NodeId,
+}
+
+impl Body {
+    /// Reads the bodies of a deck that end at these surfaces and node sets.
+    ///
+    /// A name in the front of a dotted one is that of an instance; a surface comes before a node set of the same name, and a number is a node.
+    /// A terminal lies in one body.
+    ///
+    /// # Errors
+    ///
+    /// Bytes that cannot be read; within, a [`BodyError`] where the deck has faults, a terminal is not defined, has no node of a solid element, lies in two bodies, or
+    /// shares a node with another.
+    pub fn read(
+        deck: &Deck,
+        grammar: &Grammar,
+        terminals: &[Name],
+        rows: &mut dyn RowBytes,
+    ) -> io::Result<Result<Self, BodyError>> {
+        Ok(Self::of(mesh::read_bodies(deck, grammar, terminals, rows)?, terminals))
+    }
+
+    /// The bodies of a mesh, which was read with the names of these terminals.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read).
+    pub fn of(mut mesh: BodyMesh, names: &[Name]) -> Result<Self, BodyError> {
+        let mut faults: Vec<BodyFault> = std::mem::take(&mut mesh.faults).into_iter().map(BodyFault::from).collect();
+        let mut terminals = Vec::new();
+        for (name, terminal) in names.iter().zip(std::mem::take(&mut mesh.terminals)) {
+            match terminal {
+                Some(terminal) if !terminal.nodes.is_empty() => terminals.push(terminal),
+                // What else is wrong with the deck may be why.
+                Some(terminal) if faults.is_empty() => {
+                    let message = format!("no solid element has a node of `{name}`");
+                    faults.push(BodyFault::at(terminal.span, message));
+                }
+                Some(_) => {}
+                None => faults.push(BodyFault { span: None, message: undefined(name, &mesh.known) }),
+            }
+        }
+        BodyError::unless_none(faults)?;
+        if mesh.points.is_empty() {
+            return Err(BodyError::without_place("the deck has no solid element".to_owned()));
+        }
+        let (part_of, mut parts) = parts(&mesh);
+        let mut faults = touching(&mesh, &terminals);
+        for (at, terminal) in terminals.iter().enumerate() {
+            let part = part_of[terminal.nodes[0].index()];
+            parts[part as usize].terminals.push(at);
+            if let Some(other) = terminal.nodes.iter().find(|node| part_of[node.index()] != part) {
+                let message = format!(
+                    "`{}` lies in two bodies: nothing solid connects its nodes {} and {}",
+                    terminal.name,
+                    mesh.node(terminal.nodes[0]),
+                    mesh.node(*other)
+                );
+                faults.push(BodyFault::at(terminal.span, message));
+            }
+        }
+        BodyError::unless_none(faults)?;
+        Ok(Self { mesh, terminals, parts, part_of })
+    }
+
+    /// The bodies, with and without terminals, in the order of their first nodes.
+    pub fn parts(&self) -> &[BodyPart] {
+        &self.parts
+    }
+
+    /// The terminals, in the order they were asked for.
+    pub fn terminals(&self) -> &[MeshTerminal] {
+        &self.terminals
+    }
+
+    /// Nodes, elements and materials.
+    pub fn mesh(&self) -> &BodyMesh {
+        &self.mesh
+    }
+
+    /// Parts of the deck that are no part of its bodies, with their places: elements that are not solid, options that join nodes beside them.
+    pub fn left_out(&self) -> &[MeshNote] {
+        &self.mesh.left_out
+    }
+
+    /// The blocks with an element in a body that has a terminal.
+    pub(crate) fn blocks(&self) -> Vec<&ElementBlock> {
+        let has_terminal = |nodes: &[NodeId]| !self.parts[self.part_of[nodes[0].index()] as usize].terminals.is_empty();
+        self.mesh.elements.iter().filter(|block| block.each().any(has_terminal)).collect()
+    }
+}
+
+fn undefined(name: &Name, known: &[Name]) -> String {
+    if known.is_empty() {
+        return format!("the deck has no surface and no node set `{name}`, nor any other");
+    }
+    let shown: Vec<String> = known.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect();
+    let more = known.len() - shown.len();
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+    format!("the deck has no surface and no node set `{name}`: it has {}{more}", shown.join(", "))
+}
+
+/// The part of each node, and the parts.
+fn parts(mesh: &BodyMesh) -> (Vec<u32>, Vec<BodyPart>) {
+    let mut parent: Vec<u32> = (0..).take(mesh.points.len()).collect();
+    for nodes in mesh.elements.iter().flat_map(ElementBlock::each) {
+        let first = root(&mut parent, nodes[0].0);
+        for node in &nodes[1..] {
+            let other = root(&mut parent, node.0);
+            // The lower number is the root, so that parts come in the order of their first nodes.
+            let (low, high) = (parent[first as usize].min(other), parent[first as usize].max(other));
+            parent[high as usize] = low;
+            parent[first as usize] = low;
+        }
+    }
+    let mut number = vec![u32::MAX; parent.len()];
+    let mut part_of = vec![0; parent.len()];
+    let mut parts: Vec<BodyPart> = Vec::new();
+    for node in (0..).take(parent.len()) {
+        let top = root(&mut parent, node) as usize;
+        if number[top] == u32::MAX {
+            number[top] = u32::try_from(parts.len()).unwrap_or(u32::MAX);
+            parts.push(BodyPart { nodes: 0, elements: 0, terminals: Vec::new(), first: NodeId(node) });
+        }
+        part_of[node as usize] = number[top];
+        parts[number[top] as usize].nodes += 1;
+    }
+    for nodes in mesh.elements.iter().flat_map(ElementBlock::each) {
+        parts[part_of[nodes[0].index()] as usize].elements += 1;
+    }
+    (part_of, parts)
+}
+
+fn root(parent: &mut [u32], node: u32) -> u32 {
+    let mut top = node;
+    while parent[top as usize] != top {
+        // Every second node of the way is hung one higher.
+        parent[top as usize] = parent[parent[top as usize] as usize];
+        top = parent[top as usize];
+    }
+    top
+}
+
+/// Terminals that share nodes, each pair once.
+fn touching(mesh: &BodyMesh, terminals: &[MeshTerminal]) -> Vec<BodyFault> {
+    let mut owner: Vec<Option<usize>> = vec![None; mesh.points.len()];
+    let mut faults = Vec::new();
+    let mut known: Vec<(usize, usize)> = Vec::new();
+    for (at, terminal) in terminals.iter().enumerate() {
+        for node in &terminal.nodes {
+            let Some(other) = owner[node.index()].replace(at) else { continue };
+            if other != at && !known.contains(&(other, at)) {
+                known.push((other, at));
+                let message = format!(
+                    "the terminals `{}` and `{}` touch in node {}: no conductance is between them",
+                    terminals[other].name,
+                    terminal.name,
+                    mesh.node(*node)
+                );
+                faults.push(BodyFault::at(terminal.span, message));
+            }
+        }
+    }
+    faults
+}

@@ -1,0 +1,433 @@
+//! Conductances and capacities of bodies between their terminals.
+
+use crate::assembly::{Held, Matrix, Sum};
+use crate::body::Body;
+use crate::conductances::Conductances;
+use crate::error::{BodyError, BodyFault};
+use crate::even::{Even, even};
+use crate::material::{BodyField, tensor, values_at};
+use crate::solve::{Equations, Solution};
+use inpact_geometry::{Conductivity, NodeId};
+use inpact_parser::mesh::{BodyMaterial, ElementBlock, MaterialProperty, MeshNote, TensorKind};
+use inpact_parser::model::Name;
+use std::collections::HashSet;
+
+/// What bodies conduct and hold between their terminals.
+#[derive(Debug, Clone)]
+pub struct Lumped {
+    /// What they conduct.
+    pub field: BodyField,
+    /// Conductances where each terminal has one temperature (or potential).
+    pub isothermal: Conductances,
+    /// Conductances where the flow of each terminal is spread evenly over it; the values are means over terminals.
+    pub even: Conductances,
+    /// The terminals, in the order they were asked for.
+    pub terminals: Vec<TerminalSummary>,
+    /// The bodies that have a terminal.
+    pub bodies: Vec<BodySummary>,
+    /// What each terminal holds (M L² T⁻² θ⁻¹); `None` of a current, and where a material has no density or specific heat.
+    pub capacities: Option<Vec<f64>>,
+    /// The lowest and the highest value of a potential that is 1 at one terminal and 0 at the others: from 0 to 1 by the maximum principle, which a mesh may break.
+    pub potentials: [f64; 2],
+    /// Parts of the deck that were not taken over for this field, with their places.
+    pub left_out: Vec<MeshNote>,
+    /// How both problems were solved: with one temperature for each terminal, and with even flows.
+    pub solutions: [Solution; 2],
+}
+
+/// A terminal: its size, and how far from one temperature it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TerminalSummary {
+    /// Its name.
+    pub name: Name,
+    /// The number of its nodes.
+    pub nodes: usize,
+    /// Its area (L²); `None` of a node set that is not made of whole faces, whose nodes share a flow equally.
+    pub area: Option<f64>,
+    /// The body it is of, a position in [`Lumped::bodies`].
+    pub body: usize,
+    /// What it conducts to all others with even flows: no joint with an even flow has less.
+    pub lower: f64,
+    /// What it conducts to all others with one temperature: no joint has more.
+    pub upper: f64,
+    /// Where its flow is even and the means of all others are 0 while its own is 1: the difference of its highest and lowest temperature. 0 where it is at one.
+    pub range: f64,
+}
+
+impl TerminalSummary {
+    /// What lumping may cost: the difference of both conductances, relative to the larger. 0 where it conducts nothing.
+    pub fn relative(&self) -> f64 {
+        if 0.0 < self.upper { ((self.upper - self.lower) / self.upper).max(0.0) } else { 0.0 }
+    }
+}
+
+/// A body with a terminal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySummary {
+    /// Its terminals.
+    pub terminals: Vec<usize>,
+    /// The number of its nodes.
+    pub nodes: usize,
+    /// The number of its elements.
+    pub elements: usize,
+    /// Its volume (L³).
+    pub volume: f64,
+    /// What it holds (M L² T⁻² θ⁻¹); `None` as of [`Lumped::capacities`].
+    pub capacity: Option<f64>,
+}
+
+impl Body {
+    /// Solves the bodies between their terminals; where a property depends on temperature it is taken at `temperature` (θ).
+    ///
+    /// # Errors
+    ///
+    /// A material without a conductivity, one that depends on temperature without `temperature`, a conductivity that is not positive, one with directions in a
+    /// section with ORIENTATION or in a turned instance, an element that is inside out, or equations that rounding leaves without a solution.
+    pub fn lumped(&self, field: BodyField, temperature: Option<f64>) -> Result<Lumped, BodyError> {
+        let blocks = self.blocks();
+        let conductivities = self.conductivities(&blocks, field, temperature)?;
+        let mut matrix = Matrix::pattern(&blocks, self.mesh.points.len());
+        for (block, conductivity) in blocks.iter().zip(&conductivities) {
+            matrix.add_block(block, &self.mesh.points, conductivity).map_err(only)?;
+        }
+        let shares: Vec<Even> = self.terminals.iter().map(|terminal| even(self, terminal)).collect();
+        let (potentials, isothermal_solution) = self.potentials(&matrix)?;
+        let isothermal = self.isothermal(&matrix, &potentials);
+        let (even, ranges, even_solution) = self.even(&matrix, &shares)?;
+        let (held, left_out) = self.held(&blocks, field, temperature)?;
+        let bodies = self.summaries(&held);
+        let capacities = held.capacities.as_ref().map(|capacities| {
+            let of = |potential: &Vec<f64>| {
+                let mut sum = Sum::default();
+                potential.iter().zip(capacities).for_each(|(potential, capacity)| sum.add(potential * capacity));
+                sum.value()
+            };
+            potentials.iter().map(of).collect()
+        });
+        let all = || potentials.iter().flatten();
+        let terminals = self.terminals.iter().enumerate().map(|(at, terminal)| TerminalSummary {
+            name: terminal.name.clone(),
+            nodes: terminal.nodes.len(),
+            area: shares[at].area,
+            body: bodies.iter().position(|body| body.terminals.contains(&at)).unwrap_or_default(),
+            lower: even.to_all(at),
+            upper: isothermal.to_all(at),
+            range: ranges[at],
+        });
+        Ok(Lumped {
+            field,
+            terminals: terminals.collect(),
+            isothermal,
+            even,
+            bodies,
+            capacities,
+            potentials: [all().copied().fold(0.0, f64::min), all().copied().fold(1.0, f64::max)],
+            left_out,
+            solutions: [isothermal_solution, even_solution],
+        })
+    }
+
+    /// The conductivity of each block.
+    fn conductivities(
+        &self,
+        blocks: &[&ElementBlock],
+        field: BodyField,
+        temperature: Option<f64>,
+    ) -> Result<Vec<Conductivity>, BodyError> {
+        let mut faults: Vec<BodyFault> = Vec::new();
+        let mut found = Vec::new();
+        for block in blocks {
+            let material = &self.mesh.materials[block.material];
+            let Some(property) = field.of(material) else {
+                let message = format!(
+                    "the material `{}` has no *{}: found `{}` in a body with terminals",
+                    material.name,
+                    field.keyword(),
+                    block.type_name
+                );
+                faults.push(BodyFault::at(material.span, message));
+                continue;
+            };
+            let conductivity = values_at(property, &material.name, temperature)
+                .and_then(|values| tensor(property, &material.name, &values))
+                .and_then(|conductivity| self.in_axes(block, property, material).map(|()| conductivity));
+            match conductivity {
+                Ok(conductivity) => found.push(conductivity),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        let mut met = HashSet::new();
+        faults.retain(|fault| met.insert((fault.span, fault.message.clone())));
+        BodyError::unless_none(faults)?;
+        Ok(found)
+    }
+
+    /// Refuses directions that are not those of the coordinates.
+    fn in_axes(
+        &self,
+        block: &ElementBlock,
+        property: &MaterialProperty,
+        material: &BodyMaterial,
+    ) -> Result<(), BodyFault> {
+        if property.kind == TensorKind::Isotropic {
+            return Ok(());
+        }
+        let (keyword, name) = (property.keyword, &material.name);
+        if let Some(orientation) = &block.orientation {
+            let message = format!(
+                "*{keyword} of `{name}` has directions, and the section has the *ORIENTATION `{orientation}`, which is not read"
+            );
+            return Err(BodyFault::at(block.section, message));
+        }
+        if self.mesh.turned.contains(&block.instance) {
+            let message = format!(
+                "*{keyword} of `{name}` has directions, and its part stands turned in the assembly: which axes they follow is not read"
+            );
+            return Err(BodyFault::at(block.section, message));
+        }
+        Ok(())
+    }
+
+    /// The terminals of each body with at least two, which are all that conduct between terminals.
+    fn groups(&self) -> Vec<&[usize]> {
+        self.parts.iter().map(|part| part.terminals.as_slice()).filter(|terminals| 1 < terminals.len()).collect()
+    }
+
+    /// Nodes of bodies with fewer than two terminals, whose value is known at once.
+    fn idle(&self) -> Vec<bool> {
+        self.part_of.iter().map(|part| self.parts[*part as usize].terminals.len() < 2).collect()
+    }
+
+    /// The potential of each terminal: 1 at it, 0 at all others.
+    fn potentials(&self, matrix: &Matrix) -> Result<(Vec<Vec<f64>>, Solution), BodyError> {
+        let nodes = self.mesh.points.len();
+        let groups = self.groups();
+        let mut is_held = self.idle();
+        for node in self.terminals.iter().flat_map(|terminal| &terminal.nodes) {
+            is_held[node.index()] = true;
+        }
+        // The last terminal of a body has what the others leave of 1; bodies are solved together, a terminal of each at a time.
+        let rounds = groups.iter().map(|group| group.len() - 1).max().unwrap_or(0);
+        let mut fields = vec![vec![0.0; nodes]; rounds];
+        for (round, field) in fields.iter_mut().enumerate() {
+            for terminal in groups.iter().filter(|group| round + 1 < group.len()).map(|group| group[round]) {
+                self.terminals[terminal].nodes.iter().for_each(|node| field[node.index()] = 1.0);
+            }
+        }
+        let equations = Equations { matrix, is_held: &is_held, sources: vec![vec![0.0; nodes]; rounds] };
+        let solution = equations.solve(&mut fields)?;
+        let mut potentials = vec![vec![0.0; nodes]; self.terminals.len()];
+        for (node, part) in self.part_of.iter().enumerate() {
+            let terminals = &self.parts[*part as usize].terminals;
+            let Some((last, others)) = terminals.split_last() else { continue };
+            let mut left = 1.0;
+            for (round, terminal) in others.iter().enumerate() {
+                potentials[*terminal][node] = fields[round][node];
+                left -= fields[round][node];
+            }
+            potentials[*last][node] = left;
+        }
+        // What is left of 1 where another terminal is at 1 is 0 to the last digit, since held values are whole.
+        Ok((potentials, solution))
+    }
+
+    fn isothermal(&self, matrix: &Matrix, potentials: &[Vec<f64>]) -> Conductances {
+        let mut conductances = Conductances::new(self.terminals.len());
+        for group in self.groups() {
+            let fields: Vec<&[f64]> = group.iter().map(|terminal| potentials[*terminal].as_slice()).collect();
+            let energies = matrix.energies(&fields);
+            for (i, a) in group.iter().enumerate() {
+                for (j, b) in group.iter().enumerate().skip(i + 1) {
+                    conductances.set(*a, *b, -energies[i * group.len() + j]);
+                }
+            }
+        }
+        conductances
+    }
+
+    /// Conductances with even flows, and the ranges of temperature over the terminals.
+    fn even(&self, matrix: &Matrix, shares: &[Even]) -> Result<(Conductances, Vec<f64>, Solution), BodyError> {
+        let nodes = self.mesh.points.len();
+        let groups = self.groups();
+        let mut is_held = self.idle();
+        let rounds = groups.iter().map(|group| group.len() - 1).max().unwrap_or(0);
+        let mut sources = vec![vec![0.0; nodes]; rounds];
+        for group in &groups {
+            // Only differences matter: one node is held.
+            let last = group[group.len() - 1];
+            is_held[self.terminals[last].nodes[0].index()] = true;
+            for (round, terminal) in group[..group.len() - 1].iter().enumerate() {
+                for (sign, of) in [(1.0, *terminal), (-1.0, last)] {
+                    for (node, share) in self.terminals[of].nodes.iter().zip(&shares[of].shares) {
+                        sources[round][node.index()] += sign * share;
+                    }
+                }
+            }
+        }
+        let mut fields = vec![vec![0.0; nodes]; rounds];
+        let equations = Equations { matrix, is_held: &is_held, sources };
+        let solution = equations.solve(&mut fields)?;
+        let mut conductances = Conductances::new(self.terminals.len());
+        let mut ranges = vec![0.0; self.terminals.len()];
+        for group in groups {
+            let count = group.len() - 1;
+            let of_group: Vec<Vec<f64>> = self.only_in(group[0], &fields[..count]);
+            let of_group: Vec<&[f64]> = of_group.iter().map(Vec::as_slice).collect();
+            let resistances = matrix.energies(&of_group);
+            let inverse = inverse(&resistances, count).ok_or_else(|| {
+                BodyError::without_place(
+                    "the body was not solved: its resistances are not positive definite".to_owned(),
+                )
+            })?;
+            // To the last terminal goes what the rows do not have among themselves.
+            let entry = |i: usize, j: usize| inverse[i * count + j];
+            for i in 0..count {
+                for j in i + 1..count {
+                    conductances.set(group[i], group[j], -entry(i, j));
+                }
+                conductances.set(group[i], group[count], (0..count).map(|j| entry(i, j)).sum());
+            }
+            for (at, terminal) in group.iter().enumerate() {
+                let flow = |round: usize| {
+                    if at == count { -(0..count).map(|j| entry(round, j)).sum::<f64>() } else { entry(round, at) }
+                };
+                let flows: Vec<f64> = (0..count).map(flow).collect();
+                let value = |node: &NodeId| {
+                    flows.iter().zip(&of_group).map(|(flow, field)| flow * field[node.index()]).sum::<f64>()
+                };
+                let values: Vec<f64> = self.terminals[*terminal].nodes.iter().map(value).collect();
+                let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                ranges[*terminal] = highest - values.iter().copied().fold(f64::INFINITY, f64::min);
+            }
+        }
+        Ok((conductances, ranges, solution))
+    }
+
+    /// Fields with zeros outside of the body of a terminal.
+    fn only_in(&self, terminal: usize, fields: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let part = self.part_of[self.terminals[terminal].nodes[0].index()];
+        let one = |field: &Vec<f64>| {
+            field.iter().zip(&self.part_of).map(|(value, of)| if *of == part { *value } else { 0.0 }).collect()
+        };
+        fields.iter().map(one).collect()
+    }
+
+    /// What the elements of some blocks hold, and what is missing for that.
+    fn held(
+        &self,
+        blocks: &[&ElementBlock],
+        field: BodyField,
+        temperature: Option<f64>,
+    ) -> Result<(OfNodes, Vec<MeshNote>), BodyError> {
+        let mut left_out: Vec<MeshNote> = Vec::new();
+        let mut heats = Vec::new();
+        for block in blocks {
+            let material = &self.mesh.materials[block.material];
+            let heat = match field {
+                BodyField::Electrical => Ok(0.0),
+                BodyField::Thermal => heat_of(material, temperature),
+            };
+            heats.push(heat.unwrap_or_else(|fault| {
+                let note = MeshNote {
+                    span: fault.span.unwrap_or(material.span),
+                    message: format!("{}, so that bodies have no capacity here", fault.message),
+                };
+                if !left_out.contains(&note) {
+                    left_out.push(note);
+                }
+                0.0
+            }));
+        }
+        let pairs: Vec<(&ElementBlock, f64)> = blocks.iter().copied().zip(heats).collect();
+        let Held { volumes, capacities } = Held::of(self, &pairs).map_err(only)?;
+        let is_known = field == BodyField::Thermal && left_out.is_empty();
+        Ok((OfNodes { volumes, capacities: is_known.then_some(capacities) }, left_out))
+    }
+
+    fn summaries(&self, held: &OfNodes) -> Vec<BodySummary> {
+        let with_terminal = self.parts.iter().enumerate().filter(|(_, part)| !part.terminals.is_empty());
+        let summary = |(number, part): (usize, &crate::BodyPart)| {
+            let sum = |values: &[f64]| {
+                let mut sum = Sum::default();
+                let of_part = values.iter().zip(&self.part_of).filter(|(_, of)| **of as usize == number);
+                of_part.for_each(|(value, _)| sum.add(*value));
+                sum.value()
+            };
+            BodySummary {
+                terminals: part.terminals.clone(),
+                nodes: part.nodes,
+                elements: part.elements,
+                volume: sum(&held.volumes),
+                capacity: held.capacities.as_deref().map(sum),
+            }
+        };
+        with_terminal.map(summary).collect()
+    }
+}
+
+/// Volume and capacity of each node.
+struct OfNodes {
+    volumes: Vec<f64>,
+    capacities: Option<Vec<f64>>,
+}
+
+fn only(fault: BodyFault) -> BodyError {
+    BodyError::unless_none(vec![fault]).expect_err("there is one")
+}
+
+/// ρ c of a material.
+fn heat_of(material: &BodyMaterial, temperature: Option<f64>) -> Result<f64, BodyFault> {
+    let mut product = 1.0;
+    for (property, keyword) in [(&material.density, "DENSITY"), (&material.specific_heat, "SPECIFIC HEAT")] {
+        let name = &material.name;
+        let Some(property) = property else {
+            return Err(BodyFault::at(material.span, format!("the material `{name}` has no *{keyword}")));
+        };
+        let value = values_at(property, name, temperature)?[0];
+        if !(0.0 < value && value < f64::INFINITY) {
+            return Err(BodyFault::at(
+                property.span,
+                format!("*{keyword} of `{name}` must be above 0: found {value:?}"),
+            ));
+        }
+        product *= value;
+    }
+    Ok(product)
+}
+
+/// The inverse of a symmetric positive definite matrix of which the upper triangle is given; `None` where it is not.
+fn inverse(upper: &[f64], count: usize) -> Option<Vec<f64>> {
+    let mut factor = vec![0.0; count * count];
+    for i in 0..count {
+        for j in 0..=i {
+            let products: f64 = (0..j).map(|k| factor[i * count + k] * factor[j * count + k]).sum();
+            let left = upper[j * count + i] - products;
+            if i == j {
+                if !(0.0 < left) {
+                    return None;
+                }
+                factor[i * count + i] = left.sqrt();
+            } else {
+                factor[i * count + j] = left / factor[j * count + j];
+            }
+        }
+    }
+    let mut inverse = vec![0.0; count * count];
+    for column in 0..count {
+        let mut x: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i == column))).collect();
+        for i in 0..count {
+            let sum: f64 = (0..i).map(|k| factor[i * count + k] * x[k]).sum();
+            x[i] = (x[i] - sum) / factor[i * count + i];
+        }
+        for i in (0..count).rev() {
+            let sum: f64 = (i + 1..count).map(|k| factor[k * count + i] * x[k]).sum();
+            x[i] = (x[i] - sum) / factor[i * count + i];
+        }
+        // Of both halves one is kept, so that it is symmetric to the last digit.
+        (0..=column).for_each(|row| {
+            inverse[row * count + column] = x[row];
+            inverse[column * count + row] = x[row];
+        });
+    }
+    Some(inverse)
+}

@@ -1,0 +1,118 @@
+//! Bodies beside CalculiX: a heat transfer step with held terminals, whose heat flows are the conductances, to every digit that it prints.
+//!
+//! Without ccx the comparison does nothing and says so; where `INPACT_REQUIRE_CCX` is set, as in the gate, it fails instead.
+
+mod common;
+
+use common::{Block, Edges, read, set};
+use inpact_body::BodyField;
+use inpact_geometry::{ElementShape, Point};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::process::Command;
+
+/// The heat that flows in at the nodes of each set, as it is printed; `None` without ccx.
+fn heat_flows(deck: &str) -> Option<BTreeMap<String, String>> {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("body.inp"), deck).expect("written");
+    let output = match Command::new("ccx").arg("body").current_dir(folder.path()).output() {
+        Ok(output) => output,
+        Err(error) => {
+            assert!(std::env::var_os("INPACT_REQUIRE_CCX").is_none(), "ccx: {error}");
+            let _ = writeln!(std::io::stderr(), "SKIPPED, nothing was compared with CalculiX: ccx: {error}");
+            return None;
+        }
+    };
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    let dat = std::fs::read_to_string(folder.path().join("body.dat")).expect("printed");
+    let mut flows = BTreeMap::new();
+    let mut lines = dat.lines().map(str::trim).filter(|line| !line.is_empty());
+    while let Some(line) = lines.next() {
+        if let Some((_, rest)) = line.split_once("for set ") {
+            let set = rest.split_whitespace().next().expect("a set").to_owned();
+            flows.insert(set, lines.next().expect("a total").to_owned());
+        }
+    }
+    Some(flows)
+}
+
+/// Within half a unit of the seventh digit, which is the last that is printed, and of rounding in the sum that it is.
+fn assert_printed(found: f64, printed: &str, largest: f64, what: &str) {
+    let value: f64 = printed.parse().expect("a number");
+    let (_, exponent) = printed.split_once('E').expect("an exponent");
+    let unit = 10.0_f64.powi(exponent.parse::<i32>().expect("an exponent") - 6);
+    assert!((found - value).abs() <= 0.5 * unit + 1e-13 * largest, "{what}: {found} for {printed}");
+}
+
+/// An L of curved and distorted elements with three terminals, of which two are parts of one face.
+fn map([x, y, z]: Point) -> Point {
+    let bent = 0.6 * x;
+    let radius = 2.0 + z + 0.15 * (3.0 * x + 2.0 * y).sin();
+    [radius * bent.sin(), 1.3 * y + 0.2 * x * z + 0.05 * (9.0 * z).sin() * y, radius * bent.cos() + 0.3 * y * y]
+}
+
+fn terminals(mesh: &common::Meshed) -> [(&'static str, Vec<usize>); 3] {
+    [
+        ("LOW", mesh.nodes_where(|place| place[0] == 0.0 && place[1] <= 0.5)),
+        ("HIGH", mesh.nodes_where(|place| place[0] == 1.0)),
+        ("TOP", mesh.nodes_where(|place| place[2] == 1.0 && 0.25 <= place[0] && place[0] <= 0.75)),
+    ]
+}
+
+fn compare(type_name: &'static str, shape: ElementShape, material: &str) {
+    // Second-order elements are curved, as their map has them.
+    let mesh = Block { type_name, shape, cells: [4, 2, 2], edges: Edges::Curved, map: Box::new(map) }.mesh();
+    let terminals = terminals(&mesh);
+    let sets: String = terminals.iter().map(|(name, nodes)| set(name, nodes)).collect();
+    let deck = mesh.deck(material) + &sets;
+    let names: Vec<&str> = terminals.iter().map(|(name, _)| *name).collect();
+    let lumped = read(&deck, &names).expect("a body").lumped(BodyField::Thermal, None).expect("lumped");
+    for (hot, (name, _)) in terminals.iter().enumerate() {
+        let held: String =
+            names.iter().enumerate().map(|(at, name)| format!("{name}, 11, 11, {}.\n", u8::from(at == hot))).collect();
+        let printed: String =
+            names.iter().map(|name| format!("*NODE PRINT, NSET={name}, TOTALS=ONLY\nRFL\n")).collect();
+        let all = set("EVERY", &mesh.nodes.keys().copied().collect::<Vec<_>>());
+        let job = format!(
+            "{deck}{all}*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 0.\n*STEP\n*HEAT TRANSFER, STEADY STATE\n1., 1.\n*BOUNDARY\n{held}{printed}*END STEP\n"
+        );
+        let Some(flows) = heat_flows(&job) else { return };
+        assert_eq!(flows.len(), 3, "{flows:?}");
+        let largest = lumped.isothermal.to_all(hot);
+        for (at, other) in names.iter().enumerate() {
+            let found = if at == hot { largest } else { -lumped.isothermal.between(hot, at) };
+            assert_printed(found, &flows[*other], largest, &format!("{type_name}: {name} hot, at {other}"));
+        }
+    }
+}
+
+const ISOTROPIC: &str = "*CONDUCTIVITY\n37.\n";
+
+#[test]
+fn bricks_of_eight_nodes_to_every_digit() {
+    compare("C3D8", ElementShape::Hexahedron8, ISOTROPIC);
+}
+
+#[test]
+fn bricks_of_twenty_nodes_to_every_digit() {
+    compare("C3D20", ElementShape::Hexahedron20, ISOTROPIC);
+    compare("C3D20R", ElementShape::Hexahedron20, ISOTROPIC);
+}
+
+#[test]
+fn tetrahedra_to_every_digit() {
+    compare("C3D4", ElementShape::Tetrahedron4, ISOTROPIC);
+    compare("C3D10", ElementShape::Tetrahedron10, ISOTROPIC);
+}
+
+#[test]
+fn wedges_to_every_digit() {
+    compare("C3D6", ElementShape::Wedge6, ISOTROPIC);
+    compare("C3D15", ElementShape::Wedge15, ISOTROPIC);
+}
+
+#[test]
+fn conductivities_with_directions_to_every_digit() {
+    compare("C3D8", ElementShape::Hexahedron8, "*CONDUCTIVITY, TYPE=ORTHO\n12., 37., 5.\n");
+    compare("C3D20", ElementShape::Hexahedron20, "*CONDUCTIVITY, TYPE=ANISO\n12., 2., 37., -1., 0.5, 5.\n");
+}

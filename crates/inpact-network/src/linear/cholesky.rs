@@ -1,0 +1,64 @@
+//! Cholesky factors of symmetric positive definite matrices that are no networks: with the orders that networks have, for those who assemble their own.
+
+use super::factor::{Factor, NoSolution, Solves};
+use super::matrix::Matrix;
+use super::ordering::{Analysis, Ordering};
+use faer::sparse::SymbolicSparseColMatRef;
+use std::sync::Arc;
+
+/// A Cholesky factor in f64.
+///
+/// ```
+/// use inpact_network::linear::Cholesky;
+/// // | 4 2 |   by its lower triangle, column by column
+/// // | 2 3 |
+/// let mut factor = Cholesky::new(&[0, 2, 3], &[0, 1, 1], vec![4.0, 2.0, 3.0])?;
+/// let mut right = [8.0, 8.0];
+/// factor.solve(&mut right)?;
+/// assert_eq!(right, [1.0, 2.0]);
+/// # Ok::<(), inpact_network::linear::NoSolution>(())
+/// ```
+#[derive(Debug)]
+pub struct Cholesky {
+    factor: Factor<f64>,
+    ordering: Ordering,
+    entries: usize,
+}
+
+impl Cholesky {
+    /// Factors the matrix whose lower triangle has these entries: where each column begins among `rows`, and where the last ends; rows ascending in a column.
+    ///
+    /// # Errors
+    ///
+    /// The matrix is not positive definite, or memory runs out.
+    ///
+    /// # Panics
+    ///
+    /// The columns are no lower triangle.
+    pub fn new(starts: &[u32], rows: &[u32], values: Vec<f64>) -> Result<Self, NoSolution> {
+        let count = starts.len() - 1;
+        let pattern = SymbolicSparseColMatRef::new_checked(count, count, starts, None, rows);
+        let analysis = Arc::new(Analysis::of(pattern).ok_or(NoSolution::Memory)?);
+        let factor = Factor::new(&analysis, &Matrix { pattern, values })?;
+        Ok(Self { factor, ordering: analysis.ordering, entries: analysis.entries() })
+    }
+
+    /// Solves in place.
+    ///
+    /// # Errors
+    ///
+    /// Memory runs out.
+    pub fn solve(&mut self, right: &mut [f64]) -> Result<(), NoSolution> {
+        self.factor.solve(right)
+    }
+
+    /// The order of elimination.
+    pub fn ordering(&self) -> Ordering {
+        self.ordering
+    }
+
+    /// The number of entries of the factor.
+    pub fn entries(&self) -> usize {
+        self.entries
+    }
+}
