@@ -273,7 +273,7 @@ impl Body {
             let count = group.len() - 1;
             let of_group: Vec<Vec<f64>> = self.only_in(group[0], &fields[..count]);
             let of_group: Vec<&[f64]> = of_group.iter().map(Vec::as_slice).collect();
-            let resistances = matrix.energies(&of_group);
+            let resistances = resistances(matrix, &of_group, &equations.sources);
             let inverse = inverse(&resistances, count).ok_or_else(|| {
                 BodyError::without_place(
                     "the body was not solved: its resistances are not positive definite".to_owned(),
@@ -393,6 +393,25 @@ fn heat_of(material: &BodyMaterial, temperature: Option<f64>) -> Result<f64, Bod
         product *= value;
     }
     Ok(product)
+}
+
+/// The differences of the mean temperatures of terminals, by a unit of flow through each, the upper triangle: b·y + c·x − a(x, y) of fields x and y that the sources b
+/// and c have, of which an error is a product of theirs.
+fn resistances(matrix: &Matrix, fields: &[&[f64]], sources: &[Vec<f64>]) -> Vec<f64> {
+    let count = fields.len();
+    let product = |source: &[f64], field: &[f64]| {
+        let mut sum = Sum::default();
+        source.iter().zip(field).for_each(|(source, value)| sum.add(source * value));
+        sum.value()
+    };
+    let mut resistances = matrix.energies(fields);
+    for (i, x) in fields.iter().enumerate() {
+        for (j, y) in fields.iter().enumerate().skip(i) {
+            let energy = &mut resistances[i * count + j];
+            *energy = product(&sources[i], y) + product(&sources[j], x) - *energy;
+        }
+    }
+    resistances
 }
 
 /// The inverse of a symmetric positive definite matrix of which the upper triangle is given; `None` where it is not.

@@ -149,7 +149,12 @@ pub(crate) fn set(name: &str, nodes: &[usize]) -> String {
 
 /// The bodies of a deck.
 pub(crate) fn read(deck: &str, terminals: &[&str]) -> Result<Body, BodyError> {
-    let grammar = Grammar::new(Dialect::Abaqus, Release::default());
+    read_as(Dialect::Abaqus, deck, terminals)
+}
+
+/// The bodies of a deck of a dialect.
+pub(crate) fn read_as(dialect: Dialect, deck: &str, terminals: &[&str]) -> Result<Body, BodyError> {
+    let grammar = Grammar::new(dialect, Release::default());
     let deck = scan("body.inp", deck.as_bytes(), &grammar);
     let names: Vec<Name> = terminals.iter().map(|name| Name::new(name)).collect();
     Body::read(&deck, &grammar, &names, &mut KeptRows(&deck)).expect("rows in memory")

@@ -60,7 +60,7 @@ pub struct ElementBlock {
     pub instance: usize,
     /// The keyword line of *SOLID SECTION.
     pub section: Span,
-    /// The material, a position in [`BodyMesh::materials`].
+    /// The material, a position in [`BodyMesh::materials`]; beyond them where it is not defined, which is a fault.
     pub material: usize,
     /// ORIENTATION of the section.
     pub orientation: Option<Name>,
@@ -251,10 +251,10 @@ impl<'deck> Reader<'deck, '_> {
             let selected = self.select(Kind::Elements, Context::Instance(instance), set, span)?;
             let Some(elements) = selected.get(&instance).cloned() else { continue };
             let name = entry.named("MATERIAL").unwrap_or_else(|| Name::new(""));
-            let Some(material) = materials.iter().position(|material| material.name == name) else {
+            let material = materials.iter().position(|material| material.name == name).unwrap_or_else(|| {
                 self.note(span, format!("the material `{name}` is not defined"));
-                continue;
-            };
+                materials.len()
+            });
             sections.push(SolidSection { elements, span, material, orientation: entry.named("ORIENTATION") });
         }
         Ok(sections)

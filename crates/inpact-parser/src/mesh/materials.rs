@@ -4,6 +4,7 @@ use super::layout::{Entry, MaterialEntries, canonical};
 use super::reader::Reader;
 use super::rows::data_lines;
 use crate::deck::items;
+use crate::grammar::Dialect;
 use crate::model::Name;
 use crate::number::read_float;
 use crate::span::Span;
@@ -48,7 +49,7 @@ pub enum TensorKind {
     Isotropic,
     /// k₁₁, k₂₂, k₃₃: ORTHO.
     Orthotropic,
-    /// k₁₁, k₁₂, k₂₂, k₁₃, k₂₃, k₃₃: ANISO.
+    /// k₁₁, k₁₂, k₂₂, k₁₃, k₂₃, k₃₃: ANISO. In rows for CalculiX they come as k₁₁, k₂₂, k₃₃, k₁₂, k₁₃, k₂₃, and are put in this order.
     Anisotropic,
 }
 
@@ -131,6 +132,11 @@ impl<'deck> Reader<'deck, '_> {
         if rows.is_empty() {
             self.note(entry.span(), format!("*{keyword} has no row, so that it was not read"));
             return Ok(None);
+        }
+        if kind == TensorKind::Anisotropic && self.dialect == Dialect::Calculix {
+            for (values, _) in &mut rows {
+                *values = [0, 3, 1, 4, 5, 2].map(|at| values[at]).to_vec();
+            }
         }
         Ok(Some(MaterialProperty { keyword, span: entry.span(), kind, rows, dependencies }))
     }

@@ -10,7 +10,7 @@ use super::selection::{Kind, Selected, Selection};
 use super::surfaces::{NodePick, Picks};
 use super::{Mesh, MeshNode, MeshNote};
 use crate::deck::Deck;
-use crate::grammar::Grammar;
+use crate::grammar::{Dialect, Grammar};
 use crate::model::{Model, Name};
 use crate::span::Span;
 use inpact_geometry::NodeId;
@@ -58,6 +58,7 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) step_entries: Vec<Entry<'deck>>,
     pub(super) conditions: Vec<StepEntry<'deck>>,
     pub(super) amplitudes: Vec<Entry<'deck>>,
+    pub(super) dialect: Dialect,
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
     notes: Vec<MeshNote>,
@@ -91,6 +92,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             step_entries: layout.steps,
             conditions: layout.conditions,
             amplitudes: layout.amplitudes,
+            dialect: grammar.dialect(),
             assembly: layout.assembly,
             assembly_name: layout.assembly_name,
             notes: Vec::new(),
