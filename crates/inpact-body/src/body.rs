@@ -6,6 +6,7 @@ use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::mesh::{self, BodyMesh, ElementBlock, MeshNote, MeshTerminal, RowBytes};
 use inpact_parser::model::Name;
+use inpact_parser::span::Span;
 use std::io;
 
 /// The most names that a message lists.
@@ -67,7 +68,8 @@ impl Body {
                 // What else is wrong with the deck may be why.
                 Some(terminal) if faults.is_empty() => {
                     let message = format!("no solid element has a node of `{name}`");
-                    faults.push(BodyFault::at(terminal.span, message));
+                    let span = Some(terminal.span).filter(|span| *span != Span::default());
+                    faults.push(BodyFault { span, message });
                 }
                 Some(_) => {}
                 None => faults.push(BodyFault { span: None, message: undefined(name, &mesh.known) }),

@@ -82,7 +82,7 @@ impl ElementBlock {
 pub struct MeshTerminal {
     /// Its name, as it was asked for.
     pub name: Name,
-    /// The keyword line that defines it; of a node set that rows of *NODE say, the *NODE option.
+    /// The keyword line that defines it; of a node set that rows of *NODE say, the *NODE option; of a single node nowhere.
     pub span: Span,
     /// Its nodes that solid elements have, ascending.
     pub nodes: Vec<NodeId>,
@@ -260,7 +260,7 @@ impl<'deck> Reader<'deck, '_> {
         Ok(sections)
     }
 
-    /// Finds what a terminal names: a surface, or else a node set.
+    /// Finds what a terminal names: a surface, or else a node set, or else a node by its number.
     fn pick_terminal(&mut self, at: usize, name: &Name, picks: &mut Picks) -> io::Result<Option<Asked>> {
         let reference = Reference { name: name.clone(), span: Span::default() };
         if let Some((_, entry)) = self.find_surface(&reference) {
@@ -270,7 +270,9 @@ impl<'deck> Reader<'deck, '_> {
         }
         let (context, set) = self.without_prefix(Context::Top, name.clone());
         let (sets, options) = self.definitions_of(Kind::Nodes, context, &set);
-        let Some(span) = sets.first().map(Entry::span).or(options.first().copied()) else { return Ok(None) };
+        let is_node = sets.is_empty() && options.is_empty() && set.canonical().parse::<u32>().is_ok();
+        let span = sets.first().map(Entry::span).or(options.first().copied());
+        let Some(span) = span.or(is_node.then(Span::default)) else { return Ok(None) };
         self.pick_set(at, (context, &set), span, picks)?;
         Ok(Some(Asked { span, is_of_faces: false }))
     }
