@@ -11,6 +11,13 @@ use std::time::{Duration, Instant};
 /// How long an answer may take on a machine that builds at the same time.
 const PATIENCE: Duration = Duration::from_secs(120);
 
+/// A key that is held while another is pressed, as the protocol counts them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Modifier {
+    Control = 2,
+    Shift = 8,
+}
+
 /// A browser with one page.
 pub(crate) struct Browser {
     process: Child,
@@ -108,8 +115,12 @@ impl Browser {
 
     /// Opens a file and waits until it is loaded.
     pub(crate) fn open(&mut self, path: &Path) {
+        self.go(&format!("file://{}", path.display()));
+    }
+
+    /// Goes to an address and waits until it is loaded.
+    pub(crate) fn go(&mut self, url: &str) {
         self.events.clear();
-        let url = format!("file://{}", path.display());
         self.call("Page.navigate", &json!({"url": url}));
         if !self.events.iter().any(|event| event["method"] == "Page.loadEventFired") {
             self.wait(|event| event["method"] == "Page.loadEventFired");
@@ -137,6 +148,25 @@ impl Browser {
         // uPlot hears of a pointer only when it moves.
         for step in [3.0, 0.0] {
             self.call("Input.dispatchMouseEvent", &json!({"type": "mouseMoved", "x": x + step, "y": y}));
+        }
+    }
+
+    pub(crate) fn click(&mut self, x: f64, y: f64) {
+        self.point_at(x, y);
+        for kind in ["mousePressed", "mouseReleased"] {
+            let parameters = json!({"type": kind, "x": x, "y": y, "button": "left", "clickCount": 1});
+            self.call("Input.dispatchMouseEvent", &parameters);
+        }
+    }
+
+    /// Presses a letter while other keys are held.
+    pub(crate) fn chord(&mut self, letter: &str, code: u32, held: &[Modifier]) {
+        let held: u32 = held.iter().map(|modifier| *modifier as u32).sum();
+        for kind in ["rawKeyDown", "keyUp"] {
+            let key = format!("Key{letter}");
+            let parameters =
+                json!({"type": kind, "key": letter, "code": key, "windowsVirtualKeyCode": code, "modifiers": held});
+            self.call("Input.dispatchKeyEvent", &parameters);
         }
     }
 

@@ -4,6 +4,7 @@
 #![expect(clippy::print_stderr, reason = "whoever runs the tests must learn that there was no browser")]
 
 mod devtools;
+mod vscode;
 
 use devtools::{Browser, chromium};
 use serde_json::{Value, json};

@@ -208,7 +208,10 @@ fn hints_and_lenses() {
         lines[line].insert_str(at, &format!("{}⟨{label}⟩{}", padding("paddingLeft"), padding("paddingRight")));
     }
     let lenses = client.of("textDocument/codeLens", "deck.inp");
-    let lens = |lens: &Value| format!("{} {}\n", shown(&lens["range"]), lens["command"]["title"].as_str().unwrap());
+    let lens = |lens: &Value| {
+        let command = &lens["command"];
+        format!("{} {} {}\n", shown(&lens["range"]), command["title"].as_str().unwrap(), command["arguments"][0])
+    };
     let lenses: String = lenses.as_array().unwrap().iter().map(lens).collect();
     insta::assert_snapshot!(format!("{}\n\n{lenses}", lines.join("\n")));
 }

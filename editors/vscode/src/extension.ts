@@ -12,6 +12,13 @@ const LANGUAGE = "abaqus-inp";
 // The most bytes that a command may print.
 const LONGEST_OUTPUT = 256 * 1024 * 1024;
 
+/** What the server says of a table at its lens: what to draw, and its first and last line. */
+interface Drawing {
+  interaction: string;
+  law: string;
+  lines: [number, number];
+}
+
 let client: LanguageClient | undefined;
 const output = vscode.window.createOutputChannel("inpact: evaluation");
 
@@ -20,6 +27,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     output,
     vscode.commands.registerCommand("inpact.restart", restart),
     vscode.commands.registerCommand("inpact.showCurves", showCurves),
+    vscode.commands.registerCommand("inpact.showAllCurves", showAllCurves),
     vscode.commands.registerCommand("inpact.evaluateOn", evaluateOn),
     vscode.workspace.onDidChangeConfiguration(async (event) => {
       if (event.affectsConfiguration("inpact.path")) {
@@ -52,6 +60,17 @@ async function start(): Promise<void> {
     documentSelector: [{ language: LANGUAGE }],
     initializationOptions: settings(),
     middleware: {
+      // The lens above a table opens its curves; the server leaves the command to the editor.
+      provideCodeLenses: async (document, token, next) => {
+        const lenses = await next(document, token);
+        for (const lens of lenses ?? []) {
+          const drawing = drawingOf(lens);
+          if (drawing !== undefined && lens.command !== undefined) {
+            lens.command = { ...lens.command, command: "inpact.showCurves", tooltip: "Show the curves", arguments: [drawing] };
+          }
+        }
+        return lenses;
+      },
       workspace: {
         didChangeConfiguration: async () => {
           await created.sendNotification("workspace/didChangeConfiguration", { settings: { inpact: settings() } });
@@ -94,17 +113,43 @@ async function savedDeck(): Promise<vscode.TextDocument | undefined> {
   return document.uri.scheme === "file" ? document : undefined;
 }
 
-async function showCurves(): Promise<void> {
+function drawingOf(lens: vscode.CodeLens): Drawing | undefined {
+  return lens.command?.arguments?.[0] as Drawing | undefined;
+}
+
+/** The table that the cursor is in. */
+async function tableAtCursor(deck: vscode.TextDocument): Promise<Drawing | undefined> {
+  const line = vscode.window.activeTextEditor?.selection.active.line ?? 0;
+  const lenses = await vscode.commands.executeCommand<vscode.CodeLens[]>("vscode.executeCodeLensProvider", deck.uri);
+  const drawings = (lenses ?? []).map(drawingOf).filter((drawing) => drawing !== undefined);
+  return drawings.find(({ lines }) => lines[0] <= line && line <= lines[1]);
+}
+
+/** Draws one table, given by its lens or by the cursor; the whole deck where there is none. */
+async function showCurves(given?: Drawing): Promise<void> {
   const deck = await savedDeck();
   if (deck === undefined) {
     return;
   }
+  const table = typeof given?.law === "string" ? given : await tableAtCursor(deck);
+  await draw(deck, table);
+}
+
+async function showAllCurves(): Promise<void> {
+  const deck = await savedDeck();
+  if (deck !== undefined) {
+    await draw(deck, undefined);
+  }
+}
+
+async function draw(deck: vscode.TextDocument, table: Drawing | undefined): Promise<void> {
   const path = deck.uri.fsPath;
   const folder = await mkdtemp(join(tmpdir(), "inpact-"));
   try {
     const picture = join(folder, "curves.svg");
-    await run(["plot", path, "--findings", "-o", picture], dirname(path));
-    const title = `Curves of ${basename(path)}`;
+    const part = table === undefined ? [] : [`--interaction=${table.interaction}`, "--law", table.law];
+    await run(["plot", path, "--findings", ...part, "-o", picture], dirname(path));
+    const title = table === undefined ? `Curves of ${basename(path)}` : `${table.interaction}: ${table.law}`;
     const panel = vscode.window.createWebviewPanel("inpact.curves", title, vscode.ViewColumn.Beside, {});
     // A picture has no scripts, and none are allowed.
     const policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";

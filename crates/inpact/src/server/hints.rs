@@ -10,7 +10,9 @@ use gen_lsp_types::{
 };
 use inpact_parser::expression::references;
 use inpact_parser::grammar::RowShape;
+use inpact_parser::model::{TableKind, TableOf};
 use inpact_parser::span::Span;
+use serde_json::{Value, json};
 
 /// The most bytes of rows in which values of parameters are looked for at a time: an editor asks for what it shows.
 const MOST_BYTES: u64 = 1 << 20;
@@ -105,11 +107,34 @@ pub(super) fn lenses(workspace: &mut Workspace, params: &CodeLensParams) -> Resu
             continue;
         }
         let range = view.range(Span::new(keyword.source, keyword.start, keyword.start));
-        // A command without a name is a text that nothing happens at.
-        let command = Command { title: shape(of.table), tooltip: None, command: String::new(), arguments: None };
+        // A command without a name is a text that nothing happens at, unless the editor has a command that draws what the argument names.
+        let arguments = drawing(view, &of).map(|drawing| vec![drawing]);
+        let command = Command { title: shape(of.table), tooltip: None, command: String::new(), arguments };
         lenses.push(CodeLens { range, command: Some(command), data: None });
     }
     lenses.sort_by_key(|lens| lens.range.start);
     lenses.dedup_by_key(|lens| lens.range.start);
     Ok(Some(lenses))
+}
+
+/// What `inpact plot` is to draw for a table, and the lines of the table: `None` for one that governs nothing or has no curve.
+fn drawing(view: View<'_>, of: &TableOf<'_>) -> Option<Value> {
+    let interaction = of.interaction?;
+    let governing = view.analysis.model.interactions.get(&interaction.name)?;
+    if !std::ptr::eq(governing, interaction) {
+        return None;
+    }
+    let law = match of.kind {
+        TableKind::ElectricalClearance | TableKind::ElectricalPressure => "electrical",
+        TableKind::ThermalClearance | TableKind::ThermalPressure => "thermal",
+        TableKind::Permeability => "permeability",
+        TableKind::Other if of.keyword == "GAP RADIATION" => "view-factor",
+        TableKind::Other => return None,
+    };
+    let block = blocks::block_at(view.analysis, view.source, of.table.keyword.start)?;
+    // The end of a block is where the next one begins.
+    let span = block.span();
+    let lines = view.range(Span::new(view.source, span.start, span.end.saturating_sub(1).max(span.start)));
+    let lines = [lines.start.line, lines.end.line];
+    Some(json!({"interaction": interaction.name.to_string(), "law": law, "lines": lines}))
 }
