@@ -5,6 +5,8 @@
 mod capabilities;
 mod client;
 mod editing;
+#[cfg(unix)]
+mod emacs;
 mod findings;
 mod neovim;
 mod protocol;
