@@ -136,9 +136,46 @@ fn paper_has_every_panel() {
     let printed = browser.call("Page.printToPDF", &json!({}));
     let pdf = printed["data"].as_str().expect("a file");
     assert!(pdf.starts_with("JVBERi0") && 20_000 < pdf.len(), "no PDF");
+    if let Some(text) = text_of_pdf(pdf) {
+        let titles = browser.value(
+            "[...document.querySelectorAll('figure.law .static svg text')].map((text) => text.textContent.trim())",
+        );
+        let titles = titles.as_array().expect("texts");
+        assert!(40 < titles.len(), "{}", titles.len());
+        for title in titles {
+            // Words: a line may be broken, and rotated text has lines of its own.
+            for word in title.as_str().expect("text").split_whitespace() {
+                assert!(text.contains(word), "`{word}` of `{title}` is not on paper");
+            }
+        }
+    }
     let open = "document.querySelectorAll('details:not([open])').length";
     assert_ne!(browser.value(open), 0, "what was opened to be printed stays open");
     assert_eq!(browser.faults(), Vec::<&Value>::new());
+}
+
+/// The text that a reader of the file sees, in base64 before; `None` where there is no `pdftotext`.
+fn text_of_pdf(base64: &str) -> Option<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let decode = |from: &Path, to: &Path| {
+        let encoded = std::fs::File::open(from).expect("a file");
+        let decoded = std::fs::File::create(to).expect("a file");
+        Command::new("base64").arg("-d").stdin(encoded).stdout(decoded).status().expect("base64 runs")
+    };
+    let (encoded, pdf) = (folder.path().join("page.txt"), folder.path().join("page.pdf"));
+    std::fs::write(&encoded, base64).expect("writable");
+    assert!(decode(&encoded, &pdf).success());
+    match Command::new("pdftotext").args(["-layout"]).arg(&pdf).arg("-").output() {
+        Ok(read) => {
+            assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
+            Some(String::from_utf8_lossy(&read.stdout).into_owned())
+        }
+        Err(_) if std::env::var_os("INPACT_REQUIRE_PDFTOTEXT").is_none() => {
+            eprintln!("skipped: there is no pdftotext");
+            None
+        }
+        Err(error) => panic!("pdftotext: {error}"),
+    }
 }
 
 /// Names that would run are text, also where a script reads them from its data.

@@ -1,6 +1,6 @@
 //! `inpact report`: one page that asks nothing of a network, says what `eval` says, and in which nothing of a deck runs.
 
-use crate::program::{Folder, dialect_of, inpact, sample_decks};
+use crate::program::{Folder, dialect_of, inpact, root, sample_decks};
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -61,7 +61,7 @@ fn check_page(html: &str) {
 fn every_sample_deck_has_a_report() {
     for deck in sample_decks() {
         let nodes = deck.replace(".inp", "-nodes.csv");
-        let has_nodes = crate::program::root().join(&nodes).exists() && !deck.contains("user-law");
+        let has_nodes = root().join(&nodes).exists() && !deck.contains("user-law");
         let more: &[&str] = if has_nodes { &["--nodes", &nodes] } else { &[] };
         let run = inpact(&[&["report", &deck], dialect_of(&deck), more].concat());
         assert_eq!(run.code, 0, "{deck}: {}", run.errors);
@@ -232,4 +232,24 @@ fn results_of_a_job_are_taken_instead_of_a_node_table() {
         let shown: f64 = shown.split('<').next().expect("an end").parse().expect("a number");
         assert!((shown - sum).abs() <= 1e-12 * sum.abs(), "{shown} {sum}");
     }
+}
+
+/// The deck's own mesh: its interfaces in the colours of what is known without a result; and the cost of accuracy on its rows.
+#[test]
+fn a_mesh_is_shown_and_the_trade_is_measured_where_that_is_wanted() {
+    let deck = root().join("decks/weld-mesh/weld-mesh.inp").display().to_string();
+    let run = inpact(&["report", &deck, "--mesh", "--tradeoff"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    check_page(&run.output);
+    assert!(run.output.contains("clearance on "), "no coloured interface");
+    assert!(run.output.contains("id=\"tradeoff\""), "no section");
+    assert!(run.output.contains("Work and precision of weld-mesh.inp"), "no diagram");
+    // Nothing that depends on the day without it.
+    let again = || inpact(&["report", &deck, "--mesh"]).output;
+    assert_eq!(again(), again());
+    assert!(!again().contains("Work and precision"));
+
+    let run = inpact(&["report", &deck, "--tradeoff"]);
+    assert_eq!(run.code, 2, "{}", run.errors);
+    assert!(run.errors.contains("give `--nodes TABLE`, `--results FILE` or `--mesh`"), "{}", run.errors);
 }

@@ -44,6 +44,14 @@ pub(crate) struct Evaluation {
     pub(crate) histories: Vec<History>,
     /// The interfaces in the colours of results, where their geometry is known.
     pub(crate) surfaces: Vec<Surface>,
+    /// The cost of accuracy on these rows, where it was measured.
+    pub(crate) tradeoff: Option<Tradeoff>,
+}
+
+/// A measurement of what accuracy costs: its diagram, and the same as text.
+pub(crate) struct Tradeoff {
+    pub(crate) svg: String,
+    pub(crate) text: String,
 }
 
 /// What an output adds up to over the nodes of an interface, time by time.
@@ -116,6 +124,8 @@ impl Report<'_> {
         page.open("ul", &[]);
         let mut sections = vec![("interfaces", "Interfaces"), ("findings", "Findings"), ("plan", "Plan")];
         sections.extend(self.evaluation.as_ref().map(|_| ("results", "Results")));
+        let tradeoff = self.evaluation.as_ref().and_then(|evaluation| evaluation.tradeoff.as_ref());
+        sections.extend(tradeoff.map(|_| ("tradeoff", "Speed for accuracy")));
         sections.push(("reproduction", "Inputs and versions"));
         for (id, title) in sections {
             page.open("li", &[]);
@@ -178,6 +188,13 @@ impl Report<'_> {
         page.element("pre", &[("tabindex", "0")], &evaluation.summary.join("\n"));
         charts::surfaces(page, &evaluation.surfaces);
         charts::histories(page, &evaluation.histories);
+        if let Some(tradeoff) = &evaluation.tradeoff {
+            page.element("h2", &[("id", "tradeoff")], "Speed for accuracy");
+            page.open("figure", &[("class", "law")]);
+            page.drawing(&tradeoff.svg);
+            page.close("figure");
+            page.element("pre", &[("tabindex", "0")], tradeoff.text.trim_end());
+        }
     }
 
     fn reproduction(&self, page: &mut Page) {

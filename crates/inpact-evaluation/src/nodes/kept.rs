@@ -100,6 +100,22 @@ impl KeptRows {
         file.seek(SeekFrom::End(0)).map(drop)
     }
 
+    /// The same rows once more, for a second reading; `make_file` is for those that memory has no room for.
+    ///
+    /// # Errors
+    /// Those of reading and writing the files.
+    pub fn try_clone(&mut self, make_file: MakeSpillFile) -> io::Result<Self> {
+        let mut copy = Self::new(self.room, make_file);
+        copy.begin(&self.selection);
+        let mut pushed = Ok(());
+        self.for_each(|batch| {
+            if pushed.is_ok() {
+                pushed = copy.push(batch.clone());
+            }
+        })?;
+        pushed.map(|()| copy)
+    }
+
     /// Gives the rows back one batch after the other, with the columns that are selected now; none stay kept.
     ///
     /// A column that was not kept gives missing numbers and empty texts.

@@ -15,7 +15,7 @@ use inpact_contact::RowsError;
 use inpact_diagnostics::{Extent, Findings};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
-use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, NodeReader, locate};
+use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, MakeSpillFile, NodeReader, locate};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, make, survey_keeping};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
 use inpact_parser::grammar::Dialect;
@@ -358,7 +358,19 @@ fn survey_table(
 
 /// Room for rows that are to be evaluated, first in memory, then in a temporary file.
 pub(crate) fn kept_rows() -> KeptRows {
-    KeptRows::new(ROOM_FOR_ROWS, Box::new(|| Ok(Box::new(tempfile::tempfile()?))))
+    KeptRows::new(ROOM_FOR_ROWS, spill_file())
+}
+
+/// Makes a temporary file for rows that memory has no room for.
+fn spill_file() -> MakeSpillFile {
+    Box::new(|| Ok(Box::new(tempfile::tempfile()?)))
+}
+
+impl Evaluable {
+    /// The rows once more, so that they can be gone through a second time.
+    pub(crate) fn rows_again(&mut self, arguments: &EvaluableArguments) -> Result<KeptRows, Failure> {
+        self.rows.try_clone(spill_file()).map_err(|error| Failure::read(arguments.nodes_path(), error))
+    }
 }
 
 impl NodesInput {

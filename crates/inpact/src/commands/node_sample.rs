@@ -67,12 +67,16 @@ pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) 
     let step = plan.rows.div_ceil(SAMPLE).max(1);
     let mut rows: HashMap<(usize, LawKind), NodeRows> = HashMap::new();
     let mut sums = Sums::new();
-    let mut coloured: Vec<(Output, usize, Vec<f64>)> = made.iter().flat_map(|_| Places::coloured(plan)).collect();
+    let mut coloured: Vec<Coloured> = made.iter().flat_map(|_| places.coloured(plan)).collect();
     while let Some(mut batch) = given.next_batch().map_err(unreadable)? {
         plan.name_rows(&mut batch);
         evaluation.evaluate(&batch, &mut results);
-        for (_, place, values) in &mut coloured {
-            values.extend((0..batch.rows).map(|row| results.numbers[*place].get(row).unwrap_or(f64::NAN)));
+        for Coloured { source, values, .. } in &mut coloured {
+            let column = match *source {
+                Source::Given(place) => &batch.numbers[place],
+                Source::Result(place) => &results.numbers[place],
+            };
+            values.extend((0..batch.rows).map(|row| column.get(row).unwrap_or(f64::NAN)));
         }
         for row in 0..batch.rows {
             let Some(interaction) = interactions.of_row(&batch, row) else { continue };
@@ -124,8 +128,23 @@ impl Gathered {
     }
 }
 
+/// A quantity that colours interfaces.
+struct Coloured {
+    name: String,
+    source: Source,
+    /// A value a row.
+    values: Vec<f64>,
+}
+
+/// Columns that colour: one of the batches, or one of the results.
+#[derive(Clone, Copy)]
+enum Source {
+    Given(usize),
+    Result(usize),
+}
+
 /// The faces of the last state in the colours of their results.
-fn surfaces(drawn: &Drawn, coloured: &[(Output, usize, Vec<f64>)]) -> Vec<Surface> {
+fn surfaces(drawn: &Drawn, coloured: &[Coloured]) -> Vec<Surface> {
     let Some(state) = drawn.states.last() else { return Vec::new() };
     let grid = drawn.faces.grid(state, Vec::new());
     if MOST_FACES < grid.cells.len() {
@@ -133,7 +152,7 @@ fn surfaces(drawn: &Drawn, coloured: &[(Output, usize, Vec<f64>)]) -> Vec<Surfac
     }
     let first = (drawn.states.len() - 1) * drawn.faces.points();
     let directions = Surface::directions(&grid.points);
-    let surface = |(output, _, values): &(Output, usize, Vec<f64>)| {
+    let surface = |Coloured { name, values, .. }: &Coloured| {
         let values = values.get(first..first + drawn.faces.points())?;
         let face = |cell: &Cell| {
             // Corners come before the nodes between them.
@@ -151,7 +170,7 @@ fn surfaces(drawn: &Drawn, coloured: &[(Output, usize, Vec<f64>)]) -> Vec<Surfac
             (0 < count).then(|| (cell.points.iter().take(corners).map(place).collect(), mean))
         };
         let faces: Vec<_> = grid.cells.iter().filter_map(face).collect();
-        let (output, time) = (output.to_string(), state.moment.time);
+        let (output, time) = (name.clone(), state.moment.time);
         (!faces.is_empty()).then_some(Surface { output, time, directions, faces })
     };
     coloured.iter().filter_map(surface).collect()
@@ -185,11 +204,18 @@ impl Places {
         }
     }
 
-    /// The results that colour interfaces: those per area.
-    fn coloured(plan: &Plan) -> Vec<(Output, usize, Vec<f64>)> {
-        let outputs = plan.outputs.iter().copied().enumerate();
+    /// The quantities that colour interfaces: the clearance, and the results per area.
+    fn coloured(&self, plan: &Plan) -> Vec<Coloured> {
+        let clearance = self.clearance.map(|place| ("clearance".to_owned(), Source::Given(place)));
+        let outputs = plan.outputs.iter().enumerate();
         let is_coloured = |output: &Output| matches!(output, Output::Ecd | Output::Hfl | Output::Pfl);
-        outputs.filter(|(_, output)| is_coloured(output)).map(|(place, output)| (output, place, Vec::new())).collect()
+        let results = outputs.filter(|(_, output)| is_coloured(output));
+        let results = results.map(|(place, output)| (output.to_string(), Source::Result(place)));
+        clearance
+            .into_iter()
+            .chain(results)
+            .map(|(name, source)| Coloured { name, source, values: Vec::new() })
+            .collect()
     }
 
     fn take_point(

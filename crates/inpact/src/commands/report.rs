@@ -7,11 +7,12 @@ use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
 use super::node_sample::{Gathered, gather};
 use super::plot::DrawingArguments;
+use super::tradeoff;
 use crate::curves::{self, Detail, Probing};
 use crate::deck::Deck;
 use crate::failure::{Failure, Outcome};
 use crate::files;
-use crate::report::{Evaluation, Input, Report, VALUES};
+use crate::report::{Evaluation, Input, Report, Tradeoff, VALUES};
 use crate::settings::DeckArguments;
 use clap::Args;
 use std::path::PathBuf;
@@ -26,6 +27,12 @@ pub(crate) struct ReportArguments {
     nodes: Option<PathBuf>,
     #[arg(long, value_name = "FILE", help = RESULTS_HELP)]
     results: Vec<PathBuf>,
+    /// Evaluate on the rows that the deck's own mesh gives, as `inpact nodes` makes them, and show its interfaces in space.
+    #[arg(long, conflicts_with_all = ["nodes", "results"])]
+    mesh: bool,
+    /// Measure what accuracy costs on these rows as well, and draw it: error against time, as `inpact tradeoff` does. Times are of the day, and so are the bytes of the page.
+    #[arg(long)]
+    tradeoff: bool,
     /// Where to write the page, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -49,7 +56,12 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
     let findings = deck.check();
     let choices = arguments.laws.choices(deck.model(), deck.grammar().dialect(), None)?;
     let mut request = arguments.drawing.request(Detail::Even(VALUES), MOST_PANELS, Probing::On);
-    let mut evaluated = if arguments.nodes.is_none() && arguments.results.is_empty() {
+    let has_rows = arguments.mesh || arguments.nodes.is_some() || !arguments.results.is_empty();
+    if arguments.tradeoff && !has_rows {
+        let message = "`--tradeoff` measures on rows: give `--nodes TABLE`, `--results FILE` or `--mesh`";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    let mut evaluated = if !has_rows {
         None
     } else {
         let Some(evaluated) = evaluated(arguments)? else { return Ok(Outcome::HasErrors) };
@@ -77,6 +89,7 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
 struct Evaluated {
     prepared: Evaluable,
     gathered: Option<Gathered>,
+    tradeoff: Option<Tradeoff>,
 }
 
 /// Evaluates the node table; `None` after saying what is wrong with it.
@@ -89,11 +102,20 @@ fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> 
     let format = FindingFormat::Concise;
     let Some(mut prepared) = evaluable.prepare(&arguments.laws, &arguments.reading, format)? else { return Ok(None) };
     if prepared.deck_has_errors {
-        return Ok(Some(Evaluated { prepared, gathered: None }));
+        return Ok(Some(Evaluated { prepared, gathered: None, tradeoff: None }));
     }
+    let again = if arguments.tradeoff { Some(prepared.rows_again(&evaluable)?) } else { None };
     let gathered = gather(&evaluable, &mut prepared)?;
     say_data_findings(gathered.findings.list().to_vec(), &prepared.settings, format);
-    Ok(Some(Evaluated { prepared, gathered: Some(gathered) }))
+    let tradeoff = match again {
+        Some(rows) => {
+            prepared.rows = rows;
+            let (chart, text) = tradeoff::diagram(&mut prepared, evaluable.nodes_path())?;
+            Some(Tradeoff { svg: chart.svg(), text })
+        }
+        None => None,
+    };
+    Ok(Some(Evaluated { prepared, gathered: Some(gathered), tradeoff }))
 }
 
 impl Evaluated {
@@ -106,6 +128,7 @@ impl Evaluated {
                 summary: summary_lines(&gathered.tally, &self.prepared.plan),
                 histories: std::mem::take(&mut gathered.histories),
                 surfaces: std::mem::take(&mut gathered.surfaces),
+                tradeoff: self.tradeoff.take(),
             },
             None => {
                 let nothing = "The deck is wrong where the node table needs it: nothing was evaluated.";
@@ -115,6 +138,7 @@ impl Evaluated {
                     summary: vec![nothing.to_owned()],
                     histories: Vec::new(),
                     surfaces: Vec::new(),
+                    tradeoff: None,
                 }
             }
         }

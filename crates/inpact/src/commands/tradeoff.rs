@@ -8,6 +8,8 @@ mod rounds;
 mod solvers;
 mod tables;
 
+pub(crate) use tables::diagram;
+
 use super::drawing::DrawingFormat;
 use super::evaluable::EvaluableArguments;
 use super::findings::FindingFormat;

@@ -10,10 +10,13 @@ mod report;
 mod subjects;
 
 use super::{Shown, TradeoffArguments, TradeoffFormat};
-use crate::commands::evaluable::EvaluableArguments;
+use crate::chart::Chart;
+use crate::commands::evaluable::{Evaluable, EvaluableArguments};
 use crate::failure::Failure;
 use crate::files;
 use inpact_diagnostics::visible::visible;
+use measure::Measured;
+use std::path::Path;
 
 /// Measures on a deck and its node table; `None` after saying what is wrong with them.
 pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
@@ -25,12 +28,7 @@ fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
     // The included files are known now.
     files::check_targets(&arguments.targets())?;
-    let sample = subjects::gather(&mut scene, table.nodes_path(), arguments.sample)?;
-    if sample.subjects.is_empty() {
-        let message = format!("no table of `{}` varies on these rows: there is nothing to trade", scene.deck_name);
-        return Err(Failure::Data(message));
-    }
-    let measured = measure::measure(&sample, arguments.rounds);
+    let measured = measured_tables(&mut scene, table.nodes_path(), arguments.sample, arguments.rounds)?;
     let names = report::Names { deck: &scene.deck_name, nodes: &scene.nodes_name };
     let text = match arguments.format {
         TradeoffFormat::Text => visible(&report::text(&measured, names)).into_owned(),
@@ -38,4 +36,26 @@ fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments
         TradeoffFormat::Json => report::json(&measured, names),
     };
     Ok(Some(Shown { text, chart: diagram::chart(&measured, names) }))
+}
+
+/// The work and precision of the tables of a deck on its rows as a diagram and as text, for a report.
+///
+/// # Errors
+/// Rows that cannot be read again; a deck of which no table varies on them.
+pub(crate) fn diagram(scene: &mut Evaluable, nodes_path: &Path) -> Result<(Chart, String), Failure> {
+    /// The most rows, and the rounds: a report is not worth the time of a measurement of its own.
+    const SAMPLE: u64 = 100_000;
+    const ROUNDS: u32 = 7;
+    let measured = measured_tables(scene, nodes_path, SAMPLE, ROUNDS)?;
+    let names = report::Names { deck: &scene.deck_name, nodes: &scene.nodes_name };
+    Ok((diagram::chart(&measured, names), visible(&report::text(&measured, names)).into_owned()))
+}
+
+fn measured_tables(scene: &mut Evaluable, nodes_path: &Path, most: u64, rounds: u32) -> Result<Measured, Failure> {
+    let sample = subjects::gather(scene, nodes_path, most)?;
+    if sample.subjects.is_empty() {
+        let message = format!("no table of `{}` varies on these rows: there is nothing to trade", scene.deck_name);
+        return Err(Failure::Data(message));
+    }
+    Ok(measure::measure(&sample, rounds))
 }
