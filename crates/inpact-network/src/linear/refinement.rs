@@ -6,7 +6,7 @@
 //! After the first step that factor is unknown: there the estimate is the residual of the balances, as a part of the flows, times the condition.
 //! Conjugate gradients stop when most is corrected, so that small flows may be wrong and not change: there the larger of both estimates counts.
 //! A balance is not better than its rounding: what is left of it below that is no reason to go on. What rounding may have done to a flow counts as its error;
-//! a flow that is no more than that is none.
+//! a flow that is no more than that is none. Steps that gain nothing more end in a solution where rounding accounts for the error that is left, and in a failure elsewhere.
 
 use super::core::Core;
 use super::edges::{Balance, Edges, ROUNDING};
@@ -19,6 +19,9 @@ const MOST_STEPS: usize = 100;
 
 /// Steps without gain after which a refinement gives up.
 const PATIENCE: usize = 24;
+
+/// Steps without gain after which a solution is taken whose estimated error rounding can account for.
+const AT_ROUNDING: usize = 4;
 
 /// A step has gained something where the largest flow that is missing falls by this factor.
 const FALLS: f64 = 1e-3;
@@ -85,7 +88,17 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
                 break;
             }
             let largest = balance.missing().map(f64::abs).fold(0.0, f64::max);
-            if progress.is_idle(quality.residual, largest) || quality.solves >= MOST_STEPS {
+            let idle = progress.idle_after(quality.residual, largest);
+            if AT_ROUNDING <= idle && quality.residual <= tolerance {
+                // What rounding may have done to a flow is more than what is left of its error: no further step, and no
+                // other method, gives more than this. (What is made nothing of here is found anew by the next balance.)
+                let open = edges.settle(core, quality.condition.max(1.0), &mut balance);
+                if quality.error <= open {
+                    quality.error = open;
+                    return Ok(Refined { jumps, balance, quality });
+                }
+            }
+            if PATIENCE <= idle || MOST_STEPS <= quality.solves {
                 return Err(GaveUp::Stalled(quality));
             }
         }
@@ -140,8 +153,8 @@ impl Progress {
         }
     }
 
-    /// Whether too many steps have gained nothing, now that this share of a balance and this flow, the largest of all, are missing.
-    fn is_idle(&mut self, residual: f64, largest: f64) -> bool {
+    /// The number of steps in a row that have gained nothing, now that this share of a balance and this flow, the largest of all, are missing.
+    fn idle_after(&mut self, residual: f64, largest: f64) -> usize {
         let left = residual + self.change;
         // A flow that ought to be zero is missing as a whole until it is, however small it has become.
         if left < 0.5 * self.best || largest < FALLS * self.least {
@@ -151,7 +164,7 @@ impl Progress {
         } else {
             self.idle += 1;
         }
-        self.idle >= PATIENCE
+        self.idle
     }
 }
 
