@@ -1,5 +1,6 @@
 //! Runs the program as a user would: exit codes, standard streams, every format, every sample deck.
 
+mod body;
 mod bytes;
 mod calculix;
 mod check;

@@ -1,6 +1,7 @@
 //! Bodies: what solid elements connect, and where it ends.
 
 use crate::error::{BodyError, BodyFault};
+use crate::material::BodyField;
 use inpact_geometry::NodeId;
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
@@ -116,6 +117,14 @@ impl Body {
     /// Parts of the deck that are no part of its bodies, with their places: elements that are not solid, options that join nodes beside them.
     pub fn left_out(&self) -> &[MeshNote] {
         &self.mesh.left_out
+    }
+
+    /// What a material of the bodies with terminals has a conductivity for.
+    pub fn fields(&self) -> Vec<BodyField> {
+        let blocks = self.blocks();
+        let conducts =
+            |field: &BodyField| blocks.iter().any(|block| field.of(&self.mesh.materials[block.material]).is_some());
+        [BodyField::Electrical, BodyField::Thermal].into_iter().filter(conducts).collect()
     }
 
     /// The blocks with an element in a body that has a terminal.

@@ -29,6 +29,8 @@ enum Command {
     Inp(commands::inp::InpArguments),
     /// Make the node table of a deck's contact pairs from its mesh: a row a slave node.
     Nodes(commands::nodes::NodesArguments),
+    /// Find what the bodies of a deck conduct and hold between surfaces and node sets, and what lumping them costs.
+    Body(commands::body::BodyArguments),
     /// Make the interfaces of a scene from the mesh of a deck: a row a slave node, or one a contact pair.
     Interfaces(commands::interfaces::InterfacesArguments),
     /// Evaluate the interface laws of a deck on node data.
@@ -77,6 +79,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Json(arguments) => commands::json::run(&arguments),
         Command::Inp(arguments) => commands::inp::run(&arguments),
         Command::Nodes(arguments) => commands::nodes::run(&arguments),
+        Command::Body(arguments) => commands::body::run(&arguments),
         Command::Interfaces(arguments) => commands::interfaces::run(&arguments),
         Command::Eval(arguments) => commands::eval::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),

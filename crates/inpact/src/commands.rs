@@ -1,5 +1,6 @@
 //! The commands, one file each: its arguments, and the way from them to a result.
 
+pub(crate) mod body;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod eval;

@@ -5,10 +5,11 @@ use crate::failure::{Failure, say, say_json};
 use crate::files;
 use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
+use inpact_body::{Body, BodyError};
 use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::mesh::{self, DeckConditions, KeptRows, Mesh, MeshNote, SeekableRows, Target};
-use inpact_parser::model::{self, Model};
+use inpact_parser::model::{self, Model, Name};
 use inpact_parser::problem::Problem;
 use inpact_parser::span::{Position, SourceId, Span};
 use serde::Serialize;
@@ -63,14 +64,7 @@ impl MeshedDeck {
         settings: &Settings,
         wanted: impl FnOnce(&ReadDeck) -> Option<(Vec<Target>, usize)>,
     ) -> Result<(Self, Vec<Option<usize>>), Failure> {
-        let is_on_disk = path.metadata().is_ok_and(|metadata| metadata.is_file());
-        // A stream cannot be read twice, and content that is known without reading is on no disk.
-        let is_file = is_on_disk && !settings.has_known_content();
-        let keep = if is_file { Keep::Interpreted } else { Keep::Everything };
-        let located = input::read_located_deck(path, keep, settings, None)?;
-        let mut files = if is_file { Some(open_all(&located)?) } else { None };
-        let LocatedDeck { deck, .. } = located;
-        let read = ReadDeck::of(deck, settings);
+        let (read, mut files) = Self::open(path, settings)?;
         let wanted = wanted(&read);
         let mesh = match &wanted {
             None => read_mesh(&read.deck, &read.model, settings, files.as_mut())
@@ -87,6 +81,35 @@ impl MeshedDeck {
         let (mesh, places, conditions) = mesh.map_err(|error| Failure::read(path, error))?;
         let name = path.display().to_string();
         Ok((Self { name, read, mesh, conditions, files: RefCell::new(files) }, places))
+    }
+
+    /// Reads a deck and its bodies, which end at these surfaces and node sets; of the surfaces of its contact pairs nothing.
+    pub(crate) fn read_body(
+        path: &Path,
+        settings: &Settings,
+        terminals: &[Name],
+    ) -> Result<(Self, Result<Body, BodyError>), Failure> {
+        let (read, mut files) = Self::open(path, settings)?;
+        let body = match files.as_mut() {
+            Some(files) => Body::read(&read.deck, settings.grammar, terminals, files),
+            None => Body::read(&read.deck, settings.grammar, terminals, &mut KeptRows(&read.deck)),
+        };
+        let body = body.map_err(|error| Failure::read(path, error))?;
+        let name = path.display().to_string();
+        let (mesh, conditions) = (Mesh::default(), DeckConditions::default());
+        Ok((Self { name, read, mesh, conditions, files: RefCell::new(files) }, body))
+    }
+
+    /// Reads a deck, whose rows are then read from its files, if they are on the disk.
+    fn open(path: &Path, settings: &Settings) -> Result<(ReadDeck, Option<SeekableRows<File>>), Failure> {
+        let is_on_disk = path.metadata().is_ok_and(|metadata| metadata.is_file());
+        // A stream cannot be read twice, and content that is known without reading is on no disk.
+        let is_file = is_on_disk && !settings.has_known_content();
+        let keep = if is_file { Keep::Interpreted } else { Keep::Everything };
+        let located = input::read_located_deck(path, keep, settings, None)?;
+        let files = if is_file { Some(open_all(&located)?) } else { None };
+        let LocatedDeck { deck, .. } = located;
+        Ok((ReadDeck::of(deck, settings), files))
     }
 
     /// Line and column of a span, also in rows that were not kept.
@@ -107,7 +130,7 @@ impl MeshedDeck {
     /// Says notes with their places.
     pub(crate) fn say_notes(&self, notes: &[MeshNote], format: FindingFormat) -> Result<(), Failure> {
         for note in notes.iter().take(MOST_NOTES) {
-            self.say_note(note, self.position(note.span)?, format);
+            self.say_at(note, NoteSeverity::Note, format)?;
         }
         let more = notes.len().saturating_sub(MOST_NOTES);
         if 0 < more && format != FindingFormat::Json {
@@ -116,17 +139,19 @@ impl MeshedDeck {
         Ok(())
     }
 
-    fn say_note(&self, note: &MeshNote, place: Position, format: FindingFormat) {
+    /// Says something of a place in the deck.
+    pub(crate) fn say_at(&self, note: &MeshNote, severity: NoteSeverity, format: FindingFormat) -> Result<(), Failure> {
+        let (place, severity) = (self.position(note.span)?, severity.name());
         let file = self.read.deck.source(note.span.source).name();
         match format {
             // A note has no code, which an annotation would need as its title.
             FindingFormat::Concise | FindingFormat::Github => {
-                let line = format!("{file}:{}:{}: note: {}", place.line, place.column, note.message);
+                let line = format!("{file}:{}:{}: {severity}: {}", place.line, place.column, note.message);
                 say(&visible_line(&line));
             }
             FindingFormat::Json => {
                 let record = Record {
-                    severity: "note",
+                    severity,
                     file,
                     line: place.line,
                     column: place.column,
@@ -136,6 +161,25 @@ impl MeshedDeck {
                 // A record of strings and numbers has no reason to fail.
                 say_json(&serde_json::to_string(&record).unwrap_or_default());
             }
+        }
+        Ok(())
+    }
+}
+
+/// Severities of what is said of a place without a code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoteSeverity {
+    /// Something was not read, or with an assumption.
+    Note,
+    /// Nothing can be done with the deck before it is mended.
+    Error,
+}
+
+impl NoteSeverity {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Error => "error",
         }
     }
 }

@@ -1,0 +1,177 @@
+//! `inpact body`: a deck with a mesh in; out what its bodies conduct and hold between surfaces and node sets.
+
+mod scene;
+mod text;
+mod value;
+
+use super::findings::FindingFormat;
+use super::mesh_rows::counted;
+use super::meshed::{MeshedDeck, NoteSeverity};
+use crate::failure::{Failure, Outcome, say, say_json};
+use crate::files;
+use crate::settings::DeckArguments;
+use clap::{Args, ValueEnum};
+use inpact_body::{Body, BodyError, BodyField, Lumped, SolutionMethod};
+use inpact_diagnostics::visible::{visible, visible_json, visible_line};
+use inpact_parser::mesh::MeshNote;
+use inpact_parser::model::Name;
+use serde_json::json;
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Debug, Args)]
+pub(crate) struct BodyArguments {
+    /// The deck, with its mesh and materials; `-` reads standard input.
+    #[arg(value_name = "DECK")]
+    deck: PathBuf,
+    /// Where bodies end: surfaces and node sets of the deck, in the assembly or after the name of an instance and a dot, or numbers of nodes; no two of them share a node.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', required = true)]
+    terminals: Vec<String>,
+    /// The temperature at which properties are taken that depend on it.
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
+    temperature: Option<f64>,
+    /// What is conducted; unless given, all that a material of the bodies has a conductivity for.
+    #[arg(long, value_enum)]
+    field: Option<Fields>,
+    #[command(flatten)]
+    reading: DeckArguments,
+    /// How to print the conductances.
+    #[arg(long, value_enum, default_value_t = BodyFormat::Text)]
+    format: BodyFormat,
+    /// How to print notes and findings on standard error, instead of a line each, or of JSON with `--format json`.
+    #[arg(long, value_enum)]
+    findings: Option<FindingFormat>,
+    /// Where to write, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Fields {
+    /// Heat, by *CONDUCTIVITY.
+    Thermal,
+    /// Current, by *ELECTRICAL CONDUCTIVITY.
+    Electrical,
+    /// Both.
+    Both,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BodyFormat {
+    /// Tables for a person.
+    Text,
+    /// A JSON object.
+    Json,
+    /// A table of links beside a scene, as comma-separated values.
+    Links,
+    /// Nodes and links of a scene, as TOML.
+    Scene,
+}
+
+/// What was found of a deck's bodies.
+struct Found<'a> {
+    deck: &'a str,
+    body: &'a Body,
+    temperature: Option<f64>,
+    lumped: Vec<Lumped>,
+}
+
+pub(crate) fn run(arguments: &BodyArguments) -> Result<Outcome, Failure> {
+    let start = Instant::now();
+    if let Some(temperature) = arguments.temperature.filter(|temperature| !temperature.is_finite()) {
+        return Err(Failure::Usage(format!("expected a finite number as `--temperature`, found `{temperature}`")));
+    }
+    files::name_as_inputs(&[&arguments.deck]);
+    files::check_targets(&[arguments.output.as_deref()])?;
+    let findings = arguments.findings.unwrap_or(match arguments.format {
+        BodyFormat::Json => FindingFormat::Json,
+        _ => FindingFormat::Concise,
+    });
+    let settings = arguments.reading.settings(&arguments.deck)?;
+    let names: Vec<Name> = arguments.terminals.iter().map(|name| Name::new(name)).collect();
+    let (meshed, body) = MeshedDeck::read_body(&arguments.deck, &settings, &names)?;
+    // The included files are known now.
+    files::check_targets(&[arguments.output.as_deref()])?;
+    let body = match body {
+        Ok(body) => body,
+        Err(error) => return refused(&meshed, &error, findings),
+    };
+    meshed.say_notes(body.left_out(), findings)?;
+    let fields = match arguments.field {
+        Some(Fields::Thermal) => vec![BodyField::Thermal],
+        Some(Fields::Electrical) => vec![BodyField::Electrical],
+        Some(Fields::Both) => vec![BodyField::Electrical, BodyField::Thermal],
+        None => body.fields(),
+    };
+    if fields.is_empty() {
+        let message = "no material of the bodies has *CONDUCTIVITY or *ELECTRICAL CONDUCTIVITY";
+        return Err(Failure::Data(format!("{message}: nothing is conducted in `{}`", meshed.name)));
+    }
+    let mut lumped: Vec<Lumped> = Vec::new();
+    for field in fields {
+        match body.lumped(field, arguments.temperature) {
+            Ok(of_field) => lumped.push(of_field),
+            Err(error) => return refused(&meshed, &error, findings),
+        }
+    }
+    let left_out: Vec<MeshNote> = lumped.iter().flat_map(|lumped| lumped.left_out.clone()).collect();
+    meshed.say_notes(&left_out, findings)?;
+    let found = Found { deck: &meshed.name, body: &body, temperature: arguments.temperature, lumped };
+    let text = match arguments.format {
+        BodyFormat::Text => visible(&text::text(&found)).into_owned(),
+        BodyFormat::Json => visible_json(&format!("{:#}\n", value::value(&found))).into_owned(),
+        BodyFormat::Links => scene::links(&found)?,
+        BodyFormat::Scene => scene::rows(&found)?,
+    };
+    files::write_result(arguments.output.as_deref(), text.as_bytes())?;
+    say_summary(&found, start.elapsed().as_secs_f64(), findings);
+    Ok(Outcome::Clean)
+}
+
+/// Says every fault with its place.
+fn refused(meshed: &MeshedDeck, error: &BodyError, findings: FindingFormat) -> Result<Outcome, Failure> {
+    let mut without_place = Vec::new();
+    for fault in error.faults() {
+        match fault.span {
+            Some(span) => {
+                let note = MeshNote { span, message: fault.message.clone() };
+                meshed.say_at(&note, NoteSeverity::Error, findings)?;
+            }
+            None => without_place.push(fault.message.clone()),
+        }
+    }
+    if without_place.is_empty() { Ok(Outcome::HasErrors) } else { Err(Failure::Data(without_place.join("; "))) }
+}
+
+fn say_summary(found: &Found<'_>, seconds: f64, findings: FindingFormat) {
+    let bodies = found.lumped[0].bodies.len() as u64;
+    match findings {
+        FindingFormat::Concise | FindingFormat::Github => {
+            let terminals = counted(found.body.terminals().len() as u64, "terminal");
+            let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };
+            say(&visible_line(&format!("{}: {terminals} of {bodies}, {seconds:.3} s", found.deck)));
+            for lumped in &found.lumped {
+                let [isothermal, even] = lumped.solutions;
+                let unknowns = counted(isothermal.unknowns as u64, "unknown");
+                let how = match (isothermal.method, even.method) {
+                    (SolutionMethod::Factor(first), SolutionMethod::Factor(second)) => {
+                        format!("factors of {first} and {second} entries")
+                    }
+                    (SolutionMethod::Iterations(first), SolutionMethod::Iterations(second)) => {
+                        format!("{first} and {second} iterations of conjugate gradients")
+                    }
+                    (SolutionMethod::Factor(entries), SolutionMethod::Iterations(iterations))
+                    | (SolutionMethod::Iterations(iterations), SolutionMethod::Factor(entries)) => {
+                        format!("a factor of {entries} entries, {iterations} iterations of conjugate gradients")
+                    }
+                };
+                let balanced = isothermal.imbalance.max(even.imbalance);
+                say(&format!("  {}: {unknowns}, {how}; balanced to {balanced:.1e}", lumped.field));
+            }
+        }
+        FindingFormat::Json => {
+            let summary = json!({ "summary": { "terminals": found.body.terminals().len(), "bodies": bodies, "seconds": seconds } });
+            say_json(&summary.to_string());
+        }
+    }
+}

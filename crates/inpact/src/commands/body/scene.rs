@@ -1,0 +1,93 @@
+//! Bodies as parts of a scene: its nodes with their capacities, and links between them.
+
+use super::super::mesh_rows::number_text;
+use super::Found;
+use crate::failure::Failure;
+use inpact_body::{BodyField, Lumped};
+
+/// A pair of terminals that conduct, and the conductance of each field.
+struct Link {
+    nodes: [usize; 2],
+    conductances: Vec<f64>,
+}
+
+/// The links, each pair once; a conductance below zero has no place in a network.
+fn conducting(found: &Found<'_>) -> Result<Vec<Link>, Failure> {
+    let name = |at: usize| found.body.terminals()[at].name.written();
+    for lumped in &found.lumped {
+        if let Some((a, b, conductance)) = lumped.isothermal.negative().next() {
+            let (field, conductance) = (lumped.field, number_text(conductance));
+            return Err(Failure::Data(format!(
+                "the {field} conductance of `{}` and `{}` is {conductance}, below zero, which no link of a scene is: the mesh is too coarse between them",
+                name(a),
+                name(b)
+            )));
+        }
+    }
+    let count = found.body.terminals().len();
+    let all = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+    // What is below zero here is rounding.
+    let of = |[a, b]: [usize; 2]| Link {
+        nodes: [a, b],
+        conductances: found.lumped.iter().map(|lumped| lumped.isothermal.between(a, b).max(0.0)).collect(),
+    };
+    Ok(all.map(of).filter(|link| link.conductances.iter().any(|conductance| 0.0 < *conductance)).collect())
+}
+
+/// A table of links.
+pub(super) fn links(found: &Found<'_>) -> Result<String, Failure> {
+    let failed = |error: csv::Error| Failure::Output(error.into());
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let fields: Vec<String> = found.lumped.iter().map(|lumped| lumped.field.to_string()).collect();
+    let header = ["node_1", "node_2"].into_iter().chain(fields.iter().map(String::as_str));
+    writer.write_record(header).map_err(failed)?;
+    for link in conducting(found)? {
+        let names = link.nodes.iter().map(|at| found.body.terminals()[*at].name.written().to_owned());
+        let numbers = link.conductances.iter().map(|conductance| number_text(*conductance));
+        writer.write_record(names.chain(numbers)).map_err(failed)?;
+    }
+    let table = writer.into_inner().map_err(|error| Failure::Output(error.into_error()))?;
+    Ok(String::from_utf8_lossy(&table).into_owned())
+}
+
+/// Nodes and links of a scene.
+pub(super) fn rows(found: &Found<'_>) -> Result<String, Failure> {
+    let quoted = |at: usize| toml_text(found.body.terminals()[at].name.written());
+    let mut text = String::new();
+    for at in 0..found.body.terminals().len() {
+        text += &format!("[[node]]\nname = {}\n", quoted(at));
+        for lumped in &found.lumped {
+            text += &of_node(lumped, at);
+        }
+        text.push('\n');
+    }
+    for link in conducting(found)? {
+        let [a, b] = link.nodes;
+        text += &format!("[[link]]\nnodes = [{}, {}]\n", quoted(a), quoted(b));
+        for (lumped, conductance) in found.lumped.iter().zip(&link.conductances) {
+            text += &format!("{} = {}\n", lumped.field, toml_number(*conductance));
+        }
+        text.push('\n');
+    }
+    Ok(text.trim_end().to_owned() + "\n")
+}
+
+fn of_node(lumped: &Lumped, at: usize) -> String {
+    match (lumped.field, &lumped.capacities) {
+        (BodyField::Electrical, _) => "potential = {}\n".to_owned(),
+        (BodyField::Thermal, None) => "temperature = {}\n".to_owned(),
+        (BodyField::Thermal, Some(capacities)) => {
+            format!("temperature = {{ capacity = {} }}\n", toml_number(capacities[at]))
+        }
+    }
+}
+
+/// A text as TOML has it: as JSON does, which leaves one control character as it is.
+fn toml_text(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
+}
+
+/// A number as TOML has it, read back as it is.
+fn toml_number(value: f64) -> String {
+    format!("{value:?}")
+}
