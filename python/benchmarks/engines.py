@@ -103,9 +103,11 @@ def run(folder: pathlib.Path, name: str, code: str) -> pa.Table:
         "if __name__ == '__main__':\n    main()\n"
     )
     (folder / "recipe.py").write_text(program)
-    done = subprocess.run(
-        [sys.executable, "recipe.py"], cwd=folder, capture_output=True, text=True, timeout=600, check=False
-    )
+    # Spark's workers are whatever `python3` is otherwise.
+    environment = {**os.environ, "PYSPARK_PYTHON": sys.executable}
+    command = [sys.executable, "recipe.py"]
+    captured = {"capture_output": True, "text": True}
+    done = subprocess.run(command, cwd=folder, env=environment, timeout=600, check=False, **captured)
     if done.returncode != 0:
         raise SystemExit(f"{name} ended with {done.returncode}:\n{done.stderr[-4000:]}")
     return pq.read_table(folder / "result-of-recipe.parquet")
