@@ -70,9 +70,9 @@ impl<'deck> Reader<'deck, '_> {
         let mut materials = Vec::new();
         for MaterialEntries { name, entry, properties } in std::mem::take(&mut self.materials) {
             let mut property = |keyword: &'static str| -> io::Result<Option<MaterialProperty>> {
-                let of_keyword = properties.iter().filter(|(name, _)| *name == canonical(keyword.as_bytes()));
+                let mut of_keyword = properties.iter().filter(|(name, _)| *name == canonical(keyword.as_bytes()));
                 // Of an option given twice the later one counts.
-                of_keyword.last().map_or(Ok(None), |(_, entry)| self.property(keyword, *entry))
+                of_keyword.next_back().map_or(Ok(None), |(_, entry)| self.property(keyword, *entry))
             };
             materials.push(BodyMaterial {
                 conductivity: property("CONDUCTIVITY")?,
