@@ -10,6 +10,8 @@ mod contract;
 mod format;
 mod output;
 #[cfg(feature = "columnar")]
+mod parquet;
+#[cfg(feature = "columnar")]
 mod records;
 mod writer;
 

@@ -88,6 +88,9 @@ impl ResultBatch {
 }
 
 impl Status {
+    /// All of them, in ascending order.
+    pub const ALL: [Self; 5] = [Self::Open, Self::Closed, Self::Cutoff, Self::BeyondTable, Self::Constrained];
+
     /// The word of the column.
     pub fn word(self) -> &'static str {
         match self {

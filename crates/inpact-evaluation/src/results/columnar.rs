@@ -2,28 +2,22 @@
 //!
 //! Key columns keep the type they have in the node table, dictionaries apart, which become their values;
 //! from comma-separated values `node` and `interaction` are texts and `time` is a float.
-//! Results are floats with nulls where there is no number. Floats are stored plain and nothing is compressed, which is fastest;
-//! row groups are bounded, and so is memory.
+//! Results are floats with nulls where there is no number.
+//! The columns of a batch are made, and for Parquet encoded, on the threads of rayon's current pool; the bytes do not depend on how many there are.
 
 use super::format::TableFormat;
+use super::parquet::ParquetTable;
 use super::writer::{Heading, Values};
 use crate::nodes::{Batch, Column, LabelColumn, NumberColumn};
-use arrow::array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
+use crate::spread;
+use arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
 use arrow::buffer::{NullBuffer, ScalarBuffer};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use arrow::error::ArrowError;
 use arrow::ipc::writer::FileWriter;
-use parquet::arrow::ArrowWriter;
-use parquet::errors::ParquetError;
-use parquet::file::properties::{EnabledStatistics, WriterProperties};
-use parquet::schema::types::ColumnPath;
-use std::error::Error;
 use std::io::{self, Write};
 use std::sync::Arc;
-
-/// How many rows a row group has at most.
-const ROWS_OF_A_GROUP: usize = 1 << 18;
 
 type Stream<'a> = &'a mut (dyn Write + Send);
 
@@ -38,7 +32,7 @@ pub(super) struct ColumnarWriter<'a> {
 enum Sink<'a> {
     /// The types of the key columns are not known yet.
     Waiting(Stream<'a>),
-    Parquet(SchemaRef, Box<ArrowWriter<Stream<'a>>>),
+    Parquet(Box<ParquetTable<Stream<'a>>>),
     Arrow(SchemaRef, Box<FileWriter<Stream<'a>>>),
     Finished,
 }
@@ -49,25 +43,22 @@ impl<'a> ColumnarWriter<'a> {
     }
 
     pub(super) fn write(&mut self, batch: &Batch, values: Values<'_>) -> io::Result<()> {
-        let mut arrays = Vec::with_capacity(self.keys.len() + self.headings.len());
-        for (key, label) in self.keys.iter().zip(&batch.labels) {
-            arrays.push(key_array(*key, label, batch)?);
-        }
         let mut numbers = values.numbers.iter();
-        for heading in &self.headings {
-            arrays.push(match values.statuses(*heading) {
-                Some(statuses) => status_array(statuses),
-                None => numbers
-                    .next()
-                    .map_or_else(|| Arc::new(Float64Array::new_null(batch.rows)) as ArrayRef, number_array),
-            });
-        }
-        self.begin(arrays.iter().map(|array| array.data_type().clone()).collect())?;
+        let of_heading = |heading: &Heading| match values.statuses(*heading) {
+            Some(statuses) if self.format == TableFormat::Parquet => Source::StatusesToEncode(statuses),
+            Some(statuses) => Source::Statuses(statuses),
+            None => numbers.next().map_or(Source::Nothing, Source::Numbers),
+        };
+        let keys = self.keys.iter().zip(&batch.labels).map(|(key, label)| Source::Key(*key, label));
+        let sources: Vec<Source<'_>> = keys.chain(self.headings.iter().map(of_heading)).collect();
+        let arrays = spread::map(sources, |source| source.array(batch)).into_iter().collect::<io::Result<Vec<_>>>()?;
+        let kind = |array: &ArrayRef| match array.data_type() {
+            DataType::Dictionary(_, values) => values.as_ref().clone(),
+            kind => kind.clone(),
+        };
+        self.begin(arrays.iter().map(kind).collect())?;
         match &mut self.sink {
-            Sink::Parquet(schema, writer) => {
-                let rows = RecordBatch::try_new(Arc::clone(schema), arrays).map_err(of_arrow)?;
-                writer.write(&rows).map_err(of_parquet)
-            }
+            Sink::Parquet(table) => table.write(&arrays, batch.rows),
             Sink::Arrow(schema, writer) => {
                 let rows = RecordBatch::try_new(Arc::clone(schema), arrays).map_err(of_arrow)?;
                 writer.write(&rows).map_err(of_arrow)
@@ -83,7 +74,7 @@ impl<'a> ColumnarWriter<'a> {
             self.headings.iter().map(|heading| if heading.is_number() { DataType::Float64 } else { DataType::Utf8 });
         self.begin(keys.chain(values).collect())?;
         match std::mem::replace(&mut self.sink, Sink::Finished) {
-            Sink::Parquet(_, writer) => writer.close().map(drop).map_err(of_parquet),
+            Sink::Parquet(table) => table.finish(),
             Sink::Arrow(_, mut writer) => writer.finish().map_err(of_arrow),
             Sink::Waiting(_) | Sink::Finished => Ok(()),
         }
@@ -102,11 +93,7 @@ impl<'a> ColumnarWriter<'a> {
         let fields = names.zip(types).map(|(name, kind)| Field::new(name, kind, true));
         let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
         self.sink = match self.format {
-            TableFormat::Parquet => {
-                let properties = properties(&schema);
-                let writer = ArrowWriter::try_new(output, Arc::clone(&schema), Some(properties)).map_err(of_parquet)?;
-                Sink::Parquet(schema, Box::new(writer))
-            }
+            TableFormat::Parquet => Sink::Parquet(Box::new(ParquetTable::begin(output, schema, self.keys.len())?)),
             TableFormat::Arrow | TableFormat::Csv => {
                 let writer = FileWriter::try_new(output, &schema).map_err(of_arrow)?;
                 Sink::Arrow(schema, Box::new(writer))
@@ -116,15 +103,27 @@ impl<'a> ColumnarWriter<'a> {
     }
 }
 
-fn properties(schema: &Schema) -> WriterProperties {
-    let mut properties = WriterProperties::builder()
-        .set_max_row_group_row_count(Some(ROWS_OF_A_GROUP))
-        .set_statistics_enabled(EnabledStatistics::Chunk)
-        .set_dictionary_enabled(false);
-    for field in schema.fields().iter().filter(|field| *field.data_type() == DataType::Utf8) {
-        properties = properties.set_column_dictionary_enabled(ColumnPath::from(field.name().as_str()), true);
+/// What a column of the table is made of.
+enum Source<'b> {
+    Key(Column, &'b LabelColumn),
+    Numbers(&'b NumberColumn),
+    Statuses(&'b [Option<super::Status>]),
+    /// Those of a file whose encoder takes texts by their numbers.
+    StatusesToEncode(&'b [Option<super::Status>]),
+    /// A column of numbers that no row has.
+    Nothing,
+}
+
+impl Source<'_> {
+    fn array(self, batch: &Batch) -> io::Result<ArrayRef> {
+        match self {
+            Self::Key(key, label) => key_array(key, label, batch),
+            Self::Numbers(column) => Ok(number_array(column)),
+            Self::Statuses(statuses) => Ok(status_array(statuses)),
+            Self::StatusesToEncode(statuses) => Ok(status_dictionary(statuses)),
+            Self::Nothing => Ok(Arc::new(Float64Array::new_null(batch.rows))),
+        }
     }
-    properties.build()
 }
 
 /// The array of a key column.
@@ -163,25 +162,24 @@ pub(super) fn status_array(statuses: &[Option<super::Status>]) -> ArrayRef {
     Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
 }
 
+fn status_dictionary(statuses: &[Option<super::Status>]) -> ArrayRef {
+    let keys: Int8Array = if statuses.contains(&None) {
+        statuses.iter().map(|status| status.map(|status| status as i8)).collect()
+    } else {
+        Int8Array::from_iter_values(statuses.iter().flatten().map(|status| *status as i8))
+    };
+    let words = StringArray::from_iter_values(super::Status::ALL.map(super::Status::word));
+    Arc::new(DictionaryArray::new(keys, Arc::new(words)))
+}
+
 pub(super) fn number_array(column: &NumberColumn) -> ArrayRef {
-    let nulls = column.presence().map(NullBuffer::from).filter(|nulls| nulls.null_count() > 0);
+    let nulls = column.presence().filter(|present| present.contains(&false)).map(NullBuffer::from);
     Arc::new(Float64Array::new(ScalarBuffer::from(column.values().to_vec()), nulls))
 }
 
 pub(super) fn of_arrow(error: ArrowError) -> io::Error {
     match error {
         ArrowError::IoError(_, error) => error,
-        error => io::Error::other(error),
-    }
-}
-
-fn of_parquet(error: ParquetError) -> io::Error {
-    match error {
-        // A closed pipe must be known for what it is.
-        ParquetError::External(error) => match error.downcast::<io::Error>() {
-            Ok(error) => *error,
-            Err(error) => io::Error::other(error as Box<dyn Error + Send + Sync>),
-        },
         error => io::Error::other(error),
     }
 }
