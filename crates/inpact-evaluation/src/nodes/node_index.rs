@@ -23,13 +23,38 @@ pub enum HistoryOrder {
 /// Numbers the nodes of each interaction in the order they are first met.
 ///
 /// Blanks around a label do not count. Memory grows with the number of nodes, not of rows; by node it does not grow.
+///
+/// Rows sorted by time meet the nodes of every increment in the same order, so that the node after the last one is looked at before labels are hashed.
 #[derive(Debug, Clone, Default)]
 pub struct NodeIndex {
     order: HistoryOrder,
     numbers: Vec<HashMap<Box<[u8]>, usize, LabelHash>>,
     hash: LabelHash,
-    count: usize,
+    met: MetNodes,
+    last: usize,
     current: Option<(usize, Vec<u8>)>,
+}
+
+/// The nodes by their numbers.
+#[derive(Debug, Clone, Default)]
+struct MetNodes {
+    /// The interaction of each, and where its label ends.
+    nodes: Vec<(usize, usize)>,
+    /// Their labels one after the other.
+    labels: Vec<u8>,
+}
+
+impl MetNodes {
+    fn is(&self, number: usize, interaction: usize, label: &[u8]) -> bool {
+        let Some(&(of, end)) = self.nodes.get(number) else { return false };
+        let start = if number == 0 { 0 } else { self.nodes[number - 1].1 };
+        of == interaction && self.labels[start..end] == *label
+    }
+
+    fn push(&mut self, interaction: usize, label: &[u8]) {
+        self.labels.extend_from_slice(label);
+        self.nodes.push((interaction, self.labels.len()));
+    }
 }
 
 /// Hashes labels, which are short, eight bytes at a time; a key of chance keeps a table from being made of labels that collide.
@@ -131,26 +156,32 @@ impl NodeIndex {
             let is_first = begins_run(&mut self.current, interaction, label);
             return HistorySlot { number: 0, is_first };
         }
-        let before = self.count;
+        let before = self.met.nodes.len();
         let number = self.number(interaction, label);
-        HistorySlot { number, is_first: before < self.count }
+        HistorySlot { number, is_first: before < self.met.nodes.len() }
     }
 
     /// The number of a node under interaction number `interaction`; a new node gets the next number.
     #[inline]
     pub fn number(&mut self, interaction: usize, label: &[u8]) -> usize {
+        let label = label.trim_ascii();
+        let next = if self.last + 1 < self.met.nodes.len() { self.last + 1 } else { 0 };
+        self.last = if self.met.is(next, interaction, label) { next } else { self.find(interaction, label) };
+        self.last
+    }
+
+    fn find(&mut self, interaction: usize, label: &[u8]) -> usize {
         if interaction >= self.numbers.len() {
             let hash = self.hash;
             self.numbers.resize_with(interaction + 1, || HashMap::with_hasher(hash));
         }
-        let label = label.trim_ascii();
         let numbers = &mut self.numbers[interaction];
         if let Some(number) = numbers.get(label) {
             return *number;
         }
-        let number = self.count;
+        let number = self.met.nodes.len();
         numbers.insert(label.into(), number);
-        self.count += 1;
+        self.met.push(interaction, label);
         number
     }
 }
@@ -272,6 +303,22 @@ mod tests {
             }
             let expected = if nodes.len() == changes.len() { HistoryOrder::ByNode } else { HistoryOrder::Interleaved };
             prop_assert_eq!(runs.order(), expected);
+        }
+
+        /// Whatever the order of the rows, a node has one number, and the next new node the next one.
+        #[test]
+        fn nodes_are_numbered_as_they_are_met(rows in prop::collection::vec((0..3_usize, 0..6_u8), 0..60)) {
+            let mut index = NodeIndex::default();
+            let mut met: Vec<(usize, u8)> = Vec::new();
+            for node in rows {
+                let known = met.iter().position(|known| *known == node);
+                let slot = index.enter(node.0, format!(" {} ", node.1).as_bytes());
+                let number = known.unwrap_or(met.len());
+                prop_assert_eq!(slot, HistorySlot { number, is_first: known.is_none() });
+                if known.is_none() {
+                    met.push(node);
+                }
+            }
         }
 
         #[test]
