@@ -128,7 +128,7 @@ impl Texts {
     #[cfg(feature = "columnar")]
     fn of_array(array: &arrow::array::ArrayRef) -> Self {
         use arrow::array::{Array, AsArray, StringArray};
-        use arrow::datatypes::{DataType, Float64Type};
+        use arrow::datatypes::{DataType, Float64Type, Int64Type, UInt64Type};
         let mut texts = Self::default();
         let values = match array.data_type() {
             DataType::Dictionary(_, values) => values.as_ref(),
@@ -142,6 +142,25 @@ impl Texts {
                 }
                 texts.ends.push(texts.bytes.len());
             }
+        } else if values.is_unsigned_integer() {
+            let numbers = arrow::compute::cast(array, &DataType::UInt64).unwrap_or_else(|_| array.slice(0, 0));
+            for value in numbers.as_primitive::<UInt64Type>() {
+                if let Some(value) = value {
+                    push_digits(&mut texts.bytes, value);
+                }
+                texts.ends.push(texts.bytes.len());
+            }
+        } else if values.is_integer() {
+            let numbers = arrow::compute::cast(array, &DataType::Int64).unwrap_or_else(|_| array.slice(0, 0));
+            for value in numbers.as_primitive::<Int64Type>() {
+                if let Some(value) = value {
+                    if value < 0 {
+                        texts.bytes.push(b'-');
+                    }
+                    push_digits(&mut texts.bytes, value.unsigned_abs());
+                }
+                texts.ends.push(texts.bytes.len());
+            }
         } else {
             let strings = arrow::compute::cast(array, &DataType::Utf8);
             // The reader lets no type through that has no text.
@@ -152,7 +171,32 @@ impl Texts {
     }
 }
 
+/// Adds a whole number.
+#[cfg(feature = "columnar")]
+fn push_digits(text: &mut Vec<u8>, mut number: u64) {
+    let mut digits = [0; 20];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    text.extend_from_slice(&digits[first..]);
+}
+
 impl NumberColumn {
+    /// A column of numbers, and which of them are there: none is missing where there are no flags.
+    #[cfg(feature = "columnar")]
+    pub(super) fn from_parts(mut values: Vec<f64>, present: Vec<bool>) -> Self {
+        for (value, present) in values.iter_mut().zip(&present) {
+            *value = if *present { *value } else { f64::NAN };
+        }
+        Self { values, present }
+    }
+
     /// The number in row `row` of the batch; `None` where it is missing.
     #[inline]
     pub fn get(&self, row: usize) -> Option<f64> {
@@ -345,5 +389,33 @@ impl Batch {
         self.numbers.iter_mut().for_each(NumberColumn::clear);
         self.labels.resize_with(labels, LabelColumn::default);
         self.numbers.resize_with(numbers, NumberColumn::default);
+    }
+}
+
+#[cfg(all(test, feature = "columnar"))]
+mod tests {
+    use super::*;
+    use arrow::array::{ArrayRef, Int64Array, UInt8Array, UInt64Array};
+    use std::sync::Arc;
+
+    #[test]
+    fn labels_of_whole_numbers_are_their_digits() {
+        let signed = Int64Array::from(vec![Some(i64::MIN), Some(-7), Some(0), None, Some(10), Some(i64::MAX)]);
+        let arrays: [ArrayRef; 3] = [
+            Arc::new(signed),
+            Arc::new(UInt64Array::from(vec![u64::MAX, 100])),
+            Arc::new(UInt8Array::from(vec![255, 9])),
+        ];
+        let texts = arrays.map(|array| {
+            let count = arrow::array::Array::len(&array);
+            let column = LabelColumn::from_array(array);
+            (0..count).map(|row| String::from_utf8_lossy(column.get(row)).into_owned()).collect::<Vec<_>>().join(" ")
+        });
+        let expected = [
+            "-9223372036854775808 -7 0  10 9223372036854775807".to_owned(),
+            format!("{} 100", u64::MAX),
+            "255 9".to_owned(),
+        ];
+        assert_eq!(texts, expected);
     }
 }

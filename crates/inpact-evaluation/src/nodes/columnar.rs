@@ -3,7 +3,7 @@
 //! Numbers may be floats, integers, booleans, or dictionaries of these; a null is a missing number, NaN is NaN.
 //! Key columns keep their array, so that a result table has them as they are; their text is made when somebody asks for it.
 
-use super::batch::{Batch, LabelColumn};
+use super::batch::{Batch, LabelColumn, NumberColumn};
 use super::header::Header;
 use super::reader::{ColumnStatistics, ReadSeek};
 use super::rules::MALFORMED_CELL;
@@ -310,19 +310,23 @@ impl Columns {
                 None => (0..self.rows).for_each(|_| column.push(b"")),
             }
         }
-        let mut present = Vec::new();
         for (numbers, column) in self.numbers.into_iter().zip(&mut batch.numbers) {
-            let Some(numbers) = numbers else {
-                column.reset(self.rows);
-                continue;
-            };
-            let numbers = numbers.as_primitive::<Float64Type>();
-            let nulls = numbers.nulls().filter(|nulls| nulls.null_count() > 0);
-            present.clear();
-            present.extend(nulls.into_iter().flat_map(|nulls| nulls.iter()));
-            column.extend_from_slices(numbers.values(), nulls.map(|_| present.as_slice()));
+            match numbers {
+                Some(numbers) => *column = number_column(numbers),
+                None => column.reset(self.rows),
+            }
         }
     }
+}
+
+/// The column of an array of f64; its memory becomes the column's where nobody else has it.
+fn number_column(array: ArrayRef) -> NumberColumn {
+    let numbers = array.as_primitive::<Float64Type>().clone();
+    drop(array);
+    let (_, values, nulls) = numbers.into_parts();
+    let values = values.into_inner().into_vec().unwrap_or_else(|shared| shared.typed_data().to_vec());
+    let nulls = nulls.filter(|nulls| nulls.null_count() > 0);
+    NumberColumn::from_parts(values, nulls.map_or_else(Vec::new, |nulls| nulls.iter().collect()))
 }
 
 fn as_numbers(array: &ArrayRef) -> Result<ArrayRef, ArrowError> {
