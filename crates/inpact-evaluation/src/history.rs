@@ -118,6 +118,16 @@ impl ElectricalHistory {
         self.heat.add(Amount::new(flow.heat.total), increment.duration, area);
     }
 
+    /// Forgets the row before, as [`Self::begin`] must for the first row of another node; what was added up stays.
+    pub(crate) fn restart(&mut self) {
+        self.previous = None;
+    }
+
+    /// Forgets what was added up.
+    pub(crate) fn clear_integrals(&mut self) {
+        (self.current, self.heat) = Default::default();
+    }
+
     /// [`Self::finish`] for a flow that may exceed the range of f64 where its product with time or area does not.
     pub fn finish_exactly(&mut self, increment: &ElectricalIncrement, flow: &ExactFlow, area: Option<f64>) {
         self.current.add(flow.current_density, increment.duration, area);

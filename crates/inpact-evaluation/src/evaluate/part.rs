@@ -48,7 +48,9 @@ impl<'a> Part<'a> {
     ) -> Self {
         let gathered = numbers.as_ref().map(|numbers| whole.gather(numbers, labels));
         let mut part = Self { whole, gathered, numbers, interaction, states: Vec::new(), contact, time };
-        part.states = (0..part.rows()).map(|row| contact.state(part.batch(), row)).collect();
+        let mut states = Vec::with_capacity(part.rows());
+        contact.for_each_state(part.batch(), 0..part.rows(), |state| states.push(state));
+        part.states = states;
         part
     }
 
@@ -89,6 +91,12 @@ impl<'a> Part<'a> {
         })
     }
 
+    /// The times, where every row has one.
+    pub(crate) fn times(&self) -> Option<&[f64]> {
+        let column = &self.batch().numbers[self.time?];
+        column.presence().is_none().then(|| column.values())
+    }
+
     /// The clearances, NaN where one is missing.
     pub(crate) fn clearances(&self) -> Cow<'_, [f64]> {
         self.column(self.contact.clearance)
@@ -104,6 +112,12 @@ impl<'a> Part<'a> {
             Some(place) => Cow::Borrowed(self.batch().numbers[place].values()),
             None => Cow::Owned(vec![f64::NAN; self.rows()]),
         }
+    }
+
+    /// Whether every row has the first coordinates of a branch's table, however it reads them.
+    pub(crate) fn has_all_abscissae(&self, branch: Branch) -> bool {
+        let place = if branch == Branch::Pressure { self.contact.pressure } else { self.contact.clearance };
+        place.is_some_and(|place| self.batch().numbers[place].presence().is_none())
     }
 
     /// Whether a row has the first coordinate of a branch's table: closed rows need no clearance.

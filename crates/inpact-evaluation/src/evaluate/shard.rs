@@ -4,7 +4,8 @@ use super::laws::{InteractionLaws, Laws};
 use super::worker::Found;
 use super::{Part, Row, Tally};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
-use crate::nodes::{HistoryOrder, NodeIndex};
+use crate::law::electrical::columns::increments::Increments;
+use crate::nodes::{HistoryOrder, HistorySlot, NodeIndex};
 use crate::plan::Plan;
 use crate::results::ResultBatch;
 
@@ -90,11 +91,7 @@ impl Shard {
                 let own: Vec<usize> = (0..part.rows()).filter(|row| shards[*row] as usize == number).collect();
                 let mut results = ResultBatch::default();
                 results.reset(own.len(), laws.result_columns);
-                for (to, index) in own.iter().enumerate() {
-                    if let Some(row) = part.row(*index, to) {
-                        self.evaluate_row(laws, of, row, found, &mut results);
-                    }
-                }
+                self.evaluate_rows(laws, (part, of), found, &own, &mut results);
                 let number = |row: &usize| match &part.numbers {
                     Some(numbers) => Some(numbers[*row]),
                     None => u32::try_from(*row).ok(),
@@ -108,11 +105,77 @@ impl Shard {
     /// Evaluates all rows of a part.
     pub(super) fn evaluate_part(&mut self, laws: &Laws, part: &Part<'_>, found: &Found, results: &mut ResultBatch) {
         let Some(of) = &laws.interactions[part.interaction] else { return };
-        for index in 0..part.rows() {
-            if let Some(row) = part.row(index, index) {
+        let all: Vec<usize> = (0..part.rows()).collect();
+        self.evaluate_rows(laws, (part, of), found, &all, results);
+    }
+
+    /// Evaluates some rows of a part, one result each.
+    fn evaluate_rows(
+        &mut self,
+        laws: &Laws,
+        (part, of): (&Part<'_>, &InteractionLaws),
+        found: &Found,
+        rows: &[usize],
+        results: &mut ResultBatch,
+    ) {
+        let electrical = of.electrical.as_ref();
+        let increments = electrical.and_then(|law| law.increments(part, found.conductances.as_ref(), rows));
+        if let Some((increments, node)) = increments.zip(laws.node) {
+            return self.evaluate_increments(laws, (part, of), found, (increments, node), results);
+        }
+        for (to, index) in rows.iter().enumerate() {
+            if let Some(row) = part.row(*index, to) {
                 self.evaluate_row(laws, of, row, found, results);
             }
         }
+    }
+
+    /// The same where each row ends an increment of the electrical law, which goes through them in columns.
+    fn evaluate_increments(
+        &mut self,
+        laws: &Laws,
+        (part, of): (&Part<'_>, &InteractionLaws),
+        found: &Found,
+        (mut increments, node): (Increments<'_, '_>, usize),
+        results: &mut ResultBatch,
+    ) {
+        let (labels, interaction) = (&part.batch().labels[node], part.interaction);
+        let mut slots: Vec<HistorySlot> = Vec::with_capacity(increments.rows().len());
+        for index in increments.rows() {
+            let slot = self.nodes.enter(interaction, labels.get(*index));
+            if slot.number == self.histories.len() {
+                self.histories.push(NodeHistory::of(laws));
+            } else if slot.is_first {
+                self.histories[slot.number].electrical.restart();
+            }
+            increments.begin(&mut self.histories[slot.number].electrical);
+            slots.push(slot);
+        }
+        increments.evaluate(results);
+        let tally = &mut self.tally.interactions[interaction];
+        let is_alone = of.thermal.is_none() && of.pore.is_none();
+        for (to, (slot, index)) in slots.iter().zip(increments.rows()).enumerate() {
+            let history = &mut self.histories[slot.number];
+            if slot.is_first {
+                history.electrical.clear_integrals();
+                (history.thermal, history.pore) =
+                    (ThermalHistory::new(laws.history_start), PoreHistory::new(laws.history_start));
+            }
+            let (outcome, heat) = increments.finish(to, &mut history.electrical, results, tally);
+            let row = if is_alone { None } else { part.row(*index, to) };
+            let thermal = of
+                .thermal
+                .as_ref()
+                .zip(row)
+                .map(|(law, row)| law.row(row, &found.thermal, heat, Some(&mut history.thermal), results, tally));
+            let pore = of
+                .pore
+                .as_ref()
+                .zip(row)
+                .map(|(law, row)| law.row(row, &found.permeabilities, Some(&mut history.pore), results, tally));
+            tally.finish_row([Some(outcome), thermal, pore], to, results, &mut self.tally.user_faults);
+        }
+        increments.end(results, tally);
     }
 
     fn evaluate_row(

@@ -9,7 +9,7 @@ use crate::law::contact::ContactState;
 use crate::law::thermal::columns::{ThermalColumns, ThermalFound};
 use crate::nodes::Batch;
 use crate::plan::{Plan, RowInteractions};
-use crate::results::ResultBatch;
+use crate::results::{ResultBatch, Status};
 use inpact_parser::model::Model;
 
 /// The interactions that a thread has met, and what it counted.
@@ -152,7 +152,14 @@ impl InteractionLaws {
             for (index, outcome) in
                 electrical.into_iter().enumerate().filter(|(index, _)| part.states[*index].is_some())
             {
-                tally.finish_row([Some(outcome), None, None], index, results, faults);
+                match outcome {
+                    // Within all tables: nothing is counted, and the other laws have no status.
+                    Outcome::Evaluated(status) if status <= Some(Status::Closed) => {
+                        results.status[index] = status;
+                        results.status_by_law.electrical[index] = status;
+                    }
+                    outcome => tally.finish_row([Some(outcome), None, None], index, results, faults),
+                }
             }
             return;
         }

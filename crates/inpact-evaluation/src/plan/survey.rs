@@ -241,6 +241,31 @@ impl ContactPlaces {
         let number = |place: Option<usize>| batch.numbers[place?].get(row);
         ContactState::of(number(self.closed), number(self.clearance), number(self.pressure))
     }
+
+    /// The states of some rows, in their order.
+    pub(crate) fn for_each_state(&self, batch: &Batch, rows: Range<usize>, mut take: impl FnMut(Option<ContactState>)) {
+        // A column is plain where none of its numbers is missing.
+        let plain = |place: Option<usize>| {
+            let column = &batch.numbers[place?];
+            column.presence().is_none().then(|| &column.values()[rows.clone()])
+        };
+        if self.state.is_some() {
+            return rows.for_each(|_| take(self.state));
+        }
+        match (self.closed, plain(self.closed), plain(self.clearance), self.pressure, plain(self.pressure)) {
+            (_, Some(closed), ..) => {
+                closed.iter().for_each(|closed| take(ContactState::of(Some(*closed), None, None)));
+            }
+            (None, _, Some(clearance), _, Some(pressure)) => clearance
+                .iter()
+                .zip(pressure)
+                .for_each(|(clearance, pressure)| take(ContactState::of(None, Some(*clearance), Some(*pressure)))),
+            (None, _, Some(clearance), None, _) => {
+                clearance.iter().for_each(|clearance| take(ContactState::of(None, Some(*clearance), None)));
+            }
+            _ => rows.for_each(|row| take(self.state(batch, row))),
+        }
+    }
 }
 
 impl<'a> Surveyor<'a> {
@@ -287,7 +312,9 @@ impl<'a> Surveyor<'a> {
             let interaction = self.rows.of_row(batch, first);
             let rows = first..self.rows.end_of_run(batch, first);
             first = rows.end;
-            for row in rows.clone() {
+            let has_times = self.node.is_some() && self.time.is_some();
+            let looked_at = if is_suspicious || has_times || interaction.is_none() { rows.clone() } else { 0..0 };
+            for row in looked_at {
                 if is_suspicious {
                     self.check_cells(batch, row, findings);
                 }
@@ -308,11 +335,13 @@ impl<'a> Surveyor<'a> {
     fn take_contact(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
         let of = &mut self.survey.interactions[interaction];
         of.rows += rows.len() as u64;
-        for row in rows.clone() {
-            let state = self.contact.state(batch, row);
-            of.closed += u64::from(state == Some(ContactState::Closed));
-            of.open += u64::from(state == Some(ContactState::Open));
-        }
+        let (mut closed, mut open) = (0, 0);
+        self.contact.for_each_state(batch, rows.clone(), |state| {
+            closed += u64::from(state == Some(ContactState::Closed));
+            open += u64::from(state == Some(ContactState::Open));
+        });
+        of.closed += closed;
+        of.open += open;
         if let Some(place) = self.contact.clearance {
             // A missing number is NaN, which is not above zero.
             let above = batch.numbers[place].values()[rows].iter().filter(|clearance| **clearance > 0.0);

@@ -176,15 +176,10 @@ impl BranchColumns {
         let variables = self.variables.iter().enumerate();
         let variables: Vec<Option<Cells<'a>>> =
             variables.map(|(index, variable)| variable.filter(|_| is_needed(index)).map(|of| of.cells(part))).collect();
-        let reads: Vec<Reads> = (0..part.rows()).map(|row| self.read_by(part, row, &variables)).collect();
+        let reads = self.reads(part, &variables);
         let gathered = [Branch::Clearance, Branch::Pressure].map(|branch| {
             let is_read = |read: &Reads| *read == Reads::Branch(branch);
-            let rows = if reads.iter().all(is_read) {
-                None
-            } else {
-                let rows = (0_u32..).zip(&reads).filter(|(_, read)| is_read(read)).map(|(row, _)| row);
-                Some(rows.collect())
-            };
+            let rows = if reads.iter().all(is_read) { None } else { Some(places_where(&reads, is_read)) };
             let needs = &self.needs[place(branch)];
             let abscissa = needs.abscissa.then(|| abscissae(branch, part));
             Gathered::new(rows, part.rows(), needs, abscissa, &variables)
@@ -196,6 +191,30 @@ impl BranchColumns {
     pub(crate) fn points<'a>(&self, part: &'a Part<'_>) -> [(Branch, Gathered<'a>); 2] {
         let [clearance, pressure] = self.gather(part).1;
         [(Branch::Clearance, clearance), (Branch::Pressure, pressure)]
+    }
+
+    /// The table that each row reads.
+    fn reads(&self, part: &Part<'_>, variables: &[Option<Cells<'_>>]) -> Vec<Reads> {
+        let is_plain = [Branch::Clearance, Branch::Pressure].into_iter().all(|branch| {
+            let needs = &self.needs[place(branch)];
+            // A table that no row reaches may depend on what the plan has no column of.
+            let cells = |variable: &usize| variables.get(*variable)?.as_ref();
+            let is_full = |variable: &usize| cells(variable).is_some_and(|cells| cells.present.is_none());
+            (!needs.abscissa || part.has_all_abscissae(branch)) && needs.variables.iter().all(is_full)
+        });
+        if !is_plain {
+            return (0..part.rows()).map(|row| self.read_by(part, row, variables)).collect();
+        }
+        // No row lacks a number: its state decides.
+        let [closed, open, undetermined] = [ContactState::Closed, ContactState::Open, ContactState::Undetermined]
+            .map(|state| Reads::Branch(self.tables.branch_of(state)));
+        let read = |state: &Option<ContactState>| match state {
+            Some(ContactState::Closed) => closed,
+            Some(ContactState::Open) => open,
+            Some(ContactState::Undetermined) => undetermined,
+            None => Reads::Nothing,
+        };
+        part.states.iter().map(read).collect()
     }
 
     #[inline]
@@ -240,6 +259,9 @@ impl BranchColumns {
             }
         }
         column.make_room(reads.len());
+        if gathered.iter().map(|gathered| gathered.count).sum::<usize>() == reads.len() {
+            return column;
+        }
         for (row, read) in reads.iter().enumerate() {
             match (read, part.states[row]) {
                 (Reads::Branch(Branch::Neither), Some(state)) => column.values[row] = value_without_table(state),
@@ -295,6 +317,18 @@ impl Binder<'_> {
     pub(crate) fn means(self, sources: &[Option<Source<Column>>]) -> Vec<Option<Variable>> {
         sources.iter().map(|source| self.source(*source).map(Variable::Mean)).collect()
     }
+}
+
+/// The places of some items, found without a branch: whether rows are closed or open is as good as random.
+fn places_where<T>(items: &[T], is_one: impl Fn(&T) -> bool) -> Vec<u32> {
+    let mut places = vec![0; items.len()];
+    let mut count = 0;
+    for (place, item) in (0_u32..).zip(items) {
+        places[count] = place;
+        count += usize::from(is_one(item));
+    }
+    places.truncate(count);
+    places
 }
 
 /// The place of a branch among the two.

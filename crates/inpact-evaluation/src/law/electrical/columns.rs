@@ -19,6 +19,8 @@ use crate::table::Sides;
 use inpact_parser::model::Regime;
 use std::ops::Range;
 
+pub(crate) mod increments;
+
 /// Below this share of the potentials their difference has lost its digits.
 const LOST_DIGITS: f64 = 1e-8;
 
@@ -64,6 +66,23 @@ struct Slots {
     conductance: Option<usize>,
     heat_slave: Option<usize>,
     heat_master: Option<usize>,
+}
+
+/// The columns that current and heat of some rows follow from.
+#[derive(Debug, Clone, Copy)]
+struct FlowInputs<'a> {
+    conductance: &'a [f64],
+    jump: Option<&'a [f64]>,
+    /// Where an increment starts otherwise than it ends.
+    jump_at_start: Option<&'a [f64]>,
+    area: Option<&'a [f64]>,
+}
+
+/// Current and heat of a row by plain arithmetic.
+#[derive(Debug, Clone, Copy)]
+struct PlainFlow {
+    current_density: f64,
+    heat: GeneratedHeat,
 }
 
 impl ElectricalColumns {
@@ -183,7 +202,7 @@ impl ElectricalColumns {
             && part.states.iter().all(Option::is_some)
             && jump.as_ref().is_none_or(Cells::is_full)
             && area.as_ref().is_none_or(Cells::is_full);
-        let (mut outcomes, mut heats) = (Vec::with_capacity(count), Vec::new());
+        let (mut outcomes, mut heats, mut flows) = (Vec::with_capacity(count), Vec::new(), Vec::new());
         if takes_heat {
             heats.reserve(count);
         }
@@ -205,21 +224,31 @@ impl ElectricalColumns {
                 }
                 continue;
             };
-            self.plain_flows(
-                found,
-                jump.as_ref(),
-                area.as_ref(),
-                rows.clone(),
-                results,
-                takes_heat.then_some(&mut heats),
-            );
+            let inputs = FlowInputs {
+                conductance: &found.values[rows.clone()],
+                jump: jump.as_ref().map(|jump| &jump.values[rows.clone()]),
+                jump_at_start: None,
+                area: area.as_ref().map(|area| &area.values[rows.clone()]),
+            };
+            flows.clear();
+            self.plain_flows(inputs, rows.clone(), results, takes_heat.then_some(&mut flows));
+            if takes_heat && jump.is_some() {
+                heats.extend(flows.iter().map(|flow| Some(HeatAmounts::from(flow.heat))));
+            } else if takes_heat {
+                heats.extend(rows.clone().map(|_| None));
+            }
+            if let (Some(jump), Some(source)) = (&jump, &self.jump) {
+                tally.lost_digits += lost_digits(source, part, rows.clone().map(|row| (row, jump.values[row])));
+            }
             for index in rows {
+                let sides = found.sides[index];
+                if self.slopes.is_empty() && sides.is_within() {
+                    outcomes.push(Outcome::Evaluated(part.states[index].and_then(contact_status)));
+                    continue;
+                }
                 let Some(row) = part.row(index, index) else { continue };
                 self.set_slopes(row, results);
-                if let (Some(jump), Some(source)) = (&jump, &self.jump) {
-                    tally.lost_digits += u64::from(has_lost_digits(source, row, jump.values[index]));
-                }
-                outcomes.push(Outcome::Evaluated(self.status(row, found.sides[index], tally)));
+                outcomes.push(Outcome::Evaluated(self.status(row, sides, tally)));
             }
         }
         if is_full {
@@ -241,26 +270,22 @@ impl ElectricalColumns {
         area: Option<&Cells<'_>>,
         rows: Range<usize>,
     ) -> bool {
-        let are_moderate =
-            |values: &[f64]| values[rows.clone()].iter().fold(true, |all, value| all & is_moderate(*value));
         !self.accuracy.is_reference()
             && is_moderate(self.heat_generation.fraction)
-            && are_moderate(&found.values)
-            && jump.is_none_or(|jump| are_moderate(&jump.values))
-            && area.is_none_or(|area| are_moderate(&area.values))
+            && are_moderate(&found.values[rows.clone()])
+            && jump.is_none_or(|jump| are_moderate(&jump.values[rows.clone()]))
+            && area.is_none_or(|area| are_moderate(&area.values[rows]))
     }
 
-    /// Conductance, current and heat of some rows by plain arithmetic.
+    /// Conductance, current and heat of some rows by plain arithmetic; `flows` takes what is multiplied and summed up further.
     fn plain_flows(
         &self,
-        found: &ConductanceColumn,
-        jump: Option<&Cells<'_>>,
-        area: Option<&Cells<'_>>,
+        inputs: FlowInputs<'_>,
         rows: Range<usize>,
         results: &mut ResultBatch,
-        heats: Option<&mut Vec<Option<HeatAmounts>>>,
+        flows: Option<&mut Vec<PlainFlow>>,
     ) {
-        let conductance = &found.values[rows.clone()];
+        let FlowInputs { conductance, jump, jump_at_start, area } = inputs;
         let generation = self.heat_generation;
         if let Some(slot) = self.slots.conductance {
             results.numbers[slot].values_mut()[rows.clone()].copy_from_slice(conductance);
@@ -268,14 +293,7 @@ impl ElectricalColumns {
         if let Some(slot) = self.slots.weight {
             results.numbers[slot].values_mut()[rows.clone()].fill(generation.slave_weight);
         }
-        let Some(jump) = jump else {
-            if let Some(heats) = heats {
-                heats.extend(rows.map(|_| None));
-            }
-            return;
-        };
-        let jump = &jump.values[rows.clone()];
-        let area = area.map(|area| &area.values[rows.clone()]);
+        let Some(jump) = jump else { return };
         let mut columns = [[0.0; CHUNK]; 6];
         let count = rows.len();
         let [current_density, current, heat, heat_of_area, slave, master] =
@@ -283,7 +301,7 @@ impl ElectricalColumns {
         let inputs = ElectricalInputs {
             jump,
             // Without a history an increment starts as it ends (C-25).
-            jump_at_start: (self.regime == Regime::Transient).then_some(jump),
+            jump_at_start: (self.regime == Regime::Transient).then(|| jump_at_start.unwrap_or(jump)),
             area,
         };
         let mut outputs = ElectricalOutputs {
@@ -295,10 +313,11 @@ impl ElectricalColumns {
             heat_master: Some(&mut *master),
         };
         electrical_outputs(self.set, generation, conductance, &inputs, &mut outputs);
-        if let Some(heats) = heats {
-            let shared = heat.iter().zip(&*slave).zip(&*master);
-            heats.extend(shared.map(|((total, slave), master)| {
-                Some(HeatAmounts::from(GeneratedHeat { total: *total, slave: *slave, master: *master }))
+        if let Some(flows) = flows {
+            let shared = current_density.iter().zip(&*heat).zip(&*slave).zip(&*master);
+            flows.extend(shared.map(|(((current_density, total), slave), master)| PlainFlow {
+                current_density: *current_density,
+                heat: GeneratedHeat { total: *total, slave: *slave, master: *master },
             }));
         }
         let slots = &self.slots;
@@ -360,24 +379,33 @@ impl ElectricalColumns {
         };
         tally.lost_digits += u64::from(has_lost_digits(source, row, jump));
         let jump = PotentialJump(jump);
-        let area = self.area.and_then(|place| row.number(place));
         let mut history = history.zip(row.time);
         let increment: Option<ElectricalIncrement> =
             history.as_mut().map(|(history, time)| history.begin(*time, jump, value));
+        let history = history.map(|(history, _)| history).zip(increment);
+        Some(self.flow_of_increment(row, (value, rest), jump, history, results, tally))
+    }
+
+    /// Current and heat of a row that ends an increment, if it has a history.
+    fn flow_of_increment(
+        &self,
+        row: Row<'_, '_>,
+        (value, rest): (f64, f64),
+        jump: PotentialJump,
+        history: Option<(&mut ElectricalHistory, ElectricalIncrement)>,
+        results: &mut ResultBatch,
+        tally: &mut InteractionTally,
+    ) -> HeatAmounts {
+        let area = self.area.and_then(|place| row.number(place));
+        let increment = history.as_ref().map(|(_, increment)| *increment);
         let jump_at_start = increment.as_ref().map_or(jump, |increment| increment.jump_at_start);
         let dissipation = match self.regime {
             Regime::SteadyState => Dissipation::Steady,
             Regime::Transient => Dissipation::Transient { jump_at_start },
         };
         let generation = self.heat_generation;
-        if let (Some(increment), Regime::Transient) = (&increment, self.regime)
-            && increment.closes_circuit
-            && generation.fraction != 0.0
-        {
-            tally.closing.count(row, || {
-                let (start, end) = (increment.jump_at_start.0, jump.0);
-                format!("the first has a jump of {end:?}, and its increment starts open with {start:?}")
-            });
+        if let Some(increment) = &increment {
+            self.count_closing(row, increment, jump, tally);
         }
         let duration = increment.as_ref().and_then(|increment| increment.duration);
         let needs_care = self.accuracy.is_reference() || {
@@ -403,7 +431,7 @@ impl ElectricalColumns {
         set(slots.sjda, of_area(heat.total));
         set(slots.heat_slave, Some(flow.heat.slave));
         set(slots.heat_master, Some(flow.heat.master));
-        if let (Some((history, _)), Some(increment)) = (history, increment) {
+        if let Some((history, increment)) = history {
             match &exact {
                 Some(exact) => history.finish_exactly(&increment, exact, area),
                 None => history.finish(&increment, &flow, value.mul_add(jump.0, -flow.current_density), area),
@@ -413,7 +441,23 @@ impl ElectricalColumns {
             set(slots.sjdt, Some(history.heat()));
             set(slots.sjdta, history.heat_of_area());
         }
-        Some(heat)
+        heat
+    }
+
+    /// Counts a row that takes the jump of an open circuit into the heat of the increment that closes it (D022).
+    fn count_closing(
+        &self,
+        row: Row<'_, '_>,
+        increment: &ElectricalIncrement,
+        jump: PotentialJump,
+        tally: &mut InteractionTally,
+    ) {
+        if self.regime == Regime::Transient && increment.closes_circuit && self.heat_generation.fraction != 0.0 {
+            tally.closing.count(row, || {
+                let (start, end) = (increment.jump_at_start.0, jump.0);
+                format!("the first has a jump of {end:?}, and its increment starts open with {start:?}")
+            });
+        }
     }
 
     /// The status of a row that lies outside its table on these sides.
@@ -432,6 +476,28 @@ impl Slots {
     /// Those of current and heat at one time.
     fn of_flow(&self) -> [Option<usize>; 6] {
         [self.ecd, self.ecda, self.sjd, self.sjda, self.heat_slave, self.heat_master]
+    }
+}
+
+/// Whether all numbers are.
+fn are_moderate(values: &[f64]) -> bool {
+    values.iter().fold(true, |all, value| all & is_moderate(*value))
+}
+
+/// How many of some rows, each with its jump, have lost the digits of it ([`has_lost_digits`]).
+fn lost_digits(source: &Source<usize>, part: &Part<'_>, rows: impl Iterator<Item = (usize, f64)>) -> u64 {
+    match *source {
+        Source::Cell(_) => 0,
+        Source::Sides(slave, master) => {
+            let values = |place: usize| part.batch().numbers[place].values();
+            let (slave, master) = (values(slave), values(master));
+            // A number that is missing is NaN, which is never the larger one.
+            rows.map(|(row, jump)| u64::from(jump.abs() < LOST_DIGITS * slave[row].abs().max(master[row].abs()))).sum()
+        }
+        Source::CellOrSides(..) => {
+            let rows = rows.filter_map(|(row, jump)| Some((part.row(row, row)?, jump)));
+            rows.map(|(row, jump)| u64::from(has_lost_digits(source, row, jump))).sum()
+        }
     }
 }
 
