@@ -8,6 +8,7 @@ mod check_geometry;
 mod columns;
 mod compare;
 mod configuration;
+mod deck_scenes;
 mod decks;
 mod dialects;
 mod eval;

@@ -45,6 +45,8 @@ enum Command {
     Plot(commands::plot::PlotArguments),
     /// Make a page of a deck's interfaces: curves, tables, findings and, with a node table, results; one file that opens anywhere.
     Report(commands::report::ReportArguments),
+    /// Make a scene of a deck: its contact pairs, its bodies between them, and its conditions.
+    Scene(commands::scene::SceneArguments),
     /// Solve a scene: nodes, bulk conductances and the interfaces of a deck that couple them.
     Solve(commands::solve::SolveArguments),
     /// Measure what accuracy costs: time and error of every mode on a deck and its node data, or of every solver on a scene.
@@ -86,6 +88,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Plot(arguments) => commands::plot::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
+        Command::Scene(arguments) => commands::scene::run(&arguments),
         Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Tradeoff(arguments) => commands::tradeoff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

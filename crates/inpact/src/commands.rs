@@ -13,6 +13,7 @@ pub(crate) mod nodes;
 pub(crate) mod plan;
 pub(crate) mod plot;
 pub(crate) mod report;
+pub(crate) mod scene;
 #[cfg(feature = "server")]
 pub(crate) mod server;
 pub(crate) mod shell;

@@ -8,7 +8,7 @@ use crate::settings::Settings;
 use inpact_body::{Body, BodyError};
 use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::{Deck, Keep};
-use inpact_parser::mesh::{self, DeckConditions, KeptRows, Mesh, MeshNote, SeekableRows, Target};
+use inpact_parser::mesh::{self, DeckConditions, KeptRows, Mesh, MeshNote, RowBytes, SeekableRows, Target};
 use inpact_parser::model::{self, Model, Name};
 use inpact_parser::problem::Problem;
 use inpact_parser::span::{Position, SourceId, Span};
@@ -119,6 +119,20 @@ impl MeshedDeck {
             None => mesh::position(&self.read.deck, &mut KeptRows(&self.read.deck), span),
         };
         position.map_err(|error| Failure::read(Path::new(&self.name), error))
+    }
+
+    /// Hands the rows of the deck to a reader.
+    pub(crate) fn with_rows<T>(&self, read: impl FnOnce(&mut dyn RowBytes) -> T) -> T {
+        match &mut *self.files.borrow_mut() {
+            Some(files) => read(files),
+            None => read(&mut KeptRows(&self.read.deck)),
+        }
+    }
+
+    /// Where a span is, as compilers say it: `deck.inp:12`.
+    pub(crate) fn place_of(&self, span: Span) -> Result<String, Failure> {
+        let file = self.read.deck.source(span.source).name();
+        Ok(format!("{file}:{}", self.position(span)?.line))
     }
 
     /// Where a span is, for messages: `line 12 of `deck.inp``.

@@ -101,14 +101,7 @@ impl SolvableScene {
         };
         let ReadDeck { deck, model, problems } = read;
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
-        // A scene that says nothing of potentials is one of heat alone.
-        let currents = if scene.mentions(Field::Potential) { Currents::OfTheDeck } else { Currents::None };
-        let choices = Choices {
-            currents,
-            history_start: scene.history_start(),
-            closing_heat: scene.closing_heat(),
-            ..laws(&model, grammar.dialect(), Some(regime))?
-        };
+        let choices = choices_of(&scene, laws(&model, grammar.dialect(), Some(regime))?);
         let found = of_deck.apply(check(&deck, grammar, &model, &problems));
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
@@ -132,6 +125,20 @@ impl SolvableScene {
     pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<Diagnostic> {
         let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
+    }
+}
+
+/// The choices about laws in a scene.
+pub(crate) fn choices_of(scene: &Scene, laws: Choices) -> Choices {
+    // A scene that says nothing of potentials is one of heat alone.
+    let currents = if scene.mentions(Field::Potential) { Currents::OfTheDeck } else { Currents::None };
+    let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
+    Choices {
+        currents,
+        regime: Some(regime),
+        history_start: scene.history_start(),
+        closing_heat: scene.closing_heat(),
+        ..laws
     }
 }
 

@@ -1,0 +1,347 @@
+//! `inpact scene`: a deck with a mesh in; a scene out, of its contact pairs, its bodies between terminals, and its conditions.
+//!
+//! Nothing is invented: what the deck does not say is missing in the scene, and what cannot be taken over is listed with its line.
+
+mod lumping;
+mod terminals;
+mod text;
+mod unread;
+
+use self::lumping::Lumping;
+use self::terminals::{Terminal, restrict, terminals};
+use self::text::{Head, SceneText};
+use super::findings::FindingFormat;
+use super::interfaces::lumped_lines;
+use super::job_results::{RESULTS_HELP, states};
+use super::mesh_rows::node_rows;
+use super::meshed::MeshedDeck;
+use super::solvable::{choices_of, steps_of};
+use crate::failure::{Failure, Outcome, say, say_json};
+use crate::files::{self, STANDARD_STREAM};
+use crate::report::Input;
+use crate::settings::{DeckArguments, Settings};
+use crate::terminals::{Stated, StepTime, Taker, procedure};
+use clap::Args;
+use inpact_body::{Body, BodyField, Lumped};
+use inpact_diagnostics::Findings;
+use inpact_diagnostics::visible::visible_line;
+use inpact_evaluation::plan::Choices;
+use inpact_network::Problem;
+use inpact_network::scene::{self, Field, SceneFiles};
+use inpact_parser::mesh::{self, MeshNote};
+use inpact_parser::model::{Name, Procedure, Regime};
+use inpact_parser::span::Span;
+use serde_json::json;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// The deck, with its mesh; `-` reads standard input.
+    #[arg(value_name = "DECK")]
+    deck: PathBuf,
+    /// The step whose conditions and procedure the scene has, from 1; not needed where the deck has one.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    step: Option<u32>,
+    /// The temperature at which properties of materials are taken that depend on it.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    temperature: Option<f64>,
+    #[arg(long, value_name = "FILE", help = RESULTS_HELP, long_help = format!("{RESULTS_HELP}.\n\nThe joints are those of the last state."))]
+    results: Vec<PathBuf>,
+    /// Where to write the scene, instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    reading: DeckArguments,
+    /// How to print what there is to say on standard error.
+    #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
+    format: FindingFormat,
+}
+
+/// Fields of the bodies that a scene has.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fields {
+    pub(super) thermal: bool,
+    pub(super) electrical: bool,
+}
+
+/// A list of what is said of a scene, each with its place in the deck.
+type Lines = Vec<String>;
+
+pub(crate) fn run(arguments: &SceneArguments) -> Result<Outcome, Failure> {
+    files::name_as_inputs(&[&arguments.deck]);
+    files::name_as_inputs(&arguments.results);
+    files::check_targets(&[arguments.output.as_deref()])?;
+    let settings = arguments.reading.settings(&arguments.deck)?;
+    let mut steps = 0;
+    let (meshed, _) = MeshedDeck::read_parts(&arguments.deck, &settings, |read| {
+        steps = steps_of(read, settings.grammar);
+        Some((Vec::new(), arguments.step.map_or(steps.min(1), |step| step as usize)))
+    })?;
+    // The included files are known now.
+    files::check_targets(&[arguments.output.as_deref()])?;
+    refuse_step(arguments, steps)?;
+    let made = make(arguments, &settings, &meshed)?;
+    files::write_result(arguments.output.as_deref(), made.whole.as_bytes())?;
+    match arguments.format {
+        FindingFormat::Concise | FindingFormat::Github => made.lines().for_each(|line| say(&visible_line(&line))),
+        FindingFormat::Json => say_json(
+            &json!({ "summary": {
+                "nodes": made.nodes,
+                "not_taken_over": made.not_taken,
+                "missing": made.missing,
+                "lumping": made.lumping,
+            }})
+            .to_string(),
+        ),
+    }
+    Ok(Outcome::Clean)
+}
+
+fn refuse_step(arguments: &SceneArguments, steps: usize) -> Result<(), Failure> {
+    match arguments.step {
+        Some(step) if steps < step as usize => Err(Failure::Usage(format!(
+            "`--step {step}`: the deck has {steps} step{}",
+            if steps == 1 { "" } else { "s" }
+        ))),
+        None if 1 < steps => Err(Failure::Usage(format!(
+            "the deck has {steps} steps: name the one whose conditions the scene has, `--step 1`"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// A scene and what is said of it.
+struct Made {
+    whole: String,
+    nodes: usize,
+    not_taken: Lines,
+    missing: Lines,
+    lumping: Lines,
+}
+
+impl Made {
+    fn lines(&self) -> impl Iterator<Item = String> {
+        let head = |title: &str, lines: &Lines| if lines.is_empty() { None } else { Some(title.to_owned()) };
+        let listed = |title: &str, lines: &Lines| {
+            let title = head(title, lines);
+            title.into_iter().chain(lines.iter().map(|line| format!("  {line}"))).collect::<Vec<_>>()
+        };
+        let nodes = std::iter::once(format!("{} nodes", self.nodes));
+        nodes
+            .chain(listed("not taken over:", &self.not_taken))
+            .chain(listed("missing, because the deck does not say it:", &self.missing))
+            .chain(listed("lumping:", &self.lumping))
+    }
+}
+
+fn make(arguments: &SceneArguments, settings: &Settings, meshed: &MeshedDeck) -> Result<Made, Failure> {
+    let model = &meshed.read.model;
+    let step = meshed.conditions.step;
+    let procedure = procedure(model, step);
+    let regime = procedure.and_then(Procedure::regime).unwrap_or(Regime::SteadyState);
+    let fields = fields_of(procedure);
+    let joined = states(&arguments.results, meshed, arguments.format)?;
+    let mut rows = node_rows(meshed, &joined.states, arguments.format)?;
+    let Some(state) = joined.states.last() else {
+        return Err(Failure::Data("the result files have no state".to_owned()));
+    };
+    let interfaces = rows.interfaces(state).map_err(|error| Failure::Data(error.to_string()))?;
+    let mut notes: Vec<MeshNote> = meshed.conditions.not_taken.clone();
+    let terminals = terminals(meshed, &interfaces, &mut notes);
+    let time = StepTime::of(model, step, regime);
+    let mut taker = Taker::new(&meshed.mesh, &meshed.conditions, time);
+    let stated: Vec<Stated> = terminals.iter().map(|terminal| taker.take(&terminal.nodes)).collect();
+    for (terminal, stated) in terminals.iter().zip(&stated) {
+        for (field, span, why) in &stated.faults {
+            let message = format!("the {field} of `{}`: {why}", terminal.name);
+            notes.push(MeshNote { span: *span, message });
+        }
+    }
+    notes.extend(taker.left_out().into_iter().map(|(span, message)| MeshNote { span, message }));
+    let mut unplaced = Vec::new();
+    let lumped = lumped(arguments, settings, meshed, &terminals, (fields, regime), (&mut notes, &mut unplaced))?;
+    notes.extend(unread::unread(&meshed.read.deck, settings.grammar, step));
+    let mut text = SceneText::new(&deck_from(arguments), regime, time, procedure);
+    text.nodes(&terminals, &stated, &lumped);
+    text.links(&terminals, &lumped, &mut unplaced);
+    text.interfaces(&interfaces);
+    let mut lumping = Lumping::new(&terminals, &lumped);
+    for pair in &interfaces.pairs {
+        let Some(of) = interfaces.lumped(pair) else { continue };
+        let choices = Choices { dialect: settings.grammar.dialect(), ..Choices::default() };
+        lumping.joint(model, &choices, &interfaces, (pair, &of));
+        lumping.areas(&lumped, (pair, &of));
+        let title = format!("`{}` on `{}`:", pair.slave, pair.master);
+        lumping.lines.extend(std::iter::once(title).chain(lumped_lines(&interfaces, &of)));
+        if !pair.beside.is_empty() {
+            let count = pair.beside.len();
+            lumping.lines.push(format!("    {count} slave nodes hang over the edge of the master and count nowhere"));
+        }
+    }
+    let not_taken = placed(meshed, notes, unplaced)?;
+    let missing = missing(&text.written, meshed, settings);
+    let lumping = lumping.finish();
+    let head = Head { inputs: inputs(arguments, meshed)?, command: command(arguments) };
+    let whole = head.written(&not_taken, &missing, &lumping) + &text.written;
+    Ok(Made { whole, nodes: terminals.len(), not_taken, missing, lumping })
+}
+
+/// The fields of a procedure; heat where the deck does not say.
+fn fields_of(procedure: Option<&Procedure>) -> Fields {
+    let electrical = procedure.is_some_and(Procedure::solves_electrical);
+    let is_of_fluid = procedure.is_some_and(Procedure::solves_pore_pressure);
+    Fields { thermal: !is_of_fluid, electrical }
+}
+
+/// The bodies between their terminals, a field each; what keeps them from being lumped goes to the notes.
+fn lumped(
+    arguments: &SceneArguments,
+    settings: &Settings,
+    meshed: &MeshedDeck,
+    terminals: &[Terminal],
+    (fields, regime): (Fields, Regime),
+    (notes, unplaced): (&mut Vec<MeshNote>, &mut Lines),
+) -> Result<Vec<Lumped>, Failure> {
+    let names: Vec<Name> = terminals.iter().map(|terminal| terminal.name.clone()).collect();
+    let deck = &meshed.read.deck;
+    let read = meshed.with_rows(|rows| mesh::read_bodies(deck, settings.grammar, &names, rows));
+    let mut bodies = read.map_err(|error| Failure::read(&arguments.deck, error))?;
+    restrict(&mut bodies, &meshed.mesh, terminals);
+    let body = match Body::of(bodies, &names) {
+        Ok(body) => body,
+        Err(error) => {
+            take_faults(&error, "bodies are left out", notes, unplaced);
+            return Ok(Vec::new());
+        }
+    };
+    notes.extend(body.left_out().iter().cloned());
+    let alone = body.parts().iter().filter(|part| part.terminals.is_empty());
+    for part in alone {
+        let node = body.mesh().node(part.first);
+        let elements = part.elements;
+        unplaced
+            .push(format!("the body of node {node}, {elements} elements: it has no contact surface and no condition"));
+    }
+    let mut found = Vec::new();
+    let wanted = [(fields.thermal, BodyField::Thermal), (fields.electrical, BodyField::Electrical)];
+    for (_, field) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
+        match body.lumped(field, arguments.temperature) {
+            Ok(lumped) => {
+                // What is missing for capacities matters to a transient only.
+                if regime == Regime::Transient {
+                    notes.extend(lumped.left_out.iter().cloned());
+                }
+                found.push(lumped);
+            }
+            Err(error) => take_faults(&error, "the links of this field are left out", notes, unplaced),
+        }
+    }
+    if !fields.thermal && !fields.electrical {
+        unplaced.push("what bodies conduct of pore fluid: give `hydraulic` links".to_owned());
+    }
+    Ok(found)
+}
+
+fn take_faults(error: &inpact_body::BodyError, ending: &str, notes: &mut Vec<MeshNote>, unplaced: &mut Lines) {
+    for fault in error.faults() {
+        let message = format!("{}: {ending}", fault.message);
+        match fault.span {
+            Some(span) => notes.push(MeshNote { span, message }),
+            None => unplaced.push(message),
+        }
+    }
+}
+
+/// Notes as lines, each with its place, in the order of the deck; of several about one keyword line the first.
+fn placed(meshed: &MeshedDeck, mut notes: Vec<MeshNote>, unplaced: Lines) -> Result<Lines, Failure> {
+    let mut met: BTreeSet<(Span, String)> = BTreeSet::new();
+    let mut spans: BTreeSet<Span> = BTreeSet::new();
+    let plain = |note: &MeshNote| note.message.ends_with(" is not taken over");
+    // What says more than that comes first.
+    notes.sort_by_key(|note| (note.span, plain(note)));
+    notes.retain(|note| {
+        let is_first = spans.insert(note.span);
+        (is_first || !plain(note)) && met.insert((note.span, note.message.clone()))
+    });
+    let mut lines = Vec::new();
+    for note in &notes {
+        lines.push(format!("{}: {}", meshed.place_of(note.span)?, note.message));
+    }
+    lines.extend(unplaced);
+    Ok(lines)
+}
+
+/// No table is beside a scene that is made here.
+struct NoFiles;
+
+impl SceneFiles for NoFiles {
+    fn read(&mut self, _: &str) -> Option<Vec<u8>> {
+        None
+    }
+}
+
+/// What `solve` would report as missing: the scene is read back and posed.
+fn missing(text: &str, meshed: &MeshedDeck, settings: &Settings) -> Lines {
+    let (scene, found) = scene::read_as_far_as_it_goes(text, "scene", &mut NoFiles);
+    let mut messages: Lines = found.iter().map(said).collect();
+    if let Some(scene) = scene {
+        let model = &meshed.read.model;
+        let laws = Choices { dialect: settings.grammar.dialect(), ..Choices::default() };
+        let choices = choices_of(&scene, laws);
+        let mut findings = Findings::new("scene");
+        drop(Problem::new(&scene, model, &choices, &mut findings));
+        messages.extend(findings.into_list().iter().map(said));
+    }
+    messages
+}
+
+fn said(found: &inpact_diagnostics::Diagnostic) -> String {
+    let help = found.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
+    format!("[{}] {}{help}", found.code, found.message)
+}
+
+/// The files that the scene is made from, the deck first.
+fn inputs(arguments: &SceneArguments, meshed: &MeshedDeck) -> Result<Vec<Input>, Failure> {
+    let mut inputs = vec![Input::of(&arguments.deck)?];
+    for source in meshed.read.deck.sources().iter().skip(1) {
+        inputs.push(Input::of(Path::new(source.name()))?);
+    }
+    for file in &arguments.results {
+        inputs.push(Input::of(file)?);
+    }
+    Ok(inputs)
+}
+
+/// The command, without what says where the result goes.
+fn command(arguments: &SceneArguments) -> String {
+    let mut command = format!("inpact scene {}", arguments.deck.display());
+    if let Some(step) = arguments.step {
+        command += &format!(" --step {step}");
+    }
+    if let Some(temperature) = arguments.temperature {
+        command += &format!(" --temperature {temperature:?}");
+    }
+    for file in &arguments.results {
+        command += &format!(" --results {}", file.display());
+    }
+    command
+}
+
+/// The deck as the scene names it: relative to the folder of the scene where it lies below that.
+fn deck_from(arguments: &SceneArguments) -> String {
+    let deck = &arguments.deck;
+    let target = arguments.output.as_deref().filter(|target| target.as_os_str() != STANDARD_STREAM);
+    let Some(target) = target else { return deck.display().to_string() };
+    let folder = files::folder_of(target).canonicalize();
+    let (Ok(folder), Ok(whole)) = (folder, deck.canonicalize()) else { return deck.display().to_string() };
+    whole.strip_prefix(&folder).unwrap_or(&whole).display().to_string()
+}
+
+/// The field of the network that a field of bodies is.
+pub(super) fn network_field(field: BodyField) -> Field {
+    match field {
+        BodyField::Thermal => Field::Temperature,
+        BodyField::Electrical => Field::Potential,
+    }
+}

@@ -1,0 +1,206 @@
+//! A scene as TOML, with a head that says what it stands on.
+
+use super::network_field;
+use super::terminals::Terminal;
+use crate::report::Input;
+use crate::terminals::{Film, Stated, StepTime};
+use inpact_body::{BodyField, Lumped};
+use inpact_contact::Interfaces;
+use inpact_evaluation::nodes::{Column, Part};
+use inpact_network::scene::{Course, Field};
+use inpact_parser::model::{Procedure, Regime};
+use inpact_parser::number::read_float;
+use std::fmt::Write;
+
+/// What is below this share of the largest conductance may be rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// What a scene stands on.
+pub(super) struct Head {
+    pub(super) inputs: Vec<Input>,
+    pub(super) command: String,
+}
+
+/// The scene without its head.
+pub(super) struct SceneText {
+    pub(super) written: String,
+    regime: Regime,
+    /// Films of terminals: the node, and the film.
+    films: Vec<(String, Film)>,
+}
+
+impl Head {
+    pub(super) fn written(&self, not_taken: &[String], missing: &[String], lumping: &[String]) -> String {
+        let mut text = format!(
+            "# A scene made from a deck by inpact {}: {}\n#\n",
+            env!("CARGO_PKG_VERSION"),
+            comment(&self.command)
+        );
+        for input in &self.inputs {
+            let hash =
+                input.hash.as_ref().map_or_else(|| "read from a stream".to_owned(), |hash| format!("sha256 {hash}"));
+            put(&mut text, format_args!("# {}: {hash}\n", comment(&input.name)));
+        }
+        for (title, lines) in [
+            ("Not taken over", not_taken),
+            ("Missing, because the deck does not say it", missing),
+            ("Lumping", lumping),
+        ] {
+            if !lines.is_empty() {
+                put(&mut text, format_args!("#\n# {title}:\n"));
+                lines.iter().for_each(|line| put(&mut text, format_args!("#   {}\n", comment(line))));
+            }
+        }
+        text + "\n"
+    }
+}
+
+impl SceneText {
+    pub(super) fn new(deck: &str, regime: Regime, time: StepTime, procedure: Option<&Procedure>) -> Self {
+        let mut written = format!("deck = {}\n", quoted(deck));
+        if regime == Regime::Transient {
+            put(&mut written, format_args!("procedure = \"transient\"\n\n[time]\nend = {:?}\n", time.period));
+            // Increments of one length are said by the deck, others are chosen by the solver as it goes.
+            if let Some(step) = procedure.and_then(given_increment) {
+                put(&mut written, format_args!("step = {step:?}\n"));
+            }
+        }
+        Self { written, regime, films: Vec::new() }
+    }
+
+    /// The nodes, with their conditions and capacities.
+    pub(super) fn nodes(&mut self, terminals: &[Terminal], stated: &[Stated], lumped: &[Lumped]) {
+        let thermal = lumped.iter().find(|lumped| lumped.field == BodyField::Thermal);
+        let capacities = thermal.and_then(|lumped| lumped.capacities.as_ref());
+        let regime = self.regime;
+        for (at, (terminal, stated)) in terminals.iter().zip(stated).enumerate() {
+            let name = terminal.name.written();
+            self.node(name, |field| {
+                let index = field.index();
+                let is_fixed = stated.fixed[index].is_some();
+                let mut keys = Vec::new();
+                if let Some(fixed) = &stated.fixed[index] {
+                    keys.push(format!("fixed = {}", course(fixed)));
+                } else if let Some(source) = &stated.source[index] {
+                    keys.push(format!("source = {}", course(source)));
+                }
+                if regime == Regime::Transient && !is_fixed {
+                    let capacity = capacities.filter(|_| field == Field::Temperature).map(|capacities| capacities[at]);
+                    keys.extend(capacity.map(|capacity| format!("capacity = {capacity:?}")));
+                    keys.extend(stated.initial[index].map(|initial| format!("initial = {initial:?}")));
+                }
+                keys
+            });
+            self.films.extend(stated.films.iter().map(|film| (name.to_owned(), film.clone())));
+        }
+        for (number, (node, film)) in (1..).zip(std::mem::take(&mut self.films)) {
+            let sink = format!("{node} film {number}");
+            self.node(&sink, |field| match field {
+                Field::Temperature => vec![format!("fixed = {}", course(&film.sink))],
+                _ => Vec::new(),
+            });
+            self.link(&node, &sink, &[format!("thermal = {:?}", film.conductance)]);
+        }
+    }
+
+    fn node(&mut self, name: &str, keys: impl Fn(Field) -> Vec<String>) {
+        let mut text = format!("\n[[node]]\nname = {}\n", quoted(name));
+        for field in Field::ALL {
+            let keys = keys(field);
+            if !keys.is_empty() {
+                put(&mut text, format_args!("{} = {{ {} }}\n", field.key(), keys.join(", ")));
+            }
+        }
+        self.written += &text;
+    }
+
+    /// The conductances of the bodies; those below zero, which a network refuses, are named.
+    pub(super) fn links(&mut self, terminals: &[Terminal], lumped: &[Lumped], unplaced: &mut Vec<String>) {
+        for (a, first) in terminals.iter().enumerate() {
+            for (b, second) in terminals.iter().enumerate().skip(a + 1) {
+                let mut keys = Vec::new();
+                for of in lumped {
+                    let (conductance, key) = (of.isothermal.between(a, b), network_field(of.field).conductance_key());
+                    let rounding = ROUNDING * of.isothermal.largest();
+                    if conductance < -rounding {
+                        unplaced.push(format!(
+                            "the {key} conductance between `{}` and `{}`, {conductance:?}: a network has none below zero",
+                            first.name, second.name
+                        ));
+                    } else if rounding < conductance {
+                        keys.push(format!("{key} = {conductance:?}"));
+                    }
+                }
+                if !keys.is_empty() {
+                    self.link(first.name.written(), second.name.written(), &keys);
+                }
+            }
+        }
+    }
+
+    fn link(&mut self, first: &str, second: &str, keys: &[String]) {
+        let names = [first, second].map(quoted).join(", ");
+        put(&mut self.written, format_args!("\n[[link]]\nnodes = [{names}]\n{}\n", keys.join("\n")));
+    }
+
+    /// The contact pairs, one interface each.
+    pub(super) fn interfaces(&mut self, interfaces: &Interfaces) {
+        for pair in &interfaces.pairs {
+            let Some(lumped) = interfaces.lumped(pair) else { continue };
+            let [interaction, slave, master] =
+                [&pair.interaction, &pair.slave, &pair.master].map(|name| quoted(name.written()));
+            let mut text = format!(
+                "\n[[interface]]\ninteraction = {interaction}\nslave = {slave}\nmaster = {master}\narea = {:?}\n",
+                lumped.area
+            );
+            let mut fields: Vec<(u32, f64)> = Vec::new();
+            for (quantity, mean) in interfaces.quantities.iter().zip(&lumped.means) {
+                let Some(mean) = mean else { continue };
+                match *quantity {
+                    Column::FieldVariable(number, Part::Both) => fields.push((number, mean.mean)),
+                    // Nodes have temperatures of their own.
+                    Column::Temperature(_) => {}
+                    quantity => put(&mut text, format_args!("{quantity} = {:?}\n", mean.mean)),
+                }
+            }
+            fields.sort_by_key(|(number, _)| *number);
+            if fields.iter().zip(1..).all(|((number, _), place)| *number == place) && !fields.is_empty() {
+                let values: Vec<String> = fields.iter().map(|(_, value)| format!("{value:?}")).collect();
+                put(&mut text, format_args!("fv = [{}]\n", values.join(", ")));
+            }
+            self.written += &text;
+        }
+    }
+}
+
+/// The length of every increment, where the deck says one: DIRECT.
+fn given_increment(procedure: &Procedure) -> Option<f64> {
+    procedure.option.parameter("DIRECT")?;
+    let first = procedure.option.rows.first()?.first()?;
+    read_float(first.trim().as_bytes()).ok().filter(|step| 0.0 < *step)
+}
+
+fn course(course: &Course) -> String {
+    match course.points() {
+        [[_, value]] => format!("{value:?}"),
+        points => {
+            let points: Vec<String> = points.iter().map(|[time, value]| format!("[{time:?}, {value:?}]")).collect();
+            format!("[{}]", points.join(", "))
+        }
+    }
+}
+
+/// A text in quotes; what JSON escapes TOML escapes alike, but for one character.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7F}', "\\u007F")
+}
+
+/// A text in a comment, which ends with its line and has no control characters.
+fn comment(text: &str) -> String {
+    text.chars().map(|character| if character.is_control() { '\u{FFFD}' } else { character }).collect()
+}
+
+/// Adds to a text, which has no reason to fail.
+fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+    let _ = text.write_fmt(what);
+}
