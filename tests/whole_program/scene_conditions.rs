@@ -166,7 +166,7 @@ fn conditions_of_the_step_that_is_named() {
     let run = folder.inpact(&["solve", "s.toml"]);
     assert!(run.code == 1 && run.errors.contains("error[D023] the deck has 2 steps"), "{}", run.errors);
     let at = |step: &str| {
-        folder.write("s.toml", &SCENE.replacen("[conditions]\n", &format!("[conditions]\nstep = {step}\n"), 1))
+        folder.write("s.toml", &SCENE.replacen("[conditions]\n", &format!("[conditions]\nstep = {step}\n"), 1));
     };
     at("2");
     close(&temperatures(&folder.inpact(&["solve", "s.toml"]), "top"), &[220.0]);

@@ -35,7 +35,9 @@ fn by_area(body: &Body, terminal: &MeshTerminal, faces: &Surface) -> Option<Even
 /// The free faces of solid elements that have no other nodes than these.
 fn faces_of_set(body: &Body, nodes: &[NodeId]) -> Option<Surface> {
     let mut is_in = vec![false; body.mesh.points.len()];
-    nodes.iter().for_each(|node| is_in[node.index()] = true);
+    for node in nodes {
+        is_in[node.index()] = true;
+    }
     let mut free = FreeFaces::new();
     for (number, block) in (0_u64..).zip(&body.mesh.elements) {
         for (element, of_element) in (0_u64..).zip(block.each()) {

@@ -422,7 +422,7 @@ fn inverse(upper: &[f64], count: usize) -> Option<Vec<f64>> {
             let products: f64 = (0..j).map(|k| factor[i * count + k] * factor[j * count + k]).sum();
             let left = upper[j * count + i] - products;
             if i == j {
-                if !(0.0 < left) {
+                if left.is_nan() || left <= 0.0 {
                     return None;
                 }
                 factor[i * count + i] = left.sqrt();

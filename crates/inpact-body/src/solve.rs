@@ -62,15 +62,15 @@ impl Equations<'_> {
             let begun = fields.to_vec();
             method = SolutionMethod::Iterations(gradients::solve(self, fields));
             imbalance = self.imbalance(fields);
-            if !(imbalance <= LARGEST_IMBALANCE) {
+            if !is_balanced(imbalance) {
                 fields.clone_from_slice(&begun);
             }
         }
-        if !(imbalance <= LARGEST_IMBALANCE) {
+        if !is_balanced(imbalance) {
             let filled = direct::solve(self, fields).map_err(|error| failed(error, unknowns))?;
             method = SolutionMethod::Factor(filled);
             imbalance = self.imbalance(fields);
-            if !(imbalance <= LARGEST_IMBALANCE) {
+            if !is_balanced(imbalance) {
                 return Err(BodyError::without_place(format!(
                     "the body was not solved: flows at a node leave {imbalance:.1e} of the largest unbalanced"
                 )));
@@ -92,7 +92,7 @@ impl Equations<'_> {
     fn imbalance(&self, fields: &[Vec<f64>]) -> f64 {
         let mut worst = 0.0_f64;
         for (field, sources) in fields.iter().zip(&self.sources) {
-            let left = self.residual(field, sources).iter().fold(0.0, larger);
+            let left = self.residual(field, sources).iter().copied().fold(0.0, larger);
             let mut through: Vec<f64> = sources.iter().map(|source| source.abs()).collect();
             for row in 0..field.len() {
                 for at in self.matrix.starts[row]..self.matrix.starts[row + 1] {
@@ -102,15 +102,20 @@ impl Equations<'_> {
                     through[column] += flow;
                 }
             }
-            let largest = through.iter().fold(0.0, larger);
-            worst = if left == 0.0 { worst } else { larger(worst, &(left / largest)) };
+            let largest = through.iter().copied().fold(0.0, larger);
+            worst = if left == 0.0 { worst } else { larger(worst, left / largest) };
         }
         worst
     }
 }
 
+/// Whether a solution can be given; one with a NaN cannot.
+fn is_balanced(imbalance: f64) -> bool {
+    imbalance <= LARGEST_IMBALANCE
+}
+
 /// The larger magnitude; what is no number counts as the largest.
-fn larger(largest: f64, value: &f64) -> f64 {
+fn larger(largest: f64, value: f64) -> f64 {
     if value.abs() <= largest { largest } else { value.abs() }
 }
 

@@ -206,7 +206,7 @@ impl<'a> Taker<'a> {
             Err(fault) => stated.faults.push(fault),
             Ok(courses) => match courses.iter().find(|course| **course != courses[0]) {
                 Some(_) => {
-                    stated.faults.push(fault(format!("*BOUNDARY holds its nodes at several values of the {field}")))
+                    stated.faults.push(fault(format!("*BOUNDARY holds its nodes at several values of the {field}")));
                 }
                 None => stated.fixed[at] = courses.into_iter().next(),
             },
@@ -219,7 +219,9 @@ impl<'a> Taker<'a> {
         for node in nodes {
             // A node of two terminals lets its flow into the first.
             if let Some(conditions) = self.flows.remove(&(at, *node)) {
-                conditions.into_iter().for_each(|condition| *parts.entry(condition).or_default() += 1.0);
+                for condition in conditions {
+                    *parts.entry(condition).or_default() += 1.0;
+                }
             }
         }
         for face in self.faces.iter_mut().filter(|face| !face.is_taken) {

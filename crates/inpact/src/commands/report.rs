@@ -61,11 +61,11 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
         let message = "`--tradeoff` measures on rows: give `--nodes TABLE`, `--results FILE` or `--mesh`";
         return Err(Failure::Usage(message.to_owned()));
     }
-    let mut evaluated = if !has_rows {
-        None
-    } else {
+    let mut evaluated = if has_rows {
         let Some(evaluated) = evaluated(arguments)? else { return Ok(Outcome::HasErrors) };
         Some(evaluated)
+    } else {
+        None
     };
     if let Some(Evaluated { prepared, gathered: Some(gathered), .. }) = &evaluated {
         request.held_places = gathered.held_places(prepared);

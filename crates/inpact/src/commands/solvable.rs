@@ -144,7 +144,7 @@ pub(crate) fn choices_of(scene: &Scene, laws: Choices) -> Choices {
 
 /// The number of steps of a deck.
 pub(crate) fn steps_of(read: &ReadDeck, grammar: &Grammar) -> usize {
-    let ids = read.deck.blocks().iter().filter_map(|block| block.keyword_id());
+    let ids = read.deck.blocks().iter().filter_map(inpact_parser::deck::Block::keyword_id);
     ids.filter(|id| grammar.keyword(*id).name == "STEP").count()
 }
 
