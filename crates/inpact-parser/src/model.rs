@@ -5,6 +5,7 @@
 //! Options that cannot be placed, or are replaced by a later definition, are in [`Model::set_aside`], so that they can be judged too.
 
 mod name;
+mod options;
 mod places;
 mod print;
 mod read;
@@ -12,6 +13,7 @@ mod rows;
 mod table;
 
 pub use name::Name;
+pub use options::{Friction, GapConductance, GapRadiation, OptionKind};
 pub(crate) use print::named_in;
 pub use print::{PrintError, print};
 pub use read::{MOST_FIELD_VARIABLES, read};
@@ -272,6 +274,7 @@ pub enum SetAsideItem {
 
 /// Whose law a table is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum TableKind {
     /// *GAP ELECTRICAL CONDUCTANCE against clearance.
     ElectricalClearance,
@@ -283,6 +286,8 @@ pub enum TableKind {
     ThermalPressure,
     /// *CONTACT PERMEABILITY.
     Permeability,
+    /// View factors of *GAP RADIATION against clearance.
+    ViewFactor,
     /// Any other option with a table, *GAP DIFFUSIVITY among them.
     Other,
 }
@@ -291,19 +296,30 @@ impl TableKind {
     /// The kind of the tables of a keyword, given the table's columns.
     pub fn of(keyword: &str, table: &Table) -> Self {
         let against_pressure = table.columns.get(1).is_some_and(|column| column == "pressure");
-        match (keyword, against_pressure) {
-            ("GAP ELECTRICAL CONDUCTANCE", false) => Self::ElectricalClearance,
-            ("GAP ELECTRICAL CONDUCTANCE", true) => Self::ElectricalPressure,
-            ("GAP CONDUCTANCE", false) => Self::ThermalClearance,
-            ("GAP CONDUCTANCE", true) => Self::ThermalPressure,
-            ("CONTACT PERMEABILITY", _) => Self::Permeability,
+        match (OptionKind::of(keyword), against_pressure) {
+            (OptionKind::GapElectricalConductance, false) => Self::ElectricalClearance,
+            (OptionKind::GapElectricalConductance, true) => Self::ElectricalPressure,
+            (OptionKind::GapConductance, false) => Self::ThermalClearance,
+            (OptionKind::GapConductance, true) => Self::ThermalPressure,
+            (OptionKind::ContactPermeability, _) => Self::Permeability,
+            (OptionKind::GapRadiation, _) => Self::ViewFactor,
             _ => Self::Other,
         }
     }
 
+    /// Whether it is a conductance against clearance.
+    pub fn is_conductance_against_clearance(self) -> bool {
+        matches!(self, Self::ElectricalClearance | Self::ThermalClearance)
+    }
+
     /// Whether the abscissa is the clearance, which must start at zero (T-24).
     pub fn is_against_clearance(self) -> bool {
-        matches!(self, Self::ElectricalClearance | Self::ThermalClearance)
+        self.is_conductance_against_clearance() || self == Self::ViewFactor
+    }
+
+    /// Whether it is of *GAP CONDUCTANCE.
+    pub fn is_thermal_conductance(self) -> bool {
+        matches!(self, Self::ThermalClearance | Self::ThermalPressure)
     }
 
     /// Whether it is a conductance against contact pressure, which must start at zero or below.
@@ -340,8 +356,10 @@ impl Model {
         let mut tables: Vec<_> = self.all_interactions().flat_map(Interaction::tables).collect();
         tables.extend(self.set_aside.iter().filter_map(|aside| {
             let (keyword, table) = match &aside.item {
-                SetAsideItem::Table(table) => ("GAP ELECTRICAL CONDUCTANCE", Some(table)),
-                SetAsideItem::ContactPermeability(option) => ("CONTACT PERMEABILITY", option.table.as_ref()),
+                SetAsideItem::Table(table) => (OptionKind::GapElectricalConductance.keyword(), Some(table)),
+                SetAsideItem::ContactPermeability(option) => {
+                    (OptionKind::ContactPermeability.keyword(), option.table.as_ref())
+                }
                 SetAsideItem::SubOption(option) => (option.keyword.as_str(), option.table.as_ref()),
                 SetAsideItem::Interaction(_) | SetAsideItem::HeatGeneration(_) => return None,
             };
@@ -379,8 +397,9 @@ impl Interaction {
         let electrical = electrical.flat_map(|option| [&option.clearance, &option.pressure]).flatten();
         let permeability = self.contact_permeability.iter().filter_map(|option| option.table.as_ref());
         let other = self.other.iter().filter_map(|option| Some((option.keyword.as_str(), option.table.as_ref()?)));
-        let named = electrical.map(|table| ("GAP ELECTRICAL CONDUCTANCE", table));
-        let named = named.chain(permeability.map(|table| ("CONTACT PERMEABILITY", table))).chain(other);
+        let named = electrical.map(|table| (OptionKind::GapElectricalConductance.keyword(), table));
+        let permeability = permeability.map(|table| (OptionKind::ContactPermeability.keyword(), table));
+        let named = named.chain(permeability).chain(other);
         let of =
             |(keyword, table)| TableOf { kind: TableKind::of(keyword, table), keyword, interaction: Some(self), table };
         named.map(of).collect()

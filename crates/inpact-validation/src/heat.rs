@@ -3,7 +3,7 @@
 use crate::constants::constants;
 use crate::rule::Context;
 
-use inpact_parser::model::{HeatGeneration, Model, SetAsideItem};
+use inpact_parser::model::{HeatGeneration, Model, OptionKind, SetAsideItem};
 use inpact_parser::span::Span;
 
 /// Every *GAP HEAT GENERATION that the reader took for a sub-option of an interaction, misplaced ones too.
@@ -28,7 +28,7 @@ pub(crate) fn items(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
 }
 
 fn items_of_all_rows(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
-    let blocks = context.defined_blocks().filter(|block| block.name == "GAP HEAT GENERATION");
+    let blocks = context.defined_blocks().filter(|block| block.kind() == OptionKind::GapHeatGeneration);
     blocks.flat_map(|block| constants(context, block, index)).collect()
 }
 

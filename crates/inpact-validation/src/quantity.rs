@@ -44,7 +44,8 @@ pub(crate) fn value_name(kind: TableKind) -> &'static str {
         TableKind::ElectricalClearance | TableKind::ElectricalPressure => "electrical conductance",
         TableKind::ThermalClearance | TableKind::ThermalPressure => "thermal conductance",
         TableKind::Permeability => "permeability",
-        TableKind::Other => "value",
+        TableKind::ViewFactor => "view factor",
+        _ => "value",
     }
 }
 

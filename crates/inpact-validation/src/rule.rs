@@ -6,7 +6,7 @@ use inpact_diagnostics::{Diagnostic, Label, Rule};
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Dialect, Grammar};
-use inpact_parser::model::{Model, Name, TableOf};
+use inpact_parser::model::{Model, Name, OptionKind, TableOf};
 use inpact_parser::problem::Problem;
 use inpact_parser::span::Span;
 
@@ -62,6 +62,13 @@ pub struct DefinedBlock<'a> {
     pub name: &'a str,
     /// Its definition in the grammar.
     pub definition: &'a Definition,
+}
+
+impl DefinedBlock<'_> {
+    /// The kind of the option of an interaction that it is.
+    pub fn kind(self) -> OptionKind {
+        OptionKind::of(self.name)
+    }
 }
 
 impl<'a> Context<'a> {

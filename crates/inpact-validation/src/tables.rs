@@ -8,14 +8,11 @@ use crate::rule::{Context, DefinedBlock};
 use inpact_parser::deck::{Deck, KeywordLine};
 use inpact_parser::expression::{Parameters, substitute};
 use inpact_parser::grammar::{Grammar, RowShape};
-use inpact_parser::model::{MOST_FIELD_VARIABLES, Model, Table, TableKind, TableOf};
+use inpact_parser::model::{MOST_FIELD_VARIABLES, Model, OptionKind, Table, TableKind, TableOf};
 use inpact_parser::number::{read_float, read_integer};
 use inpact_parser::problem::ProblemKind;
 use inpact_parser::span::Span;
 use std::collections::HashSet;
-
-/// The keyword of radiation tables.
-pub(crate) const RADIATION: &str = "GAP RADIATION";
 
 /// The tables whose rows were read as they were meant.
 pub(crate) fn sound_tables<'a, 'deck>(context: &'a Context<'deck>) -> impl Iterator<Item = &'a TableOf<'deck>> {
@@ -56,14 +53,9 @@ pub(crate) fn has_unclear_parameters(keyword: &KeywordLine) -> bool {
     keyword.parameters.iter().any(|parameter| parameter.index().is_none())
 }
 
-/// Whether the first independent variable is the clearance.
-pub(crate) fn is_against_clearance(of: &TableOf<'_>) -> bool {
-    of.kind.is_against_clearance() || of.keyword == RADIATION
-}
-
 /// Whether a group may start at that clearance or pressure (T-24, Q-11).
 pub(crate) fn starts_as_it_must(of: &TableOf<'_>, abscissa: f64) -> bool {
-    if is_against_clearance(of) {
+    if of.kind.is_against_clearance() {
         abscissa == 0.0
     } else {
         !of.kind.is_conductance_against_pressure() || abscissa <= 0.0
@@ -80,7 +72,8 @@ pub(crate) fn is_written(context: &Context<'_>, of: &TableOf<'_>, row: usize, co
 /// The tables of the model, and those of radiation.
 pub(crate) fn all_tables<'a>(model: &'a Model, radiation: &'a [Table]) -> Vec<TableOf<'a>> {
     let mut tables = model.tables();
-    let of = |table| TableOf { kind: TableKind::Other, keyword: RADIATION, interaction: None, table };
+    let keyword = OptionKind::GapRadiation.keyword();
+    let of = |table| TableOf { kind: TableKind::ViewFactor, keyword, interaction: None, table };
     tables.extend(radiation.iter().map(of));
     tables
 }
@@ -90,7 +83,7 @@ pub(crate) fn radiation_tables(deck: &Deck, grammar: &Grammar, model: &Model) ->
     let blocks = deck.blocks().iter().filter_map(|block| {
         let keyword = block.keyword.as_ref()?;
         let entry = grammar.keyword(keyword.id()?);
-        (entry.name == RADIATION).then_some((block, keyword, entry.definition()?))
+        (OptionKind::of(&entry.name) == OptionKind::GapRadiation).then_some((block, keyword, entry.definition()?))
     });
     let tables = blocks.map(|(block, keyword, definition)| {
         let columns: Vec<String> = definition.data.columns.iter().map(|column| column.name.clone()).collect();

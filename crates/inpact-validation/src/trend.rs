@@ -2,7 +2,7 @@
 
 use crate::order::curves;
 use crate::rule::Context;
-use crate::tables::{is_against_clearance, is_written, sound_tables, starts_as_it_must};
+use crate::tables::{is_written, sound_tables, starts_as_it_must};
 use inpact_parser::model::{TableKind, TableOf};
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ pub(crate) fn against<'a, 'deck>(
         let (mut wrong, mut total) = (0, 0);
         // A group that starts where it must not may be one of the other kind (T004): it is judged by its values no further.
         let starts_well = |rows: &Range<usize>| starts_as_it_must(of, table.row(rows.start)[1]);
-        for rows in curves(table).filter(|rows| !is_against_clearance(of) || starts_well(rows)) {
+        for rows in curves(table).filter(|rows| !of.kind.is_against_clearance() || starts_well(rows)) {
             for index in rows.skip(1) {
                 let (before, row) = (table.row(index - 1), table.row(index));
                 if row[1] == before[1] || row[0] < 0.0 || before[0] < 0.0 {

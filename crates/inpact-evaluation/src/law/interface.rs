@@ -13,7 +13,7 @@ use crate::law::user::plan::user_names;
 use crate::law::user::{UserLaw, UserNames};
 use crate::plan::{Choices, InteractionTables, LeftOut, Reason, generation_of};
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::{Interaction, Model, Procedure};
+use inpact_parser::model::{Interaction, Model, OptionKind, Procedure};
 
 /// The laws of an interaction; what it does not have, or what cannot be evaluated, is `None`.
 #[derive(Debug, Clone)]
@@ -117,7 +117,7 @@ fn electrical(
     }
     match tables.electrical_tables() {
         Some(tables) => Some(ElectricalSource::Tables(Box::new(tables))),
-        None => refuse(Reason::NoRows("GAP ELECTRICAL CONDUCTANCE")),
+        None => refuse(Reason::NoRows(OptionKind::GapElectricalConductance.keyword())),
     }
 }
 
@@ -125,7 +125,7 @@ fn thermal(tables: &ThermalTables, left_out: &mut Vec<(FlowOf, LeftOut)>) -> Opt
     let found = tables.thermal_conductance();
     let reason = match tables.conductance.as_ref()? {
         ConductanceRows::User => Reason::NeedsUserSubroutine("GAPCON"),
-        ConductanceRows::Nothing => Reason::NoRows("GAP CONDUCTANCE"),
+        ConductanceRows::Nothing => Reason::NoRows(OptionKind::GapConductance.keyword()),
         ConductanceRows::Calculix(Err(error)) => Reason::BrokenCurves(*error),
         ConductanceRows::Calculix(Ok(_)) => return found,
         ConductanceRows::Tables { clearance, pressure } => {

@@ -71,7 +71,7 @@ fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Ve
     let wanted = || model.all_interactions().filter(|interaction| names.contains(&interaction.name));
     let starts: HashSet<(SourceId, u64)> = wanted().map(|of| (of.span.source, of.span.start)).collect();
     let begins = |span: Span| starts.contains(&(span.source, span.start));
-    let radiates = wanted().any(|interaction| interaction.other.iter().any(|option| option.keyword == "GAP RADIATION"));
+    let radiates = wanted().any(|interaction| interaction.gap_radiation().is_some());
     let (mut is_within, mut was_last, mut has_symbols) = (false, false, false);
     let mut regions = Vec::new();
     let mut of_symbols = Vec::new();

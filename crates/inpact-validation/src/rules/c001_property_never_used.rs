@@ -3,7 +3,7 @@
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::trimmed;
-use inpact_parser::model::{Interaction, Procedure};
+use inpact_parser::model::{Interaction, OptionKind, Procedure};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 
@@ -133,7 +133,7 @@ fn electrical_properties(interaction: &Interaction) -> Vec<Span> {
 }
 
 fn thermal_properties(interaction: &Interaction) -> Vec<Span> {
-    let is_thermal = |keyword: &str| matches!(keyword, "GAP CONDUCTANCE" | "GAP RADIATION");
-    let other = interaction.other.iter().filter(|option| is_thermal(&option.keyword)).map(|option| option.span);
+    let is_thermal = |kind| matches!(kind, OptionKind::GapConductance | OptionKind::GapRadiation);
+    let other = interaction.other.iter().filter(|option| is_thermal(option.kind())).map(|option| option.span);
     other.chain(interaction.gap_heat_generation.as_ref().map(|heat| heat.span)).collect()
 }

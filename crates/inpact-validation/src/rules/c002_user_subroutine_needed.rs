@@ -58,11 +58,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         if let Some(span) = interaction.gap_electrical_conductance.as_deref().and_then(user_alone) {
             say(span, "GAPELECTR", "the electrical conductance");
         }
-        let thermal = || interaction.other.iter().filter(|option| option.keyword == "GAP CONDUCTANCE");
-        if thermal().all(|option| option.table.is_none()) {
-            for option in thermal().filter(|option| option.parameter("USER").is_some()) {
-                say(option.span, "GAPCON", "the thermal conductance");
-            }
+        let thermal = interaction.gap_conductance().filter(|thermal| thermal.tables.is_empty());
+        for span in thermal.into_iter().flat_map(|thermal| thermal.users) {
+            say(span, "GAPCON", "the thermal conductance");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! C003: laws that are given by a user subroutine and by a table.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::model::Interaction;
+use inpact_parser::model::{Interaction, OptionKind};
 use inpact_parser::span::Span;
 
 declare_rule! {
@@ -40,20 +40,18 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             && let Some(user) = law.user
             && let Some(table) = law.clearance.as_ref().or(law.pressure.as_ref())
         {
-            say(context, report, "GAP ELECTRICAL CONDUCTANCE", user, table.keyword);
+            say(context, report, OptionKind::GapElectricalConductance.keyword(), user, table.keyword);
         }
         if let Some((user, table)) = thermal(interaction) {
-            say(context, report, "GAP CONDUCTANCE", user, table);
+            say(context, report, OptionKind::GapConductance.keyword(), user, table);
         }
     }
 }
 
 /// The keyword lines of the thermal conductance with USER and with a table.
 fn thermal(interaction: &Interaction) -> Option<(Span, Span)> {
-    let mut options = interaction.other.iter().filter(|option| option.keyword == "GAP CONDUCTANCE");
-    let user = options.clone().find(|option| option.parameter("USER").is_some())?;
-    let table = options.find(|option| option.table.is_some())?;
-    Some((user.span, table.span))
+    let thermal = interaction.gap_conductance()?;
+    Some((*thermal.users.first()?, thermal.tables.first()?.keyword))
 }
 
 fn say(context: &Context<'_>, report: &mut Report<'_>, keyword: &str, user: Span, table: Span) {

@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 fn lacks_source(interaction: &Interaction) -> bool {
     interaction.gap_heat_generation.is_some()
         && interaction.gap_electrical_conductance.is_none()
-        && !interaction.other.iter().any(|option| option.keyword == "FRICTION")
+        && interaction.friction().is_none()
         && !interaction.has_parameter("USER")
 }
 

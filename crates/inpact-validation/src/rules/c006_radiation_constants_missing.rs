@@ -1,9 +1,10 @@
 //! C006: radiation without the physical constants it needs.
 
+use inpact_parser::model::OptionKind;
 use crate::parameter::given_as;
 use crate::quantity::and_more;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
-use crate::tables::{RADIATION, has_unclear_parameters};
+use crate::tables::has_unclear_parameters;
 use inpact_parser::grammar::lookup_name;
 
 declare_rule! {
@@ -42,7 +43,7 @@ declare_rule! {
 const CONSTANTS: [&str; 2] = ["ABSOLUTE ZERO", "STEFAN BOLTZMANN"];
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    let mut options = context.defined_blocks().filter(|block| block.name == RADIATION);
+    let mut options = context.defined_blocks().filter(|block| block.kind() == OptionKind::GapRadiation);
     let Some(first) = options.next() else { return };
     let missing: Vec<&str> = CONSTANTS.into_iter().filter(|name| !is_given(context, name)).collect();
     if missing.is_empty() || context.has_unread_files() {

@@ -1,5 +1,6 @@
 //! C007: cutoffs that are left to the element length.
 
+use inpact_parser::model::OptionKind;
 use crate::parameter::given_as;
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::has_unclear_parameters;
@@ -32,7 +33,7 @@ declare_rule! {
 const CUTOFFS: [&str; 2] = ["CUTOFF FLOW ACROSS", "CUTOFF GAP FILL"];
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for block in context.defined_blocks().filter(|block| block.name == "CONTACT PERMEABILITY") {
+    for block in context.defined_blocks().filter(|block| block.kind() == OptionKind::ContactPermeability) {
         // A misspelt parameter (K004) may be a cutoff.
         if has_unclear_parameters(block.keyword) {
             continue;

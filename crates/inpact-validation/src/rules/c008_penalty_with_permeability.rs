@@ -1,5 +1,6 @@
 //! C008: the penalty method beside a finite permeability.
 
+use inpact_parser::model::OptionKind;
 use crate::parameter::given_as;
 use crate::rule::{Context, Report, declare_rule};
 
@@ -27,7 +28,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for block in context.defined_blocks().filter(|block| block.name == "CONTACT PERMEABILITY") {
+    for block in context.defined_blocks().filter(|block| block.kind() == OptionKind::ContactPermeability) {
         let Some(method) = given_as(block, "CONSTRAINT METHOD") else { continue };
         let value = method.value().map(|value| context.value(value)).unwrap_or_default();
         if method.definition.choice_named(value.as_bytes()) != Some("PENALTY") {

@@ -2,7 +2,7 @@
 
 use crate::parameter::given_as;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
-use inpact_parser::model::{Interaction, Name};
+use inpact_parser::model::{Interaction, Name, OptionKind};
 use inpact_parser::span::Span;
 use std::collections::HashMap;
 
@@ -49,8 +49,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     for interaction in context.model.interactions.values() {
         let Some((pair, kind)) = pairs.get(&interaction.name) else { continue };
-        for (option, keyword) in heat_options(interaction) {
-            let (message, label) = if keyword == "GAP CONDUCTANCE" {
+        for (option, kind_of_option) in heat_options(interaction) {
+            let (message, label) = if kind_of_option == OptionKind::GapConductance {
                 ("reads the table at another pressure", "the heat of CalculiX is not that of this table")
             } else {
                 ("generates no heat", "has no effect")
@@ -77,8 +77,8 @@ fn kind_of(context: &Context<'_>, block: DefinedBlock<'_>) -> Option<(&'static s
 }
 
 /// The options of an interaction that give heat, with their keywords.
-fn heat_options(interaction: &Interaction) -> impl Iterator<Item = (Span, &'static str)> {
-    let conductance = interaction.other.iter().filter(|option| option.keyword == "GAP CONDUCTANCE");
-    let conductance = conductance.map(|option| (option.span, "GAP CONDUCTANCE"));
-    conductance.chain(interaction.gap_heat_generation.iter().map(|heat| (heat.span, "GAP HEAT GENERATION")))
+fn heat_options(interaction: &Interaction) -> impl Iterator<Item = (Span, OptionKind)> {
+    let conductance = interaction.gap_conductance().into_iter().flat_map(|conductance| conductance.spans);
+    let conductance = conductance.map(|span| (span, OptionKind::GapConductance));
+    conductance.chain(interaction.gap_heat_generation.iter().map(|heat| (heat.span, OptionKind::GapHeatGeneration)))
 }

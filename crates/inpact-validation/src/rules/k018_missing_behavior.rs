@@ -1,7 +1,7 @@
 //! K018: sub-options that CalculiX refuses without a *SURFACE BEHAVIOR.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::model::{ContactPair, Interaction};
+use inpact_parser::model::{ContactPair, Interaction, OptionKind};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 
@@ -68,7 +68,7 @@ fn is_by_penalty(pair: &ContactPair) -> bool {
 }
 
 fn has_behavior(interaction: &Interaction) -> bool {
-    interaction.other.iter().any(|option| option.keyword == "SURFACE BEHAVIOR")
+    interaction.other.iter().any(|option| option.kind() == OptionKind::SurfaceBehavior)
 }
 
 /// Reports the conductances that come first; gives the interactions they are in.
@@ -77,14 +77,15 @@ fn check_order(context: &Context<'_>, report: &mut Report<'_>) -> HashSet<Span> 
     let mut interaction = None;
     let mut is_first = true;
     for block in context.defined_blocks() {
-        match block.name {
-            "SURFACE INTERACTION" => {
+        match (block.name, block.kind()) {
+            ("SURFACE INTERACTION", _) => {
                 interaction = Some(block.keyword.visible_span(context.deck));
                 is_first = true;
             }
             // Any of these is enough for ccx here; the pair needs the *SURFACE BEHAVIOR itself.
-            "SURFACE BEHAVIOR" | "FRICTION" | "GAP HEAT GENERATION" | "CONTACT DAMPING" => is_first = false,
-            "GAP CONDUCTANCE" if is_first => {
+            (_, OptionKind::SurfaceBehavior | OptionKind::Friction | OptionKind::GapHeatGeneration)
+            | ("CONTACT DAMPING", _) => is_first = false,
+            (_, OptionKind::GapConductance) if is_first => {
                 let Some(interaction) = interaction else { continue };
                 refused.insert(interaction);
                 report

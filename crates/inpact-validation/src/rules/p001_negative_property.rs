@@ -2,9 +2,9 @@
 
 use crate::quantity::{and_more, column_name, number, value_name};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{RADIATION, number_in, sound_tables};
+use crate::tables::{number_in, sound_tables};
 use inpact_parser::deck::DataLine;
-use inpact_parser::model::{TableKind, TableOf};
+use inpact_parser::model::{TableKind, TableOf, OptionKind};
 use inpact_parser::span::Span;
 
 declare_rule! {
@@ -42,13 +42,13 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for of in sound_tables(context).filter(|of| of.kind != TableKind::Other || of.keyword == RADIATION) {
+    for of in sound_tables(context).filter(|of| of.kind != TableKind::Other) {
         let mut negative = of.table.row_values().enumerate().filter(|(_, row)| row[0] < 0.0);
         let Some((index, row)) = negative.next() else { continue };
         let more = and_more(negative.count(), "row of this table is negative", "rows of this table are negative");
         say(report, context.cell(of, index, 0), name(of).as_ref(), row[0], &more);
     }
-    for block in context.defined_blocks().filter(|block| block.name == RADIATION) {
+    for block in context.defined_blocks().filter(|block| block.kind() == OptionKind::GapRadiation) {
         let head = context.deck.data_lines(block.block).find(|line| !line.is_blank());
         for item in head.iter().flat_map(DataLine::items).take(2) {
             let emissivity = number_in(context.deck, &context.model.parameters, item);
@@ -60,7 +60,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 }
 
 fn name<'a>(of: &'a TableOf<'_>) -> std::borrow::Cow<'a, str> {
-    if of.keyword == RADIATION { column_name(&of.table.columns[0]) } else { value_name(of.kind).into() }
+    if of.kind == TableKind::ViewFactor { column_name(&of.table.columns[0]) } else { value_name(of.kind).into() }
 }
 
 fn say(report: &mut Report<'_>, span: Span, name: &str, value: f64, more: &str) {

@@ -35,7 +35,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for (of, trend) in against(context, TableKind::is_against_clearance, |before, value| value > before) {
+    for (of, trend) in against(context, TableKind::is_conductance_against_clearance, |before, value| value > before) {
         let Trend { before, row, wrong: rising, total } = trend;
         let (lower, upper) = (of.table.row(before), of.table.row(row));
         let message = format!(

@@ -1,8 +1,9 @@
 //! P009: view factors and emissivities above 1.
 
+use inpact_parser::model::{OptionKind, TableKind};
 use crate::quantity::{and_more, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{RADIATION, number_in, sound_tables};
+use crate::tables::{number_in, sound_tables};
 use inpact_parser::deck::DataLine;
 
 declare_rule! {
@@ -35,7 +36,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for of in sound_tables(context).filter(|of| of.keyword == RADIATION) {
+    for of in sound_tables(context).filter(|of| of.kind == TableKind::ViewFactor) {
         let mut above = of.table.row_values().enumerate().filter(|(_, row)| row[0] > 1.0);
         let Some((index, row)) = above.next() else { continue };
         let more = and_more(above.count(), "row of this table is above 1", "rows of this table are above 1");
@@ -45,7 +46,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .note(format!("a surface cannot see more than the whole of another{more}"))
             .help("check the value, and that the view factor precedes the clearance");
     }
-    for block in context.defined_blocks().filter(|block| block.name == RADIATION) {
+    for block in context.defined_blocks().filter(|block| block.kind() == OptionKind::GapRadiation) {
         let head = context.deck.data_lines(block.block).find(|line| !line.is_blank());
         for item in head.iter().flat_map(DataLine::items).take(2) {
             let emissivity = number_in(context.deck, &context.model.parameters, item);

@@ -1,5 +1,6 @@
 //! P010: constants of contact that CalculiX refuses.
 
+use inpact_parser::model::OptionKind;
 use crate::constants::{behavior, constants};
 use crate::quantity::number;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
@@ -44,12 +45,12 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         return;
     }
     for block in context.defined_blocks() {
-        match block.name {
-            "FRICTION" => {
+        match block.kind() {
+            OptionKind::Friction => {
                 let refused = constants(context, block, 0).into_iter().find(|(_, value)| *value <= 0.0);
                 say(context, report, (block, refused), "coefficient of friction", "above zero");
             }
-            "SURFACE BEHAVIOR" if behavior(context, block) == Some("EXPONENTIAL") => {
+            OptionKind::SurfaceBehavior if behavior(context, block) == Some("EXPONENTIAL") => {
                 let first = |index| constants(context, block, index).into_iter().next();
                 let clearance = first(0).filter(|(_, value)| *value <= 0.0);
                 say(context, report, (block, clearance), "clearance of the exponential law", "above zero");

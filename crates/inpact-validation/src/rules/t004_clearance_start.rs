@@ -1,9 +1,10 @@
 //! T004: clearance tables that do not start at zero.
 
+use inpact_parser::model::TableKind;
 use crate::order::starts;
 use crate::quantity::{group_label, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{RADIATION, is_against_clearance, sound_tables, starts_as_it_must};
+use crate::tables::{sound_tables, starts_as_it_must};
 
 declare_rule! {
     /// A table against clearance does not start at zero clearance.
@@ -39,7 +40,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for of in sound_tables(context).filter(|of| is_against_clearance(of)) {
+    for of in sound_tables(context).filter(|of| of.kind.is_against_clearance()) {
         for index in starts(of.table) {
             let row = of.table.row(index);
             if starts_as_it_must(of, row[1]) {
@@ -54,7 +55,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .note("a table against clearance must start at zero clearance");
             if row[1] < 0.0 {
                 found.help("start at 0; what holds in contact belongs into a table with `PRESSURE`");
-            } else if of.keyword == RADIATION {
+            } else if of.kind == TableKind::ViewFactor {
                 found.help("add a row for clearance 0");
             } else {
                 found.help("add a row for clearance 0, or give `PRESSURE` if these are contact pressures");

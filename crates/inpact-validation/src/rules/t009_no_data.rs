@@ -1,5 +1,6 @@
 //! T009: options that need rows and have none.
 
+use inpact_parser::model::OptionKind;
 use crate::constants::behavior;
 use inpact_diagnostics::Severity;
 use crate::parameter::given_as;
@@ -42,7 +43,6 @@ declare_rule! {
 }
 
 /// The option whose row has a default for every item.
-const HEAT_GENERATION: &str = "GAP HEAT GENERATION";
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // Asked once: the answer looks at every *INCLUDE.
@@ -61,7 +61,7 @@ fn needs_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     let data = &block.definition.data;
     let is_given = |name: &String| given_as(block, name).is_some();
     // Only options of numbers: what other options need is no question of tables.
-    ((data.required && data.shape.is_numbers()) || block.name == HEAT_GENERATION || is_behavior_with_rows(context, block))
+    ((data.required && data.shape.is_numbers()) || block.kind() == OptionKind::GapHeatGeneration || is_behavior_with_rows(context, block))
         && !data.ignored_with.iter().any(is_given)
         && !columns_are_unclear(context, block)
 }
@@ -74,7 +74,7 @@ fn has_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
 fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>) {
     let found = report.at(context.trimmed(block.keyword.span), format!("`*{}` has no rows", block.name));
     found.label("rows should follow");
-    if block.name == HEAT_GENERATION && !block.definition.data.required {
+    if block.kind() == OptionKind::GapHeatGeneration && !block.definition.data.required {
         found.severity(Severity::Warning);
         found.note("without a row all the energy becomes heat, half of it on each side");
         found.help("write `1., 0.5` if that is meant");

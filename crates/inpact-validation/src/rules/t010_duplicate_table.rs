@@ -1,9 +1,9 @@
 //! T010: the same kind of law twice in one interaction.
 
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{RADIATION, has_unclear_parameters};
+use crate::tables::has_unclear_parameters;
 use inpact_parser::grammar::RowShape;
-use inpact_parser::model::{Interaction, SetAsideItem, SetAsideReason, TableKind};
+use inpact_parser::model::{Interaction, SetAsideItem, SetAsideReason, TableKind, OptionKind};
 use inpact_parser::span::{SourceId, Span};
 
 declare_rule! {
@@ -45,9 +45,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for aside in &context.model.set_aside {
         let SetAsideReason::ReplacedBy(later) = aside.reason else { continue };
         let (keyword, earlier) = match &aside.item {
-            SetAsideItem::Table(table) => ("GAP ELECTRICAL CONDUCTANCE", table.keyword),
-            SetAsideItem::ContactPermeability(option) => ("CONTACT PERMEABILITY", option.span),
-            SetAsideItem::HeatGeneration(option) => ("GAP HEAT GENERATION", option.span),
+            SetAsideItem::Table(table) => (OptionKind::GapElectricalConductance.keyword(), table.keyword),
+            SetAsideItem::ContactPermeability(option) => (OptionKind::ContactPermeability.keyword(), option.span),
+            SetAsideItem::HeatGeneration(option) => (OptionKind::GapHeatGeneration.keyword(), option.span),
             SetAsideItem::SubOption(_) | SetAsideItem::Interaction(_) => continue,
         };
         duplicates.push((keyword, later, earlier));
@@ -89,7 +89,7 @@ fn find_among_others<'a>(interaction: &'a Interaction, duplicates: &mut Vec<(&'a
     for option in &interaction.other {
         let kind = match &option.table {
             Some(table) => TableKind::of(&option.keyword, table),
-            None if option.keyword == RADIATION => TableKind::Other,
+            None if option.kind() == OptionKind::GapRadiation => TableKind::ViewFactor,
             None => continue,
         };
         match seen.iter_mut().find(|(keyword, of_kind, _)| *keyword == option.keyword && *of_kind == kind) {

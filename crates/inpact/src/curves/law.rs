@@ -8,6 +8,7 @@ use inpact_evaluation::law::pore::{Gap, Permeability, PoreLaw, PorePoint};
 use inpact_evaluation::law::radiation::RadiationLaw;
 use inpact_evaluation::law::thermal::ThermalConductance;
 use inpact_evaluation::table::Sides;
+use inpact_parser::model::OptionKind;
 
 /// A law with a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -39,10 +40,10 @@ impl LawKind {
     /// The keyword whose rows it is made of.
     pub fn keyword(self) -> &'static str {
         match self {
-            Self::Electrical => "GAP ELECTRICAL CONDUCTANCE",
-            Self::Thermal => "GAP CONDUCTANCE",
-            Self::ViewFactor => "GAP RADIATION",
-            Self::Permeability => "CONTACT PERMEABILITY",
+            Self::Electrical => OptionKind::GapElectricalConductance.keyword(),
+            Self::Thermal => OptionKind::GapConductance.keyword(),
+            Self::ViewFactor => OptionKind::GapRadiation.keyword(),
+            Self::Permeability => OptionKind::ContactPermeability.keyword(),
         }
     }
 }

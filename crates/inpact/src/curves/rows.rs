@@ -76,11 +76,8 @@ impl<'a> LawRows<'a> {
 
 /// The rows of *GAP RADIATION after the emissivities (2.6).
 fn view_factors<'a>(model: &Model, interaction: &'a Interaction) -> Option<Rows<'a>> {
-    let option = interaction.other.iter().rfind(|option| option.keyword == LawKind::ViewFactor.keyword())?;
-    let rows = option.numbers(&model.parameters);
-    // An item that is not there is zero (S-32).
-    let item = |row: &[f64], column: usize| row.get(column).copied().unwrap_or(0.0);
-    let cells: Vec<f64> = rows.iter().skip(1).flat_map(|row| [item(row, 0), item(row, 1)]).collect();
+    let rows = interaction.gap_radiation()?.rows(&model.parameters);
+    let cells = rows.map_or_else(Vec::new, |(_, rows)| rows.concat());
     let columns = ["view_factor", "clearance"].map(str::to_owned).to_vec();
     Some(Rows { columns, cells: cells.into(), spans: &[] })
 }

@@ -222,8 +222,7 @@ fn in_table(view: View<'_>, entry: &Entry<'_>, table: &Table, cell: &Cell<'_>) -
     text += "\n";
     if cell.index == 1 && row + 1 == rows.end {
         // T-27, Q-1: what carries heat ends with its table, what carries current or fluid goes on.
-        let is_zero =
-            matches!(TableKind::of(entry.name, table), TableKind::ThermalClearance) || entry.name == "GAP RADIATION";
+        let is_zero = matches!(TableKind::of(entry.name, table), TableKind::ThermalClearance | TableKind::ViewFactor);
         text += if is_zero { "\nBeyond it nothing is conducted\n" } else { "\nBeyond it the last value holds\n" };
     }
     text

@@ -14,10 +14,10 @@ use crate::plan::wanted::{columns_of, want_of_any_law, want_variables};
 use crate::plan::{AxisPlan, Choices, Derivatives, Dropped, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
-use inpact_parser::model::{ElectricalConductance, Procedure};
+use inpact_parser::model::{ElectricalConductance, OptionKind, Procedure};
 use std::collections::BTreeSet;
 
-const KEYWORD: &str = "GAP ELECTRICAL CONDUCTANCE";
+const KEYWORD: &str = OptionKind::GapElectricalConductance.keyword();
 
 /// What the electrical law of an interaction works with.
 #[derive(Debug, Clone, PartialEq)]

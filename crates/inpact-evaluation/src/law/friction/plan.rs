@@ -6,7 +6,7 @@ use crate::nodes::Column;
 use crate::plan::make::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::Interaction;
+use inpact_parser::model::{Interaction, OptionKind};
 
 /// What the heat of friction works with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,9 +30,14 @@ pub enum SlipRateSource {
 
 /// Whether the options of an interaction tell of heat by friction: only then are `shear` and `slip_rate` its business.
 pub(crate) fn tells_of_friction(interaction: &Interaction) -> bool {
-    let is_thermal = |keyword: &str| matches!(keyword, "FRICTION" | "GAP CONDUCTANCE" | "GAP RADIATION");
+    tells_of_heat(interaction) || interaction.friction().is_some()
+}
+
+/// Whether one of the options is about heat: a deck without any has friction too, and says nothing of its heat.
+fn tells_of_heat(interaction: &Interaction) -> bool {
     interaction.gap_heat_generation.is_some()
-        || interaction.other.iter().any(|option| is_thermal(option.keyword.as_str()))
+        || interaction.gap_conductance().is_some()
+        || interaction.gap_radiation().is_some()
 }
 
 /// Plans friction: where the deck tells of it and `shear` and `slip_rate` have numbers, or the deck gives the speed (K-38).
@@ -46,18 +51,19 @@ pub(crate) fn plan_friction(
     let is_there = |column: &Column| planner.may_have(*column);
     if !tells_of_friction(planner.interaction) {
         let is_described = columns.iter().all(is_there);
-        return if is_described { Planned::LeftOut(Reason::NoKeyword("FRICTION")) } else { Planned::Absent };
+        return if is_described {
+            Planned::LeftOut(Reason::NoKeyword(OptionKind::Friction.keyword()))
+        } else {
+            Planned::Absent
+        };
     }
     let given_speed = planner
         .interaction
         .gap_heat_generation
         .as_deref()
         .and_then(inpact_parser::model::HeatGeneration::given_slip_rate);
-    let has_option = |keyword: &str| planner.interaction.other.iter().any(|option| option.keyword == keyword);
-    // A deck without heat has friction too, and says nothing of its heat.
-    let is_thermal = planner.interaction.gap_heat_generation.is_some()
-        || ["GAP CONDUCTANCE", "GAP RADIATION"].into_iter().any(has_option);
-    let is_reported = columns.iter().any(is_there) || (is_thermal && has_option("FRICTION"));
+    let is_reported = columns.iter().any(is_there)
+        || (tells_of_heat(planner.interaction) && planner.interaction.friction().is_some());
     if !is_reported {
         return Planned::Absent;
     }

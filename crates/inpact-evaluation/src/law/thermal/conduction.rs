@@ -13,6 +13,7 @@ use crate::plan::{AxisPlan, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::grammar::Dialect;
+use inpact_parser::model::OptionKind;
 
 /// What conduction works with.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +48,7 @@ pub(crate) fn plan_conduction(
     let error = match &tables.conductance {
         None => return Planned::Absent,
         Some(ConductanceRows::User) => Some(Reason::NeedsUserSubroutine("GAPCON")),
-        Some(ConductanceRows::Nothing) => Some(Reason::NoRows("GAP CONDUCTANCE")),
+        Some(ConductanceRows::Nothing) => Some(Reason::NoRows(OptionKind::GapConductance.keyword())),
         Some(ConductanceRows::Tables { clearance, pressure }) => {
             let mut errors = [clearance, pressure].into_iter().flatten().filter_map(|table| table.as_ref().err());
             errors.next().copied().map(Reason::BrokenTable)

@@ -9,10 +9,7 @@ use crate::plan::tables::field_variable;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, TableError, Tail};
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::{Interaction, Model, SubOption, Table, TableKind};
-
-const CONDUCTANCE: &str = "GAP CONDUCTANCE";
-const RADIATION: &str = "GAP RADIATION";
+use inpact_parser::model::{GapConductance, GapRadiation, Interaction, Model, OptionKind, Table};
 
 /// What the rows of an interaction say of heat; an error where they form no table.
 #[derive(Debug, Default, PartialEq)]
@@ -61,7 +58,7 @@ impl RadiationFault {
             Self::NoConstant(name) => Reason::NoConstant(name),
             Self::BadEmissivities => Reason::BadEmissivities,
             Self::BrokenTable(error) => Reason::BrokenTable(error),
-            Self::NoRows => Reason::NoRows(RADIATION),
+            Self::NoRows => Reason::NoRows(OptionKind::GapRadiation.keyword()),
         }
     }
 }
@@ -69,10 +66,10 @@ impl RadiationFault {
 impl ThermalTables {
     /// Compiles the tables of an interaction.
     pub(crate) fn of(model: &Model, interaction: &Interaction, dialect: Dialect) -> Self {
-        let radiation = interaction.other.iter().rfind(|option| option.keyword == RADIATION);
+        let radiation = interaction.gap_radiation();
         Self {
-            conductance: conductance(interaction, dialect),
-            radiation: radiation.map(|option| radiation_law(option, model)),
+            conductance: interaction.gap_conductance().map(|given| conductance(&given, dialect)),
+            radiation: radiation.map(|given| radiation_law(&given, model)),
         }
     }
 
@@ -106,48 +103,35 @@ impl ThermalTables {
     }
 }
 
-fn conductance(interaction: &Interaction, dialect: Dialect) -> Option<ConductanceRows> {
-    let options = interaction.other.iter().filter(|option| option.keyword == CONDUCTANCE);
-    let options: Vec<&SubOption> = options.collect();
-    if options.is_empty() {
-        return None;
+fn conductance(given: &GapConductance<'_>, dialect: Dialect) -> ConductanceRows {
+    if !given.users.is_empty() {
+        return ConductanceRows::User;
     }
-    if options.iter().any(|option| option.parameter("USER").is_some()) {
-        return Some(ConductanceRows::User);
-    }
-    // Of two tables of one kind the later governs; in CalculiX, of any two.
-    let last = |kind: Option<TableKind>| {
-        let mut tables = options.iter().filter_map(|option| option.table.as_ref());
-        tables.rfind(|table| kind.is_none_or(|kind| TableKind::of(CONDUCTANCE, table) == kind))
-    };
     if dialect == Dialect::Calculix {
-        let curves = last(None).filter(|table| table.width() == CalculixConductance::WIDTH);
+        // Of any two tables the later governs.
+        let curves = given.tables.last().filter(|table| table.width() == CalculixConductance::WIDTH);
         let curves = curves.map(|table| CalculixConductance::from_rows(&table.values));
-        return Some(curves.map_or(ConductanceRows::Nothing, ConductanceRows::Calculix));
+        return curves.map_or(ConductanceRows::Nothing, ConductanceRows::Calculix);
     }
     let build = |table: &Table, tail| PiecewiseTable::from_rows(&table.values, table.width(), tail);
     // Beyond the last clearance nothing is conducted, whatever is chosen for current (K-31, Q-1).
-    let clearance = last(Some(TableKind::ThermalClearance)).map(|table| build(table, Tail::Zero));
-    let pressure = last(Some(TableKind::ThermalPressure)).map(|table| build(table, Tail::Constant));
+    let clearance = given.clearance().map(|table| build(table, Tail::Zero));
+    let pressure = given.pressure().map(|table| build(table, Tail::Constant));
     let is_empty = clearance.is_none() && pressure.is_none();
-    Some(if is_empty { ConductanceRows::Nothing } else { ConductanceRows::Tables { clearance, pressure } })
+    if is_empty { ConductanceRows::Nothing } else { ConductanceRows::Tables { clearance, pressure } }
 }
 
 /// The law of the rows: the emissivities, then view factors and clearances (2.6).
-fn radiation_law(option: &SubOption, model: &Model) -> Result<RadiationLaw, RadiationFault> {
+fn radiation_law(given: &GapRadiation<'_>, model: &Model) -> Result<RadiationLaw, RadiationFault> {
     let constants = model.constants;
     let absolute_zero = constants.absolute_zero.ok_or(RadiationFault::NoConstant("ABSOLUTE ZERO"))?;
     let stefan_boltzmann = constants.stefan_boltzmann.ok_or(RadiationFault::NoConstant("STEFAN BOLTZMANN"))?;
-    let rows = option.numbers(&model.parameters);
-    let (head, rows) = rows.split_first().ok_or(RadiationFault::NoRows)?;
-    // An item that is not there is zero (S-32).
-    let item = |row: &[f64], column: usize| row.get(column).copied().unwrap_or(0.0);
-    let emissivities = Emissivities { slave: item(head, 0), master: item(head, 1) };
+    let ([slave, master], rows) = given.rows(&model.parameters).ok_or(RadiationFault::NoRows)?;
+    let emissivities = Emissivities { slave, master };
     let coefficient =
         RadiationCoefficient::new(stefan_boltzmann, emissivities).ok_or(RadiationFault::BadEmissivities)?;
-    let cells: Vec<[f64; 2]> = rows.iter().map(|row| [item(row, 0), item(row, 1)]).collect();
     let view_factor =
-        PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Zero).map_err(RadiationFault::BrokenTable)?;
+        PiecewiseTable::from_rows(rows.as_flattened(), 2, Tail::Zero).map_err(RadiationFault::BrokenTable)?;
     Ok(RadiationLaw { coefficient, absolute_zero, view_factor })
 }
 

@@ -8,7 +8,7 @@ use crate::grammar::{Dialect, KeywordId, RowShape};
 use crate::model::rows::undefined_parameter;
 use crate::model::{
     CellText, ConstraintMethod, ContactPermeability, ElectricalConductance, HeatGeneration, Interaction, Name,
-    SetAside, SetAsideItem, SetAsideReason, Table,
+    OptionKind, SetAside, SetAsideItem, SetAsideReason, Table,
 };
 use crate::number::{read_float, read_integer};
 use crate::problem::{Problem, ProblemKind};
@@ -163,10 +163,10 @@ impl Reader<'_> {
         // A misplaced option is read all the same, into a block of its own that is set aside.
         let mut interaction = if placed { self.interaction.take() } else { None }
             .unwrap_or_else(|| Interaction::new(Name::new(""), option.keyword.span));
-        match option.name {
-            "GAP ELECTRICAL CONDUCTANCE" => self.read_electrical(option, &mut interaction),
-            "CONTACT PERMEABILITY" => self.read_permeability(option, &mut interaction),
-            "GAP HEAT GENERATION" => self.read_heat_generation(option, &mut interaction),
+        match OptionKind::of(option.name) {
+            OptionKind::GapElectricalConductance => self.read_electrical(option, &mut interaction),
+            OptionKind::ContactPermeability => self.read_permeability(option, &mut interaction),
+            OptionKind::GapHeatGeneration => self.read_heat_generation(option, &mut interaction),
             _ => interaction.other.push(self.generic(option)),
         }
         if placed {
