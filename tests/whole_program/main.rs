@@ -8,6 +8,8 @@ mod check_geometry;
 mod columns;
 mod compare;
 mod configuration;
+mod data_formats;
+mod data_pages;
 mod deck_scenes;
 mod decks;
 mod dialects;

@@ -1,6 +1,7 @@
 //! A finding with its place, reason and help: the one source of every output format.
 
 use crate::fix::{Edit, Fix, FixSafety};
+use crate::lines::Lines;
 use crate::rule::Rule;
 use crate::severity::Severity;
 use crate::span::{Position, Span};
@@ -44,6 +45,8 @@ pub struct Label {
     pub extent: Extent,
     /// The text of the label; may be empty.
     pub text: String,
+    /// The lines around the place, where their file is not kept and they are.
+    pub lines: Option<Arc<Lines>>,
 }
 
 /// Precision of a place.
@@ -139,6 +142,7 @@ impl Label {
             position: Position { line: 1, column: 1 },
             extent: Extent::Span,
             text: text.into(),
+            lines: None,
         }
     }
 

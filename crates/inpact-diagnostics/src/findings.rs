@@ -44,6 +44,7 @@ impl Place {
             position: Position { line: self.line.unwrap_or(1), column },
             extent,
             text: String::new(),
+            lines: None,
         }
     }
 }

@@ -7,6 +7,7 @@ mod columns;
 mod diagnostic;
 mod findings;
 mod fix;
+mod lines;
 mod rule;
 mod severity;
 
@@ -17,5 +18,6 @@ pub use columns::ColumnUnit;
 pub use diagnostic::{Cell, Diagnostic, Extent, Label};
 pub use findings::{Findings, Place};
 pub use fix::{Edit, Fix, FixSafety, apply};
+pub use lines::{Lines, keep_lines};
 pub use rule::{FixKind, Rule};
 pub use severity::Severity;

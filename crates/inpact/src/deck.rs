@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::fixes::{Fixed, Fixes};
 use crate::input::{LocatedDeck, read_located_deck};
 use crate::json_deck;
-use crate::render::{self, Format, Style};
+use crate::render::{self, Format, Sources, Style};
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::Diagnostic;
 use inpact_evaluation::plan::Choices;
@@ -164,7 +164,9 @@ impl Deck {
     /// ```
     pub fn render(&self, findings: &[Diagnostic], format: Format) -> String {
         let frame = render::document(format);
-        frame.head + &render::diagnostics(findings, &self.located.deck, format, Style::Plain) + &frame.tail
+        frame.head
+            + &render::diagnostics(findings, Sources::Deck(&self.located.deck), format, Style::Plain)
+            + &frame.tail
     }
 
     /// Applies the fixes of its findings, in memory.

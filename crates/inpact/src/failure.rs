@@ -99,7 +99,12 @@ pub(crate) fn say_json(json: &str) {
     write_line(&visible_json(json));
 }
 
-fn write_line(line: &str) {
+/// Writes a text to standard error whose hidden characters were written out before it was coloured.
+pub(crate) fn say_as_it_is(text: &str) {
     use std::io::Write;
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+fn write_line(line: &str) {
+    say_as_it_is(&format!("{line}\n"));
 }

@@ -1,4 +1,4 @@
-//! Diagnostics as text: one plain function a format, over the one [`Diagnostic`].
+//! Diagnostics as text: one plain function a format, over the one [`Diagnostic`], be it about a deck or about data.
 
 mod concise;
 mod excerpt;
@@ -6,20 +6,21 @@ mod full;
 mod github;
 mod json;
 mod sarif;
+mod sources;
 
-pub(crate) use self::github::write as github;
+pub(crate) use self::sarif::Run as SarifRun;
+pub(crate) use self::sources::Sources;
 
 use anstream::ColorChoice;
 use clap::ValueEnum;
 use inpact_diagnostics::visible::visible_json;
-use inpact_parser::deck::Deck;
 use inpact_validation::Diagnostic;
 
 /// The output formats of diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[non_exhaustive]
 pub enum Format {
-    /// With an excerpt of the deck, labels and help.
+    /// With an excerpt of the file, labels and help.
     Full,
     /// A line each: `file:line:col: severity[CODE] message`.
     Concise,
@@ -43,22 +44,28 @@ pub(crate) enum Style {
 impl Style {
     /// Colours only for a terminal that can show them, and not where `NO_COLOR` is set.
     pub(crate) fn of_standard_output() -> Self {
-        match anstream::AutoStream::choice(&std::io::stdout()) {
-            ColorChoice::Never => Self::Plain,
-            _ => Self::Coloured,
-        }
+        Self::of(anstream::AutoStream::choice(&std::io::stdout()))
+    }
+
+    /// The same for standard error.
+    pub(crate) fn of_standard_error() -> Self {
+        Self::of(anstream::AutoStream::choice(&std::io::stderr()))
+    }
+
+    fn of(choice: ColorChoice) -> Self {
+        if choice == ColorChoice::Never { Self::Plain } else { Self::Coloured }
     }
 }
 
-/// The findings of one deck as text; [`document`] makes a whole of the texts of several.
-pub(crate) fn diagnostics(diagnostics: &[Diagnostic], deck: &Deck, format: Format, style: Style) -> String {
-    let lines = |write: fn(&Diagnostic, &Deck) -> String| -> String {
-        diagnostics.iter().map(|found| write(found, deck)).collect()
+/// Findings in one deck, or in data, as text; [`document`] makes a whole of the texts of several.
+pub(crate) fn diagnostics(diagnostics: &[Diagnostic], sources: Sources<'_>, format: Format, style: Style) -> String {
+    let lines = |write: fn(&Diagnostic, Sources<'_>) -> String| -> String {
+        diagnostics.iter().map(|found| write(found, sources)).collect()
     };
     match format {
         // It escapes what it is given: its colours are escape sequences too.
-        Format::Full => diagnostics.iter().map(|found| full::write(found, deck, style)).collect(),
-        Format::Sarif => visible_json(&sarif::results(diagnostics, deck)).into_owned(),
+        Format::Full => diagnostics.iter().map(|found| full::write(found, sources, style)).collect(),
+        Format::Sarif => visible_json(&sarif::results(diagnostics, sources)).into_owned(),
         Format::Json => visible_json(&lines(json::write)).into_owned(),
         Format::Concise => lines(concise::write),
         Format::Github => diagnostics.iter().map(github::write).collect(),
@@ -73,6 +80,12 @@ pub(crate) fn document(format: Format) -> Document {
     }
 }
 
+/// A whole SARIF document of a run that has more to say than findings.
+pub(crate) fn sarif_of_run(results: &[String], run: &SarifRun) -> String {
+    let Document { head, separator, tail } = sarif::frame(run);
+    visible_json(&(head + &results.join(separator) + &tail)).into_owned()
+}
+
 /// The frame of an output format.
 #[derive(Debug, Default)]
 pub(crate) struct Document {
@@ -80,12 +93,4 @@ pub(crate) struct Document {
     /// Between the texts of two decks that are not empty.
     pub(crate) separator: &'static str,
     pub(crate) tail: String,
-}
-
-/// The chain of *INCLUDE of a finding, the nearest first: ` (included at deck.inp:3)`; empty for the deck itself.
-fn include_chain(found: &Diagnostic, deck: &Deck) -> Vec<String> {
-    let chain = deck.include_chain(found.primary.span.source);
-    let places = deck.positions(&chain);
-    let shown = chain.iter().zip(places);
-    shown.map(|(span, place)| format!("{}:{}", deck.source(span.source).name(), place.line)).collect()
 }

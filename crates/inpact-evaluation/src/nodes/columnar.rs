@@ -126,7 +126,7 @@ impl ColumnarReader {
 
     fn new(schema: SchemaRef, rows: Rows, findings: &mut Findings) -> Self {
         let header = Header::new(schema.fields().iter().map(|field| field.name().as_str()));
-        header.report_duplicates(None, findings);
+        header.report_duplicates(findings);
         Self {
             header,
             schema,

@@ -119,8 +119,8 @@ impl<'a> CsvReader<'a> {
                 cells.cut(row, separator);
                 let texts = (0..cells.len()).filter_map(|index| cells.get(index));
                 let texts: Vec<String> = texts.map(|text| String::from_utf8_lossy(text).into_owned()).collect();
-                self.header = Header::new(texts.iter().map(String::as_str));
-                self.header.report_duplicates(Some(self.lines_before.max(1)), findings);
+                self.header = Header::new(texts.iter().map(String::as_str)).at_line(self.lines_before.max(1));
+                self.header.report_duplicates(findings);
                 piece.text.drain(..at);
                 self.select(&[], &[], usize::MAX);
                 self.spare.push(Work { piece, decoded: Decoded::default() });

@@ -12,6 +12,8 @@ pub struct Header {
     pub cells: Vec<HeaderCell>,
     /// The first cell that means each column.
     places: HashMap<Column, usize>,
+    /// Its line, in a text.
+    line: Option<u64>,
 }
 
 /// A cell of the header.
@@ -35,7 +37,7 @@ impl Header {
                 places.entry(column).or_insert(index);
             }
         }
-        Self { cells, places }
+        Self { cells, places, line: None }
     }
 
     /// Whether a cell of the header means that column.
@@ -58,13 +60,18 @@ impl Header {
         for cell in self.cells.iter().filter(|cell| cell.column.is_none()) {
             let Some(near) = Column::near(&cell.text).filter(|near| !self.has(*near)) else { continue };
             let message = format!("a node table has no column `{}`, and nothing reads it", cell.text);
-            let place = Place { column: Some(cell.text.clone()), ..Place::default() };
+            let place = Place { line: self.line, column: Some(cell.text.clone()), ..Place::default() };
             findings.report(&UNKNOWN_COLUMN, place, message, format!("did you mean `{near}`?"));
         }
     }
 
+    /// The header in a line of a text.
+    pub(super) fn at_line(self, line: u64) -> Self {
+        Self { line: Some(line), ..self }
+    }
+
     /// Reports cells that mean the same column (D005).
-    pub(super) fn report_duplicates(&self, line: Option<u64>, findings: &mut Findings) {
+    pub(super) fn report_duplicates(&self, findings: &mut Findings) {
         for (index, cell) in self.cells.iter().enumerate() {
             let Some(column) = cell.column else { continue };
             let Some(first) = self.position(column).filter(|first| *first < index) else { continue };
@@ -74,7 +81,7 @@ impl Header {
             } else {
                 format!("columns `{}` and `{}` both mean `{column}`", first.text, cell.text)
             };
-            let place = Place { line, column: Some(cell.text.clone()), ..Place::default() };
+            let place = Place { line: self.line, column: Some(cell.text.clone()), ..Place::default() };
             findings.report(&DUPLICATE_COLUMN, place, message, "keep one of the two");
         }
     }

@@ -23,6 +23,11 @@ use toml::Spanned;
 
 /// The tables beside a scene file.
 pub trait SceneFiles {
+    /// The name of a file in findings; as the scene has it unless that means nothing to whoever reads them.
+    fn name(&self, name: &str) -> String {
+        name.to_owned()
+    }
+
     /// The bytes of a file, whose name is relative to the scene file; `None` where it cannot be read, which the caller knows how to say.
     fn read(&mut self, name: &str) -> Option<Vec<u8>>;
 }
@@ -53,8 +58,8 @@ pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles
         Some(Ok(file)) => reader.take(file, files),
         // A text with the shape of a scene can be read.
         Some(Err(error)) => {
-            let line = reader.line(error.span().map_or(0, |span| span.start));
-            reader.report(&MALFORMED_SCENE, line, error.message(), "");
+            let at = error.span().map_or(0, |span| span.start);
+            reader.report(&MALFORMED_SCENE, at, error.message(), "");
         }
         None => {}
     }
@@ -122,6 +127,8 @@ impl<'a> Reader<'a> {
                 Some(end) => end + 1,
                 None => rest.len(),
             },
+            // The heading of an entry; a list or a table by its first character.
+            Some('[') if rest.starts_with("[[") => rest.find("]]").map_or(1, |end| end + 2),
             Some('[' | '{') | None => rest.len().min(1),
             Some(_) => rest.find(|end: char| end.is_whitespace() || ",=]}#".contains(end)).unwrap_or(rest.len()),
         };
@@ -134,13 +141,16 @@ impl<'a> Reader<'a> {
         self.line(spanned.span().start)
     }
 
-    fn report(&mut self, rule: &Rule, line: u64, message: impl Into<String>, help: &str) {
-        self.findings.report(rule, Place::of_line(line), message, help);
+    /// Reports a finding about what begins at a byte.
+    fn report(&mut self, rule: &Rule, at: usize, message: impl Into<String>, help: &str) {
+        let place = self.place(at);
+        self.findings.report(rule, place, message, help);
     }
 
-    fn refuse(&mut self, line: u64, refusal: Refusal) {
+    fn refuse(&mut self, at: usize, refusal: Refusal) {
         let Refusal { rule, column, message, help } = refusal;
-        self.findings.report(rule, Place { column, ..Place::of_line(line) }, message, help);
+        let place = Place { column, ..self.place(at) };
+        self.findings.report(rule, place, message, help);
     }
 
     /// A number as it is written.
@@ -151,9 +161,8 @@ impl<'a> Reader<'a> {
     /// The value of a key; reports one that cannot be used.
     fn value(&mut self, key: &str, number: Option<&Number>, what: impl FnOnce() -> String) -> Option<f64> {
         let number = number?;
-        let line = self.line(number.span().start);
         if let Err(refusal) = usable::number(key, number.value(), self.written(number), what) {
-            self.refuse(line, refusal);
+            self.refuse(number.span().start, refusal);
         }
         Some(number.value())
     }
@@ -191,8 +200,8 @@ impl<'a> Reader<'a> {
         let mut matrices: Vec<Option<Vec<SceneLink>>> =
             link_files.iter().map(|entry| self.take_matrix(entry, fraction, files, &mut scene)).collect();
         for link in file.links.0 {
-            let line = self.line_of(&link);
-            self.take_link(link.into_inner().0, line, fraction, &mut scene);
+            let at = start(&link);
+            self.take_link(link.into_inner().0, at, fraction, &mut scene);
         }
         for (entry, links) in link_files.iter().zip(&mut matrices) {
             match links {
@@ -201,8 +210,8 @@ impl<'a> Reader<'a> {
             }
         }
         for interface in file.interfaces.0 {
-            let line = self.line_of(&interface);
-            self.take_interface(interface.into_inner().0, line, &mut scene);
+            let at = start(&interface);
+            self.take_interface(interface.into_inner().0, at, &mut scene);
         }
         for entry in file.interface_files.0 {
             self.take_interface_file(&entry.into_inner().0.file, files, &mut scene);
@@ -211,10 +220,15 @@ impl<'a> Reader<'a> {
         // Whatever else is wrong comes first.
         if scene.nodes.is_empty() && !self.lacks_nodes && !self.findings.has_errors() && self.found.is_empty() {
             let help = "add a [[node]] for each point whose potential, temperature or pore pressure is sought or held, or a [[node_file]]";
-            self.report(&MALFORMED_SCENE, 1, "the scene has no nodes, so that there is nothing to solve", help);
+            self.report(&MALFORMED_SCENE, 0, "the scene has no nodes, so that there is nothing to solve", help);
         }
         self.scene = Some(scene);
     }
+}
+
+/// The byte where something begins.
+pub(super) fn start<T>(spanned: &Spanned<T>) -> usize {
+    spanned.span().start
 }
 
 /// A condition whose numbers can be used.

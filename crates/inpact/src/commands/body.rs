@@ -4,11 +4,12 @@ mod scene;
 mod text;
 mod value;
 
-use super::findings::FindingFormat;
+use super::findings::{Messages, with_messages};
 use super::mesh_rows::counted;
 use super::meshed::{MeshedDeck, NoteSeverity};
-use crate::failure::{Failure, Outcome, say, say_json};
+use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_body::{Body, BodyError, BodyField, Lumped, SolutionMethod};
@@ -40,7 +41,7 @@ pub(crate) struct BodyArguments {
     format: BodyFormat,
     /// How to print notes and findings on standard error, instead of a line each, or of JSON with `--format json`.
     #[arg(long, value_enum)]
-    findings: Option<FindingFormat>,
+    findings: Option<Format>,
     /// Where to write, instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -77,16 +78,20 @@ struct Found<'a> {
 }
 
 pub(crate) fn run(arguments: &BodyArguments) -> Result<Outcome, Failure> {
+    let format = arguments.findings.unwrap_or(match arguments.format {
+        BodyFormat::Json => Format::Json,
+        _ => Format::Concise,
+    });
+    with_messages(format, |messages| make(arguments, messages))
+}
+
+fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Failure> {
     let start = Instant::now();
     if let Some(temperature) = arguments.temperature.filter(|temperature| !temperature.is_finite()) {
         return Err(Failure::Usage(format!("expected a finite number as `--temperature`, found `{temperature}`")));
     }
     files::name_as_inputs(&[&arguments.deck]);
     files::check_targets(&[arguments.output.as_deref()])?;
-    let findings = arguments.findings.unwrap_or(match arguments.format {
-        BodyFormat::Json => FindingFormat::Json,
-        _ => FindingFormat::Concise,
-    });
     let settings = arguments.reading.settings(&arguments.deck)?;
     let names: Vec<Name> = arguments.terminals.iter().map(|name| Name::new(name)).collect();
     let (meshed, body) = MeshedDeck::read_body(&arguments.deck, &settings, &names)?;
@@ -94,9 +99,9 @@ pub(crate) fn run(arguments: &BodyArguments) -> Result<Outcome, Failure> {
     files::check_targets(&[arguments.output.as_deref()])?;
     let body = match body {
         Ok(body) => body,
-        Err(error) => return refused(&meshed, &error, findings),
+        Err(error) => return refused(&meshed, &error, messages),
     };
-    meshed.say_notes(body.left_out(), findings)?;
+    meshed.say_notes(body.left_out(), messages)?;
     let fields = match arguments.field {
         Some(Fields::Thermal) => vec![BodyField::Thermal],
         Some(Fields::Electrical) => vec![BodyField::Electrical],
@@ -111,11 +116,11 @@ pub(crate) fn run(arguments: &BodyArguments) -> Result<Outcome, Failure> {
     for field in fields {
         match body.lumped(field, arguments.temperature) {
             Ok(of_field) => lumped.push(of_field),
-            Err(error) => return refused(&meshed, &error, findings),
+            Err(error) => return refused(&meshed, &error, messages),
         }
     }
     let left_out: Vec<MeshNote> = lumped.iter().flat_map(|lumped| lumped.left_out.clone()).collect();
-    meshed.say_notes(&left_out, findings)?;
+    meshed.say_notes(&left_out, messages)?;
     let found = Found { deck: &meshed.name, body: &body, temperature: arguments.temperature, lumped };
     let text = match arguments.format {
         BodyFormat::Text => visible(&text::text(&found)).into_owned(),
@@ -124,18 +129,18 @@ pub(crate) fn run(arguments: &BodyArguments) -> Result<Outcome, Failure> {
         BodyFormat::Scene => scene::rows(&found)?,
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
-    say_summary(&found, start.elapsed().as_secs_f64(), findings);
+    say_summary(&found, start.elapsed().as_secs_f64(), messages);
     Ok(Outcome::Clean)
 }
 
 /// Says every fault with its place.
-fn refused(meshed: &MeshedDeck, error: &BodyError, findings: FindingFormat) -> Result<Outcome, Failure> {
+fn refused(meshed: &MeshedDeck, error: &BodyError, messages: Messages<'_>) -> Result<Outcome, Failure> {
     let mut without_place = Vec::new();
     for fault in error.faults() {
         match fault.span {
             Some(span) => {
                 let note = MeshNote { span, message: fault.message.clone() };
-                meshed.say_at(&note, NoteSeverity::Error, findings)?;
+                meshed.say_at(&note, NoteSeverity::Error, messages)?;
             }
             None => without_place.push(fault.message.clone()),
         }
@@ -143,35 +148,37 @@ fn refused(meshed: &MeshedDeck, error: &BodyError, findings: FindingFormat) -> R
     if without_place.is_empty() { Ok(Outcome::HasErrors) } else { Err(Failure::Data(without_place.join("; "))) }
 }
 
-fn say_summary(found: &Found<'_>, seconds: f64, findings: FindingFormat) {
+fn say_summary(found: &Found<'_>, seconds: f64, messages: Messages<'_>) {
     let bodies = found.lumped[0].bodies.len() as u64;
-    match findings {
-        FindingFormat::Concise | FindingFormat::Github => {
-            let terminals = counted(found.body.terminals().len() as u64, "terminal");
-            let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };
-            say(&visible_line(&format!("{}: {terminals} of {bodies}, {seconds:.3} s", found.deck)));
-            for lumped in &found.lumped {
-                let [isothermal, even] = lumped.solutions;
-                let unknowns = counted(isothermal.unknowns as u64, "unknown");
-                let how = match (isothermal.method, even.method) {
-                    (SolutionMethod::Factor(first), SolutionMethod::Factor(second)) => {
-                        format!("factors of {first} and {second} entries")
-                    }
-                    (SolutionMethod::Iterations(first), SolutionMethod::Iterations(second)) => {
-                        format!("{first} and {second} iterations of conjugate gradients")
-                    }
-                    (SolutionMethod::Factor(entries), SolutionMethod::Iterations(iterations))
-                    | (SolutionMethod::Iterations(iterations), SolutionMethod::Factor(entries)) => {
-                        format!("a factor of {entries} entries, {iterations} iterations of conjugate gradients")
-                    }
-                };
-                let balanced = isothermal.imbalance.max(even.imbalance);
-                say(&format!("  {}: {unknowns}, {how}; balanced to {balanced:.1e}", lumped.field));
-            }
+    let lines = || {
+        let terminals = counted(found.body.terminals().len() as u64, "terminal");
+        let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };
+        let head = format!("{}: {terminals} of {bodies}, {seconds:.3} s", found.deck);
+        let mut lines = vec![visible_line(&head).into_owned()];
+        for lumped in &found.lumped {
+            let [isothermal, even] = lumped.solutions;
+            let unknowns = counted(isothermal.unknowns as u64, "unknown");
+            let how = match (isothermal.method, even.method) {
+                (SolutionMethod::Factor(first), SolutionMethod::Factor(second)) => {
+                    format!("factors of {first} and {second} entries")
+                }
+                (SolutionMethod::Iterations(first), SolutionMethod::Iterations(second)) => {
+                    format!("{first} and {second} iterations of conjugate gradients")
+                }
+                (SolutionMethod::Factor(entries), SolutionMethod::Iterations(iterations))
+                | (SolutionMethod::Iterations(iterations), SolutionMethod::Factor(entries)) => {
+                    format!("a factor of {entries} entries, {iterations} iterations of conjugate gradients")
+                }
+            };
+            let balanced = isothermal.imbalance.max(even.imbalance);
+            lines.push(format!("  {}: {unknowns}, {how}; balanced to {balanced:.1e}", lumped.field));
         }
-        FindingFormat::Json => {
-            let summary = json!({ "summary": { "terminals": found.body.terminals().len(), "bodies": bodies, "seconds": seconds } });
-            say_json(&summary.to_string());
-        }
-    }
+        lines
+    };
+    let json = || {
+        let summary =
+            json!({ "summary": { "terminals": found.body.terminals().len(), "bodies": bodies, "seconds": seconds } });
+        summary.to_string()
+    };
+    messages.tell(lines, json);
 }

@@ -13,7 +13,7 @@ use crate::files;
 use crate::fixing::{self, FixReach, FixSelection, Need, Purpose};
 use crate::input::{self, HeldFiles, LocatedDeck};
 use crate::progress::Progress;
-use crate::render::{self, Format, Style};
+use crate::render::{self, Format, Sources, Style};
 use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::Args;
@@ -266,7 +266,7 @@ fn judge(
     let text = if arguments.diff || arguments.statistics {
         String::new()
     } else {
-        render::diagnostics(&diagnostics, deck, arguments.format, style)
+        render::diagnostics(&diagnostics, Sources::Deck(deck), arguments.format, style)
     };
     Ok((text, Tally::of_findings(&diagnostics)))
 }

@@ -5,7 +5,7 @@ mod report;
 
 use self::measure::{Comparison, Quantity};
 use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice, tolerance};
-use super::findings::{FindingFormat, say_data_findings};
+use super::findings::Messages;
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
 use super::meshed::MeshedDeck;
@@ -59,18 +59,18 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
     let evaluable = EvaluableArguments::of_results(deck.clone(), results.clone(), arguments.history_start);
     files::name_as_inputs(&evaluable.inputs());
     files::check_targets(&[output.as_deref()])?;
-    let format = match arguments.format {
-        CompareFormat::Text => FindingFormat::Concise,
-        CompareFormat::Json => FindingFormat::Json,
+    let messages = match arguments.format {
+        CompareFormat::Text => Messages::LINES,
+        CompareFormat::Json => Messages::JSON,
     };
-    let prepared = evaluable.with_threads(|| evaluable.prepare(&arguments.laws, &arguments.reading, format))?;
+    let prepared = evaluable.with_threads(|| evaluable.prepare(&arguments.laws, &arguments.reading, messages))?;
     let Some(mut prepared) = prepared.filter(|prepared| !prepared.deck_has_errors) else {
         return Ok(Outcome::HasErrors);
     };
     // The included files are known now.
     files::check_targets(&[output.as_deref()])?;
     let mut comparison = of_geometry(arguments, &prepared)?;
-    comparison.extend(evaluable.with_threads(|| of_outputs(deck, &mut prepared, format))?);
+    comparison.extend(evaluable.with_threads(|| of_outputs(deck, &mut prepared, messages))?);
     if comparison.iter().all(|quantity| quantity.compared() == 0) {
         let message = "the results say nothing that is computed here: expected COPEN or CNAREA, or outputs of the interface such as HFL, ECD, SJD, PFL";
         return Err(Failure::Data(message.to_owned()));
@@ -126,7 +126,7 @@ fn of_geometry(arguments: &CompareArguments, prepared: &Evaluable) -> Result<Vec
 }
 
 /// Outputs of the interface beside those that the solver says.
-fn of_outputs(deck: &Path, prepared: &mut Evaluable, format: FindingFormat) -> Result<Vec<Quantity>, Failure> {
+fn of_outputs(deck: &Path, prepared: &mut Evaluable, messages: Messages<'_>) -> Result<Vec<Quantity>, Failure> {
     let Evaluable { settings, model, plan, choices, nodes_name, rows, made, .. } = prepared;
     let Some(made) = made else { return Ok(Vec::new()) };
     let mut said: Vec<Output> =
@@ -167,7 +167,7 @@ fn of_outputs(deck: &Path, prepared: &mut Evaluable, format: FindingFormat) -> R
     let mut findings = Findings::new(nodes_name);
     tally.report_user_faults(&mut findings);
     let failed = findings.has_errors();
-    say_data_findings(findings.into_list(), settings, format);
+    messages.data(findings.into_list(), settings);
     if failed {
         return Err(Failure::Data("the user subroutine fails, and nothing is compared".to_owned()));
     }

@@ -6,11 +6,12 @@ mod summary;
 use self::drawing::evaluate_and_draw;
 use self::summary::Summary;
 use super::evaluable::{Evaluable, EvaluableArguments};
-use super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
+use super::findings::{Messages, refuse_configured_errors, with_messages};
 use super::laws::LawArguments;
 use super::table_output::TableOutput;
-use crate::failure::{Failure, Outcome, say, say_json};
+use crate::failure::{Failure, Outcome};
 use crate::files::{self, ResultFile};
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::Args;
 use inpact_diagnostics::visible::visible_line;
@@ -33,20 +34,19 @@ pub(crate) struct EvalArguments {
     #[command(flatten)]
     output: TableOutput,
     /// How to print findings and summary on standard error.
-    #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
-    format: FindingFormat,
+    #[arg(long, value_enum, default_value_t = Format::Concise)]
+    format: Format,
 }
 
 pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
-    arguments.evaluable.with_threads(|| run_on_threads(arguments))
+    with_messages(arguments.format, |messages| arguments.evaluable.with_threads(|| run_on_threads(arguments, messages)))
 }
 
-fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
+fn run_on_threads(arguments: &EvalArguments, messages: Messages<'_>) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::name_as_inputs(&arguments.evaluable.inputs());
     files::check_targets(&[arguments.output.target()])?;
-    let format = arguments.format;
-    let prepared = arguments.evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
+    let prepared = arguments.evaluable.prepare(&arguments.laws, &arguments.reading, messages)?;
     let Some(mut evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     // The included files are known now.
     files::check_targets(&[arguments.output.target()])?;
@@ -54,7 +54,7 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         return Ok(Outcome::HasErrors);
     }
     if evaluable.plan.outputs.is_empty() {
-        return Err(nothing_to_evaluate(&evaluable, format));
+        return Err(nothing_to_evaluate(&evaluable, messages));
     }
     let mut findings = Findings::new(&evaluable.nodes_name);
     let mut went_out = 0;
@@ -62,25 +62,21 @@ fn run_on_threads(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         Some(target) => evaluate_and_draw(&mut evaluable, target, arguments.evaluable.nodes_path(), &mut findings),
         None => evaluate(arguments, &mut evaluable, &mut findings, &mut went_out),
     };
-    say_data_findings(findings.into_list(), &evaluable.settings, format);
+    evaluable.say(findings, messages);
     if evaluated.as_ref().is_err_and(|failure| went_out > 0 && !failure.is_closed_pipe()) {
         let rows = if went_out == 1 { "1 row".to_owned() } else { format!("{went_out} rows") };
-        say(&format!("note: {rows} went out before this"));
+        messages.line(&format!("note: {rows} went out before this"));
     }
     let (tally, rows_out) = evaluated?;
     let summary = Summary { tally: &tally, plan: &evaluable.plan, rows_out, time: start.elapsed() };
-    match format {
-        FindingFormat::Concise | FindingFormat::Github => summary.text().iter().for_each(|line| say(line)),
-        FindingFormat::Json => say_json(&summary.json()),
-    }
+    messages.tell(|| summary.text(), || summary.json());
     if let Some(made) = &evaluable.made {
-        match format {
-            FindingFormat::Concise | FindingFormat::Github => {
-                say(&visible_line(&format!("rows of the {}:", evaluable.nodes_name)));
-                made.summary.lines.iter().for_each(|line| say(&visible_line(line)));
-            }
-            FindingFormat::Json => say_json(&json!({ "nodes": made.summary.value }).to_string()),
-        }
+        let lines = || {
+            let head = format!("rows of the {}:", evaluable.nodes_name);
+            let lines = std::iter::once(&head).chain(&made.summary.lines);
+            lines.map(|line| visible_line(line).into_owned()).collect()
+        };
+        messages.tell(lines, || json!({ "nodes": made.summary.value }).to_string());
     }
     Ok(Outcome::Clean)
 }
@@ -140,10 +136,10 @@ fn write(
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
-fn nothing_to_evaluate(evaluable: &Evaluable, format: FindingFormat) -> Failure {
+fn nothing_to_evaluate(evaluable: &Evaluable, messages: Messages<'_>) -> Failure {
     let mut findings = Findings::new(&evaluable.nodes_name);
     evaluable.plan.report_missing(&mut findings);
-    say_data_findings(findings.into_list(), &evaluable.settings, format);
+    messages.data(findings.into_list(), &evaluable.settings);
     let reasons = evaluable.plan.interactions.iter().flat_map(|interaction| {
         let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
         others.map(move |left_out| format!("{} of `{}`: {}", left_out.what, interaction.name, left_out.reason))

@@ -1,6 +1,6 @@
 //! A deck and a node table that can be evaluated, and the choices between them: what `eval`, `plan` and `tradeoff` have in common.
 
-use super::findings::{FindingFormat, say_data_findings, say_deck_findings};
+use super::findings::Messages;
 use super::job_results::{RESULTS_HELP, States, states};
 use super::laws::LawArguments;
 use super::mesh_rows::{RowsSummary, node_rows};
@@ -12,7 +12,7 @@ use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_contact::RowsError;
-use inpact_diagnostics::{Extent, Findings};
+use inpact_diagnostics::{Diagnostic, Extent, Findings, keep_lines};
 use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
 use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, MakeSpillFile, NodeReader, locate};
@@ -111,6 +111,8 @@ pub(crate) struct Evaluable {
     pub(crate) rows: KeptRows,
     /// The source of the rows, where they are of the deck's mesh.
     pub(crate) made: Option<Made>,
+    /// The node table, to be read once more.
+    table: Option<NodesInput>,
     pub(crate) reading: Duration,
 }
 
@@ -132,6 +134,7 @@ struct Surveyed {
     rows: KeptRows,
     nodes_name: String,
     made: Option<Made>,
+    table: Option<NodesInput>,
 }
 
 /// A node table that can be read beyond the next bytes.
@@ -176,14 +179,14 @@ impl EvaluableArguments {
         &self,
         laws: &LawArguments,
         reading: &DeckArguments,
-        format: FindingFormat,
+        messages: Messages<'_>,
     ) -> Result<Option<Evaluable>, Failure> {
         let is_standard = |path: &Path| path.as_os_str() == STANDARD_STREAM;
         if is_standard(&self.deck) && self.nodes.as_deref().is_some_and(is_standard) {
             return Err(Failure::Usage("deck and node table cannot both be read from standard input".to_owned()));
         }
         let mut settings = reading.settings(&self.deck)?;
-        format.confine(&mut settings, &self.deck);
+        messages.confine(&mut settings, &self.deck);
         let grammar = settings.grammar;
         let source = match &self.nodes {
             Some(nodes) => Source::Table(Box::new(ReadDeck::read(&self.deck, &settings)?), nodes),
@@ -196,21 +199,21 @@ impl EvaluableArguments {
         let choices = self.choices(laws, model, grammar.dialect())?;
         let start = Instant::now();
         let surveyed = match &source {
-            Source::Table(deck, path) => survey_table(path, &deck.model, &choices, &settings, format)?,
-            Source::Mesh(meshed) => self.survey_mesh(meshed, &choices, &settings, format)?,
+            Source::Table(deck, path) => survey_table(path, &deck.model, &choices, &settings, messages)?,
+            Source::Mesh(meshed) => self.survey_mesh(meshed, &choices, &settings, messages)?,
         };
         let reading = start.elapsed();
-        let Some(Surveyed { survey, rows, nodes_name, made }) = surveyed else { return Ok(None) };
+        let Some(Surveyed { survey, rows, nodes_name, made, table }) = surveyed else { return Ok(None) };
         let ReadDeck { deck, model, problems } = source.into_deck();
         let plan = make(&model, &survey, &choices);
         let mut unavailable = Findings::new(&nodes_name);
         plan.report_unavailable(&choices, &mut unavailable);
-        if say_data_findings(unavailable.into_list(), &settings, format) {
+        if messages.data(unavailable.into_list(), &settings) {
             return Ok(None);
         }
         let found = settings.apply(check(&deck, grammar, &model, &problems));
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
-        let deck_has_errors = say_deck_findings(&found, (&deck, grammar, &model), (&names, choices.regime), format);
+        let deck_has_errors = messages.deck(&found, (&deck, grammar, &model), (&names, choices.regime));
         let deck_name = self.deck.display().to_string();
         Ok(Some(Evaluable {
             settings,
@@ -222,6 +225,7 @@ impl EvaluableArguments {
             deck_has_errors,
             rows,
             made,
+            table,
             reading,
         }))
     }
@@ -278,18 +282,18 @@ impl EvaluableArguments {
         meshed: &MeshedDeck,
         choices: &Choices,
         settings: &Settings,
-        format: FindingFormat,
+        messages: Messages<'_>,
     ) -> Result<Option<Surveyed>, Failure> {
         if meshed.mesh.pairs.is_empty() && self.results.is_empty() {
-            meshed.say_notes(&meshed.mesh.notes, format)?;
+            meshed.say_notes(&meshed.mesh.notes, messages)?;
             let message = format!(
                 "expected a node table (`--nodes FILE`), or a deck whose mesh rows can be made of: `{}` has no contact pair with a mesh",
                 meshed.name
             );
             return Err(Failure::Usage(message));
         }
-        let States { states, files } = states(&self.results, meshed, format)?;
-        let mut node_rows = node_rows(meshed, &states, format)?;
+        let States { states, files } = states(&self.results, meshed, messages)?;
+        let mut node_rows = node_rows(meshed, &states, messages)?;
         node_rows.without_sources();
         let mut nodes_name = format!("mesh of {}", meshed.name);
         for (at, file) in files.iter().enumerate() {
@@ -307,10 +311,22 @@ impl EvaluableArguments {
             Err(error) => Failure::read(&self.deck, error),
         };
         let survey = survey_keeping(reader, &meshed.read.model, choices, &mut findings, &mut rows).map_err(failed)?;
-        let has_errors = say_data_findings(findings.into_list(), settings, format);
+        let has_errors = messages.data(findings.into_list(), settings);
         let (summary, faces) = (RowsSummary::of(&node_rows, &files), node_rows.slave_faces());
         let made = Some(Made { summary, drawn: Drawn { faces, states } });
-        Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed { survey, rows, nodes_name, made }))
+        Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed { survey, rows, nodes_name, made, table: None }))
+    }
+}
+
+impl Evaluable {
+    /// Says what is wrong with rows that were evaluated; true if there are errors.
+    pub(crate) fn say(&mut self, findings: Findings, messages: Messages<'_>) -> bool {
+        let mut found = findings.into_list();
+        if let (Some(table), true) = (&mut self.table, messages.shows_lines()) {
+            // A table that has gone since it was read has no lines to show.
+            let _ = table.locate(Path::new(&self.nodes_name), &mut found, messages);
+        }
+        messages.data(found, &self.settings)
     }
 }
 
@@ -336,7 +352,7 @@ fn survey_table(
     model: &Model,
     choices: &Choices,
     settings: &Settings,
-    format: FindingFormat,
+    messages: Messages<'_>,
 ) -> Result<Option<Surveyed>, Failure> {
     let nodes_name = path.display().to_string();
     let mut nodes = NodesInput::open(path)?;
@@ -347,13 +363,15 @@ fn survey_table(
     let mut rows = kept_rows();
     let survey = survey_keeping(reader, model, choices, &mut findings, &mut rows).map_err(unreadable)?;
     let mut found = findings.into_list();
-    // Only a text table has lines, and cells that can be pointed at.
-    if found.iter().any(|found| found.primary.extent == Extent::Line) {
-        let table = BufReader::new(nodes.reader(path)?);
-        locate(table, &mut found).map_err(|error| Failure::read(path, error))?;
-    }
-    let has_errors = say_data_findings(found, settings, format);
-    Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed { survey, rows, nodes_name, made: None }))
+    nodes.locate(path, &mut found, messages)?;
+    let has_errors = messages.data(found, settings);
+    Ok(survey.filter(|_| !has_errors).map(|survey| Surveyed {
+        survey,
+        rows,
+        nodes_name,
+        made: None,
+        table: Some(nodes),
+    }))
 }
 
 /// Room for rows that are to be evaluated, first in memory, then in a temporary file.
@@ -383,6 +401,20 @@ impl NodesInput {
         let mut spooled = tempfile::tempfile().map_err(|error| Failure::read(path, error))?;
         io::copy(&mut files::open(path)?, &mut spooled).map_err(|error| Failure::read(path, error))?;
         Ok(Self::Spooled(spooled))
+    }
+
+    /// Finds the cells that findings name by their lines, and the lines around them where they are shown.
+    fn locate(&mut self, path: &Path, found: &mut [Diagnostic], messages: Messages<'_>) -> Result<(), Failure> {
+        // Only a text table has lines, and cells that can be pointed at.
+        if !found.iter().any(|found| found.primary.extent == Extent::Line) {
+            return Ok(());
+        }
+        let unreadable = |error| Failure::read(path, error);
+        locate(BufReader::new(self.reader(path)?), found).map_err(unreadable)?;
+        if messages.shows_lines() {
+            keep_lines(BufReader::new(self.reader(path)?), found).map_err(unreadable)?;
+        }
+        Ok(())
     }
 
     /// The table from its beginning; `path` is its name as given.

@@ -1,35 +1,141 @@
-//! Findings in decks and in data, on standard error.
+//! Findings in decks and in data, notes and summaries, on standard error.
 
-use crate::failure::{Failure, say, say_json};
-use crate::render::{self, Format, Style};
+use crate::failure::{Failure, Outcome, say, say_as_it_is, say_json};
+use crate::render::{self, Format, SarifRun, Sources, Style};
 use crate::settings::Settings;
-use clap::ValueEnum;
-use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::plan::concerning;
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity};
-use serde::Serialize;
 use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Formats of findings on standard error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FindingFormat {
-    /// A line each.
-    Concise,
-    /// A JSON object a line.
-    Json,
-    /// Workflow commands of GitHub Actions.
-    Github,
+/// What a run has to say on standard error, in the format that its user chose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Messages<'a> {
+    format: Format,
+    /// What a document as a whole holds, until the run has ended.
+    gathered: &'a Gathered,
 }
 
-impl FindingFormat {
+/// Results of a run, and what else it had to say, for a document as a whole.
+#[derive(Debug)]
+pub(crate) struct Gathered(Mutex<(Vec<String>, SarifRun)>);
+
+/// Nothing is ever gathered of formats that are said at once.
+static NOTHING: Gathered = Gathered(Mutex::new((Vec::new(), SarifRun { notes: Vec::new(), failure: None })));
+
+/// Does some work that has something to say; a document as a whole is said when it has ended, in whatever way.
+pub(crate) fn with_messages(
+    format: Format,
+    work: impl FnOnce(Messages<'_>) -> Result<Outcome, Failure>,
+) -> Result<Outcome, Failure> {
+    if format != Format::Sarif {
+        return work(Messages { format, gathered: &NOTHING });
+    }
+    let gathered = Gathered(Mutex::default());
+    let ended = work(Messages { format, gathered: &gathered });
+    let (results, mut run) = gathered.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let ended = match ended {
+        // The document says it: a line below it would make it none.
+        Err(failure) if !failure.is_closed_pipe() => {
+            let text = failure.to_string();
+            run.failure.get_or_insert(text);
+            if matches!(failure, Failure::Data(_)) { Ok(Outcome::HasErrors) } else { Err(Failure::AlreadySaid) }
+        }
+        ended => ended,
+    };
+    say_json(render::sarif_of_run(&results, &run).trim_end());
+    ended
+}
+
+impl Messages<'static> {
+    /// A line each.
+    pub(crate) const LINES: Self = Self { format: Format::Concise, gathered: &NOTHING };
+    /// A JSON object a line.
+    pub(crate) const JSON: Self = Self { format: Format::Json, gathered: &NOTHING };
+}
+
+impl Messages<'_> {
+    /// Says something that is no finding: lines for a person, or a JSON object.
+    pub(crate) fn tell(self, lines: impl FnOnce() -> Vec<String>, json: impl FnOnce() -> String) {
+        match self.format {
+            Format::Json => say_json(&json()),
+            Format::Sarif => self.gathered().1.notes.extend(lines()),
+            Format::Full | Format::Concise | Format::Github => lines().iter().for_each(|line| say(line)),
+        }
+    }
+
+    /// Says a line that programs have no use for, in every format.
+    pub(crate) fn line(self, line: &str) {
+        match self.format {
+            Format::Sarif => self.gathered().1.notes.push(line.to_owned()),
+            _ => say(line),
+        }
+    }
+
+    /// Says a line where lines are for a person, and nothing in JSON.
+    pub(crate) fn remark(self, line: impl FnOnce() -> String) {
+        if self.format != Format::Json {
+            self.line(&line());
+        }
+    }
+
     /// Reads nothing outside of the repository where decks of strangers are judged, as `check` does.
     pub(crate) fn confine(self, settings: &mut Settings, path: &Path) {
-        if self == Self::Github {
+        if matches!(self.format, Format::Github | Format::Sarif) {
             settings.confine_to_repository(path);
         }
+    }
+
+    /// Whether findings come with the lines around them.
+    pub(crate) fn shows_lines(self) -> bool {
+        matches!(self.format, Format::Full | Format::Sarif)
+    }
+
+    /// Says what is wrong with a node table or a scene, as the configuration has it; true if there are errors.
+    pub(crate) fn data(self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
+        let found = settings.apply(found);
+        self.say(&found, Sources::Data);
+        has_errors(&found)
+    }
+
+    /// Says what the check found in some interactions, notes left out; true if there are errors.
+    pub(crate) fn deck(
+        self,
+        found: &[Diagnostic],
+        (deck, grammar, model): (&Deck, &Grammar, &Model),
+        (names, chosen): Governing<'_>,
+    ) -> bool {
+        let concerning = concerning(found, deck, grammar, model, names, chosen);
+        let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
+        let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
+        self.say(&shown, Sources::Deck(deck));
+        let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
+        let elsewhere = errors(found) - errors(&shown);
+        if elsewhere > 0 && matches!(self.format, Format::Concise | Format::Full | Format::Sarif) {
+            let errors = if elsewhere == 1 { "1 error".to_owned() } else { format!("{elsewhere} errors") };
+            self.line(&format!("{errors} elsewhere in the deck: see `inpact check`"));
+        }
+        errors(&shown) > 0
+    }
+
+    fn say(self, found: &[Diagnostic], sources: Sources<'_>) {
+        let style = Style::of_standard_error();
+        let text = render::diagnostics(found, sources, self.format, style);
+        match self.format {
+            Format::Sarif if text.is_empty() => {}
+            Format::Sarif => self.gathered().0.push(text),
+            Format::Json => text.lines().for_each(say_json),
+            Format::Concise | Format::Github => text.lines().for_each(say),
+            // It has escaped what it was given, and its colours are no text.
+            Format::Full => say_as_it_is(&text),
+        }
+    }
+
+    fn gathered(&self) -> MutexGuard<'_, (Vec<String>, SarifRun)> {
+        self.gathered.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -41,6 +147,9 @@ pub(crate) trait Reporter {
     /// Reads nothing outside of the repository where that is wanted.
     fn confine(&self, settings: &mut Settings, path: &Path);
 
+    /// Whether findings are given with the lines around them.
+    fn shows_lines(&self) -> bool;
+
     /// Takes what is wrong with a node table or a scene; true if there are errors, as the configuration has it.
     fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool;
 
@@ -51,22 +160,26 @@ pub(crate) trait Reporter {
     fn failures(&mut self, failures: Vec<Failure>) -> Failure;
 }
 
-impl Reporter for FindingFormat {
+impl Reporter for Messages<'_> {
     fn confine(&self, settings: &mut Settings, path: &Path) {
-        FindingFormat::confine(*self, settings, path);
+        Messages::confine(*self, settings, path);
+    }
+
+    fn shows_lines(&self) -> bool {
+        Messages::shows_lines(*self)
     }
 
     fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
-        say_data_findings(found, settings, *self)
+        Messages::data(*self, found, settings)
     }
 
     fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
-        say_deck_findings(found, of, governing, *self)
+        Messages::deck(*self, found, of, governing)
     }
 
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
         for failure in &failures {
-            say(&format!("error: {failure}"));
+            self.line(&format!("error: {failure}"));
         }
         Failure::AlreadySaid
     }
@@ -78,6 +191,10 @@ pub(crate) struct Collected(pub(crate) Vec<Diagnostic>);
 
 impl Reporter for Collected {
     fn confine(&self, _: &mut Settings, _: &Path) {}
+
+    fn shows_lines(&self) -> bool {
+        false
+    }
 
     fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
         let found = settings.apply(found);
@@ -104,48 +221,6 @@ impl Reporter for Collected {
     }
 }
 
-/// Says what the check found in some interactions, notes left out; true if there are errors.
-pub(crate) fn say_deck_findings(
-    found: &[Diagnostic],
-    (deck, grammar, model): (&Deck, &Grammar, &Model),
-    (names, chosen): Governing<'_>,
-    format: FindingFormat,
-) -> bool {
-    let concerning = concerning(found, deck, grammar, model, names, chosen);
-    let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
-    let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
-    let format = match format {
-        FindingFormat::Concise => Format::Concise,
-        FindingFormat::Json => Format::Json,
-        FindingFormat::Github => Format::Github,
-    };
-    let text = render::diagnostics(&shown, deck, format, Style::Plain);
-    match format {
-        Format::Json => text.lines().for_each(say_json),
-        _ => text.lines().for_each(say),
-    }
-    let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
-    let elsewhere = errors(found) - errors(&shown);
-    if elsewhere > 0 && format == Format::Concise {
-        let errors = if elsewhere == 1 { "1 error".to_owned() } else { format!("{elsewhere} errors") };
-        say(&format!("{errors} elsewhere in the deck: see `inpact check`"));
-    }
-    errors(&shown) > 0
-}
-
-/// Says what is wrong with a node table or a scene, as the configuration has it; true if there are errors.
-pub(crate) fn say_data_findings(found: Vec<Diagnostic>, settings: &Settings, format: FindingFormat) -> bool {
-    let found = settings.apply(found);
-    for found in &found {
-        match format {
-            FindingFormat::Concise => say(&visible_line(&concise(found))),
-            FindingFormat::Json => say_json(&json(found)),
-            FindingFormat::Github => say(render::github(found).trim_end()),
-        }
-    }
-    has_errors(&found)
-}
-
 /// Whether one of the findings is an error.
 fn has_errors(found: &[Diagnostic]) -> bool {
     found.iter().any(|found| found.severity == Severity::Error)
@@ -158,47 +233,4 @@ pub(crate) fn refuse_configured_errors(found: &[Diagnostic], settings: &Settings
         return Err(Failure::Data(message.to_owned()));
     }
     Ok(())
-}
-
-/// `file:line: severity[CODE] message`, and what to do.
-fn concise(found: &Diagnostic) -> String {
-    let Diagnostic { code, severity, message, primary, .. } = found;
-    let file = &primary.file;
-    let line = primary.line().map_or_else(String::new, |line| format!(":{line}"));
-    let help = found.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
-    format!("{file}{line}: {severity}[{code}] {message}{help}")
-}
-
-/// The fields of a finding in a deck; instead of a column and a span a row and the name of its cell's column.
-fn json(found: &Diagnostic) -> String {
-    #[derive(Serialize)]
-    struct Record<'a> {
-        code: &'a str,
-        name: &'a str,
-        severity: &'a str,
-        file: &'a str,
-        line: Option<u64>,
-        column: Option<u64>,
-        span: Option<[u64; 2]>,
-        row: Option<u64>,
-        field: Option<&'a str>,
-        message: &'a str,
-        help: Option<&'a str>,
-    }
-    let cell = found.cell.as_ref();
-    let record = Record {
-        code: found.code,
-        name: found.name,
-        severity: found.severity.name(),
-        file: &found.primary.file,
-        line: found.primary.line(),
-        column: found.primary.column(),
-        span: found.primary.bytes(),
-        row: cell.and_then(|cell| cell.row),
-        field: cell.and_then(|cell| cell.field.as_deref()),
-        message: &found.message,
-        help: found.help.as_deref(),
-    };
-    // A record of strings and numbers has no reason to fail.
-    serde_json::to_string(&record).unwrap_or_default()
 }

@@ -1,11 +1,12 @@
 //! `inpact interfaces`: a deck with a mesh in, and what its job wrote; the interfaces of a scene out, a row a slave node or one a pair.
 
-use super::findings::FindingFormat;
+use super::findings::{Messages, with_messages};
 use super::job_results::{RESULTS_HELP, States, states};
 use super::mesh_rows::{RowsSummary, counted, node_rows, number_text};
 use super::meshed::MeshedDeck;
-use crate::failure::{Failure, Outcome, say, say_json};
+use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::Args;
 use inpact_contact::{Interfaces, LumpedPair, PairInterfaces, State, WeightedMean};
@@ -36,11 +37,15 @@ pub(crate) struct InterfacesArguments {
     #[command(flatten)]
     reading: DeckArguments,
     /// How to print notes and summary on standard error.
-    #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
-    format: FindingFormat,
+    #[arg(long, value_enum, default_value_t = Format::Concise)]
+    format: Format,
 }
 
 pub(crate) fn run(arguments: &InterfacesArguments) -> Result<Outcome, Failure> {
+    with_messages(arguments.format, |messages| make(arguments, messages))
+}
+
+fn make(arguments: &InterfacesArguments, messages: Messages<'_>) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::name_as_inputs(&[&arguments.deck]);
     files::name_as_inputs(&arguments.results);
@@ -50,8 +55,8 @@ pub(crate) fn run(arguments: &InterfacesArguments) -> Result<Outcome, Failure> {
     let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
     // The included files are known now.
     files::check_targets(&targets)?;
-    let States { states, files } = states(&arguments.results, &meshed, arguments.format)?;
-    let mut rows = node_rows(&meshed, &states, arguments.format)?;
+    let States { states, files } = states(&arguments.results, &meshed, messages)?;
+    let mut rows = node_rows(&meshed, &states, messages)?;
     let Some(state) = states.last() else { return Err(Failure::Data("the result files have no state".to_owned())) };
     let interfaces = rows.interfaces(state).map_err(|error| Failure::Data(error.to_string()))?;
     let (table, made) = if arguments.lumped { lumped_table(&interfaces)? } else { table(&interfaces)? };
@@ -61,26 +66,25 @@ pub(crate) fn run(arguments: &InterfacesArguments) -> Result<Outcome, Failure> {
     }
     let seconds = start.elapsed().as_secs_f64();
     let summary = RowsSummary::of(&rows, &files);
-    match arguments.format {
-        FindingFormat::Concise | FindingFormat::Github => {
-            let when = when(state, states.len());
-            say(&format!("{}{when}, {seconds:.3} s", counted(made, "interface")));
-            let lumped = interfaces.pairs.iter().flat_map(|pair| lines(&interfaces, pair, arguments.lumped));
-            summary.lines.into_iter().chain(lumped).for_each(|line| say(&visible_line(&line)));
+    let RowsSummary { lines: of_rows, value: mut summary } = summary;
+    let shown = || {
+        let head = format!("{}{}, {seconds:.3} s", counted(made, "interface"), when(state, states.len()));
+        let lumped = interfaces.pairs.iter().flat_map(|pair| lines(&interfaces, pair, arguments.lumped));
+        let all = std::iter::once(head).chain(of_rows).chain(lumped);
+        all.map(|line| visible_line(&line).into_owned()).collect()
+    };
+    let json = || {
+        summary["seconds"] = json!(seconds);
+        summary["interfaces"] = json!(made);
+        summary["time"] = json!(state.moment.time);
+        for (pair, of) in summary["pairs"].as_array_mut().into_iter().flatten().zip(&interfaces.pairs) {
+            pair["beside"] = json!(of.beside);
+            pair["lumped"] =
+                arguments.lumped.then(|| interfaces.lumped(of)).flatten().map(|of| value(&interfaces, &of)).into();
         }
-        FindingFormat::Json => {
-            let mut summary = summary.value;
-            summary["seconds"] = json!(seconds);
-            summary["interfaces"] = json!(made);
-            summary["time"] = json!(state.moment.time);
-            for (pair, of) in summary["pairs"].as_array_mut().into_iter().flatten().zip(&interfaces.pairs) {
-                pair["beside"] = json!(of.beside);
-                pair["lumped"] =
-                    arguments.lumped.then(|| interfaces.lumped(of)).flatten().map(|of| value(&interfaces, &of)).into();
-            }
-            say_json(&json!({ "summary": summary }).to_string());
-        }
-    }
+        json!({ "summary": summary }).to_string()
+    };
+    messages.tell(shown, json);
     Ok(Outcome::Clean)
 }
 

@@ -1,8 +1,8 @@
 //! Result files of a deck's own job, joined with its mesh.
 
-use super::findings::FindingFormat;
+use super::findings::Messages;
 use super::meshed::MeshedDeck;
-use crate::failure::{Failure, say, say_json};
+use crate::failure::Failure;
 use crate::files;
 use inpact_contact::{FileSummary, Join, JoinError, Joined, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
@@ -24,9 +24,9 @@ pub(crate) struct States {
 }
 
 /// Reads result files and joins them with the mesh, after saying what could not be used.
-pub(crate) fn states(results: &[PathBuf], meshed: &MeshedDeck, format: FindingFormat) -> Result<States, Failure> {
+pub(crate) fn states(results: &[PathBuf], meshed: &MeshedDeck, messages: Messages<'_>) -> Result<States, Failure> {
     let (states, notes) = join(results, meshed)?;
-    say_notes(&notes, format);
+    say_notes(&notes, messages);
     Ok(states)
 }
 
@@ -69,17 +69,15 @@ fn unsound(path: &Path, incomplete: &Incomplete) -> Failure {
     Failure::Data(format!("{}:{}: {} ({}){before}", path.display(), problem.place.line, problem.message, problem.help))
 }
 
-fn say_notes(notes: &[ResultNote], format: FindingFormat) {
+fn say_notes(notes: &[ResultNote], messages: Messages<'_>) {
     for ResultNote { file, message } in notes.iter().take(MOST_NOTES) {
-        match format {
-            FindingFormat::Concise | FindingFormat::Github => say(&visible_line(&format!("{file}: note: {message}"))),
-            FindingFormat::Json => {
-                say_json(&json!({ "severity": "note", "file": &**file, "message": message }).to_string());
-            }
-        }
+        messages.tell(
+            || vec![visible_line(&format!("{file}: note: {message}")).into_owned()],
+            || json!({ "severity": "note", "file": &**file, "message": message }).to_string(),
+        );
     }
     let more = notes.len().saturating_sub(MOST_NOTES);
-    if 0 < more && format != FindingFormat::Json {
-        say(&format!("note: {more} more notes on results"));
+    if 0 < more {
+        messages.remark(|| format!("note: {more} more notes on results"));
     }
 }

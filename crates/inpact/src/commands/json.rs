@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::input;
-use crate::render::{self, Format, Style};
+use crate::render::{self, Format, Sources, Style};
 use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
@@ -56,7 +56,7 @@ fn model_view(arguments: &JsonArguments, settings: &Settings) -> Result<(String,
     let text = json::model::write(&model, &arguments.deck.display().to_string());
     let findings = settings.apply(check(&deck, settings.grammar, &model, &problems));
     let errors: Vec<_> = findings.into_iter().filter(|found| found.severity == Severity::Error).collect();
-    let said = render::diagnostics(&errors, &deck, Format::Concise, Style::Plain);
+    let said = render::diagnostics(&errors, Sources::Deck(&deck), Format::Concise, Style::Plain);
     if !said.is_empty() {
         say(said.trim_end());
     }

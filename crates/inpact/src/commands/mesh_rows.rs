@@ -1,6 +1,6 @@
 //! Rows of node tables that are made of a deck's mesh and of what its job wrote, and what is said of them: for `nodes`, `eval`, `plan` and `tradeoff`.
 
-use super::findings::FindingFormat;
+use super::findings::Messages;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
 use inpact_contact::{FileSummary, NodeRows, PairSummary, State};
@@ -11,11 +11,11 @@ use serde_json::{Value, json};
 pub(crate) fn node_rows<'a>(
     meshed: &'a MeshedDeck,
     states: &[State],
-    format: FindingFormat,
+    messages: Messages<'_>,
 ) -> Result<NodeRows<'a>, Failure> {
-    meshed.say_notes(&meshed.mesh.notes, format)?;
+    meshed.say_notes(&meshed.mesh.notes, messages)?;
     let rows = rows_of_pairs(meshed, states)?;
-    meshed.say_notes(rows.notes(), format)?;
+    meshed.say_notes(rows.notes(), messages)?;
     refuse_none(meshed, &rows)?;
     Ok(rows)
 }

@@ -1,7 +1,7 @@
 //! A deck with the mesh around its contact pairs, and what is said of what was not read.
 
-use super::findings::FindingFormat;
-use crate::failure::{Failure, say, say_json};
+use super::findings::Messages;
+use crate::failure::Failure;
 use crate::files;
 use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
@@ -142,40 +142,44 @@ impl MeshedDeck {
     }
 
     /// Says notes with their places.
-    pub(crate) fn say_notes(&self, notes: &[MeshNote], format: FindingFormat) -> Result<(), Failure> {
+    pub(crate) fn say_notes(&self, notes: &[MeshNote], messages: Messages<'_>) -> Result<(), Failure> {
         for note in notes.iter().take(MOST_NOTES) {
-            self.say_at(note, NoteSeverity::Note, format)?;
+            self.say_at(note, NoteSeverity::Note, messages)?;
         }
         let more = notes.len().saturating_sub(MOST_NOTES);
-        if 0 < more && format != FindingFormat::Json {
-            say(&format!("{}: note: {more} more notes", visible_line(&self.name)));
+        if 0 < more {
+            messages.remark(|| format!("{}: note: {more} more notes", visible_line(&self.name)));
         }
         Ok(())
     }
 
     /// Says something of a place in the deck.
-    pub(crate) fn say_at(&self, note: &MeshNote, severity: NoteSeverity, format: FindingFormat) -> Result<(), Failure> {
+    pub(crate) fn say_at(
+        &self,
+        note: &MeshNote,
+        severity: NoteSeverity,
+        messages: Messages<'_>,
+    ) -> Result<(), Failure> {
         let (place, severity) = (self.position(note.span)?, severity.name());
         let file = self.read.deck.source(note.span.source).name();
-        match format {
-            // A note has no code, which an annotation would need as its title.
-            FindingFormat::Concise | FindingFormat::Github => {
-                let line = format!("{file}:{}:{}: {severity}: {}", place.line, place.column, note.message);
-                say(&visible_line(&line));
-            }
-            FindingFormat::Json => {
-                let record = Record {
-                    severity,
-                    file,
-                    line: place.line,
-                    column: place.column,
-                    span: [note.span.start, note.span.end],
-                    message: &note.message,
-                };
-                // A record of strings and numbers has no reason to fail.
-                say_json(&serde_json::to_string(&record).unwrap_or_default());
-            }
-        }
+        let line = || {
+            let line = format!("{file}:{}:{}: {severity}: {}", place.line, place.column, note.message);
+            vec![visible_line(&line).into_owned()]
+        };
+        let record = || {
+            let record = Record {
+                severity,
+                file,
+                line: place.line,
+                column: place.column,
+                span: [note.span.start, note.span.end],
+                message: &note.message,
+            };
+            // A record of strings and numbers has no reason to fail.
+            serde_json::to_string(&record).unwrap_or_default()
+        };
+        // A note has no code, which an annotation would need as its title.
+        messages.tell(line, record);
         Ok(())
     }
 }

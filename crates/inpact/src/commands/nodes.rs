@@ -1,13 +1,14 @@
 //! `inpact nodes`: a deck with a mesh in, and what its job wrote; the node table of its contact pairs out.
 
-use super::findings::FindingFormat;
+use super::findings::{Messages, with_messages};
 use super::job_results::{RESULTS_HELP, States, states};
 use super::mesh_rows::{RowsSummary, counted, node_rows};
 use super::meshed::MeshedDeck;
 use super::picture::{Drawn, PictureWriter};
 use super::table_output::TableOutput;
-use crate::failure::{Failure, Outcome, say, say_json};
+use crate::failure::{Failure, Outcome};
 use crate::files::{self, ResultFile};
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::Args;
 use inpact_contact::{NodeRows, RowsError, State};
@@ -30,11 +31,15 @@ pub(crate) struct NodesArguments {
     #[command(flatten)]
     output: TableOutput,
     /// How to print notes and summary on standard error.
-    #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
-    format: FindingFormat,
+    #[arg(long, value_enum, default_value_t = Format::Concise)]
+    format: Format,
 }
 
 pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
+    with_messages(arguments.format, |messages| make(arguments, messages))
+}
+
+fn make(arguments: &NodesArguments, messages: Messages<'_>) -> Result<Outcome, Failure> {
     let start = Instant::now();
     files::name_as_inputs(&[&arguments.deck]);
     files::name_as_inputs(&arguments.results);
@@ -43,8 +48,8 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
     // The included files are known now.
     files::check_targets(&[arguments.output.target()])?;
-    let States { states, files } = states(&arguments.results, &meshed, arguments.format)?;
-    let mut rows = node_rows(&meshed, &states, arguments.format)?;
+    let States { states, files } = states(&arguments.results, &meshed, messages)?;
+    let mut rows = node_rows(&meshed, &states, messages)?;
     if let Some(target) = arguments.output.picture() {
         let drawn = Drawn { faces: rows.slave_faces(), states };
         draw(&mut rows, &drawn, target)?;
@@ -58,17 +63,13 @@ pub(crate) fn run(arguments: &NodesArguments) -> Result<Outcome, Failure> {
     }
     let seconds = start.elapsed().as_secs_f64();
     let summary = RowsSummary::of(&rows, &files);
-    match arguments.format {
-        FindingFormat::Concise | FindingFormat::Github => {
-            say(&format!("{}, {seconds:.3} s", counted(rows.rows(), "row")));
-            summary.lines.iter().for_each(|line| say(&visible_line(line)));
-        }
-        FindingFormat::Json => {
-            let mut summary = summary.value;
-            summary["seconds"] = json!(seconds);
-            say_json(&json!({ "summary": summary }).to_string());
-        }
-    }
+    let RowsSummary { lines, mut value } = summary;
+    let lines = || {
+        let head = format!("{}, {seconds:.3} s", counted(rows.rows(), "row"));
+        std::iter::once(&head).chain(&lines).map(|line| visible_line(line).into_owned()).collect()
+    };
+    value["seconds"] = json!(seconds);
+    messages.tell(lines, || json!({ "summary": value }).to_string());
     Ok(Outcome::Clean)
 }
 

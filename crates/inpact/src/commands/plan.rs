@@ -1,10 +1,11 @@
 //! `inpact plan`: a deck and a node table in, what an evaluation of them would do out.
 
 use super::evaluable::{Evaluable, EvaluableArguments};
-use super::findings::FindingFormat;
+use super::findings::{Messages, with_messages};
 use super::laws::LawArguments;
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_diagnostics::visible::{visible, visible_json};
@@ -33,7 +34,7 @@ pub(crate) struct PlanArguments {
     format: PlanFormat,
     /// How to print findings on standard error, instead of a line each, or of JSON with `--format json`.
     #[arg(long, value_enum, value_name = "FORMAT")]
-    findings: Option<FindingFormat>,
+    findings: Option<Format>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -46,13 +47,17 @@ enum PlanFormat {
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
     let findings = arguments.findings.unwrap_or(match arguments.format {
-        PlanFormat::Text => FindingFormat::Concise,
-        PlanFormat::Json => FindingFormat::Json,
+        PlanFormat::Text => Format::Concise,
+        PlanFormat::Json => Format::Json,
     });
+    with_messages(findings, |messages| plan(arguments, messages))
+}
+
+fn plan(arguments: &PlanArguments, messages: Messages<'_>) -> Result<Outcome, Failure> {
     let PlanArguments { evaluable, laws, reading, .. } = arguments;
     files::name_as_inputs(&evaluable.inputs());
     files::check_targets(&[arguments.output.as_deref()])?;
-    let prepared = evaluable.with_threads(|| evaluable.prepare(laws, reading, findings))?;
+    let prepared = evaluable.with_threads(|| evaluable.prepare(laws, reading, messages))?;
     let Some(evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     let text = match arguments.format {
         PlanFormat::Text => {

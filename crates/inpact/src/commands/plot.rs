@@ -2,7 +2,7 @@
 
 use super::drawing::DrawingFormat;
 use super::evaluable::{Evaluable, EvaluableArguments};
-use super::findings::{FindingFormat, say_data_findings};
+use super::findings::Messages;
 use super::laws::LawArguments;
 use super::node_sample::{Gathered, gather};
 use crate::chart::panel::Scales;
@@ -198,11 +198,11 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
 fn gathered(arguments: &PlotArguments, nodes: &Path) -> Result<Option<(Gathered, Evaluable)>, Failure> {
     let evaluable = EvaluableArguments::of_nodes(arguments.decks[0].clone(), nodes.to_owned());
     files::name_as_inputs(&evaluable.inputs());
-    let format = FindingFormat::Concise;
-    let prepared = evaluable.prepare(&arguments.laws, &arguments.reading, format)?;
+    let messages = Messages::LINES;
+    let prepared = evaluable.prepare(&arguments.laws, &arguments.reading, messages)?;
     let Some(mut prepared) = prepared.filter(|prepared| !prepared.deck_has_errors) else { return Ok(None) };
     let gathered = gather(&evaluable, &mut prepared)?;
-    say_data_findings(gathered.findings.list().to_vec(), &prepared.settings, format);
+    messages.data(gathered.findings.list().to_vec(), &prepared.settings);
     Ok(Some((gathered, prepared)))
 }
 

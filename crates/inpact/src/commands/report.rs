@@ -2,7 +2,7 @@
 
 use super::eval::summary_lines;
 use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice};
-use super::findings::{FindingFormat, say_data_findings};
+use super::findings::Messages;
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
 use super::node_sample::{Gathered, gather};
@@ -99,14 +99,14 @@ fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> 
         Some(nodes) => EvaluableArguments::of_nodes(deck, nodes.clone()),
         None => EvaluableArguments::of_results(deck, arguments.results.clone(), HistoryStartChoice::FirstRow),
     };
-    let format = FindingFormat::Concise;
-    let Some(mut prepared) = evaluable.prepare(&arguments.laws, &arguments.reading, format)? else { return Ok(None) };
+    let messages = Messages::LINES;
+    let Some(mut prepared) = evaluable.prepare(&arguments.laws, &arguments.reading, messages)? else { return Ok(None) };
     if prepared.deck_has_errors {
         return Ok(Some(Evaluated { prepared, gathered: None, tradeoff: None }));
     }
     let again = if arguments.tradeoff { Some(prepared.rows_again(&evaluable)?) } else { None };
     let gathered = gather(&evaluable, &mut prepared)?;
-    say_data_findings(gathered.findings.list().to_vec(), &prepared.settings, format);
+    messages.data(gathered.findings.list().to_vec(), &prepared.settings);
     let tradeoff = match again {
         Some(rows) => {
             prepared.rows = rows;

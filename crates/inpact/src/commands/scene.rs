@@ -10,14 +10,15 @@ mod unread;
 use self::lumping::Lumping;
 use self::terminals::{Terminal, restrict, terminals};
 use self::text::{Head, SceneText};
-use super::findings::FindingFormat;
+use super::findings::{Messages, with_messages};
 use super::interfaces::lumped_lines;
 use super::job_results::{RESULTS_HELP, states};
 use super::mesh_rows::node_rows;
 use super::meshed::MeshedDeck;
 use super::solvable::{choices_of, steps_of};
-use crate::failure::{Failure, Outcome, say, say_json};
+use crate::failure::{Failure, Outcome};
 use crate::files::{self, STANDARD_STREAM};
+use crate::render::Format;
 use crate::report::Input;
 use crate::settings::{DeckArguments, Settings};
 use crate::terminals::{Stated, StepTime, Taker, procedure};
@@ -54,8 +55,8 @@ pub(crate) struct SceneArguments {
     #[command(flatten)]
     reading: DeckArguments,
     /// How to print what there is to say on standard error.
-    #[arg(long, value_enum, default_value_t = FindingFormat::Concise)]
-    format: FindingFormat,
+    #[arg(long, value_enum, default_value_t = Format::Concise)]
+    format: Format,
 }
 
 /// Fields of the bodies that a scene has.
@@ -69,6 +70,10 @@ pub(super) struct Fields {
 type Lines = Vec<String>;
 
 pub(crate) fn run(arguments: &SceneArguments) -> Result<Outcome, Failure> {
+    with_messages(arguments.format, |messages| write(arguments, messages))
+}
+
+fn write(arguments: &SceneArguments, messages: Messages<'_>) -> Result<Outcome, Failure> {
     files::name_as_inputs(&[&arguments.deck]);
     files::name_as_inputs(&arguments.results);
     files::check_targets(&[arguments.output.as_deref()])?;
@@ -81,20 +86,19 @@ pub(crate) fn run(arguments: &SceneArguments) -> Result<Outcome, Failure> {
     // The included files are known now.
     files::check_targets(&[arguments.output.as_deref()])?;
     refuse_step(arguments, steps)?;
-    let made = make(arguments, &settings, &meshed)?;
+    let made = make(arguments, &settings, &meshed, messages)?;
     files::write_result(arguments.output.as_deref(), made.whole.as_bytes())?;
-    match arguments.format {
-        FindingFormat::Concise | FindingFormat::Github => made.lines().for_each(|line| say(&visible_line(&line))),
-        FindingFormat::Json => say_json(
-            &json!({ "summary": {
-                "nodes": made.nodes,
-                "not_taken_over": made.not_taken,
-                "missing": made.missing,
-                "lumping": made.lumping,
-            }})
-            .to_string(),
-        ),
-    }
+    let lines = || made.lines().map(|line| visible_line(&line).into_owned()).collect();
+    let summary = || {
+        let summary = json!({
+            "nodes": made.nodes,
+            "not_taken_over": made.not_taken,
+            "missing": made.missing,
+            "lumping": made.lumping,
+        });
+        json!({ "summary": summary }).to_string()
+    };
+    messages.tell(lines, summary);
     Ok(Outcome::Clean)
 }
 
@@ -135,14 +139,19 @@ impl Made {
     }
 }
 
-fn make(arguments: &SceneArguments, settings: &Settings, meshed: &MeshedDeck) -> Result<Made, Failure> {
+fn make(
+    arguments: &SceneArguments,
+    settings: &Settings,
+    meshed: &MeshedDeck,
+    messages: Messages<'_>,
+) -> Result<Made, Failure> {
     let model = &meshed.read.model;
     let step = meshed.conditions.step;
     let procedure = procedure(model, step);
     let regime = procedure.and_then(Procedure::regime).unwrap_or(Regime::SteadyState);
     let fields = fields_of(procedure);
-    let joined = states(&arguments.results, meshed, arguments.format)?;
-    let mut rows = node_rows(meshed, &joined.states, arguments.format)?;
+    let joined = states(&arguments.results, meshed, messages)?;
+    let mut rows = node_rows(meshed, &joined.states, messages)?;
     let Some(state) = joined.states.last() else {
         return Err(Failure::Data("the result files have no state".to_owned()));
     };

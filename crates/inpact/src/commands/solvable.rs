@@ -3,14 +3,14 @@
 mod deck_conditions;
 mod failures;
 
-use super::findings::Reporter;
+use super::findings::{Messages, Reporter};
 use super::meshed::{MeshedDeck, ReadDeck};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::reach;
 use crate::settings::{ReadOptions, Settings};
-use inpact_diagnostics::{Diagnostic, Findings};
+use inpact_diagnostics::{Diagnostic, Findings, keep_lines};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
@@ -30,6 +30,8 @@ pub(crate) struct SolvableScene {
     pub(crate) choices: Choices,
     pub(crate) name: String,
     pub(crate) deck_name: String,
+    /// The text of the scene file.
+    text: String,
 }
 
 /// Choices about the laws of a deck in its regime.
@@ -52,6 +54,9 @@ impl SolvableScene {
         let roots = settings.include_roots.as_slice();
         let mut files = FilesBeside { folder, roots, failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
+        let shows_lines = reporter.shows_lines();
+        let quote = |found| if shows_lines { quoted(&text, &name, found) } else { found };
+        let found = quote(found);
         let has_errors = reporter.data(found, &settings);
         let deck_path = scene.as_ref().map(|scene| folder.join(&scene.deck));
         if let (Some(deck), false) = (&deck_path, files.failures.is_empty()) {
@@ -73,7 +78,7 @@ impl SolvableScene {
             if let Ok(model) = read {
                 report_unknown_interactions(&scene, &model, &mut findings);
             }
-            reporter.data(findings.into_list(), &settings);
+            reporter.data(quote(findings.into_list()), &settings);
             return Ok(None);
         }
         let mut of_deck = Settings::of(&deck_path, reading)?;
@@ -93,7 +98,7 @@ impl SolvableScene {
                 if step.is_some() {
                     deck_conditions::take(&mut scene, &meshed, &places, &meshed.read.model, &mut findings)?;
                 }
-                if reporter.data(findings.into_list(), &settings) {
+                if reporter.data(quote(findings.into_list()), &settings) {
                     return Ok(None);
                 }
                 meshed.read
@@ -110,15 +115,24 @@ impl SolvableScene {
             return Ok(None);
         }
         let deck_name = deck_path.display().to_string();
-        Ok(Some(Self { settings, scene, model, choices, name, deck_name }))
+        Ok(Some(Self { settings, scene, model, choices, name, deck_name, text }))
     }
 
     /// The problem of the scene; `None` after reporting what is missing.
     pub(crate) fn problem(&self, reporter: &mut impl Reporter) -> Option<Problem<'_>> {
         let mut findings = Findings::new(&self.name);
         let problem = Problem::new(&self.scene, &self.model, &self.choices, &mut findings);
-        let has_errors = reporter.data(findings.into_list(), &self.settings);
+        let mut found = findings.into_list();
+        if reporter.shows_lines() {
+            found = quoted(&self.text, &self.name, found);
+        }
+        let has_errors = reporter.data(found, &self.settings);
         problem.filter(|_| !has_errors)
+    }
+
+    /// Findings in the scene with the lines around them, where they are shown.
+    pub(crate) fn quoted(&self, found: Vec<Diagnostic>, messages: Messages<'_>) -> Vec<Diagnostic> {
+        if messages.shows_lines() { quoted(&self.text, &self.name, found) } else { found }
     }
 
     /// The findings of a failure after the time of the last state.
@@ -148,6 +162,15 @@ pub(crate) fn steps_of(read: &ReadDeck, grammar: &Grammar) -> usize {
     ids.filter(|id| grammar.keyword(*id).name == "STEP").count()
 }
 
+/// Findings in a scene with the lines around them; those in the tables beside it have theirs from their reader.
+fn quoted(text: &str, name: &str, found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let (mut of_scene, others): (Vec<_>, Vec<_>) = found.into_iter().partition(|found| *found.primary.file == *name);
+    // A text in memory can be read.
+    let _ = keep_lines(text.as_bytes(), &mut of_scene);
+    of_scene.extend(others);
+    of_scene
+}
+
 /// Refuses a file that a scene names and that is no regular one, or lies outside of what may be read.
 fn refuse_outside(path: &Path, roots: &[PathBuf]) -> Result<(), Failure> {
     let reason = match roots.iter().find(|root| !reach::lies_in_all(path, std::slice::from_ref(*root))) {
@@ -170,6 +193,10 @@ struct FilesBeside<'a> {
 }
 
 impl SceneFiles for FilesBeside<'_> {
+    fn name(&self, name: &str) -> String {
+        self.folder.join(name).display().to_string()
+    }
+
     fn read(&mut self, name: &str) -> Option<Vec<u8>> {
         let path = self.folder.join(name);
         match refuse_outside(&path, self.roots).and_then(|()| files::read_lines(&path)) {

@@ -6,11 +6,12 @@ mod summary;
 
 use self::output::{Outputs, StateFormat};
 use super::evaluable::tolerance;
-use super::findings::{FindingFormat, say_data_findings};
+use super::findings::{Messages, with_messages};
 use super::laws::LawArguments;
 use super::solvable::SolvableScene;
-use crate::failure::{Failure, Outcome, say, say_json};
+use crate::failure::{Failure, Outcome};
 use crate::files::{self, STANDARD_STREAM};
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
@@ -33,7 +34,7 @@ pub(crate) struct SolveArguments {
     format: StateFormat,
     /// How to print findings on standard error, instead of a line each, or of JSON with `--format json`.
     #[arg(long, value_enum, value_name = "FORMAT")]
-    findings: Option<FindingFormat>,
+    findings: Option<Format>,
     /// Write the result table of the interfaces, as `eval` gives it; .csv, .parquet, .arrow by the extension.
     #[arg(long, value_name = "FILE")]
     interfaces: Option<PathBuf>,
@@ -92,21 +93,21 @@ impl SolverArguments {
 }
 
 pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
-    with_threads(0, || run_on_threads(arguments))
+    let format = arguments.findings.unwrap_or(arguments.format.of_findings());
+    with_messages(format, |messages| with_threads(0, || run_on_threads(arguments, messages)))
 }
 
-fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
+fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    let format = arguments.findings.unwrap_or(arguments.format.of_findings());
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
     files::check_targets(&targets)?;
     let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
     let reading = arguments.reading.options();
-    let prepared = SolvableScene::read(&arguments.scene, &laws, &reading, &mut { format })?;
+    let prepared = SolvableScene::read(&arguments.scene, &laws, &reading, &mut messages)?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
     // The files that the scene is made from are known now.
     files::check_targets(&targets)?;
-    let Some(problem) = prepared.problem(&mut { format }) else { return Ok(Outcome::HasErrors) };
+    let Some(problem) = prepared.problem(&mut messages) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.method();
     let histories = if arguments.interfaces.is_some() { Histories::Wanted } else { Histories::NotWanted };
     let tolerance = arguments.solver.tolerance.unwrap_or(LAST_DIGIT);
@@ -122,17 +123,14 @@ fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         Ok(report) => Some(report),
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
-            say_data_findings(
-                prepared.findings(&failure, last.as_ref().map(|state| state.time)),
-                &prepared.settings,
-                format,
-            );
+            let found = prepared.findings(&failure, last.as_ref().map(|state| state.time));
+            messages.data(prepared.quoted(found, messages), &prepared.settings);
             None
         }
     };
     let Some(last) = last else { return Ok(Outcome::HasErrors) };
     // The states before a failure hold, and took their time: they are kept as those of a whole run are.
-    outputs.finish(&last, format)?;
+    outputs.finish(&last, messages)?;
     let Some(report) = ran else { return Ok(Outcome::HasErrors) };
     let summary = summary::Summary {
         problem: &problem,
@@ -141,9 +139,6 @@ fn run_on_threads(arguments: &SolveArguments) -> Result<Outcome, Failure> {
         name: &prepared.name,
         time: start.elapsed(),
     };
-    match format {
-        FindingFormat::Concise | FindingFormat::Github => summary.text().iter().for_each(|line| say(line)),
-        FindingFormat::Json => say_json(&summary.json().to_string()),
-    }
+    messages.tell(|| summary.text(), || summary.json().to_string());
     Ok(Outcome::Clean)
 }

@@ -12,7 +12,7 @@ pub(crate) use tables::diagram;
 
 use super::drawing::DrawingFormat;
 use super::evaluable::EvaluableArguments;
-use super::findings::FindingFormat;
+use super::findings::Messages;
 use super::laws::LawArguments;
 use crate::chart::Chart;
 use crate::failure::{Failure, Outcome};
@@ -99,10 +99,10 @@ struct Shown {
 }
 
 impl TradeoffFormat {
-    fn of_findings(self) -> FindingFormat {
+    fn messages(self) -> Messages<'static> {
         match self {
-            Self::Json => FindingFormat::Json,
-            Self::Text | Self::Csv => FindingFormat::Concise,
+            Self::Json => Messages::JSON,
+            Self::Text | Self::Csv => Messages::LINES,
         }
     }
 }

@@ -1,15 +1,30 @@
 //! A line a finding: `file:line:col: severity[CODE] message`.
 
-use super::include_chain;
+use super::Sources;
 use inpact_diagnostics::visible::visible_line;
-use inpact_parser::deck::Deck;
 use inpact_validation::Diagnostic;
 
-pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
-    let file = deck.source(found.primary.span.source).name();
-    let place = found.primary.position;
-    let included: String = include_chain(found, deck).iter().map(|place| format!(" (included at {place})")).collect();
-    let (severity, code, message) = (found.severity, found.code, &found.message);
-    let line = format!("{file}:{}:{}: {severity}[{code}] {message}{included}", place.line, place.column);
+pub(super) fn write(found: &Diagnostic, sources: Sources<'_>) -> String {
+    let line = match sources {
+        Sources::Deck(_) => of_deck(found, sources),
+        Sources::Data => of_data(found),
+    };
     visible_line(&line).into_owned() + "\n"
+}
+
+fn of_deck(found: &Diagnostic, sources: Sources<'_>) -> String {
+    let file = sources.file(&found.primary);
+    let place = found.primary.position;
+    let included: String = sources.include_chain(found).iter().map(|place| format!(" (included at {place})")).collect();
+    let (severity, code, message) = (found.severity, found.code, &found.message);
+    format!("{file}:{}:{}: {severity}[{code}] {message}{included}", place.line, place.column)
+}
+
+/// Cells are named in messages: no column; the remedy comes with it, since there is no excerpt to read it below.
+fn of_data(found: &Diagnostic) -> String {
+    let Diagnostic { code, severity, message, primary, .. } = found;
+    let file = &primary.file;
+    let line = primary.line().map_or_else(String::new, |line| format!(":{line}"));
+    let help = found.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
+    format!("{file}{line}: {severity}[{code}] {message}{help}")
 }

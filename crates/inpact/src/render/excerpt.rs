@@ -1,10 +1,10 @@
-//! The lines of a deck around the labels of a finding, in a form the renderer can show.
+//! The lines of a file around the labels of a finding, in a form the renderer can show.
 //!
 //! A deck may hold any bytes and lines of any length: what is no UTF-8 is shown as `?`, byte for byte, so that offsets
 //! stay what they are, and of an endless line only the surroundings of the label are shown.
 
+use super::Sources;
 use inpact_diagnostics::visible::{is_hidden, visible_line};
-use inpact_parser::deck::Deck;
 use inpact_validation::Label;
 use memchr::{memchr, memrchr};
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
@@ -12,7 +12,7 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 /// The number of bytes of a line shown on either side of a label.
 const SIDE: usize = 160;
 
-/// The pieces of a deck around some labels.
+/// The pieces of a file around some labels.
 #[derive(Debug)]
 pub(super) struct Excerpt {
     name: String,
@@ -33,22 +33,23 @@ struct Piece {
 
 impl Excerpt {
     /// The lines around each label, with `context` lines before and after.
-    pub(super) fn around<'a>(deck: &Deck, labels: impl Iterator<Item = &'a Label>, context: usize) -> Self {
+    pub(super) fn around<'a>(sources: Sources<'_>, labels: impl Iterator<Item = &'a Label>, context: usize) -> Self {
         let mut name = String::new();
         let mut pieces = Vec::new();
         for label in labels {
-            name = visible_line(deck.source(label.span.source).name()).into_owned();
-            pieces.push(Piece::around(deck, label, context));
+            name = visible_line(sources.file(label)).into_owned();
+            pieces.push(Piece::around(sources, label, context));
         }
         Self { name, pieces }
     }
 }
 
 impl Piece {
-    fn around(deck: &Deck, label: &Label, context: usize) -> Self {
-        let (base, bytes) = deck.surroundings(label.span);
+    fn around(sources: Sources<'_>, label: &Label, context: usize) -> Self {
+        let (base, bytes) = sources.surroundings(label);
         let index = |offset: u64| usize::try_from(offset - base).unwrap_or(0).min(bytes.len());
-        let (from, to) = (index(label.span.start), index(label.span.end.max(label.span.start)));
+        let (start, end) = sources.place(label);
+        let (from, to) = (index(start), index(end));
         let mut lines_before = 0;
         let mut start = start_of_line(bytes, from);
         while lines_before < context && start > 0 && from - start < SIDE {

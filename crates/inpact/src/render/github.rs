@@ -3,8 +3,7 @@
 use inpact_diagnostics::visible::visible;
 use inpact_validation::{Diagnostic, Severity};
 
-/// A finding in a deck or in data.
-pub(crate) fn write(found: &Diagnostic) -> String {
+pub(super) fn write(found: &Diagnostic) -> String {
     let command = match found.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",

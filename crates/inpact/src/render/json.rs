@@ -1,7 +1,6 @@
 //! A JSON object a line, for other programs.
 
-use super::include_chain;
-use inpact_parser::deck::Deck;
+use super::Sources;
 use inpact_validation::Diagnostic;
 use serde::Serialize;
 
@@ -11,9 +10,12 @@ struct Record<'a> {
     name: &'a str,
     severity: &'a str,
     file: &'a str,
-    line: u64,
-    column: u64,
-    span: [u64; 2],
+    line: Option<u64>,
+    column: Option<u64>,
+    span: Option<[u64; 2]>,
+    /// Row and column by its name, of findings in data.
+    #[serde(flatten)]
+    cell: Option<Cell<'a>>,
     message: &'a str,
     help: Option<&'a str>,
     /// Only for findings in included files.
@@ -21,19 +23,33 @@ struct Record<'a> {
     included_at: Vec<String>,
 }
 
-pub(super) fn write(found: &Diagnostic, deck: &Deck) -> String {
+#[derive(Serialize)]
+struct Cell<'a> {
+    row: Option<u64>,
+    field: Option<&'a str>,
+}
+
+pub(super) fn write(found: &Diagnostic, sources: Sources<'_>) -> String {
     let primary = &found.primary;
+    let cell = match sources {
+        Sources::Deck(_) => None,
+        Sources::Data => Some(Cell {
+            row: found.cell.as_ref().and_then(|cell| cell.row),
+            field: found.cell.as_ref().and_then(|cell| cell.field.as_deref()),
+        }),
+    };
     let record = Record {
         code: found.code,
         name: found.name,
         severity: found.severity.name(),
-        file: deck.source(primary.span.source).name(),
-        line: primary.position.line,
-        column: primary.position.column,
-        span: [primary.span.start, primary.span.end],
+        file: sources.file(primary),
+        line: primary.line(),
+        column: primary.column(),
+        span: primary.bytes(),
+        cell,
         message: &found.message,
         help: found.help.as_deref(),
-        included_at: include_chain(found, deck),
+        included_at: sources.include_chain(found),
     };
     // A record of strings and numbers has no reason to fail.
     serde_json::to_string(&record).unwrap_or_default() + "\n"

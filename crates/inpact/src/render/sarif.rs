@@ -1,20 +1,42 @@
 //! SARIF 2.1.0: findings for code scanning, with fingerprints that outlive a change of line numbers.
 
-use super::{Document, include_chain};
-use inpact_parser::deck::Deck;
+use super::{Document, Sources};
+use crate::rules;
+use inpact_diagnostics::Extent;
 use inpact_parser::deck::lines::count_line_ends;
 use inpact_parser::span::Position;
-use inpact_validation::rules::RULES;
 use inpact_validation::{Diagnostic, Label, Severity};
 use serde_json::{Value, json};
 
 /// The name of the fingerprint; its number rises when the way to compute it changes.
 const FINGERPRINT: &str = "inpact/v1";
 
-/// The frame around the results.
+/// The frame around the results of a check.
 pub(super) fn document() -> Document {
-    let rules: Vec<Value> = RULES
-        .iter()
+    with(&format!("\"tool\": {{\"driver\": {}}}", driver()))
+}
+
+/// A run that has more to say than its findings.
+#[derive(Debug, Default)]
+pub(crate) struct Run {
+    /// The notes and the summary, a line each.
+    pub(crate) notes: Vec<String>,
+    /// The reason why it could not go on.
+    pub(crate) failure: Option<String>,
+}
+
+/// The frame around the results of such a run.
+pub(super) fn frame(run: &Run) -> Document {
+    let note = |level: &str, text: &String| json!({"level": level, "message": {"text": text}});
+    let notes = run.notes.iter().map(|text| note("note", text));
+    let notes: Vec<Value> = notes.chain(run.failure.iter().map(|text| note("error", text))).collect();
+    let invocation = json!({"executionSuccessful": run.failure.is_none(), "toolExecutionNotifications": notes});
+    with(&format!("\"tool\": {{\"driver\": {}}},\n\"invocations\": [{invocation}]", driver()))
+}
+
+/// The tool with its rules.
+fn driver() -> Value {
+    let rules: Vec<Value> = rules::all()
         .map(|rule| {
             json!({
                 "id": rule.code,
@@ -26,16 +48,20 @@ pub(super) fn document() -> Document {
             })
         })
         .collect();
-    let driver = json!({
+    json!({
         "name": "inpact",
         "version": env!("CARGO_PKG_VERSION"),
         "informationUri": env!("CARGO_PKG_REPOSITORY"),
         "rules": rules,
-    });
+    })
+}
+
+/// The frame with these properties of the run.
+fn with(properties: &str) -> Document {
     Document {
         head: format!(
             "{{\"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\", \"version\": \"2.1.0\", \"runs\": [{{\n\
-             \"tool\": {{\"driver\": {driver}}},\n\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n"
+             {properties},\n\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n"
         ),
         separator: ",\n",
         tail: "\n]}]}\n".to_owned(),
@@ -50,64 +76,72 @@ fn level(severity: Severity) -> &'static str {
     severity.name()
 }
 
-/// The results of a deck, separated by commas.
-pub(super) fn results(diagnostics: &[Diagnostic], deck: &Deck) -> String {
+/// The results of a deck or of data, separated by commas.
+pub(super) fn results(diagnostics: &[Diagnostic], sources: Sources<'_>) -> String {
     let mut occurrences = std::collections::HashMap::new();
     let results = diagnostics.iter().map(|found| {
-        let mut print = fingerprint(found, deck);
+        let mut print = fingerprint(found, sources);
         // The second of two findings that look alike is distinguished by being the second.
         let count = occurrences.entry(print).or_insert(0_u64);
         *count += 1;
         print = hash(print, &count.to_le_bytes());
-        result(found, deck, print).to_string()
+        result(found, sources, print).to_string()
     });
     results.collect::<Vec<_>>().join(",\n")
 }
 
-fn result(found: &Diagnostic, deck: &Deck, fingerprint: u64) -> Value {
+fn result(found: &Diagnostic, sources: Sources<'_>, fingerprint: u64) -> Value {
     let related: Vec<Value> = found
         .secondary
         .iter()
         .map(|label| {
-            let mut location = location(label, deck);
+            let mut location = location(label, sources);
             location["message"] = json!({"text": label.text});
             location
         })
         .collect();
     let parts = [Some(&found.message), found.note.as_ref(), found.help.as_ref()];
-    let chain = include_chain(found, deck).into_iter().map(|place| format!("included at {place}"));
+    let chain = sources.include_chain(found).into_iter().map(|place| format!("included at {place}"));
     let text: Vec<String> = parts.into_iter().flatten().cloned().chain(chain).collect();
     json!({
         "ruleId": found.code,
-        "ruleIndex": RULES.iter().position(|rule| rule.code == found.code),
+        "ruleIndex": rules::all().position(|rule| rule.code == found.code),
         "level": level(found.severity),
         "message": {"text": text.join("\n")},
-        "locations": [location(&found.primary, deck)],
+        "locations": [location(&found.primary, sources)],
         "relatedLocations": related,
         "partialFingerprints": {FINGERPRINT: format!("{fingerprint:016x}")},
     })
 }
 
-fn location(label: &Label, deck: &Deck) -> Value {
-    let name = deck.source(label.span.source).name();
-    let mut region = json!({
-        "startLine": label.position.line,
-        "startColumn": label.position.column,
-        "byteOffset": label.span.start,
-        "byteLength": label.span.len(),
-    });
-    if let Some(end) = end(label, deck) {
-        region["endLine"] = end.line.into();
-        region["endColumn"] = end.column.into();
-    }
-    json!({"physicalLocation": {"artifactLocation": {"uri": uri(name)}, "region": region}})
+/// A region where line or bytes are known; a file without lines has none.
+fn location(label: &Label, sources: Sources<'_>) -> Value {
+    let artifact = json!({"uri": uri(sources.file(label))});
+    let region = match label.extent {
+        Extent::File => return json!({"physicalLocation": {"artifactLocation": artifact}}),
+        Extent::Line => json!({"startLine": label.position.line}),
+        Extent::Span => {
+            let mut region = json!({
+                "startLine": label.position.line,
+                "startColumn": label.position.column,
+                "byteOffset": label.span.start,
+                "byteLength": label.span.len(),
+            });
+            if let Some(end) = end(label, sources) {
+                region["endLine"] = end.line.into();
+                region["endColumn"] = end.column.into();
+            }
+            region
+        }
+    };
+    json!({"physicalLocation": {"artifactLocation": artifact, "region": region}})
 }
 
 /// The place after the last character of a label; without it a region goes on to the end of its line (SARIF 3.30.8).
 ///
 /// `None` where the scan did not keep the text.
-fn end(label: &Label, deck: &Deck) -> Option<Position> {
-    let text = deck.text(label.span);
+fn end(label: &Label, sources: Sources<'_>) -> Option<Position> {
+    let text = sources.text(label);
     if text.len() as u64 != label.span.len() {
         return None;
     }
@@ -125,9 +159,9 @@ fn uri(path: &str) -> String {
 }
 
 /// The identity of a finding without its line number: rule, file, and the text at its place.
-fn fingerprint(found: &Diagnostic, deck: &Deck) -> u64 {
-    let file = deck.source(found.primary.span.source).name();
-    let parts = [found.code.as_bytes(), file.as_bytes(), found.message.as_bytes(), deck.text(found.primary.span)];
+fn fingerprint(found: &Diagnostic, sources: Sources<'_>) -> u64 {
+    let file = sources.file(&found.primary);
+    let parts = [found.code.as_bytes(), file.as_bytes(), found.message.as_bytes(), sources.text(&found.primary)];
     parts.iter().fold(FNV_OFFSET, |state, part| hash(hash(state, part), &[0xFF]))
 }
 

@@ -1,6 +1,6 @@
 //! Nodes, links and interfaces of a scene file, into the scene.
 
-use super::{CheckedCondition, Reader, put_condition};
+use super::{CheckedCondition, Reader, put_condition, start};
 use crate::scene::course::Course;
 use crate::scene::file::{self, Condition, InterfaceEntry, LinkEntry, NodeEntry};
 use crate::scene::rules::{MALFORMED_SCENE, MALFORMED_TIME};
@@ -12,23 +12,23 @@ use toml::Spanned;
 
 impl Reader<'_> {
     pub(super) fn take_node(&mut self, entry: NodeEntry, scene: &mut Scene) {
-        let line = self.line_of(&entry.name);
+        let (at, line) = (start(&entry.name), self.line_of(&entry.name));
         let name = entry.name.into_inner();
         if let Err(refusal) = usable::node_name(&name, || "`name`".to_owned()) {
             self.lacks_nodes = true;
-            return self.refuse(line, refusal);
+            return self.refuse(at, refusal);
         }
         let number = match self.define_at(&name, (0, line), scene) {
             Ok(number) => number,
-            Err(refusal) => return self.refuse(line, refusal),
+            Err(refusal) => return self.refuse(at, refusal),
         };
         scene.node_lines.insert(number, line);
         self.take_part(entry.set, entry.surface, number, scene);
         let conditions = [entry.potential, entry.temperature, entry.pore_pressure];
         for (field, condition) in Field::ALL.into_iter().zip(conditions) {
             let Some(condition) = condition else { continue };
-            let line = self.line_of(&condition);
-            if let Some(condition) = self.checked(field, condition.into_inner().0, line, &name) {
+            let at = start(&condition);
+            if let Some(condition) = self.checked(field, condition.into_inner().0, at, &name) {
                 put_condition(scene, field, number, condition);
             }
         }
@@ -39,7 +39,7 @@ impl Reader<'_> {
         &mut self,
         field: Field,
         condition: Condition,
-        line: u64,
+        at: usize,
         node: &str,
     ) -> Option<CheckedCondition> {
         // A named field is carried, even without a condition.
@@ -52,7 +52,7 @@ impl Reader<'_> {
             initial: initial.is_some(),
         };
         if let Err(refusal) = usable::condition(field, given, node) {
-            self.refuse(line, refusal);
+            self.refuse(at, refusal);
             return None;
         }
         let label = format!("`{}` of `{node}`", field.key());
@@ -67,13 +67,13 @@ impl Reader<'_> {
     /// The course that a key of something gives; reports one that cannot be used.
     pub(super) fn course(&mut self, key: &str, course: Option<Spanned<file::Course>>, label: &str) -> Option<Course> {
         let course = course?;
-        let (span, line) = (course.span(), self.line_of(&course));
+        let span = course.span();
+        let at = span.start;
         let what = format!("`{key}` of {label}");
         let points = match course.into_inner() {
             file::Course::Constant(value) => {
                 let written = self.text.get(span).unwrap_or_default();
-                let refused =
-                    usable::number(key, value, written, || what).map_err(|refusal| self.refuse(line, refusal));
+                let refused = usable::number(key, value, written, || what).map_err(|refusal| self.refuse(at, refusal));
                 return refused.is_ok().then(|| Course::constant(value));
             }
             file::Course::Points(points) => points,
@@ -89,7 +89,7 @@ impl Reader<'_> {
             format!("the times of {what} do not ascend: {after:?} follows {before:?}")
         } else if self.is_steady {
             let help = "give a number, or write procedure = \"transient\"";
-            self.report(&MALFORMED_TIME, line, format!("{what} follows time, and a steady state has none"), help);
+            self.report(&MALFORMED_TIME, at, format!("{what} follows time, and a steady state has none"), help);
             return None;
         } else {
             let unusable = points.iter().find_map(|&[time, value]| {
@@ -97,28 +97,32 @@ impl Reader<'_> {
             });
             return match unusable {
                 Some(refusal) => {
-                    self.refuse(line, refusal);
+                    self.refuse(at, refusal);
                     None
                 }
                 None => Some(Course::through(points)),
             };
         };
         let help = "give a number, or points of time and value whose times ascend, such as [[0.0, 20.0], [1.0, 80.0]]";
-        self.report(&MALFORMED_TIME, line, message, help);
+        self.report(&MALFORMED_TIME, at, message, help);
         None
     }
 
-    pub(super) fn take_link(&mut self, entry: LinkEntry, line: u64, default: f64, scene: &mut Scene) {
-        let at = self.line_of(&entry.nodes);
+    pub(super) fn take_link(&mut self, entry: LinkEntry, at: usize, default: f64, scene: &mut Scene) {
+        let (at_nodes, written) = (start(&entry.nodes), self.text.get(entry.nodes.span()).unwrap_or_default());
         let Pair(names) = entry.nodes.into_inner();
-        let numbers = [0, 1].map(|end| self.number(&names[end], at, "a name in `nodes`", scene));
+        let numbers = [0, 1].map(|end| {
+            // A name with an escape is not found as it is, and then the list is meant.
+            let place = ['"', '\''].iter().find_map(|quote| written.find(&format!("{quote}{}{quote}", names[end])));
+            self.number(&names[end], at_nodes + place.unwrap_or(0), "a name in `nodes`", scene)
+        });
         let label = format!("the link of `{}` and `{}`", names[0], names[1]);
         if let Err(refusal) = usable::joined([&names[0], &names[1]], "the link") {
-            return self.refuse(at, refusal);
+            return self.refuse(at_nodes, refusal);
         }
         let given = [&entry.electrical, &entry.thermal, &entry.hydraulic];
         if let Err(refusal) = usable::conducting(given.iter().any(|conductance| conductance.is_some()), &label) {
-            self.refuse(line, refusal);
+            self.refuse(at, refusal);
         }
         let conductances = Field::ALL.map(|field| {
             let key = field.conductance_key();
@@ -133,15 +137,15 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn take_interface(&mut self, entry: InterfaceEntry, line: u64, scene: &mut Scene) {
+    pub(super) fn take_interface(&mut self, entry: InterfaceEntry, at: usize, scene: &mut Scene) {
         let ends = [(&entry.slave, "`slave`"), (&entry.master, "`master`")];
-        let numbers = ends.map(|(name, what)| self.number(name.as_ref(), self.line_of(name), what, scene));
+        let numbers = ends.map(|(name, what)| self.number(name.as_ref(), start(name), what, scene));
         let [slave, master] = [entry.slave.as_ref(), entry.master.as_ref()];
         let label = format!("the interface of `{slave}` and `{master}`");
         if entry.fv.0.len() > MOST_FIELD_VARIABLES {
             let message = format!("`fv` of {label} has {} numbers", entry.fv.0.len());
             let help = format!("a deck has {MOST_FIELD_VARIABLES} field variables at most");
-            self.report(&MALFORMED_SCENE, line, message, &help);
+            self.report(&MALFORMED_SCENE, at, message, &help);
         }
         let mut field_variables = Vec::new();
         for (number, position) in entry.fv.0.iter().zip(1..) {
@@ -166,10 +170,10 @@ impl Reader<'_> {
             clearance_rate: value("clearance_rate", entry.clearance_rate.as_ref()),
             characteristic_length: value("char_length", entry.char_length.as_ref()),
             bulk_permeabilities: [value("perm_s", entry.perm_s.as_ref()), value("perm_m", entry.perm_m.as_ref())],
-            place: (line, None),
+            place: (self.line(at), None),
         };
         if let Err(refusal) = usable::joined([slave, master], "the interface") {
-            self.refuse(line, refusal);
+            self.refuse(at, refusal);
         } else if let [Some(slave), Some(master)] = numbers {
             scene.interfaces.push(SceneInterface { slave, master, ..interface });
         }

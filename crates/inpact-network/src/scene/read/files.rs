@@ -3,7 +3,8 @@
 use super::{Reader, SceneFiles, put_condition};
 use crate::scene::file::{self, LinkFileEntry};
 use crate::scene::{Field, Scene, SceneInterface, SceneLink, matrix, tables};
-use inpact_diagnostics::Findings;
+use inpact_diagnostics::{Findings, keep_lines};
+use inpact_evaluation::nodes::locate;
 use toml::Spanned;
 
 impl Reader<'_> {
@@ -30,7 +31,7 @@ impl Reader<'_> {
         files: &mut dyn SceneFiles,
         scene: &mut Scene,
     ) -> Option<Vec<SceneLink>> {
-        if !entry.file.as_ref().to_ascii_lowercase().ends_with(".mtx") {
+        if !is_matrix(entry.file.as_ref()) {
             return None;
         }
         let mut links = Vec::new();
@@ -100,12 +101,23 @@ impl Reader<'_> {
         take: impl FnOnce(&mut Self, &[u8], &mut Findings),
     ) -> bool {
         let Some(bytes) = files.read(name.as_ref()) else { return false };
-        let mut findings = Findings::new(name.as_ref());
+        let mut findings = Findings::new(&files.name(name.as_ref()));
         take(self, &bytes, &mut findings);
         let is_whole = !findings.has_errors();
-        self.found.append(&mut findings.into_list());
+        let mut found = findings.into_list();
+        // Bytes in memory can be read; a matrix has no cells under headers.
+        if !is_matrix(name.as_ref()) {
+            let _ = locate(&*bytes, &mut found);
+        }
+        let _ = keep_lines(&*bytes, &mut found);
+        self.found.append(&mut found);
         is_whole
     }
+}
+
+/// Whether a file is a Matrix Market file by its name.
+fn is_matrix(name: &str) -> bool {
+    name.to_ascii_lowercase().ends_with(".mtx")
 }
 
 fn field_of(conducts: file::Conducts) -> Field {

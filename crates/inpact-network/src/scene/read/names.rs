@@ -43,12 +43,12 @@ impl Reader<'_> {
         Ok(number)
     }
 
-    /// The number of a node that is named in a line of the scene file.
-    pub(super) fn number(&mut self, name: &str, line: u64, what: &str, scene: &Scene) -> Option<u32> {
+    /// The number of a node whose name begins at a byte of the scene file.
+    pub(super) fn number(&mut self, name: &str, at: usize, what: &str, scene: &Scene) -> Option<u32> {
         let is_named = usable::node_name(name, || what.to_owned());
         let number = is_named.and_then(|()| self.known(name, scene));
         number.unwrap_or_else(|refusal| {
-            self.refuse(line, refusal);
+            self.refuse(at, refusal);
             None
         })
     }

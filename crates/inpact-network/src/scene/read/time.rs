@@ -1,6 +1,6 @@
 //! Procedure and times of a scene: start, end, increments, start of histories.
 
-use super::Reader;
+use super::{Reader, start};
 use crate::scene::file::{ClosingHeatName, ProcedureName, SceneFile, StartFromName, TimeEntry};
 use crate::scene::rules::MALFORMED_TIME;
 use crate::scene::values::{Keyed, Number};
@@ -18,22 +18,22 @@ impl Reader<'_> {
         match (file.procedure, &file.time) {
             (ProcedureName::Steady, None) => Procedure::Steady,
             (ProcedureName::Steady, Some(time)) => {
-                let line = self.line_of(time);
+                let at = start(time);
                 let help = "write procedure = \"transient\", or leave `time` out";
-                self.report(&MALFORMED_TIME, line, "a steady state has no `time`", help);
+                self.report(&MALFORMED_TIME, at, "a steady state has no `time`", help);
                 Procedure::Steady
             }
             (ProcedureName::Transient, None) => {
                 let help = "add [time] with `end`, and `step` or `tolerance`";
-                self.report(&MALFORMED_TIME, 1, "a transient needs `time`", help);
+                self.report(&MALFORMED_TIME, 0, "a transient needs `time`", help);
                 Procedure::Steady
             }
             (ProcedureName::Transient, Some(time)) => {
                 let Keyed(entry) = time.as_ref();
                 self.time_span(entry).map_or_else(
                     |(number, message, help)| {
-                        let line = number.map_or_else(|| self.line_of(time), |number| self.line(number.span().start));
-                        self.report(&MALFORMED_TIME, line, message, help);
+                        let at = number.map_or_else(|| start(time), |number| number.span().start);
+                        self.report(&MALFORMED_TIME, at, message, help);
                         Procedure::Steady
                     },
                     Procedure::Transient,

@@ -1,6 +1,6 @@
 //! The result table of the interfaces of a solved scene: its rows as batches of columns, evaluated as `eval` evaluates those of a node table.
 
-use super::super::findings::{FindingFormat, refuse_configured_errors, say_data_findings};
+use super::super::findings::{Messages, refuse_configured_errors};
 use crate::commands::evaluable::kept_rows;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
@@ -19,7 +19,7 @@ pub(super) fn write(
     columns: &Selection,
     mut made: KeptRows,
     target: &Path,
-    format: FindingFormat,
+    messages: Messages<'_>,
 ) -> Result<(), Failure> {
     let SolvableScene { settings, model, choices, name, scene, .. } = prepared;
     let unreadable = |error| Failure::read(Path::new("the interface rows"), error);
@@ -29,7 +29,7 @@ pub(super) fn write(
     let (reader, mut rows) = (NodeReader::of_made(&columns.labels, &columns.numbers, Box::new(made)), kept_rows());
     let surveyed = survey_keeping(reader, model, choices, &mut findings, &mut rows).map_err(unreadable)?;
     let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else {
-        say_data_findings(of_scene(findings, scene), settings, format);
+        messages.data(prepared.quoted(of_scene(findings, scene), messages), settings);
         return Err(Failure::Data("the interface rows of the scene cannot be evaluated".to_owned()));
     };
     let plan = make(model, &surveyed, choices);
@@ -54,7 +54,7 @@ pub(super) fn write(
     tally.report(&plan, &mut findings);
     let found = of_scene(findings, scene);
     let kept = refuse_configured_errors(&found, settings);
-    say_data_findings(found, settings, format);
+    messages.data(prepared.quoted(found, messages), settings);
     kept?;
     output.finish()
 }

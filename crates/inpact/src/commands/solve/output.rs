@@ -1,12 +1,13 @@
 //! The results of solving, written as they come.
 
-use super::super::findings::FindingFormat;
+use super::super::findings::Messages;
 use super::summary::balances;
 use super::{SolveArguments, interfaces};
 use crate::commands::evaluable::kept_rows;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::{ResultFile, STANDARD_STREAM};
+use crate::render::Format;
 use clap::ValueEnum;
 use inpact_evaluation::nodes::KeptRows;
 use inpact_network::scene::Field;
@@ -26,10 +27,10 @@ pub(super) enum StateFormat {
 }
 
 impl StateFormat {
-    pub(super) fn of_findings(self) -> FindingFormat {
+    pub(super) fn of_findings(self) -> Format {
         match self {
-            Self::Csv => FindingFormat::Concise,
-            Self::Json => FindingFormat::Json,
+            Self::Csv => Format::Concise,
+            Self::Json => Format::Json,
         }
     }
 }
@@ -133,7 +134,7 @@ impl<'a> Outputs<'a> {
     }
 
     /// Writes what is left, and gives the files their names.
-    pub(super) fn finish(mut self, last: &State, findings: FindingFormat) -> Result<(), Failure> {
+    pub(super) fn finish(mut self, last: &State, messages: Messages<'_>) -> Result<(), Failure> {
         match self.format {
             StateFormat::Csv => {
                 if let Some(links) = &self.appended_links {
@@ -152,7 +153,7 @@ impl<'a> Outputs<'a> {
             file.finish()?;
         }
         if let Some(Interfaces { target, table, rows, .. }) = self.interfaces {
-            interfaces::write(self.prepared, table.selection(), rows, &target, findings)?;
+            interfaces::write(self.prepared, table.selection(), rows, &target, messages)?;
         }
         Ok(())
     }

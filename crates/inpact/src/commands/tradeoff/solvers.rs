@@ -10,7 +10,6 @@ mod report;
 mod subjects;
 
 use super::{Shown, TradeoffArguments, TradeoffFormat};
-use crate::commands::findings::say_data_findings;
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files;
@@ -24,13 +23,13 @@ pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
 }
 
 fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
-    let format = arguments.format.of_findings();
+    let mut messages = arguments.format.messages();
     let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
-    let prepared = SolvableScene::read(path, &laws, &arguments.reading.options(), &mut { format })?;
+    let prepared = SolvableScene::read(path, &laws, &arguments.reading.options(), &mut messages)?;
     let Some(prepared) = prepared else { return Ok(None) };
     // The files that the scene is made from are known now.
     files::check_targets(&arguments.targets())?;
-    let Some(problem) = prepared.problem(&mut { format }) else { return Ok(None) };
+    let Some(problem) = prepared.problem(&mut messages) else { return Ok(None) };
     if problem.solved_fields().is_empty() {
         let message = format!("no field of `{}` is solved for: there is nothing to trade", prepared.name);
         return Err(Failure::Data(message));
@@ -38,7 +37,7 @@ fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
     let measured = match measure::measure(&prepared, &problem, arguments.rounds) {
         Ok(measured) => measured,
         Err(failed) => {
-            say_data_findings(prepared.findings(&failed.why, failed.after), &prepared.settings, format);
+            messages.data(prepared.findings(&failed.why, failed.after), &prepared.settings);
             return Ok(None);
         }
     };

@@ -24,7 +24,7 @@ pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments
 }
 
 fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
-    let prepared = table.prepare(&arguments.laws, &arguments.reading, arguments.format.of_findings())?;
+    let prepared = table.prepare(&arguments.laws, &arguments.reading, arguments.format.messages())?;
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
     // The included files are known now.
     files::check_targets(&arguments.targets())?;
