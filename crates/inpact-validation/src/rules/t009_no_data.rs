@@ -42,8 +42,6 @@ declare_rule! {
     "T009", "no-data", Error, fix: None, source: "K-11, K-36, Q-15"
 }
 
-/// The option whose row has a default for every item.
-
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // Asked once: the answer looks at every *INCLUDE.
     let has_unread_files = context.has_unread_files();

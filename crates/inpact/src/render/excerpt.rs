@@ -4,6 +4,7 @@
 //! stay what they are, and of an endless line only the surroundings of the label are shown.
 
 use super::Sources;
+use super::sources::place_of;
 use inpact_diagnostics::visible::{is_hidden, visible_line};
 use inpact_validation::Label;
 use memchr::{memchr, memrchr};
@@ -48,7 +49,7 @@ impl Piece {
     fn around(sources: Sources<'_>, label: &Label, context: usize) -> Self {
         let (base, bytes) = sources.surroundings(label);
         let index = |offset: u64| usize::try_from(offset - base).unwrap_or(0).min(bytes.len());
-        let (start, end) = sources.place(label);
+        let (start, end) = place_of(label);
         let (from, to) = (index(start), index(end));
         let mut lines_before = 0;
         let mut start = start_of_line(bytes, from);

@@ -1,7 +1,7 @@
 //! The full format: an excerpt of the file with labels, the reason and the cure, drawn by miette.
 
 use super::excerpt::Excerpt;
-use super::sources::Shown;
+use super::sources::{Shown, place_of};
 use super::{Sources, Style};
 use inpact_diagnostics::visible::visible;
 use inpact_validation::{Diagnostic, Label, Severity};
@@ -116,7 +116,7 @@ impl miette::Diagnostic for Rendered<'_> {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let labels = labels(self.found).enumerate().map(|(index, label)| {
             let text = (!label.text.is_empty()).then(|| visible(&label.text).into_owned());
-            let (start, end) = self.sources.place(label);
+            let (start, end) = place_of(label);
             let offset = usize::try_from(start).unwrap_or(usize::MAX);
             let length = usize::try_from(end - start).unwrap_or(0);
             if index == 0 {

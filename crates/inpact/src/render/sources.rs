@@ -43,19 +43,6 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// The bytes from start to end of a label; those of its line where only that is known.
-    pub(super) fn place(self, label: &Label) -> (u64, u64) {
-        match (&label.lines, label.extent) {
-            (Some(lines), Extent::Line) => {
-                let line = &lines.bytes[lines.line.clone()];
-                let blanks = line.len() - line.trim_ascii_start().len();
-                let start = lines.start + (lines.line.start + blanks) as u64;
-                (start, start + line.trim_ascii().len() as u64)
-            }
-            _ => (label.span.start, label.span.end.max(label.span.start)),
-        }
-    }
-
     /// Kept bytes around a label, and the offset of the first.
     pub(super) fn surroundings<'l>(self, label: &'l Label) -> (u64, &'l [u8])
     where
@@ -77,7 +64,7 @@ impl<'a> Sources<'a> {
             Self::Deck(deck) => deck.text(label.span),
             Self::Data => {
                 let (base, bytes) = self.surroundings(label);
-                let (start, end) = self.place(label);
+                let (start, end) = place_of(label);
                 let index = |offset: u64| usize::try_from(offset.saturating_sub(base)).unwrap_or(usize::MAX);
                 bytes.get(index(start)..index(end)).unwrap_or_default()
             }
@@ -91,5 +78,18 @@ impl<'a> Sources<'a> {
         let places = deck.positions(&chain);
         let shown = chain.iter().zip(places);
         shown.map(|(span, place)| format!("{}:{}", deck.source(span.source).name(), place.line)).collect()
+    }
+}
+
+/// The bytes from start to end of a label; those of its line where only that is known.
+pub(super) fn place_of(label: &Label) -> (u64, u64) {
+    match (&label.lines, label.extent) {
+        (Some(lines), Extent::Line) => {
+            let line = &lines.bytes[lines.line.clone()];
+            let blanks = line.len() - line.trim_ascii_start().len();
+            let start = lines.start + (lines.line.start + blanks) as u64;
+            (start, start + line.trim_ascii().len() as u64)
+        }
+        _ => (label.span.start, label.span.end.max(label.span.start)),
     }
 }
