@@ -9,6 +9,8 @@
 //! 5. `matrix` assembles, `ordering` orders, `factor` factors in f64 or f32, `iterative` does without a factor.
 //! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; what does not get there is tried again by a safer method, at last by `elimination`.
 //! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` put back what was left out: values, the flows through infinite conductances, jumps that no flow determines.
+//!
+//! `symbolic` does steps 1 to 5 but for the factor, so that many networks on one graph share the order.
 
 mod cholesky;
 mod components;
@@ -31,6 +33,7 @@ mod sets;
 mod solve;
 mod spanning_forest;
 mod strength;
+mod symbolic;
 mod work;
 
 pub(crate) use self::core::{Core, NONE, Origins};
@@ -52,4 +55,5 @@ pub(crate) use relative::Form;
 pub(crate) use series::Series;
 pub(crate) use sets::{Sets, index};
 pub use solve::{LAST_DIGIT, LinearFailure, LinearReport, LinearSolution, Method, Shortcoming, Solver};
+pub use symbolic::{Reused, Symbolic};
 pub use work::{Phases, Work};

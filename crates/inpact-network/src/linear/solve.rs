@@ -17,6 +17,7 @@ use super::relative::Form;
 use super::series::Series;
 use super::sets::index;
 use super::spanning_forest::SpanningForest;
+use super::symbolic::Reused;
 use super::work::{Phases, Work};
 use inpact_evaluation::numbers::DoubleDouble;
 use std::sync::Arc;
@@ -131,6 +132,8 @@ pub struct LinearReport {
     pub ordering: Option<Ordering>,
     /// Entries of the factor.
     pub factor_entries: usize,
+    /// Results of a network before that were used again.
+    pub reused: Reused,
     /// Iterations of conjugate gradients.
     pub iterations: usize,
     /// Residual and estimated error; an elimination has no estimate.
@@ -175,6 +178,16 @@ impl Solver {
     /// A solver with this method whose estimated relative error of every flow is at most `tolerance`; [`LAST_DIGIT`] is the best that f64 can hold.
     pub fn new(method: Method, tolerance: f64) -> Self {
         Self { method, tolerance, kept: None, work: Work::default() }
+    }
+
+    /// The same, with an order of elimination that is known.
+    pub(super) fn with_order(
+        method: Method,
+        tolerance: f64,
+        (pattern, analysis): (Arc<Pattern>, Arc<Analysis>),
+    ) -> Self {
+        let kept = Kept { pattern, analysis: Some(analysis), factor: KeptFactor::default() };
+        Self { kept: Some(kept), ..Self::new(method, tolerance) }
     }
 
     /// The tolerance.
@@ -320,7 +333,10 @@ impl Solver {
                 return Err(NoSolution::Memory.into());
             };
             let analysis = match analysis {
-                Some(analysis) => analysis,
+                Some(analysis) => {
+                    report.reused = Reused::Order;
+                    analysis
+                }
                 None => {
                     let ordering = Instant::now();
                     let made = Analysis::of(pattern.symbolic()).ok_or(NoSolution::Memory)?;
@@ -334,6 +350,13 @@ impl Solver {
                 *factor = KeptFactor::default();
             }
             let KeptFactor { values, double, single } = factor;
+            let has_factor = match method {
+                Method::Mixed => single.is_some(),
+                _ => double.is_some(),
+            };
+            if has_factor {
+                report.reused = Reused::Factor;
+            }
             let factoring = Instant::now();
             let solver: &mut dyn Solves = match method {
                 Method::Mixed => get_or_try(single, || Factor::new(analysis, &matrix))?,
