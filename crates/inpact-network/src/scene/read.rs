@@ -147,6 +147,11 @@ impl<'a> Reader<'a> {
         self.findings.report(rule, place, message, help);
     }
 
+    /// Reports a finding about a line.
+    fn report_in_line(&mut self, rule: &Rule, line: u64, message: impl Into<String>, help: &str) {
+        self.findings.report(rule, Place::of_line(line), message, help);
+    }
+
     fn refuse(&mut self, at: usize, refusal: Refusal) {
         let Refusal { rule, column, message, help } = refusal;
         let place = Place { column, ..self.place(at) };

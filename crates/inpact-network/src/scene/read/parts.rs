@@ -1,6 +1,6 @@
 //! Nodes that stand for a part of the deck's mesh, and the step whose conditions they take.
 
-use super::Reader;
+use super::{Reader, start};
 use crate::scene::file::ConditionsEntry;
 use crate::scene::rules::MALFORMED_SCENE;
 use crate::scene::values::Keyed;
@@ -24,8 +24,7 @@ impl Reader<'_> {
         let value = number.value();
         if !((1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0) {
             let message = format!("`conditions.step` is {}", self.written(number));
-            let line = self.line(number.span().start);
-            self.report(&MALFORMED_SCENE, line, message, "give the number of a step of the deck, from 1");
+            self.report(&MALFORMED_SCENE, number.span().start, message, "give the number of a step of the deck, from 1");
             return None;
         }
         #[expect(
@@ -50,9 +49,8 @@ impl Reader<'_> {
             (Some(set), None) => (PartKind::Set, set),
             (None, Some(surface)) => (PartKind::Surface, surface),
             (Some(_), Some(surface)) => {
-                let line = self.line_of(&surface);
                 let message = format!("node `{}` has `set` and `surface`", scene.nodes[node as usize]);
-                return self.report(&MALFORMED_SCENE, line, message, "a node stands for one of the two");
+                return self.report(&MALFORMED_SCENE, start(&surface), message, "a node stands for one of the two");
             }
         };
         let line = self.line_of(&name);
@@ -66,11 +64,11 @@ impl Reader<'_> {
                 let message =
                     format!("the node stands for `{}` of the deck, and nothing is taken from there", part.name);
                 let help = "add [conditions], so that it takes the conditions of the deck, or leave the name out";
-                self.report(&MALFORMED_SCENE, part.line, message, help);
+                self.report_in_line(&MALFORMED_SCENE, part.line, message, help);
             }
             (Some(of), None) if !self.lacks_nodes && !self.findings.has_errors() => {
                 let help = "add `set` or `surface` to the nodes that take conditions of the deck";
-                self.report(&MALFORMED_SCENE, of.line, "no node takes the conditions of the deck", help);
+                self.report_in_line(&MALFORMED_SCENE, of.line, "no node takes the conditions of the deck", help);
             }
             _ => {}
         }
