@@ -416,6 +416,56 @@ data_rules! {
     ///
     /// Names of sets are those of *NSET and of NSET on *NODE, names of surfaces those of *SURFACE; in a deck with instances the name of the instance goes before, `PLATE-1.TOP`.
     /// A set without a node, and a surface without a face or a node, is none.
+    ///
+    /// ```inp deck.inp
+    /// *NODE
+    /// 1, 0., 0., 0.
+    /// 2, 1., 0., 0.
+    /// *NSET, NSET=LEFT
+    /// 1,
+    /// *NSET, NSET=BOTH
+    /// 1, 2
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP CONDUCTANCE
+    /// 20., 0.
+    /// 0., 1.
+    /// *STEP
+    /// *HEAT TRANSFER, STEADY STATE
+    /// *BOUNDARY
+    /// 1, 11, 11, 20.
+    /// *END STEP
+    /// ```
+    /// ```toml scene.toml
+    /// deck = "deck.inp"
+    ///
+    /// [conditions]
+    ///
+    /// [[node]]
+    /// name = "left"
+    /// set = "LEFT"
+    ///
+    /// [[node]]
+    /// name = "right"
+    /// set = "RIGHT"
+    ///
+    /// [[interface]]
+    /// slave = "left"
+    /// master = "right"
+    /// area = 1.0
+    /// clearance = 0.0
+    /// ```
+    /// ```console
+    /// $ inpact solve scene.toml --findings full
+    /// error[D023] unknown-part
+    ///
+    ///   × the deck has no node set `RIGHT` with a node in it
+    ///     ╭─[scene.toml:11:1]
+    ///  10 │ name = "right"
+    ///  11 │ set = "RIGHT"
+    ///     · ─────────────
+    ///     ╰────
+    ///   help: name a set of *NSET or a surface of *SURFACE
+    /// ```
     UNKNOWN_PART = "D023", "unknown-part", Error, source: "docs/deck-scenes.md";
 
     /// The conditions of the deck on a set or a surface are not those of one node.
@@ -423,6 +473,59 @@ data_rules! {
     /// A node of a scene has one value: a set of which only some nodes are held, or which is held at several values, has none.
     /// Name a smaller set, or give the condition in the scene.
     /// A condition whose course is not read (an *AMPLITUDE that is not tabular, a ramp over a transient step) is none either.
+    ///
+    /// ```inp deck.inp
+    /// *NODE
+    /// 1, 0., 0., 0.
+    /// 2, 1., 0., 0.
+    /// *NSET, NSET=LEFT
+    /// 1,
+    /// *NSET, NSET=BOTH
+    /// 1, 2
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP CONDUCTANCE
+    /// 20., 0.
+    /// 0., 1.
+    /// *STEP
+    /// *HEAT TRANSFER, STEADY STATE
+    /// *BOUNDARY
+    /// 1, 11, 11, 20.
+    /// 2, 11, 11, 80.
+    /// *END STEP
+    /// ```
+    /// ```toml scene.toml
+    /// deck = "deck.inp"
+    ///
+    /// [conditions]
+    ///
+    /// [[node]]
+    /// name = "left"
+    /// set = "BOTH"
+    ///
+    /// [[node]]
+    /// name = "right"
+    /// temperature = { fixed = 20.0 }
+    ///
+    /// [[interface]]
+    /// slave = "left"
+    /// master = "right"
+    /// area = 1.0
+    /// clearance = 0.0
+    /// ```
+    /// ```console
+    /// $ inpact solve scene.toml --findings full
+    /// error[D024] not-one-condition
+    ///
+    ///   × the temperature of `left`: *BOUNDARY holds its nodes at several values of the temperature
+    ///   │ (line 15 of `deck.inp`)
+    ///    ╭─[scene.toml:7:1]
+    ///  6 │ name = "left"
+    ///  7 │ set = "BOTH"
+    ///    · ────────────
+    ///    ╰────
+    ///   help: name a part on which there is one condition, or give `temperature` of the node in the
+    ///         scene
+    /// ```
     NOT_ONE_CONDITION = "D024", "not-one-condition", Error, source: "docs/deck-scenes.md";
 
     /// A condition of the deck is not in the scene.
@@ -430,5 +533,52 @@ data_rules! {
     /// It acts on a potential, a temperature or a pore pressure in the step that the scene takes its conditions from, and no node of the scene stands for all of what it acts on, or it is of a kind that is not taken over.
     /// The finding has its line.
     /// Add a node for its set, or give what it means in the scene; where it does not matter, `inpact.toml` turns the rule off.
+    ///
+    /// ```inp deck.inp
+    /// *NODE
+    /// 1, 0., 0., 0.
+    /// 2, 1., 0., 0.
+    /// *NSET, NSET=LEFT
+    /// 1,
+    /// *NSET, NSET=BOTH
+    /// 1, 2
+    /// *SURFACE INTERACTION, NAME=JOINT
+    /// *GAP CONDUCTANCE
+    /// 20., 0.
+    /// 0., 1.
+    /// *STEP
+    /// *HEAT TRANSFER, STEADY STATE
+    /// *BOUNDARY
+    /// 1, 11, 11, 20.
+    /// 2, 11, 11, 80.
+    /// *END STEP
+    /// ```
+    /// ```toml scene.toml
+    /// deck = "deck.inp"
+    ///
+    /// [conditions]
+    ///
+    /// [[node]]
+    /// name = "left"
+    /// set = "LEFT"
+    ///
+    /// [[node]]
+    /// name = "right"
+    /// temperature = { fixed = 20.0 }
+    ///
+    /// [[interface]]
+    /// slave = "left"
+    /// master = "right"
+    /// area = 1.0
+    /// clearance = 0.0
+    /// ```
+    /// ```console
+    /// $ inpact solve scene.toml --findings full
+    /// warning[D025] condition-left-out
+    ///
+    ///   ⚠ *BOUNDARY on `2` acts on a node that no node of the scene stands for (line 16 of `deck.inp`)
+    ///   help: at scene.toml
+    ///         add a node for it, or give what it means in the scene
+    /// ```
     CONDITION_LEFT_OUT = "D025", "condition-left-out", Warning, source: "docs/deck-scenes.md";
 }

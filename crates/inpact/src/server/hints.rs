@@ -128,8 +128,8 @@ fn drawing(view: View<'_>, of: &TableOf<'_>) -> Option<Value> {
         TableKind::ElectricalClearance | TableKind::ElectricalPressure => "electrical",
         TableKind::ThermalClearance | TableKind::ThermalPressure => "thermal",
         TableKind::Permeability => "permeability",
-        TableKind::Other if of.keyword == "GAP RADIATION" => "view-factor",
-        TableKind::Other => return None,
+        TableKind::ViewFactor => "view-factor",
+        _ => return None,
     };
     let block = blocks::block_at(view.analysis, view.source, of.table.keyword.start)?;
     // The end of a block is where the next one begins.
