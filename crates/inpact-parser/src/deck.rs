@@ -14,7 +14,7 @@ mod survey;
 mod text;
 
 pub use data_line::items;
-pub use edited::EditedText;
+pub use edited::{EditedText, TextInParts};
 pub use include::{Excerpts, FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::Source;

@@ -14,6 +14,7 @@ mod findings;
 mod formatting;
 mod hints;
 mod hover;
+mod long;
 mod names;
 mod navigation;
 mod outline;
@@ -80,6 +81,11 @@ fn serve<W: Write>(
         };
         match next {
             Incoming::Nonsense { id, code, reason } => client.refuse(id, code, reason)?,
+            Incoming::Opening(notification, text) => {
+                if let State::Running(session) = &mut state {
+                    session.open(notification, text, client)?;
+                }
+            }
             // What the client answers to our requests changes nothing.
             Incoming::Message(Message::Response(_)) => {}
             Incoming::Message(Message::Notification(notification)) => {

@@ -25,6 +25,16 @@ pub struct EditedText {
     length: u64,
 }
 
+/// Text that comes bit by bit: it is cut into pieces as it comes, so that it never stands in memory as a whole besides.
+#[derive(Debug, Default)]
+pub struct TextInParts {
+    pieces: Vec<Arc<Piece>>,
+    /// The end of what has come, which may go on.
+    rest: Vec<u8>,
+    /// How long that was when it was cut last; a line that is longer than all is not looked through at every byte.
+    left_over: usize,
+}
+
 /// Whole lines, and what is known of them.
 #[derive(Debug)]
 struct Piece {
@@ -209,6 +219,39 @@ impl EditedText {
     }
 }
 
+impl TextInParts {
+    /// Adds bytes at the end.
+    pub fn push(&mut self, bytes: &[u8]) {
+        self.push_in_pieces(bytes, PIECE);
+    }
+
+    fn push_in_pieces(&mut self, bytes: &[u8], piece_length: usize) {
+        self.rest.extend_from_slice(bytes);
+        if self.rest.len() < (4 * piece_length).max(2 * self.left_over) {
+            return;
+        }
+        let mut pieces = cut(&self.rest, piece_length);
+        // The last one may end in the middle of a line, or of a CR and its LF.
+        let last = pieces.pop().map_or(0, |piece| piece.bytes.len());
+        self.rest.drain(..self.rest.len() - last);
+        self.left_over = last;
+        self.pieces.append(&mut pieces);
+    }
+
+    /// The text of all bytes that have come.
+    pub fn finish(self) -> EditedText {
+        self.finish_in_pieces(PIECE)
+    }
+
+    fn finish_in_pieces(self, piece_length: usize) -> EditedText {
+        let mut pieces = self.pieces;
+        pieces.append(&mut cut(&self.rest, piece_length));
+        let mut text = EditedText { pieces, ..EditedText::default() };
+        text.place_pieces(0);
+        text
+    }
+}
+
 impl Start {
     /// Where the piece after one that begins here does.
     fn after(self, piece: &Piece) -> Self {
@@ -312,6 +355,21 @@ mod tests {
                 prop_assert_eq!(&expected[..shared], &as_it_was[..shared]);
                 prop_assert_eq!(&expected[expected.len() - shared_end..], &as_it_was[as_it_was.len() - shared_end..]);
             }
+        }
+
+        #[test]
+        fn text_in_parts_is_the_whole_text(text in text(), lengths in prop::collection::vec(1_usize..50, 1..20)) {
+            let mut parts = TextInParts::default();
+            let mut rest = &text[..];
+            for length in lengths.iter().cycle() {
+                let (part, after) = rest.split_at(rest.len().min(*length));
+                parts.push_in_pieces(part, 8);
+                rest = after;
+                if rest.is_empty() {
+                    break;
+                }
+            }
+            check(&parts.finish_in_pieces(8), &text);
         }
 
         #[test]

@@ -104,13 +104,14 @@ pub(super) fn view<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use inpact_parser::deck::EditedText;
     use serde_json::json;
 
     #[test]
     fn a_panic_is_answered_and_loses_no_document() {
         let mut workspace = Workspace::default();
         let uri = lsp::Uri("untitled:deck".to_owned());
-        workspace.open(uri.clone(), 1, "*HEADING\n");
+        workspace.open(uri.clone(), 1, EditedText::new(b"*HEADING\n"));
         let params = json!({"textDocument": {"uri": uri.0}, "position": {"line": 0, "character": 2}});
         let request = |id: i32| Request::new(id.into(), "textDocument/hover".to_owned(), params.clone());
         let failed = by::<lsp::HoverRequest>(&mut workspace, request(1), |_, _| panic!("a fault"));

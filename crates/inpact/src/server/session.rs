@@ -11,6 +11,7 @@ use gen_lsp_types::{
     GlobPattern, InitializeParams, InitializeResult, LogMessageParams, MessageType, PublishDiagnosticsParams,
     Registration, RegistrationParams, Uri,
 };
+use inpact_parser::deck::EditedText;
 use inpact_parser::grammar::{Dialect, Release};
 use lsp_server::{ErrorCode, Notification, Request, Response};
 use serde::Deserialize;
@@ -83,7 +84,7 @@ impl Session {
             "initialized" => return self.watch(client),
             "textDocument/didOpen" => with(params, |params: DidOpenTextDocumentParams| {
                 let document = params.text_document;
-                self.workspace.open(document.uri, document.version, &document.text);
+                self.workspace.open(document.uri, document.version, EditedText::new(document.text.as_bytes()));
             }),
             "textDocument/didChange" => with(params, |params: DidChangeTextDocumentParams| {
                 let document = params.text_document;
@@ -109,6 +110,20 @@ impl Session {
             Ok(()) => Ok(()),
             Err(error) => log_error(client, format!("`{method}`: {error}")),
         }
+    }
+
+    /// Takes a document that is opened, whose text has come by itself.
+    pub(super) fn open<W: Write>(
+        &mut self,
+        Notification { method, params }: Notification,
+        text: EditedText,
+        client: &mut Client<W>,
+    ) -> io::Result<()> {
+        let taken = with(params, |params: DidOpenTextDocumentParams| {
+            self.workspace.open(params.text_document.uri, params.text_document.version, text);
+        });
+        self.has_news = true;
+        taken.or_else(|error| log_error(client, format!("`{method}`: {error}")))
     }
 
     /// Asks the editor to tell us when files change that decks may include, and configurations.

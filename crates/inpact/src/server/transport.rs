@@ -3,6 +3,8 @@
 //! A thread of its own reads, so that a request can be cancelled while another is answered, and so that neither side waits for the other.
 //! What is no message is answered, and the next one is read: a client that sends nonsense ends nothing.
 
+use super::long::{self, LongMessage};
+use inpact_parser::deck::EditedText;
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -16,10 +18,15 @@ const LONGEST_MESSAGE: u64 = 4 << 30;
 /// The most bytes of a line of a header.
 const LONGEST_HEADER_LINE: u64 = 8 << 10;
 
+/// Strings of more bytes are decoded as they come.
+const LONG_STRING: usize = 1 << 20;
+
 /// What came in.
 #[derive(Debug)]
 pub(super) enum Incoming {
     Message(Message),
+    /// A document that is opened, whose text is long; the notification has an empty one in its place.
+    Opening(Notification, EditedText),
     /// No message, or one that cannot be told: the answer to it.
     Nonsense {
         id: Option<RequestId>,
@@ -58,7 +65,11 @@ fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Can
     // An input that breaks off ends like one that ends.
     while let Ok(Some(body)) = read_body(input) {
         let incoming = match body {
-            Body::Whole(body) => decode(body),
+            Body::Whole(message) => decode(message),
+            Body::Faulty(reason) => {
+                let reason = format!("the message is no JSON: {reason}");
+                Incoming::Nonsense { id: None, code: ErrorCode::ParseError, reason }
+            }
             Body::TooLong(length) => {
                 let reason = format!("a message of {length} bytes is longer than any that is read");
                 Incoming::Nonsense { id: None, code: ErrorCode::InvalidRequest, reason }
@@ -80,7 +91,9 @@ fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Can
 
 /// What stands after a header.
 enum Body {
-    Whole(Vec<u8>),
+    Whole(LongMessage),
+    /// It is no JSON, and was passed over.
+    Faulty(&'static str),
     /// It was passed over.
     TooLong(u64),
 }
@@ -102,10 +115,13 @@ fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
                 io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
                 return Ok(Some(Body::TooLong(length)));
             }
-            // Not as much as the header promises, but as much as there is.
-            let mut body = Vec::new();
-            let read = input.by_ref().take(length).read_to_end(&mut body)?;
-            return Ok((read as u64 == length).then_some(Body::Whole(body)));
+            // Not as much memory as the header promises, but as much as there is to keep.
+            return match long::read(input, length, LONG_STRING) {
+                Ok(message) => Ok(Some(Body::Whole(message))),
+                Err(long::Fault::Text(reason)) => Ok(Some(Body::Faulty(reason))),
+                Err(long::Fault::Input(error)) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(None),
+                Err(long::Fault::Input(error)) => Err(error),
+            };
         }
         if let Some((name, value)) = line.split_once(':')
             && name.trim().eq_ignore_ascii_case("Content-Length")
@@ -115,14 +131,13 @@ fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
     }
 }
 
-/// Makes a message of JSON; the text of a deck in it is moved, not copied.
-fn decode(body: Vec<u8>) -> Incoming {
+/// Makes a message of JSON.
+fn decode(LongMessage { json, mut texts }: LongMessage) -> Incoming {
     let nonsense = |id, code, reason: &str| Incoming::Nonsense { id, code, reason: reason.to_owned() };
-    let value: Value = match serde_json::from_slice(&body) {
+    let value: Value = match serde_json::from_slice(&json) {
         Ok(value) => value,
         Err(error) => return nonsense(None, ErrorCode::ParseError, &format!("the message is no JSON: {error}")),
     };
-    drop(body);
     let Value::Object(mut fields) = value else {
         return nonsense(None, ErrorCode::InvalidRequest, "a message is an object; several in a list are not taken");
     };
@@ -135,7 +150,15 @@ fn decode(body: Vec<u8>) -> Incoming {
             }
         },
     };
-    let params = fields.remove("params").unwrap_or_default();
+    let mut params = fields.remove("params").unwrap_or_default();
+    if !texts.is_empty() {
+        if let (Some("textDocument/didOpen"), None) = (fields.get("method").and_then(Value::as_str), &id)
+            && let Some(text) = params.pointer_mut("/textDocument/text").and_then(|text| long::take(text, &mut texts))
+        {
+            return Incoming::Opening(Notification::new("textDocument/didOpen".to_owned(), params), text);
+        }
+        long::put_back(&mut params, &mut texts);
+    }
     match (fields.remove("method"), id) {
         (Some(Value::String(method)), Some(id)) => Incoming::Message(Request { id, method, params }.into()),
         (Some(Value::String(method)), None) => Incoming::Message(Notification { method, params }.into()),
@@ -214,6 +237,7 @@ mod tests {
         let found: Vec<String> = receiver
             .iter()
             .map(|incoming| match incoming {
+                Incoming::Opening(_, text) => format!("opening of {} bytes", text.length()),
                 Incoming::Message(Message::Request(request)) => format!("request {}", request.method),
                 Incoming::Message(Message::Notification(notification)) => {
                     format!("notification {}", notification.method)
@@ -257,6 +281,28 @@ mod tests {
         for (body, reason) in reasons {
             check(&[framed(body), good.clone()].concat(), &[reason, "request a"]);
         }
+    }
+
+    #[test]
+    fn a_long_text_is_opened_and_other_long_strings_are_put_back() {
+        let long = "1, 2.\\n".repeat(LONG_STRING / 4);
+        let opening = format!(r#"{{"method":"textDocument/didOpen","params":{{"textDocument":{{"text":"{long}"}}}}}}"#);
+        let other = format!(r#"{{"method":"a{long}","params":{{"x":"{long}"}}}}"#);
+        let name = format!("opening of {} bytes", 6 * (LONG_STRING / 4));
+        let (sender, receiver) = channel();
+        read_all(&mut &*[framed(&opening), framed(&other)].concat(), &sender, &Cancelled::default());
+        drop(sender);
+        let found: Vec<Incoming> = receiver.iter().collect();
+        let [Incoming::Opening(_, text), Incoming::Nonsense { .. } | Incoming::Message(_)] = &found[..] else {
+            panic!("{}", found.len());
+        };
+        assert_eq!(format!("opening of {} bytes", text.length()), name);
+        let parameter = format!(r#"{{"method":"a","params":{{"x":["{long}"]}}}}"#);
+        let (sender, receiver) = channel();
+        read_all(&mut &*framed(&parameter), &sender, &Cancelled::default());
+        drop(sender);
+        let Ok(Incoming::Message(Message::Notification(notification))) = receiver.recv() else { panic!("no message") };
+        assert_eq!(notification.params["x"][0].as_str(), Some(&*long.replace("\\n", "\n")));
     }
 
     #[test]

@@ -94,9 +94,8 @@ impl Workspace {
         self.stale = self.documents.keys().cloned().collect();
     }
 
-    pub(super) fn open(&mut self, uri: Uri, version: i32, text: &str) {
+    pub(super) fn open(&mut self, uri: Uri, version: i32, text: EditedText) {
         let place = place_of(&uri);
-        let text = EditedText::new(text.as_bytes());
         self.files.remove(&place);
         self.documents.insert(place, Document { uri, version, text });
         self.forget();

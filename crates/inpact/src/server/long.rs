@@ -1,0 +1,386 @@
+//! Long messages, whose texts never stand in memory as a whole: a deck of 100 MB comes as one string of JSON.
+//!
+//! What surrounds the long strings of a message is kept as it is, with a mark in the place of each; their characters are decoded as they
+//! come and cut into the pieces that a document consists of.
+
+use inpact_parser::deck::{EditedText, TextInParts};
+use serde_json::Value;
+use std::io::{self, BufRead};
+
+/// What the mark of a long string begins with; its number follows. Nobody writes a NUL.
+const MARK: &str = "\u{0}long string ";
+
+/// A message as it is decoded.
+#[derive(Debug, Default)]
+pub(super) struct LongMessage {
+    /// The JSON, with a mark for each long string.
+    pub(super) json: Vec<u8>,
+    /// The long strings, in their order.
+    pub(super) texts: Vec<EditedText>,
+}
+
+/// Takes the long string out whose mark a value is.
+pub(super) fn take(value: &mut Value, texts: &mut [EditedText]) -> Option<EditedText> {
+    let number: usize = value.as_str()?.strip_prefix(MARK)?.parse().ok()?;
+    let text = std::mem::take(texts.get_mut(number)?);
+    *value = Value::String(String::new());
+    Some(text)
+}
+
+/// Puts every long string back into its place.
+pub(super) fn put_back(value: &mut Value, texts: &mut [EditedText]) {
+    if let Some(text) = take(value, texts) {
+        // It was found to be UTF-8 when it came.
+        *value = Value::String(String::from_utf8(text.to_bytes()).unwrap_or_default());
+        return;
+    }
+    match value {
+        Value::Array(items) => {
+            for item in items {
+                put_back(item, texts);
+            }
+        }
+        Value::Object(fields) => {
+            for item in fields.values_mut() {
+                put_back(item, texts);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Why a long message is none.
+#[derive(Debug)]
+pub(super) enum Fault {
+    /// The input broke off or failed.
+    Input(io::Error),
+    /// A string that JSON does not allow; the rest of the message was passed over.
+    Text(&'static str),
+}
+
+impl From<io::Error> for Fault {
+    fn from(error: io::Error) -> Self {
+        Self::Input(error)
+    }
+}
+
+/// Reads a message of that many bytes; strings longer than `longest` are taken out.
+pub(super) fn read(input: &mut impl BufRead, length: u64, longest: usize) -> Result<LongMessage, Fault> {
+    let mut input = Bounded { input, left: length };
+    let mut message = LongMessage::default();
+    let found = message.read(&mut input, longest);
+    if matches!(found, Err(Fault::Text(_))) {
+        input.pass_over()?;
+    }
+    found.map(|()| message)
+}
+
+/// The bytes of one message.
+struct Bounded<'a, R> {
+    input: &'a mut R,
+    left: u64,
+}
+
+impl<R: BufRead> Bounded<'_, R> {
+    /// The bytes that are there; none at the end of the message.
+    fn available(&mut self) -> io::Result<&[u8]> {
+        if self.left == 0 {
+            return Ok(&[]);
+        }
+        let bytes = self.input.fill_buf()?;
+        if bytes.is_empty() {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        let here = usize::try_from(self.left).unwrap_or(usize::MAX).min(bytes.len());
+        Ok(&bytes[..here])
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.input.consume(count);
+        self.left -= count as u64;
+    }
+
+    fn next(&mut self) -> io::Result<Option<u8>> {
+        let byte = self.available()?.first().copied();
+        if byte.is_some() {
+            self.consume(1);
+        }
+        Ok(byte)
+    }
+
+    fn pass_over(&mut self) -> io::Result<()> {
+        while self.left > 0 {
+            let count = self.available()?.len();
+            self.consume(count);
+        }
+        Ok(())
+    }
+}
+
+impl LongMessage {
+    fn read<R: BufRead>(&mut self, input: &mut Bounded<'_, R>, longest: usize) -> Result<(), Fault> {
+        loop {
+            let bytes = input.available()?;
+            if bytes.is_empty() {
+                return Ok(());
+            }
+            let end = memchr::memchr(b'"', bytes).unwrap_or(bytes.len());
+            let has_string = end < bytes.len();
+            self.json.extend_from_slice(&bytes[..end]);
+            input.consume(end);
+            if has_string {
+                input.consume(1);
+                self.string(input, longest)?;
+            }
+        }
+    }
+
+    /// Reads a string whose quote has been read; a long one goes to the texts.
+    fn string<R: BufRead>(&mut self, input: &mut Bounded<'_, R>, longest: usize) -> Result<(), Fault> {
+        let start = self.json.len();
+        self.json.push(b'"');
+        loop {
+            let bytes = input.available()?;
+            let Some(end) = memchr::memchr2(b'"', b'\\', bytes) else {
+                if bytes.is_empty() {
+                    return Ok(());
+                }
+                self.json.extend_from_slice(bytes);
+                let count = bytes.len();
+                input.consume(count);
+                if longest < self.json.len() - start {
+                    return self.long(input, start);
+                }
+                continue;
+            };
+            let is_end = bytes[end] == b'"';
+            self.json.extend_from_slice(&bytes[..=end]);
+            input.consume(end + 1);
+            if is_end {
+                return Ok(());
+            }
+            // What is escaped is never the end.
+            self.json.extend(input.next()?);
+            if longest < self.json.len() - start {
+                return self.long(input, start);
+            }
+        }
+    }
+
+    /// Goes on with a string that is long: what of it stands in the JSON already comes first.
+    fn long<R: BufRead>(&mut self, input: &mut Bounded<'_, R>, start: usize) -> Result<(), Fault> {
+        let begun = self.json.split_off(start);
+        let mark = format!("{MARK}{}", self.texts.len());
+        self.json.extend_from_slice(Value::String(mark).to_string().as_bytes());
+        let mut decoder = Decoder::default();
+        decoder.push(&begun[1..])?;
+        drop(begun);
+        loop {
+            let bytes = input.available()?;
+            if bytes.is_empty() {
+                return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
+            }
+            let used = decoder.push(bytes)?;
+            input.consume(used.bytes);
+            if used.is_end {
+                self.texts.push(decoder.finish()?);
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// Makes text of the inside of a string of JSON, as it comes.
+#[derive(Debug, Default)]
+struct Decoder {
+    parts: TextInParts,
+    /// The beginning of an escape, backslash included, whose end has not come.
+    escape: Vec<u8>,
+    /// The first half of a character beyond the first plane.
+    high: Option<u32>,
+    /// The bytes of a character whose end has not come.
+    cut: Vec<u8>,
+}
+
+/// What of some bytes belongs to a string.
+struct Used {
+    bytes: usize,
+    is_end: bool,
+}
+
+impl Decoder {
+    /// Takes bytes up to the end of the string.
+    fn push(&mut self, bytes: &[u8]) -> Result<Used, Fault> {
+        let mut at = 0;
+        while at < bytes.len() {
+            if !self.escape.is_empty() {
+                self.escape.push(bytes[at]);
+                at += 1;
+                self.try_escape()?;
+                continue;
+            }
+            let end = memchr::memchr2(b'"', b'\\', &bytes[at..]).map_or(bytes.len(), |found| at + found);
+            if at < end {
+                self.no_half()?;
+                self.plain(&bytes[at..end])?;
+            }
+            at = end;
+            match bytes.get(at) {
+                Some(b'"') => return Ok(Used { bytes: at + 1, is_end: true }),
+                Some(_) => {
+                    self.whole_characters()?;
+                    self.escape.push(b'\\');
+                    at += 1;
+                }
+                None => {}
+            }
+        }
+        Ok(Used { bytes: at, is_end: false })
+    }
+
+    /// Bytes without an escape.
+    fn plain(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+        if bytes.iter().any(|byte| *byte < b' ') {
+            return Err(Fault::Text("a control character stands in a string as it is"));
+        }
+        let joined;
+        let bytes = if self.cut.is_empty() {
+            bytes
+        } else {
+            joined = [&self.cut, bytes].concat();
+            &joined
+        };
+        let whole = match std::str::from_utf8(bytes) {
+            Ok(_) => bytes.len(),
+            // The end of a character may be in what comes next.
+            Err(error) if error.error_len().is_none() => error.valid_up_to(),
+            Err(_) => return Err(NOT_UTF8),
+        };
+        self.parts.push(&bytes[..whole]);
+        self.cut = bytes[whole..].to_vec();
+        Ok(())
+    }
+
+    fn whole_characters(&self) -> Result<(), Fault> {
+        if self.cut.is_empty() { Ok(()) } else { Err(NOT_UTF8) }
+    }
+
+    fn no_half(&self) -> Result<(), Fault> {
+        if self.high.is_none() { Ok(()) } else { Err(HALF) }
+    }
+
+    /// Puts the character of an escape that is whole.
+    fn try_escape(&mut self) -> Result<(), Fault> {
+        let character = match self.escape[..] {
+            [_, b'u', a, b, c, d] => {
+                let digits = [a, b, c, d];
+                let digits = std::str::from_utf8(&digits)
+                    .ok()
+                    .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
+                let unit = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok()).ok_or(ESCAPE)?;
+                match (self.high.take(), unit) {
+                    (None, 0xD800..=0xDBFF) => {
+                        self.high = Some(unit);
+                        self.escape.clear();
+                        return Ok(());
+                    }
+                    (Some(high), 0xDC00..=0xDFFF) => {
+                        char::from_u32(0x1_0000 + ((high - 0xD800) << 10) + (unit - 0xDC00))
+                    }
+                    (None, _) => char::from_u32(unit),
+                    (Some(_), _) => None,
+                }
+                .ok_or(HALF)?
+            }
+            [_, b'u', ..] => return Ok(()),
+            [_, letter] => {
+                self.no_half()?;
+                match letter {
+                    b'n' => '\n',
+                    b'r' => '\r',
+                    b't' => '\t',
+                    b'b' => '\u{8}',
+                    b'f' => '\u{c}',
+                    b'"' | b'\\' | b'/' => char::from(letter),
+                    _ => return Err(ESCAPE),
+                }
+            }
+            _ => return Ok(()),
+        };
+        self.escape.clear();
+        self.parts.push(character.encode_utf8(&mut [0; 4]).as_bytes());
+        Ok(())
+    }
+
+    fn finish(self) -> Result<EditedText, Fault> {
+        self.no_half()?;
+        self.whole_characters()?;
+        Ok(self.parts.finish())
+    }
+}
+
+const NOT_UTF8: Fault = Fault::Text("a string is no UTF-8");
+const HALF: Fault = Fault::Text("half of a character stands alone");
+const ESCAPE: Fault = Fault::Text("a backslash has nothing after it that JSON knows");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+    use std::io::BufReader;
+
+    /// The message with its long strings put back, whatever the size of the pieces that the input comes in.
+    fn whole(json: &str, longest: usize, capacity: usize) -> Result<Value, Fault> {
+        let mut input = BufReader::with_capacity(capacity, json.as_bytes());
+        let message = read(&mut input, json.len() as u64, longest)?;
+        let mut value: Value = serde_json::from_slice(&message.json).expect("JSON");
+        let mut texts = message.texts;
+        put_back(&mut value, &mut texts);
+        Ok(value)
+    }
+
+    #[test]
+    fn a_message_is_what_it_is_in_one_piece() {
+        let texts = [
+            "",
+            "1, 2.\n3, 4.\r\n",
+            "\"quoted\" and \\",
+            "é😀\u{1}\u{7f}𝄞",
+            "a text of several words, with é at an end é",
+        ];
+        let message = json!({"a": 1, "b": {"c": texts[1], "f": texts[3]}, "d": texts, "e": [true, null]});
+        for json in [message.to_string(), serde_json::to_string_pretty(&message).expect("text")] {
+            // From where on a text is long; the names here have two bytes with their quote.
+            for longest in 3..50 {
+                for capacity in 1..30 {
+                    let found = whole(&json, longest, capacity).expect("a message");
+                    assert_eq!(found, message, "{longest} {capacity}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn escapes() {
+        let message = r#"{"text": "\u00e9\ud83d\ude00\n\/\\\"\b\f\r\t"}"#;
+        for capacity in 1..20 {
+            let expected = json!({"text": "é😀\n/\\\"\u{8}\u{c}\r\t"});
+            assert_eq!(whole(message, 6, capacity).unwrap(), expected);
+        }
+    }
+
+    #[test]
+    fn what_json_does_not_allow_is_passed_over() {
+        for wrong in [r"\x", r"\ud83d", r"\ud83dx", r"\ude00", r"\u12g4"] {
+            let message = format!(r#"{{"text": "{wrong}"}}"#);
+            let all = message.clone() + "next";
+            let mut input = all.as_bytes();
+            let found = read(&mut input, message.len() as u64, 0);
+            assert!(matches!(found, Err(Fault::Text(_))), "{wrong}: {found:?}");
+            assert_eq!(input, b"next", "{wrong}");
+        }
+        let control = whole("[\"a long text with \u{1} in it\"]", 4, 4);
+        assert!(matches!(control, Err(Fault::Text(_))), "{control:?}");
+        assert!(matches!(read(&mut &b"{\"a\": \"b"[..], 99, 0), Err(Fault::Input(_))));
+    }
+}
