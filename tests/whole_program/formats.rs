@@ -103,9 +103,26 @@ fn fingerprints_outlive_lines_inserted_above_and_tell_findings_apart() {
 
 #[test]
 fn statistics() {
-    let run = inpact(&["check", "--statistics", FAULTY, FAULTY, "decks/fragments/user.inp"]);
+    let decks = [FAULTY, FAULTY, "decks/fragments/user.inp"];
+    let run = inpact(&[&["check", "--statistics"], &decks[..]].concat());
     assert_eq!(run.code, 1);
     insta::assert_snapshot!(run.shown());
+    let run = inpact(&[&["check", "--statistics", "--format", "json"], &decks[..]].concat());
+    let found: Value = serde_json::from_str(&run.output).expect("JSON");
+    insta::assert_snapshot!(run.output);
+    // As many as are printed without it.
+    let all = inpact(&[&["check", "--format", "json"], &decks[..]].concat()).output.lines().count();
+    let counts = found.as_array().expect("a list").iter().map(|rule| rule["count"].as_u64().expect("a number"));
+    assert_eq!(counts.sum::<u64>(), all as u64);
+    let folder = Folder::with(&[("clean.inp", "*HEADING\n")]);
+    assert_eq!(folder.inpact(&["check", "--statistics", "--format", "json", "clean.inp"]).output, "[]\n");
+    // What can be mended is marked.
+    let deck = "*SURFACE INTERACTION, NAME=A\n*GAP COND\n1., 0.\n0., 1.\n*CONTACT PAIR, INTERACTION=B\nS, M\n";
+    folder.write("short.inp", deck);
+    let run = folder.inpact(&["check", "--statistics", "short.inp"]);
+    assert!(run.output.contains("K003  [*] abbreviated-keyword"), "{}", run.output);
+    assert!(run.output.contains("R001  [ ] undefined-interaction"), "{}", run.output);
+    assert!(run.errors.contains("[*] `--fix` mends 1 finding"), "{}", run.errors);
 }
 
 #[test]

@@ -54,7 +54,7 @@ pub(crate) struct CheckArguments {
     /// Show what fixing would change, and write nothing.
     #[arg(long)]
     diff: bool,
-    /// Print how often each rule found something, instead of the findings.
+    /// Print how often each rule found something, instead of the findings; with `--format json` as an array.
     #[arg(long)]
     statistics: bool,
     /// Check only decks that have files which differ from where this branch left REF, as git says.
@@ -199,7 +199,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         }
     }
     if arguments.statistics {
-        text += &total.statistics();
+        text += &total.statistics(arguments.format);
     } else if has_frame {
         text += &document.tail;
     }
@@ -208,6 +208,9 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     output.finish()?;
     if !arguments.quiet && (count > 0 || changed.is_some()) {
         say(&total.summary(count));
+        if arguments.statistics && total.fixable() > 0 {
+            say(&format!("[*] `--fix` mends {}", tally::count(total.fixable(), "finding")));
+        }
     }
     let outcome = match () {
         // Whoever watches can mend a file that cannot be read.

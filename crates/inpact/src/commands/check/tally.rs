@@ -1,6 +1,8 @@
 //! Counts of findings, for summary and statistics.
 
-use inpact_validation::rules::RULES;
+use crate::render::Format;
+use crate::rules;
+use inpact_diagnostics::FixSafety;
 use inpact_validation::{Diagnostic, Severity};
 use std::collections::BTreeMap;
 
@@ -8,7 +10,15 @@ use std::collections::BTreeMap;
 #[derive(Debug, Default, Clone)]
 pub(super) struct Tally {
     severities: BTreeMap<Severity, usize>,
-    codes: BTreeMap<&'static str, usize>,
+    codes: BTreeMap<&'static str, OfCode>,
+}
+
+/// Findings of one rule.
+#[derive(Debug, Default, Clone, Copy)]
+struct OfCode {
+    count: usize,
+    /// How many of them `--fix` mends.
+    fixable: usize,
 }
 
 impl Tally {
@@ -16,7 +26,9 @@ impl Tally {
         let mut tally = Self::default();
         for found in diagnostics {
             *tally.severities.entry(found.severity).or_default() += 1;
-            *tally.codes.entry(found.code).or_default() += 1;
+            let of_code = tally.codes.entry(found.code).or_default();
+            of_code.count += 1;
+            of_code.fixable += usize::from(found.fix.as_ref().is_some_and(|fix| fix.safety == FixSafety::Safe));
         }
         tally
     }
@@ -25,8 +37,10 @@ impl Tally {
         for (severity, number) in &other.severities {
             *self.severities.entry(*severity).or_default() += number;
         }
-        for (code, number) in &other.codes {
-            *self.codes.entry(code).or_default() += number;
+        for (code, more) in &other.codes {
+            let of_code = self.codes.entry(code).or_default();
+            of_code.count += more.count;
+            of_code.fixable += more.fixable;
         }
     }
 
@@ -42,12 +56,39 @@ impl Tally {
         format!("{}: {}, {}, {}", count(decks, "deck"), of(Severity::Error), of(Severity::Warning), of(Severity::Note))
     }
 
-    /// A line a code: how often, code, name.
-    pub(super) fn statistics(&self) -> String {
+    /// The rules that found something, the most frequent first: a line each, or a JSON array.
+    ///
+    /// As ruff has it: where any finding can be mended, `[*]` marks rules all of whose findings `--fix` mends, `[-]` those of which it mends some.
+    pub(super) fn statistics(&self, format: Format) -> String {
         let mut lines: Vec<_> = self.codes.iter().collect();
-        lines.sort_by_key(|(code, number)| (std::cmp::Reverse(**number), **code));
-        let name = |code: &str| RULES.iter().find(|rule| rule.code == code).map_or("", |rule| rule.name);
-        lines.iter().map(|(code, number)| format!("{number:8}  {code}  {}\n", name(code))).collect()
+        lines.sort_by_key(|(code, of_code)| (std::cmp::Reverse(of_code.count), **code));
+        let name = |code: &str| rules::of_code(code).map_or("", |rule| rule.name);
+        if format == Format::Json {
+            let objects: Vec<String> = lines
+                .iter()
+                .map(|(code, OfCode { count, fixable })| {
+                    let (code, name) = (serde_json::json!(code), serde_json::json!(name(code)));
+                    format!("  {{\"code\":{code},\"name\":{name},\"count\":{count},\"fixable_count\":{fixable}}}")
+                })
+                .collect();
+            return if objects.is_empty() { "[]\n".to_owned() } else { format!("[\n{}\n]\n", objects.join(",\n")) };
+        }
+        let has_marks = self.fixable() > 0;
+        let mark = |of_code: &OfCode| match of_code.fixable {
+            _ if !has_marks => "",
+            0 => "[ ] ",
+            fixable if fixable == of_code.count => "[*] ",
+            _ => "[-] ",
+        };
+        let line = |(code, of_code): &(&&str, &OfCode)| {
+            format!("{:8}  {code}  {}{}\n", of_code.count, mark(of_code), name(code))
+        };
+        lines.iter().map(line).collect()
+    }
+
+    /// How many findings `--fix` mends.
+    pub(super) fn fixable(&self) -> usize {
+        self.codes.values().map(|of_code| of_code.fixable).sum()
     }
 }
 
