@@ -254,14 +254,18 @@ impl ContactPlaces {
         }
         match (self.closed, plain(self.closed), plain(self.clearance), self.pressure, plain(self.pressure)) {
             (_, Some(closed), ..) => {
-                closed.iter().for_each(|closed| take(ContactState::of(Some(*closed), None, None)));
+                for closed in closed {
+                    take(ContactState::of(Some(*closed), None, None));
+                }
             }
             (None, _, Some(clearance), _, Some(pressure)) => clearance
                 .iter()
                 .zip(pressure)
                 .for_each(|(clearance, pressure)| take(ContactState::of(None, Some(*clearance), Some(*pressure)))),
             (None, _, Some(clearance), None, _) => {
-                clearance.iter().for_each(|clearance| take(ContactState::of(None, Some(*clearance), None)));
+                for clearance in clearance {
+                    take(ContactState::of(None, Some(*clearance), None));
+                }
             }
             _ => rows.for_each(|row| take(self.state(batch, row))),
         }
