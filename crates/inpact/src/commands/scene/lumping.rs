@@ -60,9 +60,8 @@ impl Lumping {
         let laws = InterfaceLaws::of(model, interaction, choices);
         let Some(thermal) = &laws.thermal else { return };
         let at = |values: &dyn Fn(usize) -> Option<f64>| {
-            let of = |column: Column| {
-                interfaces.quantities.iter().position(|quantity| *quantity == column).and_then(|at| values(at))
-            };
+            let of =
+                |column: Column| interfaces.quantities.iter().position(|quantity| *quantity == column).and_then(values);
             let (clearance, pressure) = (of(Column::Clearance), of(Column::Pressure));
             let state = ContactState::of(None, clearance, pressure)?;
             let fields = (1..=u32::from(u8::MAX)).map(|number| of(Column::FieldVariable(number, Part::Both)));

@@ -48,7 +48,9 @@ impl Head {
         ] {
             if !lines.is_empty() {
                 put(&mut text, format_args!("#\n# {title}:\n"));
-                lines.iter().for_each(|line| put(&mut text, format_args!("#   {}\n", comment(line))));
+                for line in lines {
+                    put(&mut text, format_args!("#   {}\n", comment(line)));
+                }
             }
         }
         text + "\n"
