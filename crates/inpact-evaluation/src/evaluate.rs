@@ -48,7 +48,7 @@ pub struct Evaluation<'a> {
     tally: Tally,
 }
 
-/// What came of a law in a row.
+/// Results of a law in a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Outcome {
     /// The row lacks a number that the law needs.
@@ -119,7 +119,7 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// What was counted.
+    /// The counts.
     pub fn finish(mut self) -> Tally {
         let parts =
             self.workers.into_iter().map(|worker| worker.tally).chain(self.shards.into_iter().map(|shard| shard.tally));

@@ -21,7 +21,7 @@ struct Ready {
     grid: Option<Resampled>,
 }
 
-/// What is needed beside the table where a grid stands in for it.
+/// Data beside the table where a grid stands in for it.
 #[derive(Debug)]
 struct Resampled {
     grid: Grid,
@@ -34,7 +34,7 @@ struct Resampled {
 pub struct FoundValue {
     /// The value, rounded.
     pub value: f64,
-    /// What rounding took away, where the form knows it.
+    /// The part lost by rounding, where the form knows it.
     pub rest: Option<f64>,
     /// Where the point lies outside the table.
     pub sides: Sides,
@@ -45,7 +45,7 @@ pub struct FoundValue {
 pub struct TableValues {
     /// The values, rounded.
     pub values: Vec<f64>,
-    /// What rounding took away; empty unless the form knows it.
+    /// The part lost by rounding; empty unless the form knows it.
     pub rests: Vec<f64>,
     /// Where each row lies outside the table.
     pub sides: Vec<Sides>,

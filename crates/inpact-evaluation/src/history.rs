@@ -40,7 +40,7 @@ impl HistoryStart {
     }
 }
 
-/// What Δφ₀ is in the heat of an increment at whose start the interface did not conduct.
+/// Δφ₀ in the heat of an increment at whose start the interface did not conduct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ClosingHeat {
     /// The jump of the open circuit, as the manual has it: a heat that no circuit supplied.
@@ -60,7 +60,7 @@ pub struct ElectricalHistory {
     heat: Integral,
 }
 
-/// What a row leaves to the next.
+/// Quantities of a row that the next one needs.
 #[derive(Clone, Copy, Debug)]
 struct ElectricalRow {
     time: f64,
@@ -68,7 +68,7 @@ struct ElectricalRow {
     conducts: bool,
 }
 
-/// What an increment of the electrical law needs from the row before.
+/// Quantities of the row before that an increment of the electrical law needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElectricalIncrement {
     /// Δt; `None` in the first row of a history.
@@ -172,12 +172,12 @@ pub fn contradicts(given: f64, rate: f64) -> bool {
     CONTRADICTION * rate.abs().max(given.abs()) < (rate - given).abs()
 }
 
-/// What an increment of the pore law needs from the row before.
+/// Quantities of the row before that an increment of the pore law needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoreIncrement {
     /// Δt; `None` in the first row of a history.
     pub duration: Option<f64>,
-    /// What the gap does in a transient: it changes at the rate that is given, otherwise as the clearance has changed over the increment, and not at all in the first row.
+    /// The gap in a transient: it changes at the rate that is given, otherwise as the clearance has changed over the increment, and not at all in the first row.
     pub gap: Gap,
     /// ḋ as the clearance has changed, where a rate is given that contradicts it.
     pub contradicted: Option<ClearanceRate>,

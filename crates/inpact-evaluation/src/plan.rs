@@ -58,18 +58,18 @@ use crate::table::{FoldRefusal, Tail};
 use inpact_parser::model::Name;
 use std::sync::Arc;
 
-/// What an evaluation does.
+/// The plan of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// How many rows the node table has.
     pub rows: u64,
-    /// What says which interaction governs a row.
+    /// The source of the interaction that governs a row.
     pub governed_by: GovernedBy,
     /// The interactions that govern rows, in the order of the deck.
     pub interactions: Vec<InteractionPlan>,
     /// The interactions of the deck that govern none.
     pub unused: Vec<Name>,
-    /// What becomes of each column of the node table, in the order of its header.
+    /// The role of each column of the node table, in the order of its header.
     pub columns: Vec<ColumnPlan>,
     /// In which order the rows of the nodes come, where they have histories.
     pub order: HistoryOrder,
@@ -79,7 +79,7 @@ pub struct Plan {
     pub outputs: Vec<Output>,
 }
 
-/// What is evaluated in the rows of one interaction.
+/// The parts evaluated in the rows of one interaction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InteractionPlan {
     /// Its name.
@@ -104,13 +104,13 @@ pub struct InteractionPlan {
     pub pore: Option<PorePlan>,
     /// The tables of the deck that its laws are made of.
     pub(crate) tables: Arc<BuiltTables>,
-    /// What comes out, in the order of the result's columns.
+    /// The outputs, in the order of the result's columns.
     pub outputs: Vec<Output>,
-    /// What does not, and why.
+    /// The parts left out, and why.
     pub left_out: Vec<LeftOut>,
-    /// What of its laws was cut, with its cost.
+    /// The parts of its laws that were cut, with their costs.
     pub dropped: Vec<Dropped>,
-    /// What else there is to know.
+    /// Notes.
     pub notes: Vec<String>,
 }
 
@@ -143,7 +143,7 @@ pub struct TablePlan {
     pub against: Along,
     /// How many rows it has.
     pub rows: usize,
-    /// What follows its last row.
+    /// The continuation beyond its last row.
     pub tail: Tail,
     /// Whether the last value of every group is zero, so that no choice of tail makes a difference.
     pub ends_in_zero: bool,
@@ -153,7 +153,7 @@ pub struct TablePlan {
     pub folded_rows: usize,
     /// The variables that have one value and along which it could not be folded.
     pub not_folded: Vec<(Along, FoldRefusal)>,
-    /// What decides how fast the whole table is evaluated.
+    /// The properties that decide how fast the whole table is evaluated.
     pub shape: Shape,
     /// The form in which it is evaluated; `None` for a table that no row reaches.
     pub form: Option<FormPlan>,
@@ -170,9 +170,9 @@ pub struct FormPlan {
     pub bound: Option<ErrorBound>,
     /// A tolerance that the bound is above, as no form keeps it.
     pub missed: Option<f64>,
-    /// What a value costs by the shape of the table, in about a nanosecond.
+    /// The cost of a value by the shape of the table, in about a nanosecond.
     pub cost: f64,
-    /// What it costs by the table's own kernel.
+    /// The cost by the table's own kernel.
     pub full_cost: f64,
     /// The other ways that were considered, and why they were not chosen.
     pub refused: Vec<(String, String)>,
@@ -199,20 +199,20 @@ pub struct AxisPlan {
     pub is_idle: bool,
 }
 
-/// What becomes of a column of the node table.
+/// A column of the node table and its role.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnPlan {
-    /// What the header calls it.
+    /// Its name in the header.
     pub header: String,
-    /// What it means; `None` for a name the contract does not have.
+    /// Its meaning; `None` for a name the contract does not have.
     pub column: Option<Column>,
-    /// What becomes of it.
+    /// Its role.
     pub role: ColumnRole,
     /// The smallest and the largest number in it, where it was read and has finite ones.
     pub range: Option<(f64, f64)>,
 }
 
-/// What becomes of a column.
+/// Roles of columns.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ColumnRole {
     /// Its texts are those of the result.

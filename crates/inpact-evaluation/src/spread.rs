@@ -1,6 +1,6 @@
 //! Work that is spread over the threads of rayon's current pool, where feature `threads` is on; otherwise it is done one after the other.
 //!
-//! What comes of it is the same in either case.
+//! Results are the same in either case.
 
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl F
     items.into_iter().for_each(work);
 }
 
-/// What `work` makes of each of some things, in their order.
+/// Results of `work` on each of some things, in their order.
 pub(crate) fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
     let items: Vec<T> = items.into_iter().collect();
     #[cfg(feature = "threads")]

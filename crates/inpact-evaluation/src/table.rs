@@ -33,12 +33,12 @@ use marks::Marks;
 #[derive(Clone, Debug)]
 pub struct PiecewiseTable(Arc<Content>);
 
-/// What a table is made of.
+/// Parts of a table.
 #[derive(Clone, Debug)]
 struct Content {
     /// How many axes the rows have.
     axis_count: usize,
-    /// What follows the last row of a group of axis 0.
+    /// The continuation beyond the last row of a group of axis 0.
     tail: Tail,
     /// The axes the value depends on, fastest first. An axis every group of which has one row is left out, unless the value drops beyond it.
     levels: Vec<Level>,
@@ -46,13 +46,13 @@ struct Content {
     values: Vec<f64>,
     /// For each row the slope towards the next; of no meaning in the last row of a group.
     slopes: Vec<KernelSlope>,
-    /// What the rows say of each axis, left out or not.
+    /// Each axis by the rows, left out or not.
     axes: Vec<AxisSummary>,
     /// Which points count as outside, where the rows of a folded table no longer tell.
     marks: Option<Marks>,
 }
 
-/// What a table is beyond the last abscissa of axis 0 within each group.
+/// Continuations of a table beyond the last abscissa of axis 0 within each group.
 ///
 /// Electrical conductance against clearance is constant by the words of Analysis User's Guide 37.3.1 and zero by its figure;
 /// thermal conductance against clearance is zero (37.2.1). At the last abscissa itself the row's value holds in either case.
@@ -191,7 +191,7 @@ impl PiecewiseTable {
         &self.0.values
     }
 
-    /// What follows the last row of a group of axis 0.
+    /// The continuation beyond the last row of a group of axis 0.
     pub fn tail(&self) -> Tail {
         self.0.tail
     }

@@ -4,7 +4,7 @@ mod linear_support;
 
 use inpact_evaluation::numbers::DoubleDouble;
 use inpact_network::linear::{
-    LAST_DIGIT, LinearFailure, LinearNetwork, Link, Method, Shortcoming, Solver, Store, Unsolvable,
+    LAST_DIGIT, LinearFailure, LinearNetwork, Link, Method, Reused, Shortcoming, Solver, Store, Symbolic, Unsolvable,
 };
 use linear_support::{Balanced, METHODS, failure, jumps, network, rounded, solutions, solve, worst_balance};
 use num_rational::BigRational;
@@ -564,4 +564,43 @@ fn the_tolerance_is_kept() {
             assert!(distance <= tolerance, "{method:?} within {tolerance}: {distance}");
         }
     }
+}
+
+/// A square grid of unit conductances, held at one corner and fed at the opposite one.
+fn grid(side: u32) -> LinearNetwork {
+    let mut network = LinearNetwork::of_nodes((side * side) as usize);
+    for row in 0..side {
+        for column in 0..side {
+            let ends = [(row, column + 1), (row + 1, column)];
+            let ends = ends.into_iter().filter(|(row, column)| *row < side && *column < side);
+            let link = |(r, c)| Link { nodes: [side * row + column, side * r + c], conductance: 1.0 };
+            network.links.extend(ends.map(link));
+        }
+    }
+    network.held[0] = Some(0.0);
+    network.sources[(side * side - 1) as usize] = 1.0;
+    network
+}
+
+/// Another solver of the same graph orders nothing, the next right-hand side factors nothing, and both give the same digits as one that does.
+#[test]
+fn one_order_serves_many_networks_of_a_graph() {
+    let mut network = grid(20);
+    let symbolic = Symbolic::of(&network).expect("it has a solution");
+    let mut solver = symbolic.solver(Method::Direct, LAST_DIGIT);
+    for (source, reused) in [(1.0, Reused::Order), (2.0, Reused::Factor), (3.0, Reused::Factor)] {
+        network.sources[399] = source;
+        let solution = solver.solve(&network).expect("it has a solution");
+        let anew = Solver::new(Method::Direct, LAST_DIGIT).solve(&network).expect("it has a solution");
+        assert_eq!((solution.report.reused, anew.report.reused), (reused, Reused::Nothing));
+        assert_eq!((&solution.values, &solution.flows), (&anew.values, &anew.flows));
+        assert_eq!(solution.report.factor_entries, symbolic.factor_entries());
+        assert!(solution.report.phases.order == 0.0);
+    }
+    network.links.iter_mut().for_each(|link| link.conductance *= 1.5);
+    let solution = symbolic.solver(Method::Mixed, LAST_DIGIT).solve(&network).expect("it has a solution");
+    assert_eq!(solution.report.reused, Reused::Order);
+    // Another graph is analysed anew.
+    let other = symbolic.solver(Method::Direct, LAST_DIGIT).solve(&grid(10)).expect("it has a solution");
+    assert_eq!(other.report.reused, Reused::Nothing);
 }

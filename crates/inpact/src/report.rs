@@ -18,10 +18,10 @@ use crate::render::Format;
 use inpact_diagnostics::{Diagnostic, Severity};
 use page::Page;
 
-/// What a report is made of.
+/// Contents of a report.
 pub(crate) struct Report<'a> {
     pub(crate) deck: &'a Deck,
-    /// What a check of it found.
+    /// The findings of a check of it.
     pub(crate) findings: &'a [Diagnostic],
     pub(crate) figure: &'a Figure,
     /// What an evaluation of a node table would do and leave out, and what it gave.
@@ -34,7 +34,7 @@ pub(crate) struct Report<'a> {
 
 /// An evaluation of a node table in words.
 pub(crate) struct Evaluation {
-    /// What the node table is called.
+    /// The name of the node table.
     pub(crate) nodes: String,
     /// The plan, as `inpact plan` prints it.
     pub(crate) plan: String,
@@ -54,7 +54,7 @@ pub(crate) struct Tradeoff {
     pub(crate) text: String,
 }
 
-/// What an output adds up to over the nodes of an interface, time by time.
+/// Sums of an output over the nodes of an interface, time by time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct History {
     /// The interaction.

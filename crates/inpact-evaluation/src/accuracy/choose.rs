@@ -45,13 +45,13 @@ pub struct Candidate {
     pub method: Method,
     /// Its error bound; none where it cannot be made.
     pub bound: Option<ErrorBound>,
-    /// What a row costs by the shape of the table, in about a nanosecond.
+    /// The cost of a row by the shape of the table, in about a nanosecond.
     pub cost: f64,
     /// Why it was not chosen; none for the one that was.
     pub refusal: Option<Refusal>,
 }
 
-/// What was chosen, and what was considered.
+/// The choice, and the candidates.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// The grid, if one was chosen.

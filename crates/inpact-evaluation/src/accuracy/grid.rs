@@ -190,7 +190,7 @@ impl Grid {
         Ok(ErrorBound::of_magnitudes(worst.0 + rounding, pointwise, largest))
     }
 
-    /// What rounding can add to the error found at the vertices.
+    /// The error that rounding can add to that found at the vertices.
     ///
     /// The place of a coordinate in units of cells is off by two roundings of itself, and a line of the grid is not exactly where its node was evaluated;
     /// either costs as much of the largest difference of neighbouring nodes. Each axis rounds a difference and a result. All that counts twice, at the vertex and at the query,

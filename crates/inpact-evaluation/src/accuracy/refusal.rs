@@ -26,7 +26,7 @@ pub enum Refusal {
     Bound {
         /// The bound.
         bound: f64,
-        /// What was asked for.
+        /// The requested one.
         tolerance: f64,
     },
     /// Within the tolerance, but another method is cheaper.

@@ -1,4 +1,4 @@
-//! What a user asks of the accuracy of tables: a mode or a tolerance.
+//! The accuracy of tables that a user requests: a mode or a tolerance.
 
 use super::{Accuracy, ErrorBound, Refusal};
 
@@ -12,7 +12,7 @@ pub enum Tolerance {
 }
 
 impl Tolerance {
-    /// What of a bound is compared with the tolerance.
+    /// The part of a bound that is compared with the tolerance.
     fn of_bound(self, bound: &ErrorBound) -> f64 {
         match self {
             Self::RelativeToLargest(_) => bound.relative_to_largest,
@@ -33,7 +33,7 @@ impl Tolerance {
     }
 }
 
-/// What a user asks for: a mode or a tolerance.
+/// The requested accuracy: a mode or a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wanted {
     /// A mode. [`Accuracy::Fast`] takes a grid where it is faster than [`Accuracy::Full`] and its bound is within [`FAST_TOLERANCE`].
@@ -72,5 +72,5 @@ impl Wanted {
     }
 }
 
-/// What [`Accuracy::Fast`] accepts where no tolerance is given: 1e-4 of the largest value of the table.
+/// The tolerance of [`Accuracy::Fast`] where none is given: 1e-4 of the largest value of the table.
 pub const FAST_TOLERANCE: Tolerance = Tolerance::RelativeToLargest(1e-4);

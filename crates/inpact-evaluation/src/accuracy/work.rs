@@ -1,4 +1,4 @@
-//! What a row costs in each method, by the shape of the table alone: searches, interpolations and divisions, counted.
+//! Costs of a row in each method, by the shape of the table alone: searches, interpolations and divisions, counted.
 //!
 //! The unit is about a nanosecond of a present-day core with AVX2; what is chosen by it is the order, which follows from the counts:
 //!
@@ -24,7 +24,7 @@ const FUSED: f64 = 0.5;
 /// An interpolation in double-double, row by row.
 const DOUBLE_DOUBLE: f64 = 40.0;
 
-/// What of a table decides what a row costs.
+/// The properties of a table that decide the cost of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     /// How many axes the value depends on.
@@ -40,7 +40,7 @@ impl Shape {
         Self { axes: table.levels().len(), is_rectilinear }
     }
 
-    /// What a row costs, in about a nanosecond; 0 where the value depends on nothing.
+    /// The cost of a row, in about a nanosecond; 0 where the value depends on nothing.
     pub fn cost(self, method: &Method) -> f64 {
         if self.axes == 0 {
             return 0.0;

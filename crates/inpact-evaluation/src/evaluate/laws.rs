@@ -26,7 +26,7 @@ pub(super) struct Laws {
     pub(super) time: Option<usize>,
     /// Where the histories of nodes start.
     pub(super) history_start: HistoryStart,
-    /// What the heat of an increment takes that closes a circuit.
+    /// The jump in the heat of an increment that closes a circuit.
     pub(super) closing_heat: ClosingHeat,
     /// Whether a routine of the user's is asked, which sees the rows in their order and one at a time.
     pub(super) asks_user: bool,

@@ -17,7 +17,7 @@ pub(super) struct Shard {
     pub(super) tally: Tally,
 }
 
-/// What a node's rows so far add up to.
+/// Sums over a node's rows so far.
 #[derive(Debug, Clone)]
 struct NodeHistory {
     electrical: ElectricalHistory,

@@ -1,4 +1,4 @@
-//! What an evaluation counts: rows in and out, contact, rows beyond tables, and what a user should know of them.
+//! Counts of an evaluation: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
 use super::laws::Laws;
 use super::{Row, Totals};
@@ -37,7 +37,7 @@ pub struct Tally {
 pub struct UserFaultInRow {
     /// Where it is.
     pub place: Place,
-    /// What the routine was called with and what it gave.
+    /// Its arguments and its result.
     pub message: String,
 }
 
@@ -66,7 +66,7 @@ pub struct InteractionTally {
     pub lost_digits: u64,
     /// How many have a node label that is no number, for a user's routine that is called with one.
     pub unnumbered_nodes: u64,
-    /// What its rows of the latest time add up to.
+    /// The sums over its rows of the latest time.
     pub totals: Totals,
     /// The largest error of its conductances in a sample of rows.
     pub seen_error: SeenError,

@@ -20,7 +20,7 @@ pub(super) struct Worker<'a> {
     asks_user: bool,
 }
 
-/// What is found of a part in columns, before its rows are gone through.
+/// Results of a part in columns, before its rows are gone through.
 #[derive(Debug, Default)]
 pub(super) struct Found {
     pub(super) conductances: Option<ConductanceColumn>,

@@ -33,7 +33,7 @@ use crate::numbers::{Amount, Scaled, is_zero_or_ordinary};
 pub struct ElectricalLaw {
     /// σ_g against clearance, pressure, temperature and field variables.
     pub conductance: ConductanceTables,
-    /// What becomes of the dissipated energy.
+    /// Conversion of the dissipated energy into heat.
     pub heat_generation: HeatGeneration,
 }
 
@@ -116,7 +116,7 @@ impl Dissipation {
     }
 }
 
-/// What crosses the interface at one point.
+/// Flows across the interface at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElectricalFlow {
     /// Current density J leaving the slave surface (output ECD).

@@ -20,7 +20,7 @@ use inpact_parser::model::{Interaction, Model, OptionKind, Procedure};
 pub struct InterfaceLaws {
     /// Electrical conductance.
     pub electrical: Option<ElectricalSource>,
-    /// What becomes of dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
+    /// Conversion of dissipated energy into heat; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat_generation: Option<HeatGeneration>,
     /// Thermal conductance.
     pub thermal: Option<ThermalConductance>,
@@ -32,11 +32,11 @@ pub struct InterfaceLaws {
     pub pore: Option<PoreLaw>,
     /// Whether the deck tells of pore fluid: by *CONTACT PERMEABILITY, or by a procedure that solves for it.
     pub tells_of_pore: bool,
-    /// What cannot be evaluated, of which flow it is, and why.
+    /// The parts that cannot be evaluated, of which flow they are, and why.
     pub left_out: Vec<(FlowOf, LeftOut)>,
 }
 
-/// What flows across an interface.
+/// Flows across an interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlowOf {
     /// Electric current.
@@ -47,7 +47,7 @@ pub enum FlowOf {
     PoreFluid,
 }
 
-/// What gives an electrical conductance.
+/// Sources of an electrical conductance.
 #[derive(Debug, Clone)]
 pub enum ElectricalSource {
     /// Tables of the deck; axis 1 is the mean temperature, the field variables follow.

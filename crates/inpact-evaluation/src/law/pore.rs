@@ -93,7 +93,7 @@ pub struct PorePoint<'a> {
     pub characteristic_length: Option<f64>,
     /// Bulk permeabilities behind slave and master, if both are known.
     pub bulk: Option<BulkPermeabilities>,
-    /// What the gap does.
+    /// The change of the gap.
     pub gap: Gap,
     /// q_across where it is known although the permeability is infinite, from a solution of the equations it is an unknown of.
     pub multiplier: Option<f64>,
@@ -135,7 +135,7 @@ pub enum Flow {
     NeedsCharacteristicLength,
 }
 
-/// What flows at one point of the interface. `None` is a number nobody knows here: see `across` and `gap_fill` for why.
+/// Flows at one point of the interface. `None` is a number nobody knows here: see `across` and `gap_fill` for why.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoreFlow {
     /// Whether fluid crosses the interface.
@@ -325,7 +325,7 @@ fn opening(clearance: Clearance) -> f64 {
     if clearance.0 <= 0.0 { 0.0 } else { clearance.0 }
 }
 
-/// What a given rate of the clearance fills within the cutoff: an overclosed interface has no gap, and one at zero clearance only where it opens.
+/// The flow of a given rate of the clearance within the cutoff: an overclosed interface has no gap, and one at zero clearance only where it opens.
 fn given_rate(clearance: Clearance, rate: ClearanceRate) -> f64 {
     let has_gap = 0.0 < clearance.0 || (0.0 <= clearance.0 && 0.0 < rate.0);
     if has_gap || clearance.0.is_nan() { rate.0 } else { 0.0 }

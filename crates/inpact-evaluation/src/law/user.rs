@@ -78,7 +78,7 @@ pub struct UserConductancePoint<'a> {
     pub increment: i32,
 }
 
-/// What a user's routine gives.
+/// Results of a user's routine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UserConductanceValue {
     /// σ_g, C T⁻¹ L⁻² φ⁻¹.
@@ -126,7 +126,7 @@ impl UserConductanceValue {
     /// Itself, if it is a conductance: all of it finite and the conductance not negative.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The fault.
     #[inline]
     pub fn checked(self) -> Result<Self, UserFault> {
         let items = [self.conductance, self.slopes[0], self.slopes[1]];

@@ -4,7 +4,7 @@ use super::contract::plain_columns;
 use inpact_parser::grammar::nearest_names;
 use std::fmt;
 
-/// What a column of a node table holds.
+/// Quantities in columns of a node table.
 ///
 /// Its [`Display`](fmt::Display) form is its canonical name; [`Column::named`] knows the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -34,7 +34,7 @@ pub(super) enum Storage {
 }
 
 impl Storage {
-    /// What such a table is called.
+    /// The name of the format.
     fn kind(self) -> &'static str {
         match self {
             Self::Parquet => "Parquet",
@@ -70,7 +70,7 @@ enum Rows {
     Ended,
 }
 
-/// What one step of reading gave: rows, the end, or an error.
+/// Results of one step of reading: rows, the end, or an error.
 type Read1 = io::Result<Option<Columns>>;
 
 /// Record batches one after the other.
@@ -80,7 +80,7 @@ pub type RecordBatches = Box<dyn Iterator<Item = Result<RecordBatch, ArrowError>
 struct Source {
     kind: &'static str,
     batches: RecordBatches,
-    /// What is left of the batch read last.
+    /// The rest of the batch read last.
     rest: Option<RecordBatch>,
     rows_of_a_batch: usize,
     /// The place of each label and number in a record batch, if it can be read.
@@ -155,7 +155,7 @@ impl ColumnarReader {
         self.reads_ahead = reads_ahead;
     }
 
-    /// What a Parquet file itself says of column number `index`, if it says it of all rows.
+    /// Statistics of column number `index` in a Parquet file, if they are of all rows.
     pub(super) fn statistics(&self, index: usize) -> Option<ColumnStatistics> {
         let Rows::Parquet(_, metadata) = &self.rows else { return None };
         caught(Storage::Parquet.kind(), || Ok(statistics(metadata, index))).ok()?
@@ -354,7 +354,7 @@ fn is_key(kind: &DataType) -> bool {
     }
 }
 
-/// What a Parquet file itself says of column number `index`, if it says it of all rows.
+/// Statistics of column number `index` in a Parquet file, if they are of all rows.
 fn statistics(metadata: &ArrowReaderMetadata, index: usize) -> Option<ColumnStatistics> {
     let parquet = metadata.metadata();
     let descriptor = parquet.file_metadata().schema_descr();

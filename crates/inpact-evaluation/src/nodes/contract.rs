@@ -1,11 +1,11 @@
 //! The contract of node tables: each column with its names, its meaning, its unit and what reads it.
 //!
-//! What a reader, `explain` and the documentation know of a column stands here and nowhere else.
+//! The one place that says what columns mean, for the reader, `explain` and the documentation.
 //! Units are by dimension: M mass, L length, T time, θ temperature, φ electric potential, C charge.
 
 use super::column::{Column, Direction, Part};
 
-/// What there is to say of a column of node tables.
+/// The page of a column of node tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ColumnPage {
     /// The column; of the columns of field variables those of the first.

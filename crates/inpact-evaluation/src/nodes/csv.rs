@@ -25,7 +25,7 @@ pub(super) struct CsvReader<'a> {
     current: Work,
     taken: usize,
     spare: Vec<Work>,
-    /// What came before the current piece.
+    /// The lines and rows before the current piece.
     rows_before: u64,
     lines_before: u64,
     /// Whether nothing is left to read, and why if that is an error.

@@ -10,7 +10,7 @@ use memchr::memchr;
 /// Which cells of a row go where.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Layout {
-    /// What stands between cells.
+    /// The separator of cells.
     pub(super) separator: u8,
     /// How many cells a row has.
     pub(super) cells: usize,
@@ -36,7 +36,7 @@ enum Target {
     Number(usize),
 }
 
-/// What came of a piece of text.
+/// Results of a piece of text.
 #[derive(Debug, Default)]
 pub(super) struct Decoded {
     /// The rows; batches beyond [`Decoded::used`] are what others have left.
@@ -50,7 +50,7 @@ pub(super) struct Decoded {
 /// As much of a cell's text as a message shows.
 const MOST_SHOWN: usize = 200;
 
-/// What is wrong with a row or a cell.
+/// Faults of a row or a cell.
 #[derive(Debug)]
 pub(super) struct Problem {
     /// Counted from 1.

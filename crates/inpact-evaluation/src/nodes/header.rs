@@ -19,9 +19,9 @@ pub struct Header {
 /// A cell of the header.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct HeaderCell {
-    /// What stands there, without blanks around it.
+    /// Its text, without blanks around it.
     pub text: String,
-    /// What it means; `None` for a name the contract does not have.
+    /// Its meaning; `None` for a name the contract does not have.
     pub column: Option<Column>,
 }
 
@@ -50,7 +50,7 @@ impl Header {
         self.places.get(&column).copied()
     }
 
-    /// What the header calls the column: an alias where that is what stands there, otherwise the canonical name.
+    /// The name of the column in the header, which may be an alias; the canonical name where it is not there.
     pub fn name_of(&self, column: Column) -> String {
         self.position(column).map_or_else(|| column.to_string(), |index| self.cells[index].text.clone())
     }

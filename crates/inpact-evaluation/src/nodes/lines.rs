@@ -17,13 +17,13 @@ const LONGEST_ROW: usize = 64 * 1024 * 1024;
 /// The mark that some programs begin a text with.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// What may stand between cells; where a header leaves it open, the first of them does.
+/// Separators of cells; where a header leaves it open, the first of them counts.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
 /// A text that is read in pieces which end where rows end.
 pub(super) struct Pieces<'a> {
     input: Box<dyn Read + Send + 'a>,
-    /// What was read beyond the last piece.
+    /// Bytes read beyond the last piece.
     rest: Vec<u8>,
     separator: u8,
     state: State,
@@ -68,7 +68,7 @@ impl<'a> Pieces<'a> {
         Ok(pieces)
     }
 
-    /// What stands between cells.
+    /// The separator of cells.
     pub(super) fn separator(&self) -> u8 {
         self.separator
     }
@@ -248,7 +248,7 @@ fn end_of_rows(piece: &Piece, separator: u8) -> usize {
     end
 }
 
-/// What stands between the cells of a header: what gives the most columns of the contract, then the most cells.
+/// The separator of a header: the one that gives the most columns of the contract, then the most cells.
 pub(super) fn separator_of(header: &[u8]) -> u8 {
     let mut cells = Cells::default();
     let mut score = |separator: u8| {

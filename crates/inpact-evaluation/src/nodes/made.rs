@@ -15,7 +15,7 @@ pub(super) struct MadeReader<'a> {
     /// How many of the columns are texts; they come first.
     texts: usize,
     batches: MadeBatches<'a>,
-    /// What was made last, and how many of its rows are handed out.
+    /// The batch made last, and how many of its rows are handed out.
     current: Batch,
     done: usize,
     labels: Vec<usize>,

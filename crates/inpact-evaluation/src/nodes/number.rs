@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// What the contract accepts, by the standard library alone.
+    /// The number by the contract, read by the standard library alone.
     fn judge(cell: &[u8]) -> Option<u64> {
         std::str::from_utf8(cell.trim_ascii()).ok()?.parse().ok().map(f64::to_bits)
     }

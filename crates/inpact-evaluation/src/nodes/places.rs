@@ -91,7 +91,7 @@ fn cells(row: &[u8], separator: u8) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// What a header cell says.
+/// The text of a header cell, without quotes.
 fn unquoted(cell: &[u8]) -> &[u8] {
     let inner = cell.strip_prefix(b"\"").and_then(|cell| cell.strip_suffix(b"\""));
     inner.unwrap_or(cell).trim_ascii()

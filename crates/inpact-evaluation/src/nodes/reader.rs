@@ -33,12 +33,12 @@ enum Table<'a> {
     Made(Box<MadeReader<'a>>),
 }
 
-/// What a table that is stored as columns can be read from.
+/// Sources of tables that are stored as columns.
 pub trait ReadSeek: Read + Seek + Send + 'static {}
 
 impl<T: Read + Seek + Send + 'static> ReadSeek for T {}
 
-/// What a table itself says of a column of numbers, without its rows being read.
+/// Statistics of a column of numbers that a table itself has, without its rows being read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColumnStatistics {
     /// The smallest number that is not NaN; infinity where there is none.
@@ -151,7 +151,7 @@ impl<'a> NodeReader<'a> {
         }
     }
 
-    /// What the table itself says of a column of numbers: Parquet files may, for all of their rows, until the first batch is read.
+    /// Statistics of a column of numbers that the table itself has: Parquet files may, for all of their rows, until the first batch is read.
     pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
         match &self.table {
             Table::Csv(_) | Table::Made(_) => None,

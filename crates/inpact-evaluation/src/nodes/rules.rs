@@ -1,4 +1,4 @@
-//! What may be wrong with a node table: rules D001 to D010 and D020 to D022.
+//! Faults of node tables: rules D001 to D010 and D020 to D022.
 //!
 //! The rules of other data that belongs to a deck stand where that data is read.
 

@@ -1,4 +1,4 @@
-//! What a user chooses for an evaluation, where the deck or the manuals leave a choice.
+//! Choices of a user for an evaluation, where the deck or the manuals leave one.
 
 use crate::accuracy::Wanted;
 use crate::history::{ClosingHeat, HistoryStart};
@@ -16,7 +16,7 @@ pub struct Choices {
     pub interaction: Option<Name>,
     /// Steady state or transient, instead of what the deck's procedures say.
     pub regime: Option<Regime>,
-    /// What follows the last point of a table of electrical conductance against clearance.
+    /// The continuation of a table of electrical conductance beyond its last clearance.
     pub clearance_tail: Tail,
     /// The characteristic element length of all rows, L (P-20, Q-5).
     pub characteristic_length: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Choices {
     pub outputs: Option<Vec<Output>>,
     /// Where the histories of nodes start (C-25).
     pub history_start: HistoryStart,
-    /// What the heat of an increment takes that closes a circuit.
+    /// The jump in the heat of an increment that closes a circuit.
     pub closing_heat: ClosingHeat,
     /// Whether a current may flow where the rows do not tell of one.
     pub currents: Currents,

@@ -56,7 +56,7 @@ struct Region {
     part: Part,
 }
 
-/// What a block has to do with them.
+/// Relation of a block to them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Part {
     /// It says what they are, or what they depend on.

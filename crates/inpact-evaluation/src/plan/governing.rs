@@ -5,7 +5,7 @@ use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Model, Name};
 use std::collections::HashMap;
 
-/// What says which interaction governs a row; numbers are places in the model.
+/// Sources of the interaction that governs a row; numbers are places in the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GovernedBy {
     /// The user: one interaction for all rows.
@@ -88,7 +88,7 @@ impl<'a> RowInteractions<'a> {
         (first + 1..batch.rows).find(|row| label.get(*row) != text).unwrap_or(batch.rows)
     }
 
-    /// What a row has in column `interaction`; empty where there is none.
+    /// The cell of a row in column `interaction`; empty where there is none.
     pub(crate) fn label_of<'b>(&self, batch: &'b Batch, row: usize) -> &'b [u8] {
         self.label.map_or(&[], |label| batch.labels[label].get(row))
     }
@@ -149,7 +149,7 @@ pub fn find_interaction(model: &Model, text: &str) -> Result<usize, NameFault> {
 }
 
 impl NameFault {
-    /// What to do about it.
+    /// The remedy.
     pub fn help(self, model: &Model) -> String {
         match self {
             Self::Unknown => names_help(model),

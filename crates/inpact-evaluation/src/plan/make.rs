@@ -76,7 +76,7 @@ fn give_status_by_law(interactions: &mut [InteractionPlan], choices: &Choices) {
     }
 }
 
-/// What the plan of one interaction is made from.
+/// Sources of the plan of one interaction.
 #[derive(Clone, Copy)]
 pub(crate) struct Planner<'a> {
     pub(crate) model: &'a Model,
@@ -87,7 +87,7 @@ pub(crate) struct Planner<'a> {
     pub(crate) choices: &'a Choices,
 }
 
-/// What is left out, by reason, while a law is planned.
+/// Parts left out while a law is planned, by reason.
 #[derive(Debug, Default)]
 pub(crate) struct LeftOuts(pub(crate) Vec<LeftOut>);
 
@@ -224,7 +224,7 @@ impl Planner<'_> {
         }
     }
 
-    /// What becomes of dissipated energy; `None` where it is switched off (K-05).
+    /// Conversion of dissipated energy into heat; `None` where it is switched off (K-05).
     pub(crate) fn heat_generation(self) -> Option<HeatGeneration> {
         generation_of(self.interaction)
     }
@@ -235,7 +235,7 @@ impl Planner<'_> {
     }
 }
 
-/// What becomes of the energy dissipated in an interaction; `None` where a user subroutine switches that off (K-05).
+/// Conversion of the energy dissipated in an interaction into heat; `None` where a user subroutine switches that off (K-05).
 pub(crate) fn generation_of(interaction: &Interaction) -> Option<HeatGeneration> {
     if interaction.has_parameter("USER") {
         return None;

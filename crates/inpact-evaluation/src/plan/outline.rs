@@ -6,14 +6,14 @@ use super::{ColumnRole, InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, number_text};
 use std::fmt::{self, Formatter};
 
-/// What an evaluation costs before and after the cuts, and the cuts.
+/// Costs of an evaluation before and after the cuts, and the cuts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     /// All that deck and node table allow for.
     pub before: Node,
-    /// What is left.
+    /// The tree after the cuts.
     pub after: Node,
-    /// What was cut, in the order of the tree.
+    /// The cuts, in the order of the tree.
     pub cuts: Vec<Cut>,
 }
 
@@ -22,7 +22,7 @@ pub struct Outline {
 pub struct Node {
     /// What it is.
     pub name: String,
-    /// What it costs by itself, in nanoseconds for each row of the node table.
+    /// Its own cost, in nanoseconds for each row of the node table.
     pub cost: f64,
     /// Its parts.
     pub parts: Vec<Node>,
@@ -37,7 +37,7 @@ pub struct Cut {
     pub what: String,
     /// Why it was cut.
     pub reason: String,
-    /// What it would have cost, in nanoseconds for each row of the node table.
+    /// The cost saved, in nanoseconds for each row of the node table.
     pub saved: f64,
 }
 
@@ -46,7 +46,7 @@ pub struct Cut {
 pub struct Dropped {
     /// What it is.
     pub what: String,
-    /// What it would have cost, in nanoseconds for each row of the interaction.
+    /// The cost saved, in nanoseconds for each row of the interaction.
     pub cost: f64,
     /// Why it was cut.
     pub reason: Reason,
@@ -57,7 +57,7 @@ impl Node {
         Self { name: name.into(), cost, parts: Vec::new() }
     }
 
-    /// What it costs with all its parts.
+    /// Its cost with all its parts.
     pub fn total(&self) -> f64 {
         self.cost + self.parts.iter().map(Self::total).sum::<f64>()
     }
@@ -187,7 +187,7 @@ impl InteractionPlan {
     }
 }
 
-/// What outputs cost to compute and to write.
+/// Costs of outputs: to compute and to write.
 pub(crate) fn cost_of(outputs: &[Output]) -> f64 {
     outputs.len() as f64 * (COMPUTE_OUTPUT + WRITE_NUMBER)
 }

@@ -12,7 +12,7 @@ pub struct RegimeInForce {
     pub reason: RegimeReason,
 }
 
-/// What decides between steady state and transient.
+/// The decision between steady state and transient, and its reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum RegimeReason {
     /// The user.

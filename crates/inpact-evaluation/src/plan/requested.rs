@@ -1,4 +1,4 @@
-//! What is left of a plan when outputs are asked for by name: laws, histories and columns that serve no other output are dropped.
+//! A plan of outputs that are requested by name: laws, histories and columns that serve no other output are dropped.
 
 use super::choices::Choices;
 use super::cost::KEEP_HISTORY;

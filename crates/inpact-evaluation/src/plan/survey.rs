@@ -17,24 +17,24 @@ use inpact_parser::model::Model;
 use std::io;
 use std::ops::Range;
 
-/// What a first reading of a node table found.
+/// Findings of the first reading of a node table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
     /// Its header.
     pub header: Header,
     /// How many rows it has.
     pub rows: u64,
-    /// What says which interaction governs a row.
+    /// The source of the interaction that governs a row.
     pub governed_by: GovernedBy,
     /// In which order the rows of the nodes come, as far as it was looked at.
     pub order: HistoryOrder,
     /// The columns of numbers that were read: all that some law of the deck could use.
     pub columns: Vec<Column>,
-    /// What the rows of each interaction hold, in the order of the model.
+    /// Contents of the rows of each interaction, in the order of the model.
     pub interactions: Vec<InteractionSurvey>,
 }
 
-/// What the rows of one interaction hold.
+/// Contents of the rows of one interaction.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct InteractionSurvey {
     /// How many rows it governs.
@@ -47,18 +47,18 @@ pub struct InteractionSurvey {
     pub above_zero: u64,
     /// How many nodes it has, where `node` and `time` are there.
     pub histories: Option<u64>,
-    /// What each of [`Survey::columns`] holds; empty where no row was met, so that interactions without rows cost nothing.
+    /// Contents of each of [`Survey::columns`]; empty where no row was met, so that interactions without rows cost nothing.
     pub columns: Vec<ColumnSurvey>,
 }
 
 impl InteractionSurvey {
-    /// What column number `place` of [`Survey::columns`] holds.
+    /// Contents of column number `place` of [`Survey::columns`].
     pub fn column(&self, place: usize) -> ColumnSurvey {
         self.columns.get(place).copied().unwrap_or_default()
     }
 }
 
-/// What a column of numbers holds.
+/// Contents of a column of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColumnSurvey {
     /// How many cells have a number.
@@ -365,7 +365,7 @@ impl<'a> Surveyor<'a> {
             || !self.counters.is_empty()
     }
 
-    /// What the cells of some rows of one interaction hold, column by column.
+    /// Contents of the cells of some rows of one interaction, column by column.
     #[inline]
     fn take_cells(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
         let columns = &mut self.survey.interactions[interaction].columns;
@@ -390,7 +390,7 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// What a cell may not hold although it is a number.
+    /// Numbers that a cell must not hold.
     fn check_cells(&self, batch: &Batch, row: usize, findings: &mut Findings) {
         let name = |column| self.survey.header.name_of(column);
         let number = batch.first_row + row as u64 + 1;

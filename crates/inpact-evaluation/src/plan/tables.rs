@@ -52,12 +52,12 @@ impl InteractionTables {
         ConductanceTables::of(table(Along::Clearance), table(Along::Pressure))
     }
 
-    /// What is wrong with an electrical table.
+    /// The fault of an electrical table.
     pub(crate) fn electrical_error(&self) -> Option<TableError> {
         [&self.clearance, &self.pressure].into_iter().flatten().find_map(|table| table.as_ref().err().copied())
     }
 
-    /// What is wrong with the permeability table.
+    /// The fault of the permeability table.
     pub(crate) fn permeability_error(&self) -> Option<TableError> {
         self.permeability.as_ref()?.as_ref().err().copied()
     }

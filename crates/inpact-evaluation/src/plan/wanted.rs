@@ -46,7 +46,7 @@ pub(crate) fn wanted_columns(
     columns.filter(is_first).map(|(_, column)| column).filter(|column| wanted.contains(column)).collect()
 }
 
-/// What tells contact, area and time, as far as the outputs asked for need them.
+/// Columns of contact, area and time, as far as the requested outputs need them.
 pub(crate) fn want_of_any_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
     wanted.extend([Column::Clearance, Column::Pressure, Column::Closed]);
     if choices.asks_for(&OF_AREA) {

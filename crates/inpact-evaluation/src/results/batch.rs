@@ -4,7 +4,7 @@ use super::output::Output;
 use crate::nodes::NumberColumn;
 use std::fmt;
 
-/// What there is to say of a row (column `status`).
+/// Remarks on a row (column `status`).
 ///
 /// In ascending order: of the laws of a row, the gravest status is shown, which is the greatest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

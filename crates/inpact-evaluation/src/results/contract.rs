@@ -1,16 +1,16 @@
 //! The contract of result tables: each column with its meaning, its unit, what it needs and where it comes from.
 //!
-//! What a reader, `explain` and the documentation know of an output stands here and nowhere else.
+//! The one place that says what outputs mean, for the reader, `explain` and the documentation.
 //! Units are by dimension: M mass, L length, T time, θ temperature, φ electric potential, C charge.
 
 use super::output::{Along, Output};
 
-/// What there is to say of a column of results.
+/// The page of a column of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OutputPage {
     /// The output; of slopes, that along the clearance.
     pub output: Output,
-    /// What it means, with its sign.
+    /// Its meaning, with its sign.
     pub meaning: &'static str,
     /// Its unit by dimension; `1` for a pure number, empty for a text.
     pub unit: &'static str,

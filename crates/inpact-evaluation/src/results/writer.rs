@@ -64,7 +64,7 @@ impl fmt::Display for Heading {
     }
 }
 
-/// What some rows consist of besides their keys.
+/// Values of some rows besides their keys.
 #[derive(Clone, Copy)]
 pub(super) struct Values<'b> {
     pub(super) numbers: &'b [NumberColumn],

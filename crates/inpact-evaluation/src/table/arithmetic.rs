@@ -8,7 +8,7 @@ use crate::numbers::{
     two_product, two_sum,
 };
 
-/// What the evaluation of a table asks of the numbers it is done with.
+/// Operations on numbers that the evaluation of a table needs.
 pub(super) trait Arithmetic {
     /// The value of a group of rows.
     type Number: Copy;

@@ -11,11 +11,11 @@ use crate::numbers::KernelSlope;
 pub struct TableError {
     /// The row, counted from zero.
     pub row: usize,
-    /// What is wrong with it.
+    /// The fault.
     pub fault: TableFault,
 }
 
-/// What can be wrong with a row of a table.
+/// Faults of rows of tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TableFault {
     /// There are no rows.
@@ -31,7 +31,7 @@ pub enum TableFault {
     NotFinite {
         /// The column, 0 for the value and a + 1 for axis a.
         column: usize,
-        /// What stands there.
+        /// The number.
         found: f64,
     },
     /// A second row of a table without axes, which is a single constant.

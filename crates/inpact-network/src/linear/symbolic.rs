@@ -17,13 +17,13 @@ use std::sync::Arc;
 
 /// A symbolic factorisation, shared by the solvers made of it.
 ///
-/// A solver finds out by itself whether a network fits: where conductances of other magnitudes couple other unknowns, it analyses that network anew and keeps the result.
+/// A solver finds out by itself whether a network fits: where other nodes are held or fed, or conductances of other magnitudes couple other unknowns, it analyses that network anew and keeps the result.
 /// [`LinearReport::reused`](super::LinearReport::reused) says which part of the work was there already.
 ///
 /// ```
 /// use inpact_network::linear::{LAST_DIGIT, LinearNetwork, Link, Method, Reused, Symbolic};
 ///
-/// // A grid of 20 by 20 nodes, held at one corner.
+/// // A grid of 20 by 20 nodes, held at one corner and fed at the opposite one.
 /// let node = |row: u32, column: u32| 20 * row + column;
 /// let mut network = LinearNetwork::of_nodes(400);
 /// for row in 0..20 {
@@ -34,6 +34,7 @@ use std::sync::Arc;
 ///     }
 /// }
 /// network.held[0] = Some(0.0);
+/// network.sources[399] = 1.0;
 ///
 /// let symbolic = Symbolic::of(&network)?;
 /// let mut solver = symbolic.solver(Method::Direct, LAST_DIGIT);

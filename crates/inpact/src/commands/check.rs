@@ -136,7 +136,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     Ok(check_all(&decks, arguments)?.outcome)
 }
 
-/// What came of checking some decks.
+/// Results of checking some decks.
 struct Round {
     outcome: Outcome,
     /// The files of each deck; none for one that could not be read.

@@ -149,7 +149,7 @@ fn nothing_to_evaluate(evaluable: &Evaluable, messages: Messages<'_>) -> Failure
     Failure::Data(format!("nothing of `{}` can be evaluated on these rows{reasons}", evaluable.deck_name))
 }
 
-/// What `eval` says of an evaluation but the time it took.
+/// The summary of an evaluation as `eval` has it, but the time it took.
 pub(super) fn summary_lines(tally: &Tally, plan: &Plan) -> Vec<String> {
     let summary = Summary { tally, plan, rows_out: tally.rows, time: std::time::Duration::ZERO };
     let rows = if tally.rows == 1 { "1 row".to_owned() } else { format!("{} rows", tally.rows) };

@@ -11,11 +11,11 @@ use inpact_validation::{Diagnostic, Severity};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What a run has to say on standard error, in the format that its user chose.
+/// The messages of a run on standard error, in the format that its user chose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Messages<'a> {
     format: Format,
-    /// What a document as a whole holds, until the run has ended.
+    /// Contents of a document as a whole, until the run has ended.
     gathered: &'a Gathered,
 }
 

@@ -1,4 +1,4 @@
-//! What an evaluation of a node table tells of curves and interfaces: where its rows are, and what they add up to time by time. For `plot` and `report`.
+//! Points of an evaluated node table for curves and interfaces: where its rows are, and what they add up to time by time. For `plot` and `report`.
 
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::picture::Drawn;
@@ -31,7 +31,7 @@ const LAWS: [(LawKind, Output); 3] = [
     (LawKind::Permeability, Output::Permeability),
 ];
 
-/// What came of an evaluation.
+/// Results of an evaluation.
 pub(crate) struct Gathered {
     /// The rows of each law of each interaction, by its place in the model.
     rows: HashMap<(usize, LawKind), NodeRows>,

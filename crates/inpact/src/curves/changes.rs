@@ -1,4 +1,4 @@
-//! What changed of the laws from one deck to another, row by row.
+//! Changes of the laws from one deck to another, row by row.
 
 use super::rows::{LawRows, Rows};
 use super::{LawKind, Side, number};
@@ -7,7 +7,7 @@ use inpact_parser::model::Model;
 /// Rows of one table that are named one by one.
 const MOST_ROWS: usize = 4;
 
-/// What changed: a line for each table that differs; empty where the laws are the same.
+/// Changes: a line for each table that differs; empty where the laws are the same.
 pub fn changes(old: &Model, new: &Model, kinds: &[LawKind]) -> Vec<String> {
     let mut lines = Vec::new();
     for interaction in new.interactions.values() {

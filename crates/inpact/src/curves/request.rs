@@ -1,4 +1,4 @@
-//! What of a deck is to be drawn, and how far the axes of its laws go.
+//! Parts of a deck to be drawn, and the ranges of their axes.
 
 use super::law::Law;
 use super::rows::{LawRows, Rows};

@@ -32,7 +32,7 @@ pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
     }
 }
 
-/// What the script knows of a panel.
+/// Data of a panel for the script.
 fn data(panel: &Panel) -> Value {
     let abscissae = Side::BOTH.map(|side| abscissae(panel, side));
     let halves: Vec<Value> = Side::BOTH

@@ -124,7 +124,7 @@ fn uses(model: &Model, interaction: &Interaction) -> Vec<String> {
     uses
 }
 
-/// What the interaction says besides its tables.
+/// The options of the interaction besides its tables.
 fn options(interaction: &Interaction) -> Vec<String> {
     let mut options = Vec::new();
     if interaction.thickness != 1.0 {

@@ -181,7 +181,7 @@ fn mend_once(analysis: &Analysis, view: View<'_>, text: &mut EditedText) -> usiz
     mended
 }
 
-/// What makes one text of another, line by line.
+/// Edits that make one text of another, line by line.
 fn changes(view: View<'_>, before: &EditedText, after: &EditedText) -> Vec<TextEdit> {
     let (shared, shared_end) = after.shared_with(before);
     let old = before.bytes(shared..before.length() - shared_end);

@@ -19,9 +19,9 @@ pub(super) struct Analysis {
     pub(super) deck: Deck,
     pub(super) model: Model,
     pub(super) problems: Vec<Problem>,
-    /// What `inpact check` says of it.
+    /// The findings of `inpact check`.
     pub(super) findings: Vec<Diagnostic>,
-    /// What is wrong with the configuration, which is left aside then.
+    /// The fault of the configuration, which is left aside then.
     pub(super) fault: Option<Fault>,
     /// Where its files are, by source.
     places: Vec<PathBuf>,

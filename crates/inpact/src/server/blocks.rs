@@ -14,7 +14,7 @@ pub(super) struct Entry<'a> {
     pub(super) keyword: &'a KeywordLine,
     /// The keyword in full.
     pub(super) name: &'a str,
-    /// What the grammar says of it.
+    /// Its definition in the grammar.
     pub(super) definition: Option<&'a Definition>,
 }
 
@@ -90,7 +90,7 @@ pub(super) const LEVELS: [(&str, &str, Level); 4] = [
     ("STEP", "END STEP", Level::Step),
 ];
 
-/// What is open at a place of a document.
+/// Blocks that are open at a place of a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Context<'a> {
     pub(super) level: Level,
@@ -98,7 +98,7 @@ pub(super) struct Context<'a> {
     pub(super) parent: Option<&'a str>,
 }
 
-/// What is open where a line begins.
+/// Blocks that are open where a line begins.
 pub(super) fn context_at(analysis: &Analysis, source: SourceId, offset: u64) -> Context<'_> {
     let mut open: Vec<Level> = Vec::new();
     let mut parent = None;

@@ -1,4 +1,4 @@
-//! What the server can do, and what it makes of what the client can.
+//! Capabilities of the server, and those of the client as far as they matter.
 
 use super::tokens;
 use super::workspace::Traits;
@@ -9,7 +9,7 @@ use gen_lsp_types::{
 };
 use inpact_diagnostics::ColumnUnit;
 
-/// What is to be known of a client.
+/// Facts about a client.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ClientTraits {
     /// Whether it watches files when it is asked to.
@@ -18,7 +18,7 @@ pub(super) struct ClientTraits {
     pub(super) refreshes: Refreshes,
 }
 
-/// What a client asks for again.
+/// Requests that a client repeats.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Refreshes {
     pub(super) lenses: bool,
@@ -26,7 +26,7 @@ pub(super) struct Refreshes {
     pub(super) tokens: bool,
 }
 
-/// What a client can do.
+/// Capabilities of a client.
 pub(super) fn of_client(params: &InitializeParams) -> ClientTraits {
     let workspace = params.capabilities.workspace.as_ref();
     let watches = workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref());
@@ -38,7 +38,7 @@ pub(super) fn of_client(params: &InitializeParams) -> ClientTraits {
     ClientTraits { watches_files: watches.and_then(|watches| watches.dynamic_registration) == Some(true), refreshes }
 }
 
-/// What a client makes of what it is given.
+/// Forms that a client understands.
 pub(super) fn traits(params: &InitializeParams) -> Traits {
     let item =
         params.capabilities.text_document.as_ref().and_then(|text| text.completion.as_ref()?.completion_item.as_ref());
@@ -61,7 +61,7 @@ pub(super) fn column_unit(params: &InitializeParams) -> ColumnUnit {
     offered.into_iter().flatten().find_map(known).unwrap_or_default()
 }
 
-/// What the server offers.
+/// Capabilities of the server.
 pub(super) fn of_server(unit: ColumnUnit) -> InitializeResult {
     let encoding = match unit {
         ColumnUnit::Utf8 => PositionEncodingKind::UTF8,

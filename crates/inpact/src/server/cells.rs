@@ -1,4 +1,4 @@
-//! What the items of rows are: each with its column, as the grammar lays them out (K-50 to K-56).
+//! Items of rows: each with its column, as the grammar lays them out (K-50 to K-56).
 
 use super::analysis::Analysis;
 use super::blocks::{Entry, substituted};
@@ -23,7 +23,7 @@ pub(super) struct Cell<'a> {
     pub(super) column: ColumnOf<'a>,
 }
 
-/// What stands in a column.
+/// Contents of a column.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum ColumnOf<'a> {
     Named(&'a Column),
@@ -54,7 +54,7 @@ impl ColumnOf<'_> {
         }
     }
 
-    /// What an empty item means.
+    /// The meaning of an empty item.
     pub(super) fn default(self) -> Option<f64> {
         match self {
             Self::Named(column) => column.dimension.map(|_| column.default.unwrap_or(0.0)),

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Rules whose findings are about something that has no effect.
 const WITHOUT_EFFECT: [&str; 5] = ["R002", "C001", "K011", "T011", "S018"];
 
-/// What is wrong in every file, by its URI, with the version of the document; documents without findings are there too.
+/// Findings in every file, by its URI, with the version of the document; documents without findings are there too.
 pub(super) fn by_file(workspace: &Workspace) -> BTreeMap<String, (Option<i32>, Vec<Diagnostic>)> {
     let mut files: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)> = BTreeMap::new();
     for analysis in workspace.analyses() {

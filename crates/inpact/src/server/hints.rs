@@ -1,4 +1,4 @@
-//! What is shown between the lines of a deck: names of columns, values of parameters, shapes of tables.
+//! Hints between the lines of a deck: names of columns, values of parameters, shapes of tables.
 
 use super::blocks;
 use super::cells::{self, ColumnOf};

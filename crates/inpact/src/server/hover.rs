@@ -24,7 +24,7 @@ pub(super) fn hover(workspace: &mut Workspace, params: &HoverParams) -> Result<O
     Ok(Some(Hover { contents: contents.into(), range: Some(view.range(span)) }))
 }
 
-/// What there is to say of a place, and of which bytes.
+/// Text about a place, and its bytes.
 fn page_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     if let Some(found) = directive(view, offset) {
         return Some(found);
@@ -173,7 +173,7 @@ fn interaction(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     Some((found.span, text))
 }
 
-/// What a cell is: column, dimension, what it is, row and group; for a conductance whether it lies beyond the table.
+/// Text about a cell: column, dimension, what it is, row and group; for a conductance whether it lies beyond the table.
 fn cell_page(view: View<'_>, entry: &Entry<'_>, cell: &Cell<'_>) -> String {
     let column = cell.column;
     let dimension = column.dimension().map_or_else(String::new, |dimension| format!(" [{dimension}]"));

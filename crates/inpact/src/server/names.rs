@@ -14,7 +14,7 @@ use inpact_parser::model::Name;
 use inpact_parser::span::Span;
 use std::collections::BTreeSet;
 
-/// What a name is the name of.
+/// Kinds of things with names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Kind {
     Interaction,
@@ -26,14 +26,14 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// What it is called in messages, with its article.
+    /// Its name in messages, with its article.
     pub(super) fn one(self) -> String {
         let word = self.word();
         let article = if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
         format!("{article} {word}")
     }
 
-    /// What it is called in messages.
+    /// Its name in messages.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Interaction => "interaction",
@@ -58,7 +58,7 @@ pub(super) struct Occurrence {
     pub(super) scope: String,
 }
 
-/// What a written word may be the name of.
+/// Kinds of things that a written word may name.
 struct Meaning {
     kinds: &'static [Kind],
     is_definition: bool,
@@ -83,7 +83,7 @@ impl Meaning {
 /// Keywords that define a surface by NAME.
 const DEFINE_SURFACES: [&str; 4] = ["SURFACE", "SURFACE DEFINITION", "RIGID SURFACE", "CONTACT NODE SET"];
 
-/// What the value of a parameter names.
+/// The kind of thing that the value of a parameter names.
 fn meaning_of_value(keyword: &str, parameter: &[u8]) -> Option<Meaning> {
     let is = |name: &str| blocks::is_same(parameter, name);
     let surfaces = ["SURFACE", "MASTER", "SLAVE", "MAIN", "SECONDARY"];
@@ -101,7 +101,7 @@ fn meaning_of_value(keyword: &str, parameter: &[u8]) -> Option<Meaning> {
     })
 }
 
-/// What an item of a row names, counted from 0; `None` for rows that hold no names.
+/// The kind of thing that an item of a row names, counted from 0; `None` for rows that hold no names.
 fn meaning_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> Option<Meaning> {
     let kinds = match entry.name {
         "CONTACT PROPERTY ASSIGNMENT" if item == 2 => INTERACTION,

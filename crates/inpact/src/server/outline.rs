@@ -21,7 +21,7 @@ struct Node<'a> {
     /// From the keyword line to the end of the last row in it.
     span: Span,
     children: Vec<Node<'a>>,
-    /// What closes it, and whether it is an interaction.
+    /// The keywords that close it, and whether it is an interaction.
     opens: Opens,
 }
 
@@ -80,7 +80,7 @@ fn close_last<'a>(open: &mut Vec<Node<'a>>, roots: &mut Vec<Node<'a>>) {
     }
 }
 
-/// What a keyword closes.
+/// Blocks that a keyword closes.
 fn closing(keyword: &str) -> Opens {
     LEVELS
         .into_iter()

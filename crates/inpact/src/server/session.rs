@@ -22,12 +22,12 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-/// What is between an editor and us.
+/// The state of a session with one editor.
 #[derive(Debug)]
 pub(super) struct Session {
     workspace: Workspace,
     client: ClientTraits,
-    /// What the editor has been told of each file, by its URI.
+    /// Findings published for each file, by its URI.
     published: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)>,
     /// Whether something may have changed since.
     has_news: bool,

@@ -26,7 +26,7 @@ fn count(number: usize, word: &str) -> String {
     format!("{number} {word}{}", if number == 1 { "" } else { "s" })
 }
 
-/// What one and what several values of a column are called.
+/// The name of one and that of several values of a column.
 fn words(column: &str) -> (String, String) {
     let one = match column {
         "temp" => "temperature".to_owned(),

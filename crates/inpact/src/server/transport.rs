@@ -21,7 +21,7 @@ const LONGEST_HEADER_LINE: u64 = 8 << 10;
 /// Strings of more bytes are decoded as they come.
 const LONG_STRING: usize = 1 << 20;
 
-/// What came in.
+/// Incoming messages.
 #[derive(Debug)]
 pub(super) enum Incoming {
     Message(Message),
@@ -89,7 +89,7 @@ fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Can
     }
 }
 
-/// What stands after a header.
+/// The content after a header.
 enum Body {
     Whole(LongMessage),
     /// It is no JSON, and was passed over.

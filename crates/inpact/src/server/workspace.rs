@@ -1,4 +1,4 @@
-//! What the editor has open, and what there is to know of it.
+//! Documents that the editor has open, with their analysis.
 //!
 //! A document is text; a deck is a document with what it includes, open or not, saved or not.
 //! An open document that another one includes is no deck of its own: it is judged where it stands.
@@ -23,7 +23,7 @@ use std::time::SystemTime;
 /// The documents of an editor, and the decks that they are.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
-    /// What the editor counts columns in.
+    /// The unit of columns of the editor.
     pub(super) unit: ColumnUnit,
     pub(super) traits: Traits,
     /// How decks are read, by the settings of the editor.
@@ -37,7 +37,7 @@ pub(super) struct Workspace {
     stale: BTreeSet<PathBuf>,
 }
 
-/// What the editor makes of what it is given.
+/// Abilities of the editor.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Traits {
     /// Whether completions may have places to fill in.
@@ -61,7 +61,7 @@ struct FileOnDisk {
     text: EditedText,
 }
 
-/// What tells whether a file is the one that was read.
+/// Marks by which a file is known as the one that was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Stamp {
     modified: Option<SystemTime>,
@@ -239,7 +239,7 @@ impl Workspace {
         self.analyses.values()
     }
 
-    /// What the files of configuration have wrong.
+    /// Faults of files of configuration.
     pub(super) fn faults(&self) -> impl Iterator<Item = &Fault> {
         self.analyses.values().filter_map(|analysis| analysis.fault.as_ref())
     }
@@ -260,7 +260,7 @@ impl Workspace {
         open.or_else(|| self.files.get(place).map(|file| &file.text))
     }
 
-    /// What the editor calls a file.
+    /// The name of a file in the editor.
     pub(super) fn uri(&self, place: &Path) -> Uri {
         self.documents.get(place).map_or_else(|| Uri(uri::uri_of(place)), |document| document.uri.clone())
     }
@@ -333,7 +333,7 @@ impl<'a> View<'a> {
         Location { uri: self.uri(span.source), range: self.range(span) }
     }
 
-    /// What the editor calls one of the files of the deck.
+    /// The name in the editor of one of the files of the deck.
     pub(super) fn uri(&self, source: SourceId) -> Uri {
         self.workspace.uri(self.analysis.place(source))
     }

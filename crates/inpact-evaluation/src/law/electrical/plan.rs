@@ -19,16 +19,16 @@ use std::collections::BTreeSet;
 
 const KEYWORD: &str = OptionKind::GapElectricalConductance.keyword();
 
-/// What the electrical law of an interaction works with.
+/// The plan of the electrical law of an interaction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElectricalPlan {
     /// Steady state or transient, and why.
     pub regime: RegimeInForce,
     /// The tables that rows reach; none where a user's routine gives the conductance.
     pub tables: Vec<TablePlan>,
-    /// What a user's routine is called with, where it gives the conductance.
+    /// The arguments of a user's routine, where it gives the conductance.
     pub user: Option<UserPlan>,
-    /// What becomes of the dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
+    /// Conversion of the dissipated energy into heat; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat: Option<HeatGeneration>,
     /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.
     pub variables: Vec<Option<Source<Column>>>,
@@ -40,7 +40,7 @@ pub struct ElectricalPlan {
     pub history: History,
 }
 
-/// What the law is called where it is left out.
+/// The name of the law where it is left out.
 pub(crate) const LAW: &str = "electrical law";
 
 /// Plans the electrical law; `None` after saying why there is none.
@@ -179,7 +179,7 @@ fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Ve
     sources.collect()
 }
 
-/// What becomes of the heat; `None` where it is switched off (K-05).
+/// Shares of the heat; `None` where it is switched off (K-05).
 fn heat(planner: Planner<'_>, left_out: &mut LeftOuts) -> Option<HeatGeneration> {
     let heat = planner.heat_generation();
     if heat.is_none() {
@@ -261,7 +261,7 @@ pub(crate) fn want_electrical(tables: &InteractionTables, choices: &Choices, wan
     }
 }
 
-/// What every electrical law could use, whatever gives its conductance.
+/// Columns that every electrical law could use, whatever gives its conductance.
 pub(crate) fn want_of_electrical_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
     want_of_any_law(choices, wanted);
     if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {

@@ -8,7 +8,7 @@ use crate::plan::reason::{Missing, Reason};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, OptionKind};
 
-/// What the heat of friction works with.
+/// The plan of the heat of friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionPlan {
     /// Whose law it is: CalculiX takes shear and slip rate by their magnitudes.

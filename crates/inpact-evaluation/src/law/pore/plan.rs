@@ -15,7 +15,7 @@ use crate::table::PiecewiseTable;
 use inpact_parser::model::{Interaction, Model, Procedure, Regime};
 use std::collections::BTreeSet;
 
-/// What the pore fluid law of an interaction works with.
+/// The plan of the pore fluid law of an interaction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PorePlan {
     /// Steady state or transient, and why.

@@ -11,7 +11,7 @@ use crate::plan::source::cell;
 use crate::results::Along;
 use inpact_parser::grammar::Dialect;
 
-/// What radiation works with.
+/// The plan of radiation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadiationPlan {
     /// C, the heat per fourth power of temperature at a view factor of 1.

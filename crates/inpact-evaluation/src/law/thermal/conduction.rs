@@ -15,7 +15,7 @@ use crate::table::PiecewiseTable;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::OptionKind;
 
-/// What conduction works with.
+/// The plan of conduction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConductionPlan {
     /// Whose law it is.

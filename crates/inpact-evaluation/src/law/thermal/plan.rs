@@ -26,7 +26,7 @@ use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, Procedure};
 use std::collections::BTreeSet;
 
-/// What the thermal law of an interaction works with.
+/// The plan of the thermal law of an interaction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThermalPlan {
     /// Heat conducted across.
@@ -37,7 +37,7 @@ pub struct ThermalPlan {
     pub friction: Option<FrictionPlan>,
     /// Whether current generates heat in its rows.
     pub current: CurrentHeat,
-    /// What becomes of dissipated energy; `None` where a user subroutine of the interaction switches it off (K-05).
+    /// Conversion of dissipated energy into heat; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat: Option<HeatGeneration>,
     /// Temperatures of slave and master, where they have numbers.
     pub temperatures: Option<[Column; 2]>,
@@ -74,7 +74,7 @@ impl ThermalPlan {
     }
 }
 
-/// What came of planning a part of the law.
+/// Results of planning a part of the law.
 pub(crate) enum Planned<T> {
     /// The deck has no such part.
     Absent,

@@ -11,7 +11,7 @@ use crate::table::{PiecewiseTable, TableError, Tail};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{GapConductance, GapRadiation, Interaction, Model, OptionKind, Table};
 
-/// What the rows of an interaction say of heat; an error where they form no table.
+/// The laws of heat in the rows of an interaction; an error where they form no table.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct ThermalTables {
     /// *GAP CONDUCTANCE; `None` where the interaction has none.
@@ -20,7 +20,7 @@ pub(crate) struct ThermalTables {
     pub(crate) radiation: Option<Result<RadiationLaw, RadiationFault>>,
 }
 
-/// What *GAP CONDUCTANCE gives.
+/// Forms of *GAP CONDUCTANCE.
 #[derive(Debug, PartialEq)]
 pub(crate) enum ConductanceRows {
     /// The conductance is that of a user subroutine.

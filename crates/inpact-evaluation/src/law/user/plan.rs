@@ -13,7 +13,7 @@ use crate::results::Along;
 use inpact_parser::model::{Model, Name, Reference};
 use std::collections::BTreeSet;
 
-/// What the routine of an interaction is called with.
+/// Arguments of the routine of an interaction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UserPlan {
     /// The names of the interaction and its surfaces.
@@ -40,7 +40,7 @@ fn with_default() -> impl Iterator<Item = Column> {
     coordinates.chain([Column::Step, Column::Increment, Column::StepTime, Column::Time])
 }
 
-/// What a routine could be called with, in a table with this header.
+/// Columns that a routine could be called with, in a table with this header.
 pub(crate) fn want_user(header: &Header, wanted: &mut BTreeSet<Column>) {
     wanted.extend(columns_of(Along::Temperature).into_iter().flatten());
     let fields = header.cells.iter().filter_map(|cell| cell.column);
@@ -93,7 +93,7 @@ fn note_fields_after_a_gap(planner: Planner<'_>, count: usize, notes: &mut Vec<S
     }
 }
 
-/// What the routine is given instead of columns that are not there.
+/// Arguments of the routine instead of columns that are not there.
 fn note_defaults(planner: Planner<'_>, lacking: &[Column], notes: &mut Vec<String>) {
     let lacks = |column: &Column| lacking.contains(column);
     let mut defaults = Vec::new();

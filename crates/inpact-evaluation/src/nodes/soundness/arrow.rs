@@ -1,4 +1,4 @@
-//! What an Arrow file or stream says of its messages, held against what it holds.
+//! Soundness of Arrow files and streams: messages as they are stated, compared with the bytes that are there.
 
 use super::{most_unpacked, unsound};
 use crate::nodes::reader::ReadSeek;
@@ -7,11 +7,11 @@ use std::io::{self, SeekFrom};
 
 const KIND: &str = "Arrow";
 
-/// What a file begins with, padding included, and what it ends with: the length of its footer and the mark.
+/// The beginning of a file, padding included, and its end: the length of its footer and the mark.
 const HEAD: u64 = 8;
 const TAIL: u64 = 10;
 
-/// What a length begins with, in all but the oldest files.
+/// The mark before a length, in all but the oldest files.
 const CONTINUATION: u32 = u32::MAX;
 
 /// The most rows that a byte of a packed file can stand for: zstd makes a few bytes of the most that a block has, of bits of one kind.

@@ -1,4 +1,4 @@
-//! What a Parquet file says of its parts, held against what it holds.
+//! Soundness of Parquet files: sizes and places of parts as they are stated, compared with the bytes that are there.
 
 use super::thrift::{Visitor, walk};
 use super::{most_unpacked, unsound};
@@ -221,7 +221,7 @@ fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Res
     Ok(length)
 }
 
-/// What the header of a page says of it.
+/// The header of a page.
 struct PageSizes {
     packed: i64,
     unpacked: i64,

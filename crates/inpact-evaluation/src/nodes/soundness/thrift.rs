@@ -6,7 +6,7 @@
 /// How deep structures may lie in one another; Parquet's own go to five.
 const DEEPEST: usize = 16;
 
-/// What a walk meets; the path are the numbers of the fields from the outermost structure inwards.
+/// Events of a walk; the path are the numbers of the fields from the outermost structure inwards.
 pub(super) trait Visitor {
     /// An integer, or a field that is true (1) or false (0).
     fn integer(&mut self, path: &[i16], value: i64);

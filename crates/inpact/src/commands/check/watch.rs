@@ -12,10 +12,10 @@ use std::time::{Duration, SystemTime};
 /// How often the files are asked.
 const PAUSE: Duration = Duration::from_millis(300);
 
-/// What tells whether a file is the one that was read; `None` for one that is not there.
+/// Marks by which a file is known as the one that was read; `None` for one that is not there.
 type Stamp = Option<(Option<SystemTime>, u64)>;
 
-/// What is known of a deck: its files, and what they were like before it was read.
+/// A deck: its files, and their state before it was read.
 struct Watched {
     stamps: BTreeMap<PathBuf, Stamp>,
 }

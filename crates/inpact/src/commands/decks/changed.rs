@@ -12,10 +12,10 @@ use std::process::Command;
 pub(crate) struct Changed(BTreeSet<PathBuf>);
 
 impl Changed {
-    /// What differs between the files at hand and the commit where `reference` and this branch part; new files too.
+    /// Differences between the files at hand and the commit where `reference` and this branch part; new files too.
     ///
     /// # Errors
-    /// What git says when it cannot tell, and a git that cannot be run.
+    /// The message of git where it cannot tell, and a git that cannot be run.
     pub(crate) fn since(reference: &str) -> Result<Self, Failure> {
         if reference.starts_with('-') {
             return Err(Failure::Usage(format!("`--since`: `{reference}` is no reference of git")));

@@ -27,7 +27,7 @@ impl Summary<'_> {
         lines
     }
 
-    /// What is to be said of the interactions.
+    /// The lines about the interactions.
     pub(super) fn of_interactions(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if self.plan.interactions.len() > MOST_INTERACTIONS {
