@@ -567,7 +567,7 @@ fn the_tolerance_is_kept() {
 }
 
 /// A square grid of unit conductances, held at one corner and fed at the opposite one.
-fn grid(side: u32) -> LinearNetwork {
+fn square(side: u32) -> LinearNetwork {
     let mut network = LinearNetwork::of_nodes((side * side) as usize);
     for row in 0..side {
         for column in 0..side {
@@ -585,7 +585,7 @@ fn grid(side: u32) -> LinearNetwork {
 /// Another solver of the same graph orders nothing, the next right-hand side factors nothing, and both give the same digits as one that does.
 #[test]
 fn one_order_serves_many_networks_of_a_graph() {
-    let mut network = grid(20);
+    let mut network = square(20);
     let symbolic = Symbolic::of(&network).expect("it has a solution");
     let mut solver = symbolic.solver(Method::Direct, LAST_DIGIT);
     for (source, reused) in [(1.0, Reused::Order), (2.0, Reused::Factor), (3.0, Reused::Factor)] {
@@ -601,6 +601,6 @@ fn one_order_serves_many_networks_of_a_graph() {
     let solution = symbolic.solver(Method::Mixed, LAST_DIGIT).solve(&network).expect("it has a solution");
     assert_eq!(solution.report.reused, Reused::Order);
     // Another graph is analysed anew.
-    let other = symbolic.solver(Method::Direct, LAST_DIGIT).solve(&grid(10)).expect("it has a solution");
+    let other = symbolic.solver(Method::Direct, LAST_DIGIT).solve(&square(10)).expect("it has a solution");
     assert_eq!(other.report.reused, Reused::Nothing);
 }
