@@ -97,11 +97,11 @@ pub struct InteractionPlan {
     /// The columns that say what is closed.
     pub contact: ContactColumns,
     /// The electrical law.
-    pub electrical: Option<ElectricalPlan>,
+    pub electrical: Option<Box<ElectricalPlan>>,
     /// The thermal law.
-    pub thermal: Option<ThermalPlan>,
+    pub thermal: Option<Box<ThermalPlan>>,
     /// The pore fluid law.
-    pub pore: Option<PorePlan>,
+    pub pore: Option<Box<PorePlan>>,
     /// The tables of the deck that its laws are made of.
     pub(crate) tables: Arc<BuiltTables>,
     /// The outputs, in the order of the result's columns.

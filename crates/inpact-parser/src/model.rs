@@ -9,6 +9,7 @@ mod options;
 mod places;
 mod print;
 mod read;
+mod row_places;
 mod rows;
 mod table;
 
@@ -17,6 +18,7 @@ pub use options::{Friction, GapConductance, GapRadiation, OptionKind};
 pub(crate) use print::named_in;
 pub use print::{PrintError, print};
 pub use read::{MOST_FIELD_VARIABLES, read};
+pub use row_places::RowPlaces;
 pub use table::{CellText, Table};
 
 use crate::expression::Parameters;
@@ -82,9 +84,9 @@ pub struct ElectricalConductance {
     /// The keyword line that has USER.
     pub user: Option<Span>,
     /// Conductance against clearance: without PRESSURE.
-    pub clearance: Option<Table>,
+    pub clearance: Option<Box<Table>>,
     /// Conductance against contact pressure: with PRESSURE.
-    pub pressure: Option<Table>,
+    pub pressure: Option<Box<Table>>,
     /// TYPE, kept as it is written and not interpreted.
     pub kind: Option<String>,
 }
@@ -394,7 +396,8 @@ impl Interaction {
     /// The tables of its sub-options, in no order that means anything.
     pub fn tables(&self) -> Vec<TableOf<'_>> {
         let electrical = self.gap_electrical_conductance.iter();
-        let electrical = electrical.flat_map(|option| [&option.clearance, &option.pressure]).flatten();
+        let electrical =
+            electrical.flat_map(|option| [&option.clearance, &option.pressure]).flatten().map(|table| &**table);
         let permeability = self.contact_permeability.iter().filter_map(|option| option.table.as_ref());
         let other = self.other.iter().filter_map(|option| Some((option.keyword.as_str(), option.table.as_ref()?)));
         let named = electrical.map(|table| (OptionKind::GapElectricalConductance.keyword(), table));

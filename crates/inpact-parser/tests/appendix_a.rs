@@ -17,7 +17,7 @@ fn a_07_one_text_means_two_things_under_two_keywords() {
          *GAP CONDUCTANCE, DEPENDENCIES=1\n10.,,,1.\n",
     );
     let interaction = &model.interactions[0];
-    let electrical = interaction.gap_electrical_conductance.as_ref().and_then(|law| law.clearance.as_ref());
+    let electrical = interaction.gap_electrical_conductance.as_ref().and_then(|law| law.clearance.as_deref());
     let electrical = electrical.expect("a table");
     assert_eq!(*electrical.columns, ["conductance", "clearance", "temp", "fv1"]);
     assert_eq!(electrical.row(0), [10., 0., 0., 1.]);

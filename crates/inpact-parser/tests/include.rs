@@ -55,7 +55,7 @@ fn s_51_rows_go_on_across_files() {
         let law = model.interactions[0].gap_electrical_conductance.as_ref().expect("a law");
         let table = law.clearance.as_ref().expect("a table");
         assert_eq!(table.values, [3., 0., 0., 2., 1., 0., 1., 2., 0.]);
-        assert_eq!(table.rows.iter().map(|row| row.source.0).collect::<Vec<_>>(), [0, 1, 0]);
+        assert_eq!(table.row_spans().map(|row| row.source.0).collect::<Vec<_>>(), [0, 1, 0]);
         assert_eq!(model.interactions[0].other.len(), 1, "the block goes on after the included rows");
         for (index, (_, text)) in files.iter().enumerate() {
             assert_eq!(deck.print(SourceId(u32::try_from(index).expect("few files"))), text.as_bytes());

@@ -122,8 +122,8 @@ fn electrical() -> impl Strategy<Value = ElectricalConductance> {
     let pressure = of(table(&["conductance", "pressure", "temp"]));
     (any::<bool>(), kind, clearance, pressure).prop_map(|(user, kind, clearance, pressure)| ElectricalConductance {
         user: user.then(Span::default),
-        clearance,
-        pressure,
+        clearance: clearance.map(Box::new),
+        pressure: pressure.map(Box::new),
         kind: kind.map(str::to_owned),
     })
 }

@@ -148,11 +148,11 @@ pub(crate) fn sort_edits(context: &Context<'_>, table: &Table) -> Option<Vec<Edi
     order.sort_by(|a, b| step(table.row(*b), table.row(*a)).0);
     let repeats = order.windows(2).any(|pair| step(table.row(pair[0]), table.row(pair[1])).0.is_eq());
     let source = table.keyword.source;
-    if repeats || table.rows.len() != order.len() || table.rows.iter().any(|row| row.source != source) {
+    if repeats || table.row_spans().len() != order.len() || table.row_spans().any(|row| row.source != source) {
         return None;
     }
     let moved = order.iter().enumerate().filter(|(place, row)| place != *row);
-    Some(moved.map(|(place, row)| Edit::new(table.rows[place], context.deck.text(table.rows[*row]))).collect())
+    Some(moved.map(|(place, row)| Edit::new(table.row_span(place), context.deck.text(table.row_span(*row)))).collect())
 }
 
 #[cfg(test)]

@@ -91,7 +91,7 @@ pub(crate) fn radiation_tables(deck: &Deck, grammar: &Grammar, model: &Model) ->
         // The first line holds the emissivities.
         for line in deck.data_lines(block).filter(|line| !line.is_blank()).skip(1) {
             let mut items = line.items();
-            table.rows.push(trimmed(deck, line.span));
+            table.push_row_span(trimmed(deck, line.span));
             table.values.extend(
                 columns.iter().map(|_| items.next().map_or(0.0, |item| number_in(deck, &model.parameters, item))),
             );

@@ -74,7 +74,7 @@ impl Deck {
 
 impl GapConductance {
     fn of(option: &ElectricalConductance, interaction: &Interaction) -> Result<Self, Error> {
-        let build = |table: &Option<Table>, against: &str| {
+        let build = |table: Option<&Table>, against: &str| {
             let Some(table) = table else { return Ok(None) };
             let built = PiecewiseTable::from_rows(&table.values, table.width(), Tail::Constant);
             let name = &interaction.name;
@@ -82,14 +82,15 @@ impl GapConductance {
                 Error::data(format!("the table of conductance against {against} of `{name}`: {error}"))
             })
         };
-        let (clearance, pressure) = (build(&option.clearance, "clearance")?, build(&option.pressure, "pressure")?);
+        let (clearance, pressure) =
+            (build(option.clearance.as_deref(), "clearance")?, build(option.pressure.as_deref(), "pressure")?);
         let kernels = [&clearance, &pressure].map(|table| table.as_ref().map(TableKernel::new));
         let tables = || [&clearance, &pressure].into_iter().flatten();
         let axes = tables().map(PiecewiseTable::axis_count).max().unwrap_or(1);
         let depends = |axis: usize| tables().any(|table| table.axes().get(axis).is_some_and(AxisSummary::matters));
         let depends_on = (1..axes).map(depends).collect();
         let abscissae =
-            [&option.clearance, &option.pressure].map(|table| table.as_ref().map_or_else(Vec::new, abscissae));
+            [&option.clearance, &option.pressure].map(|table| table.as_deref().map_or_else(Vec::new, abscissae));
         let Some(tables) = ConductanceTables::of(clearance, pressure) else {
             return Err(Error::data(format!("*GAP ELECTRICAL CONDUCTANCE of `{}` has no rows", interaction.name)));
         };

@@ -81,7 +81,7 @@ impl InteractionLaws {
     fn of(binder: Binder<'_>, choices: &Choices) -> Self {
         let planned = binder.of;
         let (flow, thermal) = (&planned.tables.flow, &planned.tables.thermal);
-        let electrical = planned.electrical.as_ref();
+        let electrical = planned.electrical.as_deref();
         let laws = Self {
             contact: binder.contact(),
             electrical: electrical.and_then(|law| ElectricalColumns::bind(binder, law, flow, choices)),

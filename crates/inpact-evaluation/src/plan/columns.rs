@@ -125,7 +125,7 @@ impl<'a> Uses<'a> {
                 folds.push((axis.along, at));
             }
         }
-        let mut pore = interactions.iter().filter_map(|plan| plan.pore.as_ref()).peekable();
+        let mut pore = interactions.iter().filter_map(|plan| plan.pore.as_deref()).peekable();
         Self {
             survey,
             choices,

@@ -34,8 +34,10 @@ impl InteractionTables {
         let electrical = electrical.filter(|option| option.user.is_none());
         let permeability = interaction.contact_permeability.as_ref().and_then(|option| option.table.as_ref());
         Self {
-            clearance: electrical.and_then(|option| option.clearance.as_ref()).map(|table| build(table, tail)),
-            pressure: electrical.and_then(|option| option.pressure.as_ref()).map(|table| build(table, Tail::Constant)),
+            clearance: electrical.and_then(|option| option.clearance.as_deref()).map(|table| build(table, tail)),
+            pressure: electrical
+                .and_then(|option| option.pressure.as_deref())
+                .map(|table| build(table, Tail::Constant)),
             permeability: permeability.map(|table| build(table, Tail::Constant)),
         }
     }

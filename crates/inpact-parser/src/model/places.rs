@@ -36,7 +36,7 @@ impl Interaction {
         self.parameters.iter_mut().for_each(GivenParameter::forget_place);
         if let Some(law) = &mut self.gap_electrical_conductance {
             law.user = law.user.map(|_| Span::default());
-            [&mut law.clearance, &mut law.pressure].into_iter().flatten().for_each(Table::forget_places);
+            [&mut law.clearance, &mut law.pressure].into_iter().flatten().for_each(|table| table.forget_places());
         }
         if let Some(permeability) = &mut self.contact_permeability {
             permeability.span = Span::default();

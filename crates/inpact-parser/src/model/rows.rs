@@ -88,7 +88,7 @@ impl RowReader<'_> {
         let rows = memchr::memchr_iter(b'\n', text).count() / self.lines + 1;
         // No more than the text could spell out: rows of empty items are made as they come.
         let most = text.len() / 2;
-        self.table.rows.reserve_exact(rows.min(most));
+        self.table.places.reserve_exact(rows.min(most));
         let width = self.layout.columns.len();
         self.table.values.reserve_exact((rows * width).min(most.max(width)));
     }
@@ -122,8 +122,9 @@ impl RowReader<'_> {
             self.report(ProblemKind::TooManyItems { allowed: room, given, lines: self.lines }, surplus);
         }
         match line_of_row {
-            0 => self.table.rows.push(content),
-            _ => self.extend_last_row(content),
+            0 => self.table.push_row_span(content),
+            // A row that begins in one file and ends in another is found where it begins.
+            _ => self.table.places.extend_last(content, self.keyword),
         }
         if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
     }
@@ -174,19 +175,12 @@ impl RowReader<'_> {
         value
     }
 
-    fn extend_last_row(&mut self, line: Span) {
-        // A row that begins in one file and ends in another is found where it begins.
-        if let Some(row) = self.table.rows.last_mut().filter(|row| row.source == line.source) {
-            *row = row.to(line);
-        }
-    }
-
     /// Completes a row that the block leaves unfinished (K-55).
     fn finish(&mut self, line_of_row: usize) {
         if line_of_row == 0 {
             return;
         }
-        let row = self.table.rows.last().copied().unwrap_or(self.keyword);
+        let row = self.table.row_spans().last().unwrap_or(self.keyword);
         self.report(ProblemKind::IncompleteRow { lines: self.lines, given: line_of_row }, row);
         let width = self.layout.columns.len();
         let missing = (width - self.table.values.len() % width) % width;

@@ -1,5 +1,6 @@
 //! A table of a sub-option: rows of numbers with the places they were read from (section 4 of the semantics).
 
+use super::row_places::RowPlaces;
 use crate::span::Span;
 use std::sync::Arc;
 
@@ -17,8 +18,8 @@ pub struct Table {
     ///
     /// A cell that is no number, or a parameter without a value, is NaN; see [`Table::texts`].
     pub values: Vec<f64>,
-    /// The span of each row; shorter than the number of rows when the table was not read from a deck.
-    pub rows: Vec<Span>,
+    /// The places of the rows; see [`Table::row_span`].
+    pub places: RowPlaces,
     /// The text of the cells that are not written as a number: a parameter, `<name>` (S-62), or a malformed number (S006).
     /// In ascending order of [`CellText::cell`].
     pub texts: Vec<CellText>,
@@ -62,7 +63,17 @@ impl Table {
 
     /// The span of row `index`; an empty span at the keyword when the table was not read from a deck.
     pub fn row_span(&self, index: usize) -> Span {
-        self.rows.get(index).copied().unwrap_or(self.keyword)
+        self.places.get(index, self.keyword).unwrap_or(self.keyword)
+    }
+
+    /// The spans of the rows; fewer than there are rows when the table was not read from a deck.
+    pub fn row_spans(&self) -> impl ExactSizeIterator<Item = Span> {
+        self.places.iter(self.keyword)
+    }
+
+    /// Says where the next row is; [`keyword`](Self::keyword) is set before.
+    pub fn push_row_span(&mut self, span: Span) {
+        self.places.push(span, self.keyword);
     }
 
     /// The position of a column of that name.
@@ -81,7 +92,7 @@ impl Table {
     }
 
     pub(super) fn forget_places(&mut self) {
-        self.rows.clear();
+        self.places = RowPlaces::default();
         self.keyword = Span::default();
     }
 

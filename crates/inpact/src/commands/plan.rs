@@ -4,7 +4,7 @@ use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::{Messages, with_messages};
 use super::laws::LawArguments;
 use crate::failure::{Failure, Outcome};
-use crate::files;
+use crate::files::{self, ResultFile};
 use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
@@ -16,6 +16,8 @@ use inpact_evaluation::plan::{
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::Regime;
 use serde_json::{Value, json};
+use std::fmt::{self, Write as _};
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -59,15 +61,43 @@ fn plan(arguments: &PlanArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     files::check_targets(&[arguments.output.as_deref()])?;
     let prepared = evaluable.with_threads(|| evaluable.prepare(laws, reading, messages))?;
     let Some(evaluable) = prepared else { return Ok(Outcome::HasErrors) };
-    let text = match arguments.format {
+    match arguments.format {
         PlanFormat::Text => {
-            let text = format!("plan for {} on {}: {}", evaluable.deck_name, evaluable.nodes_name, evaluable.plan);
-            visible(&text).into_owned()
+            let mut out = VisibleText { out: ResultFile::create(arguments.output.as_deref())?, failed: None };
+            let Evaluable { deck_name, nodes_name, plan, .. } = &evaluable;
+            // It fails where writing does, and only there.
+            let _ = write!(out, "plan for {deck_name} on {nodes_name}: {plan}");
+            out.finish()?;
         }
-        PlanFormat::Json => visible_json(&as_json(&evaluable)).into_owned(),
-    };
-    files::write_result(arguments.output.as_deref(), text.as_bytes())?;
+        PlanFormat::Json => {
+            files::write_result(arguments.output.as_deref(), visible_json(&as_json(&evaluable)).as_bytes())?;
+        }
+    }
     Ok(if evaluable.deck_has_errors { Outcome::HasErrors } else { Outcome::Clean })
+}
+
+/// Text on its way to a file, in which nothing is hidden; piece by piece, as the plan of a deck may be larger than the deck.
+struct VisibleText {
+    out: ResultFile,
+    failed: Option<io::Error>,
+}
+
+impl fmt::Write for VisibleText {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.out.write_all(visible(text).as_bytes()).map_err(|error| {
+            self.failed = Some(error);
+            fmt::Error
+        })
+    }
+}
+
+impl VisibleText {
+    fn finish(self) -> Result<(), Failure> {
+        match self.failed {
+            Some(error) => Err(self.out.failure(error)),
+            None => self.out.finish(),
+        }
+    }
 }
 
 fn as_json(evaluable: &Evaluable) -> String {
@@ -129,9 +159,9 @@ fn interaction(plan: &InteractionPlan) -> Value {
         "closed": plan.closed,
         "open": plan.open,
         "histories": plan.histories,
-        "electrical": plan.electrical.as_ref().map(electrical),
-        "thermal": plan.thermal.as_ref().map(thermal),
-        "pore": plan.pore.as_ref().map(pore),
+        "electrical": plan.electrical.as_deref().map(electrical),
+        "thermal": plan.thermal.as_deref().map(thermal),
+        "pore": plan.pore.as_deref().map(pore),
         "outputs": plan.outputs.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "left_out": left_out.collect::<Vec<_>>(),
         "notes": plan.notes,

@@ -37,7 +37,7 @@ pub fn mark_findings(figure: &mut Figure, model: &Model, found: &[Diagnostic]) {
             let of_side = rows.side(side);
             let marks = in_deck.iter().filter_map(|found| {
                 let rows = of_side?;
-                let row = row_at(rows.spans, found.primary.span)?;
+                let row = row_at(&rows.spans, found.primary.span)?;
                 let cells = rows.row(row);
                 let (y, x) = (*cells.first()?, *cells.get(1)?);
                 (is_drawn(panel, side, row) && x.is_finite() && y.is_finite()).then(|| Mark {

@@ -12,7 +12,7 @@ pub(super) struct Rows<'a> {
     pub(super) columns: Vec<String>,
     pub(super) cells: Cow<'a, [f64]>,
     /// The span of each row, as far as it is known.
-    pub(super) spans: &'a [Span],
+    pub(super) spans: Vec<Span>,
 }
 
 /// The tables of one law, one a side of contact.
@@ -79,12 +79,12 @@ fn view_factors<'a>(model: &Model, interaction: &'a Interaction) -> Option<Rows<
     let rows = interaction.gap_radiation()?.rows(&model.parameters);
     let cells = rows.map_or_else(Vec::new, |(_, rows)| rows.concat());
     let columns = ["view_factor", "clearance"].map(str::to_owned).to_vec();
-    Some(Rows { columns, cells: cells.into(), spans: &[] })
+    Some(Rows { columns, cells: cells.into(), spans: Vec::new() })
 }
 
 impl<'a> Rows<'a> {
     fn of_table(table: &'a Table) -> Self {
-        Self { columns: table.columns.to_vec(), cells: (&table.values).into(), spans: &table.rows }
+        Self { columns: table.columns.to_vec(), cells: (&table.values).into(), spans: table.row_spans().collect() }
     }
 
     pub(super) fn width(&self) -> usize {

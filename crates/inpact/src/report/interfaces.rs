@@ -41,7 +41,7 @@ pub(super) fn row_places(model: &Model) -> Vec<RowPlace> {
         let name = of.name.written().to_owned();
         of.tables().into_iter().enumerate().flat_map(move |(table, of)| {
             let name = name.clone();
-            let rows = of.table.rows.iter().copied().take(MOST_ROWS).enumerate();
+            let rows = of.table.row_spans().take(MOST_ROWS).enumerate();
             rows.map(move |(row, span)| RowPlace { span, interaction, table, row, name: name.clone() })
                 .collect::<Vec<_>>()
         })

@@ -197,9 +197,8 @@ fn cell_page(view: View<'_>, entry: &Entry<'_>, cell: &Cell<'_>) -> String {
 
 /// Row, group and value of a cell of a table.
 fn in_table(view: View<'_>, entry: &Entry<'_>, table: &Table, cell: &Cell<'_>) -> String {
-    let holds =
-        |row: &Span| row.contains(cell.span) || (row.source == cell.span.source && row.start == cell.span.start);
-    let Some(row) = table.rows.iter().position(holds) else { return String::new() };
+    let holds = |row: Span| row.contains(cell.span) || (row.source == cell.span.source && row.start == cell.span.start);
+    let Some(row) = table.row_spans().position(holds) else { return String::new() };
     let mut text = String::new();
     let (value, written) = (table.row(row).get(cell.index).copied(), view.shown(cell.span));
     if let Some(value) = value.filter(|value| value.is_finite() && float_text(*value) != written && !written.is_empty())

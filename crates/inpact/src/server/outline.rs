@@ -235,7 +235,7 @@ fn is_within(inner: Range, outer: Range) -> bool {
 fn group_at(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<Span> {
     let table = cells::table_of(view.analysis, entry)?;
     let row =
-        table.rows.iter().position(|row| row.source == view.source && row.start <= offset && offset <= row.end)?;
+        table.row_spans().position(|row| row.source == view.source && row.start <= offset && offset <= row.end)?;
     let group = table.groups().find(|group| group.contains(&row))?;
     let (first, last) = (table.row_span(group.start), table.row_span(group.end - 1));
     (first.source == view.source && last.source == view.source).then(|| first.to(last))

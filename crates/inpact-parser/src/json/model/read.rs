@@ -154,7 +154,10 @@ impl ElectricalDocument {
         }
         let table = |table: Option<Option<TableDocument>>, branch: &str| {
             let expected = ["conductance", branch, "temp"];
-            table.flatten().map(|table| table.into_model(&format!("{path}.{branch}"), &expected)).transpose()
+            table
+                .flatten()
+                .map(|table| table.into_model(&format!("{path}.{branch}"), &expected).map(Box::new))
+                .transpose()
         };
         Ok(ElectricalConductance {
             user: self.user.then(Span::default),

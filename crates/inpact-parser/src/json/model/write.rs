@@ -65,15 +65,15 @@ fn given_documents(parameters: &[GivenParameter]) -> GivenDocuments {
 
 impl From<&ElectricalConductance> for ElectricalDocument {
     fn from(law: &ElectricalConductance) -> Self {
-        let table = |table: &Option<Table>| {
+        let table = |table: Option<&Table>| {
             // With USER the tables are void; they are shown only where the deck has them all the same (C003).
-            (law.user.is_none() || table.is_some()).then(|| table.as_ref().map(Into::into))
+            (law.user.is_none() || table.is_some()).then(|| table.map(Into::into))
         };
         Self {
             user: law.user.is_some(),
             kind: law.kind.clone(),
-            clearance: table(&law.clearance),
-            pressure: table(&law.pressure),
+            clearance: table(law.clearance.as_deref()),
+            pressure: table(law.pressure.as_deref()),
         }
     }
 }

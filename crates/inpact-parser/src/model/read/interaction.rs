@@ -181,7 +181,7 @@ impl Reader<'_> {
             let ElectricalConductance { clearance, pressure, .. } = *option;
             [clearance, pressure]
         });
-        let tables = tables.flatten().map(SetAsideItem::Table);
+        let tables = tables.flatten().map(|table| SetAsideItem::Table(*table));
         let items = tables
             .chain(interaction.contact_permeability.map(SetAsideItem::ContactPermeability))
             .chain(interaction.gap_heat_generation.map(SetAsideItem::HeatGeneration))
@@ -202,9 +202,9 @@ impl Reader<'_> {
         }
         let Some(table) = self.table(option) else { return };
         let branch = if option.is_given("PRESSURE") { &mut law.pressure } else { &mut law.clearance };
-        if let Some(earlier) = branch.replace(table) {
+        if let Some(earlier) = branch.replace(Box::new(table)) {
             let span = option.keyword.visible_span(self.deck);
-            self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::Table(earlier));
+            self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::Table(*earlier));
         }
     }
 
@@ -241,12 +241,12 @@ impl Reader<'_> {
             Dialect::Abaqus => 0,
             Dialect::Calculix => rows.saturating_sub(1),
         };
-        let row = table.as_ref().and_then(|table| table.rows.get(counting).copied());
+        let row = table.as_ref().and_then(|table| table.row_spans().nth(counting));
         let values = table.as_ref().map_or(&[1.0, 0.5][..], |table| table.row(counting));
         let [fraction, slave_weight] = [values[0], values[1]];
-        let all = table.iter().flat_map(|table| table.rows.iter().enumerate());
+        let all = table.iter().flat_map(|table| table.row_spans().enumerate());
         for (_, surplus) in all.filter(|(index, _)| *index != counting) {
-            let problem = Problem { kind: ProblemKind::SurplusRow, span: *surplus, keyword: option.keyword.span };
+            let problem = Problem { kind: ProblemKind::SurplusRow, span: surplus, keyword: option.keyword.span };
             self.problems.push(problem);
         }
         let slip_rate = match self.grammar.dialect() {
