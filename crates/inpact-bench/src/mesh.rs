@@ -110,7 +110,7 @@ pub fn tail(surfaces: Surfaces) -> String {
 /// Those of reading; a deck without the pair.
 pub fn measure(path: &Path) -> io::Result<Measured> {
     let grammar = Grammar::builtin();
-    let start = Instant::now();
+    let start = Timer::start();
     let mut file = File::open(path)?;
     let mut scanner = Scanner::new("mesh.inp", ScanOptions { grammar, keep: Keep::Interpreted });
     let mut piece = vec![0; 1 << 16];
@@ -125,15 +125,15 @@ pub fn measure(path: &Path) -> io::Result<Measured> {
     }
     let deck = scanner.finish();
     let (model, _) = model::read(&deck, grammar);
-    let scan = start.elapsed().as_secs_f64();
-    let start = Instant::now();
+    let scan = start.seconds();
+    let start = Timer::start();
     file.seek(SeekFrom::Start(0))?;
     let mesh = read(&deck, grammar, &model, &mut SeekableRows::new([(SourceId::ROOT, file)]))?;
-    let of_mesh = start.elapsed().as_secs_f64();
+    let of_mesh = start.seconds();
     let pair = mesh.pairs.first().ok_or_else(|| io::Error::other(format!("no pair: {:?}", mesh.notes)))?;
-    let start = Instant::now();
+    let start = Timer::start();
     let contact = mesh.contact(pair, 1.0).map_err(io::Error::other)?;
-    let of_contact = start.elapsed().as_secs_f64();
+    let of_contact = start.seconds();
     if contact.is_empty() {
         return Err(io::Error::other("the pair has no slave node"));
     }
@@ -184,20 +184,18 @@ pub fn page(sides: &[u32]) -> io::Result<String> {
         };
         let exponent = last[at].map_or_else(
             || "–".to_owned(),
-            |(before, earlier)| {
-                format!("{:.2}", (seconds / (earlier.scan + earlier.mesh)).ln() / (nodes / before).ln())
-            },
+            |(before, earlier)| shown((seconds / (earlier.scan + earlier.mesh)).ln() / (nodes / before).ln(), 2),
         );
         // Writing into a string cannot fail.
         let _ = writeln!(
             page,
-            "| {nodes:.2e} | {name} | {} | {:.1} | {:.3} | {:.3} | {:.3} | {:.0} | {exponent} | {:.0} |",
+            "| {nodes:.2e} | {name} | {} | {:.1} | {:.3} | {:.3} | {:.3} | {} | {exponent} | {:.0} |",
             of.faces,
             of.bytes as f64 / 1e6,
             of.scan,
             of.mesh,
             of.contact,
-            of.bytes as f64 / 1e6 / seconds,
+            shown(of.bytes as f64 / 1e6 / seconds, 0),
             of.peak,
         );
         last[at] = Some((nodes, of));
@@ -205,9 +203,15 @@ pub fn page(sides: &[u32]) -> io::Result<String> {
     Ok(page)
 }
 
+/// A number; a dash for one that comes of a time too short to be counted.
+fn shown(number: f64, digits: usize) -> String {
+    if number.is_finite() { format!("{number:.digits$}") } else { "–".to_owned() }
+}
+
 const HEAD: &str = "# Meshes: time and memory
 
 Made by `inpact-bench mesh` (release), single runs, each in a process of its own.
+Times are those on processors, of all threads together, so that work beside it does not count; waiting for a disk does not either (on Linux; elsewhere the time that passes).
 A deck has a cube of C3D8 bricks and a layer of them on it; the surfaces of its pair are faces by name (the upmost layer, S2), or element sets without a face, whose free faces are found among all elements.
 Scan is cutting the deck into blocks, mesh the reading of surfaces, elements and nodes behind it, contact areas and clearances of the slave nodes.
 
@@ -231,6 +235,33 @@ fn measure_all(program: &Path, path: &Path, sides: &[u32]) -> io::Result<Vec<(u3
         }
     }
     Ok(measured)
+}
+
+/// Measures the time that the threads of this process have a processor, so that work beside it does not count; the time that passes where the system does not tell.
+struct Timer {
+    start: Instant,
+    busy: Option<f64>,
+}
+
+impl Timer {
+    fn start() -> Self {
+        Self { start: Instant::now(), busy: Self::busy() }
+    }
+
+    fn seconds(&self) -> f64 {
+        let busy = Self::busy().zip(self.busy).map(|(now, before)| now - before);
+        busy.unwrap_or_else(|| self.start.elapsed().as_secs_f64())
+    }
+
+    /// The seconds on a processor so far, as Linux counts them.
+    fn busy() -> Option<f64> {
+        let of_thread = |thread: io::Result<std::fs::DirEntry>| {
+            let counts = std::fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
+            counts.split_whitespace().next()?.parse::<f64>().ok()
+        };
+        let nanoseconds: Option<f64> = std::fs::read_dir("/proc/self/task").ok()?.map(of_thread).sum();
+        nanoseconds.map(|nanoseconds| nanoseconds / 1e9)
+    }
 }
 
 /// Counts what it passes on.

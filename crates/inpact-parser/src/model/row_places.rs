@@ -97,7 +97,9 @@ mod tests {
             Span::new(SourceId(4), 2000, 2000),
         ];
         let mut places = RowPlaces::default();
-        spans.iter().for_each(|span| places.push(*span, keyword));
+        for span in spans {
+            places.push(span, keyword);
+        }
         assert_eq!(places.iter(keyword).collect::<Vec<_>>(), spans);
         assert_eq!(places.get(spans.len(), keyword), None);
     }
