@@ -10,10 +10,10 @@ use std::sync::Arc;
 ///
 /// ```
 /// use inpact_network::linear::Cholesky;
-/// // | 4 2 |   by its lower triangle, column by column
-/// // | 2 3 |
-/// let mut factor = Cholesky::new(&[0, 2, 3], &[0, 1, 1], vec![4.0, 2.0, 3.0])?;
-/// let mut right = [8.0, 8.0];
+/// // | 25 15 |   by its lower triangle, column by column
+/// // | 15 25 |
+/// let mut factor = Cholesky::new(&[0, 2, 3], &[0, 1, 1], vec![25.0, 15.0, 25.0])?;
+/// let mut right = [55.0, 65.0];
 /// factor.solve(&mut right)?;
 /// assert_eq!(right, [1.0, 2.0]);
 /// # Ok::<(), inpact_network::linear::NoSolution>(())

@@ -142,7 +142,8 @@ impl Interaction {
     /// let (model, _) = model::read(&scan("a.inp", text.as_bytes(), grammar), grammar);
     /// let interaction = &model.interactions[&Name::new("A")];
     /// let conductance = interaction.gap_conductance().expect("there is one");
-    /// assert_eq!(conductance.pressure().expect("a table").values, [10.0, 0.0, 20.0, 1.0]);
+    /// let rows = conductance.pressure().expect("a table").row_values().map(|row| [row[0], row[1]]);
+    /// assert_eq!(rows.collect::<Vec<_>>(), [[10.0, 0.0], [20.0, 1.0]]);
     /// assert!(conductance.clearance().is_none() && conductance.users.is_empty());
     /// assert!(interaction.friction().is_some() && interaction.gap_radiation().is_none());
     /// ```
