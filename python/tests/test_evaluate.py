@@ -233,27 +233,6 @@ def test_threads_agree_and_other_threads_go_on():
     assert counted > 3
 
 
-def test_memory_stays_where_it_is():
-    resource = pytest.importorskip("resource")
-    deck = inpact.parse(JOINT)
-    gap = deck.interactions["JOINT"].electrical
-    table = {"clearance": [1.0], "epot_jump": [1.0]}
-
-    def work() -> None:
-        for _ in range(2000):
-            inpact.parse(JOINT).check()
-            gap.conductance(clearance=1.0)
-            gap.conductance(clearance=[1.0])
-        for _ in range(100):
-            pa.table(inpact.evaluate(deck, table))
-
-    work()
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    for _ in range(4):
-        work()
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096
-
-
 def test_nodes_of_a_mesh(decks: pathlib.Path, tmp_path: pathlib.Path):
     path = decks / "weld-mesh" / "weld-mesh.inp"
     deck = inpact.read(path)
