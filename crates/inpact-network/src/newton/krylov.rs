@@ -13,11 +13,21 @@ use crate::linear::{Analysis, Factor, Incomplete, Method, NoSolution, Pattern, S
 use faer::sparse::Triplet;
 use std::sync::Arc;
 
-/// The number of vectors that GMRES keeps before it restarts.
-const RESTART: usize = 24;
+/// The patience of GMRES with its preconditioner.
+struct Patience {
+    /// The number of vectors that it keeps before it restarts.
+    restart: usize,
+    /// The most times it begins anew.
+    most_restarts: usize,
+    /// It gives up where a restart leaves more than this part of what was missing.
+    stagnation: f64,
+}
 
-/// The most times it begins anew.
-const MOST_RESTARTS: usize = 16;
+/// Factors are nearly inverses: what they do not solve soon they do not solve.
+const WITH_FACTORS: Patience = Patience { restart: 24, most_restarts: 16, stagnation: 0.9 };
+
+/// Incomplete factors leave the slow modes of large plates, which many vectors find; these need a tenth of the memory of the factor of the whole that would be next.
+const WITH_INCOMPLETE_FACTORS: Patience = Patience { restart: 60, most_restarts: 60, stagnation: 0.98 };
 
 /// By how much it lessens what is missing.
 const REDUCTION: f64 = 1e-9;
@@ -144,12 +154,14 @@ pub(super) fn solve(matrix: &Columns, blocks: &mut [Block], right: &[f64]) -> Op
         return None;
     }
     let mut before = size;
-    for _ in 0..MOST_RESTARTS {
-        extend(matrix, blocks, &mut solution, &residual, REDUCTION * size)?;
+    let is_incomplete = blocks.iter().any(|block| matches!(block.inverse, Inverse::Incomplete(_)));
+    let patience = if is_incomplete { WITH_INCOMPLETE_FACTORS } else { WITH_FACTORS };
+    for _ in 0..patience.most_restarts {
+        extend(matrix, blocks, &mut solution, &residual, (REDUCTION * size, patience.restart))?;
         let product = product(matrix, &solution);
         residual.iter_mut().zip(right.iter().zip(&product)).for_each(|(rest, (right, of))| *rest = right - of);
         let now = norm(&residual);
-        if now <= REDUCTION * size || !now.is_finite() || 0.9 * before < now {
+        if now <= REDUCTION * size || !now.is_finite() || patience.stagnation * before < now {
             break;
         }
         before = now;
@@ -158,12 +170,18 @@ pub(super) fn solve(matrix: &Columns, blocks: &mut [Block], right: &[f64]) -> Op
 }
 
 /// Adds to a solution the best of a few directions.
-fn extend(matrix: &Columns, blocks: &mut [Block], solution: &mut [f64], residual: &[f64], enough: f64) -> Option<()> {
+fn extend(
+    matrix: &Columns,
+    blocks: &mut [Block],
+    solution: &mut [f64],
+    residual: &[f64],
+    (enough, restart): (f64, usize),
+) -> Option<()> {
     let size = norm(residual);
     let mut basis = vec![residual.iter().map(|entry| entry / size).collect::<Vec<f64>>()];
     // The columns of the triangle, the rotations that made it, and the right-hand side.
     let (mut triangle, mut rotations, mut rest) = (Vec::<Vec<f64>>::new(), Vec::<(f64, f64)>::new(), vec![size]);
-    for step in 0..RESTART {
+    for step in 0..restart {
         let mut next = product(matrix, &preconditioned(matrix, blocks, &basis[step])?);
         let mut column: Vec<f64> = Vec::with_capacity(step + 2);
         for direction in &basis {
