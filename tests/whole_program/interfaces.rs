@@ -1,31 +1,7 @@
 //! `inpact interfaces`: interfaces of scenes from the mesh of a deck, a row a slave node or one a pair, and what is across from each slave node.
 
+use crate::nodes::{CUBES, WELD};
 use crate::program::{Folder, Run, inpact, inpact_with_input};
-
-const WELD: &str = "decks/weld-mesh/weld-mesh.inp";
-
-/// Two unit cubes that share a mesh, the upper one 0.25 above the lower and half a side beside it.
-const CUBES: &str = "\
-*NODE
-1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.
-5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.
-11, .5, 0., 1.25\n12, 1.5, 0., 1.25\n13, 1.5, 1., 1.25\n14, .5, 1., 1.25
-15, .5, 0., 2.25\n16, 1.5, 0., 2.25\n17, 1.5, 1., 2.25\n18, .5, 1., 2.25
-*ELEMENT, TYPE=C3D8, ELSET=LOWER
-1, 1, 2, 3, 4, 5, 6, 7, 8
-*ELEMENT, TYPE=C3D8, ELSET=UPPER
-2, 11, 12, 13, 14, 15, 16, 17, 18
-*SURFACE, NAME=MASTER
-LOWER, S2
-*SURFACE, NAME=SLAVE
-UPPER, S1
-*SURFACE INTERACTION, NAME=GAP
-*GAP CONDUCTANCE
-10., 0.
-0., 1.
-*CONTACT PAIR, INTERACTION=GAP
-SLAVE, MASTER
-";
 
 fn rows(run: &Run) -> Vec<Vec<String>> {
     assert_eq!(run.code, 0, "{}", run.errors);

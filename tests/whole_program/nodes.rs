@@ -2,10 +2,10 @@
 
 use crate::program::{Folder, Run, inpact, inpact_with_input};
 
-const WELD: &str = "decks/weld-mesh/weld-mesh.inp";
+pub(crate) const WELD: &str = "decks/weld-mesh/weld-mesh.inp";
 
 /// Two unit cubes that share a mesh, the upper one 0.25 above the lower and half a side beside it.
-const CUBES: &str = "\
+pub(crate) const CUBES: &str = "\
 *NODE
 1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.
 5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.

@@ -8,6 +8,7 @@ use crate::even::{Even, even};
 use crate::material::{BodyField, tensor, values_at};
 use crate::solve::{Equations, Solution};
 use inpact_geometry::{Conductivity, NodeId};
+use inpact_network::linear::{Cholesky, NoSolution};
 use inpact_parser::mesh::{BodyMaterial, ElementBlock, MaterialProperty, MeshNote, TensorKind};
 use inpact_parser::model::Name;
 use std::collections::HashSet;
@@ -274,7 +275,7 @@ impl Body {
             let of_group: Vec<Vec<f64>> = self.only_in(group[0], &fields[..count]);
             let of_group: Vec<&[f64]> = of_group.iter().map(Vec::as_slice).collect();
             let resistances = resistances(matrix, &of_group, &equations.sources);
-            let inverse = inverse(&resistances, count).ok_or_else(|| {
+            let inverse = inverse(&resistances, count).map_err(|_| {
                 BodyError::without_place(
                     "the body was not solved: its resistances are not positive definite".to_owned(),
                 )
@@ -414,39 +415,28 @@ fn resistances(matrix: &Matrix, fields: &[&[f64]], sources: &[Vec<f64>]) -> Vec<
     resistances
 }
 
-/// The inverse of a symmetric positive definite matrix of which the upper triangle is given; `None` where it is not.
-fn inverse(upper: &[f64], count: usize) -> Option<Vec<f64>> {
-    let mut factor = vec![0.0; count * count];
-    for i in 0..count {
-        for j in 0..=i {
-            let products: f64 = (0..j).map(|k| factor[i * count + k] * factor[j * count + k]).sum();
-            let left = upper[j * count + i] - products;
-            if i == j {
-                if left.is_nan() || left <= 0.0 {
-                    return None;
-                }
-                factor[i * count + i] = left.sqrt();
-            } else {
-                factor[i * count + j] = left / factor[j * count + j];
-            }
+/// The inverse of a symmetric positive definite matrix of which the upper triangle is given.
+fn inverse(upper: &[f64], count: usize) -> Result<Vec<f64>, NoSolution> {
+    let number = |place: usize| u32::try_from(place).map_err(|_| NoSolution::Memory);
+    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    for column in 0..count {
+        for row in column..count {
+            rows.push(number(row)?);
+            values.push(upper[column * count + row]);
         }
+        starts.push(number(rows.len())?);
     }
+    let mut factor = Cholesky::new(&starts, &rows, values)?;
     let mut inverse = vec![0.0; count * count];
     for column in 0..count {
-        let mut x: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i == column))).collect();
-        for i in 0..count {
-            let sum: f64 = (0..i).map(|k| factor[i * count + k] * x[k]).sum();
-            x[i] = (x[i] - sum) / factor[i * count + i];
-        }
-        for i in (0..count).rev() {
-            let sum: f64 = (i + 1..count).map(|k| factor[k * count + i] * x[k]).sum();
-            x[i] = (x[i] - sum) / factor[i * count + i];
-        }
+        let mut unit = vec![0.0; count];
+        unit[column] = 1.0;
+        factor.solve(&mut unit)?;
         // Of both halves one is kept, so that it is symmetric to the last digit.
-        (0..=column).for_each(|row| {
-            inverse[row * count + column] = x[row];
-            inverse[column * count + row] = x[row];
-        });
+        for row in 0..=column {
+            inverse[row * count + column] = unit[row];
+            inverse[column * count + row] = unit[row];
+        }
     }
-    Some(inverse)
+    Ok(inverse)
 }

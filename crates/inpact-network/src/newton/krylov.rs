@@ -326,6 +326,26 @@ mod tests {
         assert_eq!(solve(&matrix, &mut blocks, &[0.0; 1000]), Some(vec![0.0; 1000]));
     }
 
+    /// A permutation in one cycle, of which no direction but the last brings anything: as slow modes are with an incomplete factor.
+    #[test]
+    fn slow_progress_is_waited_for_with_incomplete_factors() {
+        const COUNT: u32 = 40;
+        let cycle: Vec<_> = (0..COUNT).map(|row| Triplet::new(row, (row + 1) % COUNT, 1.0)).collect();
+        let matrix = Columns::of(COUNT as usize, &cycle);
+        let diagonal: Vec<_> = (0..COUNT).map(|row| Triplet::new(row, row, 1.0)).collect();
+        let identity = SparseColMat::<u32, f64>::try_new_from_triplets(COUNT as usize, COUNT as usize, &diagonal)
+            .expect("entries within the block");
+        let (pattern, values) = (identity.symbolic(), identity.val().to_vec());
+        let inverse = Inverse::Incomplete(Incomplete::of(&Matrix { pattern, values }));
+        let mut blocks = [Block { start: 0, count: COUNT as usize, inverse }];
+        let mut wanted = vec![0.0; COUNT as usize];
+        wanted[7] = 1.0;
+        let found =
+            solve(&matrix, &mut blocks, &product(&matrix, &wanted)).expect("it takes one direction for each unknown");
+        let off: Vec<f64> = found.iter().zip(&wanted).map(|(found, wanted)| found - wanted).collect();
+        assert!(norm(&off) < 1e-9, "{}", norm(&off));
+    }
+
     #[test]
     fn what_has_no_solution_is_given_up() {
         let (matrix, mut blocks) = coupled(10);

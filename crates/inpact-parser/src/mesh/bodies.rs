@@ -107,7 +107,7 @@ struct SolidSection {
 }
 
 /// What a terminal is made of, before nodes have positions.
-struct Asked {
+struct Picked {
     span: Span,
     is_of_faces: bool,
 }
@@ -119,9 +119,9 @@ impl<'deck> Reader<'deck, '_> {
             self.body_elements(instance, &mut mesh)?;
         }
         let mut picks = Picks::default();
-        let mut asked = Vec::new();
+        let mut picked = Vec::new();
         for (at, name) in names.iter().enumerate() {
-            asked.push(self.pick_terminal(at, name, &mut picks)?);
+            picked.push(self.pick_terminal(at, name, &mut picks)?);
         }
         for pick in &mut picks.faces {
             pick.elements.labels.sort();
@@ -135,12 +135,12 @@ impl<'deck> Reader<'deck, '_> {
         }
         mesh.terminals = names
             .iter()
-            .zip(asked)
+            .zip(picked)
             .enumerate()
-            .map(|(at, (name, asked))| {
-                let asked = asked?;
+            .map(|(at, (name, picked))| {
+                let picked = picked?;
                 let nodes = std::mem::take(&mut of_terminals[at]);
-                Some(self.terminal(name, &asked, nodes, (at, &faces), &positions))
+                Some(self.terminal(name, &picked, nodes, (at, &faces), &positions))
             })
             .collect();
         mesh.known = self.known_names();
@@ -261,12 +261,12 @@ impl<'deck> Reader<'deck, '_> {
     }
 
     /// Finds what a terminal names: a surface, or else a node set, or else a node by its number.
-    fn pick_terminal(&mut self, at: usize, name: &Name, picks: &mut Picks) -> io::Result<Option<Asked>> {
+    fn pick_terminal(&mut self, at: usize, name: &Name, picks: &mut Picks) -> io::Result<Option<Picked>> {
         let reference = Reference { name: name.clone(), span: Span::default() };
         if let Some((_, entry)) = self.find_surface(&reference) {
             let found = self.pick_surface(at, &reference, picks)?;
             let is_of_faces = picks.nodes.iter().all(|pick| pick.surface != at);
-            return Ok(found.map(|_| Asked { span: entry.span(), is_of_faces }));
+            return Ok(found.map(|_| Picked { span: entry.span(), is_of_faces }));
         }
         let (context, set) = self.without_prefix(Context::Top, name.clone());
         let (sets, options) = self.definitions_of(Kind::Nodes, context, &set);
@@ -274,7 +274,7 @@ impl<'deck> Reader<'deck, '_> {
         let span = sets.first().map(Entry::span).or(options.first().copied());
         let Some(span) = span.or(is_node.then(Span::default)) else { return Ok(None) };
         self.pick_set(at, (context, &set), span, picks)?;
-        Ok(Some(Asked { span, is_of_faces: false }))
+        Ok(Some(Picked { span, is_of_faces: false }))
     }
 
     /// Finds the nodes of an instance, and turns the numbers of its elements' nodes into positions.
@@ -345,7 +345,7 @@ impl<'deck> Reader<'deck, '_> {
     fn terminal(
         &mut self,
         name: &Name,
-        asked: &Asked,
+        picked: &Picked,
         mut nodes: Vec<NodeId>,
         (at, faces): (usize, &[RawFace]),
         positions: &[Positions],
@@ -361,7 +361,7 @@ impl<'deck> Reader<'deck, '_> {
                     of_faces.push((face, found));
                 }
                 None => outside.push((
-                    asked.span,
+                    picked.span,
                     format!("face {} of element {} of `{name}` is not a face of a solid", face.label, face.element),
                 )),
             }
@@ -371,13 +371,13 @@ impl<'deck> Reader<'deck, '_> {
         nodes.dedup();
         let surface = Surface::new(of_faces.iter().map(|(face, nodes)| Face { shape: face.shape, nodes }));
         let faces = match surface {
-            Ok(surface) => asked.is_of_faces.then_some(surface),
+            Ok(surface) => picked.is_of_faces.then_some(surface),
             Err(error) => {
-                self.note(asked.span, format!("{error}, so that `{name}` was not read"));
+                self.note(picked.span, format!("{error}, so that `{name}` was not read"));
                 None
             }
         };
-        MeshTerminal { name: name.clone(), span: asked.span, nodes, faces }
+        MeshTerminal { name: name.clone(), span: picked.span, nodes, faces }
     }
 }
 

@@ -13,6 +13,7 @@ use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState};
 use inpact_evaluation::law::interface::InterfaceLaws;
 use inpact_evaluation::nodes::{Column, Part};
 use inpact_evaluation::plan::Choices;
+use inpact_evaluation::results::rounded_up;
 use inpact_network::scene::Field;
 use inpact_parser::model::Model;
 
@@ -23,13 +24,15 @@ pub(super) struct Lumping {
     pub(super) lines: Vec<String>,
     /// The largest relative cost so far.
     worst: f64,
+    /// Whether an estimate is among the costs: areas of two sides that differ have no bound.
+    is_estimate: bool,
     /// Joints whose conductance is not known at all nodes.
     unknown: Vec<String>,
 }
 
 impl Lumping {
     pub(super) fn new(terminals: &[Terminal], lumped: &[Lumped]) -> Self {
-        let mut lumping = Self { lines: Vec::new(), worst: 0.0, unknown: Vec::new() };
+        let mut lumping = Self { lines: Vec::new(), worst: 0.0, is_estimate: false, unknown: Vec::new() };
         for of in lumped {
             let key = network_field(of.field).conductance_key();
             for (terminal, summary) in terminals.iter().zip(&of.terminals) {
@@ -109,28 +112,36 @@ impl Lumping {
                 if cost < ROUNDING {
                     continue;
                 }
-                self.worst = self.worst.max(cost.min(1.0));
-                self.lines.push(match terminal.area {
+                self.worst = self.worst.max(cost);
+                self.is_estimate = true;
+                let line = match terminal.area {
                     Some(area) => format!(
-                        "`{name}`: its whole faces in the joint have the area {area:?}, the joint has {:?}: off by at most {}",
+                        "`{name}`: its whole faces in the joint have the area {area:?}, the joint has {:?}: off by about {}",
                         of.area,
                         percent(cost)
                     ),
-                    None => format!("`{name}`: no whole face of it is in the joint, so that what lumping costs has no bound"),
-                });
+                    None => format!(
+                        "`{name}`: no whole face of it is in the joint, so that what lumping costs has no bound"
+                    ),
+                };
+                // Areas are the same for heat and current.
+                if !self.lines.contains(&line) {
+                    self.lines.push(line);
+                }
             }
         }
     }
 
     /// The lines, and what they come to.
     pub(super) fn finish(self) -> Vec<String> {
-        let Self { mut lines, worst, unknown } = self;
+        let Self { mut lines, worst, is_estimate, unknown } = self;
         let beside = if unknown.is_empty() {
             String::new()
         } else {
             format!(", beside what varies over the joints {}, whose conductance is not known yet", unknown.join(", "))
         };
-        lines.push(format!("{} between held nodes: off by at most {}{beside}", flows(), percent(worst)));
+        let areas = if is_estimate { ", where differences of areas are estimates and no bounds" } else { "" };
+        lines.push(format!("{} between held nodes: off by at most {}{areas}{beside}", flows(), percent(worst)));
         lines
     }
 }
@@ -139,6 +150,11 @@ fn flows() -> String {
     format!("{} and {}", Field::Temperature.flow_name(), Field::Potential.flow_name())
 }
 
+/// A share in percent, never smaller than it is.
 fn percent(share: f64) -> String {
-    format!("{:.3e} %", 100.0 * share)
+    match 100.0 * share {
+        0.0 => "0.0 %".to_owned(),
+        percent @ 0.1..1e4 => format!("{:.1} %", (percent * 10.0).ceil() / 10.0),
+        percent => format!("{} %", rounded_up(percent)),
+    }
 }
