@@ -16,9 +16,9 @@ mod mutation;
 
 use inpact_parser::deck::{Deck, Keep, ScanOptions, Scanner, scan};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
+use inpact_parser::json;
 use inpact_parser::model::{self, Model};
 use inpact_parser::span::SourceId;
-use inpact_parser::{format as layout, json};
 use inpact_validation::{Diagnostic, Edit, FixSafety, apply};
 use mutation::{Chance, files, project};
 use oracle::{Language, read as read_by_semantics};
@@ -247,8 +247,11 @@ fn safe_fixes_change_nothing(bytes: &[u8], grammar: &Grammar) {
 /// The deck as `fmt` makes it says the same, and `fmt` leaves it alone.
 fn formatting_changes_nothing(bytes: &[u8], grammar: &Grammar) {
     let deck = scan("deck", bytes, grammar);
-    let text = layout::format(&deck, SourceId::ROOT, grammar);
-    assert!(layout::format(&scan("deck", &text, grammar), SourceId::ROOT, grammar) == text, "formatting twice differs");
+    let text = inpact_parser::format(&deck, SourceId::ROOT, grammar);
+    assert!(
+        inpact_parser::format(&scan("deck", &text, grammar), SourceId::ROOT, grammar) == text,
+        "formatting twice differs"
+    );
     assert!(said(&text, grammar) == said(bytes, grammar), "formatting changes the model:\n{}", shown(&text));
 }
 

@@ -13,7 +13,7 @@ use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::mesh::{KeptRows, SeekableRows, read as read_mesh};
 use inpact_parser::model::Model;
 use inpact_parser::span::{SourceId, Span};
-use inpact_parser::{format as layout, json, model};
+use inpact_parser::{json, model};
 use inpact_validation::{Diagnostic, Edit, FixSafety, apply};
 use std::io::Cursor;
 use std::path::PathBuf;
@@ -163,9 +163,9 @@ pub fn json_in(bytes: &[u8]) {
 pub fn format(bytes: &[u8]) {
     for grammar in &*DIALECTS {
         let before = scan("deck", bytes, grammar);
-        let text = layout::format(&before, SourceId::ROOT, grammar);
+        let text = inpact_parser::format(&before, SourceId::ROOT, grammar);
         let after = scan("deck", &text, grammar);
-        assert!(layout::format(&after, SourceId::ROOT, grammar) == text, "formatting twice changes something");
+        assert!(inpact_parser::format(&after, SourceId::ROOT, grammar) == text, "formatting twice changes something");
         let ((before, _), (after, _)) = (model::read(&before, grammar), model::read(&after, grammar));
         assert!(said(&before) == said(&after), "formatting changes the model");
     }

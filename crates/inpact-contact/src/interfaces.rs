@@ -2,11 +2,12 @@
 //!
 //! The numbers are those of [`NodeRows`]: no second reader, and no other decision on what a clearance or an area is.
 
+use crate::Error;
 use crate::naming::across_name;
 use crate::pair::across;
-use crate::rows::{NodeRows, RowsError};
+use crate::rows::NodeRows;
 use crate::state::State;
-use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::law::ContactState;
 use inpact_evaluation::nodes::{Column, Part};
 use inpact_geometry::FaceLabel;
 use inpact_parser::mesh::{MeshNode, SurfaceKind};
@@ -102,12 +103,12 @@ impl NodeRows<'_> {
     ///
     /// # Errors
     /// The nodes have moved to places that have no geometry.
-    pub fn interfaces(&mut self, state: &State) -> Result<Interfaces, RowsError> {
+    pub fn interfaces(&mut self, state: &State) -> Result<Interfaces, Error> {
         let sources: Vec<(Column, Vec<usize>)> = quantities(self.numbers());
         let mut batches = Vec::new();
         self.write(state, |batch| {
             batches.push(batch.clone());
-            Ok::<(), RowsError>(())
+            Ok::<(), Error>(())
         })?;
         let mut pairs = Vec::new();
         for (pair, batch) in self.pairs().iter().zip(&batches) {

@@ -9,6 +9,7 @@ mod quantities;
 
 pub use nodes::MatchedBy;
 
+use crate::Error;
 use crate::state::{Source, State};
 use frames::Building;
 use inpact_geometry::NodeId;
@@ -73,11 +74,6 @@ pub struct ResultNote {
     pub message: String,
 }
 
-/// The reason why nothing of result files can be used.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct JoinError(String);
-
 impl<'a> Join<'a> {
     /// Nothing yet.
     pub fn new(mesh: &'a Mesh, model: &Model) -> Self {
@@ -101,10 +97,10 @@ impl<'a> Join<'a> {
     ///
     /// # Errors
     /// It is of another mesh: its nodes are elsewhere.
-    pub fn add(&mut self, file: &str, results: &Results) -> Result<(), JoinError> {
+    pub fn add(&mut self, file: &str, results: &Results) -> Result<(), Error> {
         let file: Arc<str> = file.into();
         let (map, notes) =
-            NodeMap::new(self.mesh, results).map_err(|message| JoinError(format!("{file}: {message}")))?;
+            NodeMap::new(self.mesh, results).map_err(|message| Error::result_files(format!("{file}: {message}")))?;
         let mut of_file = OfFile {
             file: Arc::clone(&file),
             format: results.format,
@@ -231,11 +227,11 @@ impl<'a> Join<'a> {
     ///
     /// # Errors
     /// No file has values at a node of a contact surface, or several states have no time.
-    pub fn finish(mut self) -> Result<Joined, JoinError> {
+    pub fn finish(mut self) -> Result<Joined, Error> {
         if self.building.is_empty() {
             let names: Vec<String> = self.files.iter().map(|file| format!("`{}`", file.file)).collect();
             let of = if names.is_empty() { "no result file".to_owned() } else { names.join(", ") };
-            return Err(JoinError(format!("{of} says nothing of the nodes of the contact surfaces")));
+            return Err(Error::result_files(format!("{of} says nothing of the nodes of the contact surfaces")));
         }
         let timeless = self.building.iter().filter(|building| building.moment.time.is_none()).count();
         if 0 < timeless && 1 < self.building.len() {
@@ -243,7 +239,7 @@ impl<'a> Join<'a> {
                 "{timeless} of {} states have no time, so that no history can be made of them; name files that say times, or one state only",
                 self.building.len()
             );
-            return Err(JoinError(message));
+            return Err(Error::result_files(message));
         }
         // The sort is stable: what has one time stays in the order of the files.
         self.building.sort_by(|a, b| a.moment.time.unwrap_or_default().total_cmp(&b.moment.time.unwrap_or_default()));

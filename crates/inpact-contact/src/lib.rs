@@ -9,8 +9,37 @@
 //!
 //! Nothing is guessed: a node without a master face across has an empty clearance unless a solver says one, a master field that a node of its face lacks is empty
 //! too, and what of a result file could not be used is named.
+//!
+//! ```
+//! use inpact_contact::{NodeRows, State};
+//! use inpact_evaluation::nodes::Column;
+//! use inpact_parser::mesh::{self, KeptRows};
+//! use inpact_parser::{deck::scan, grammar::Grammar, model};
+//!
+//! // Two squares of shell, 0.5 apart.
+//! let text = b"*NODE
+//! 1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.
+//! 5, 0., 0., .5\n6, 1., 0., .5\n7, 1., 1., .5\n8, 0., 1., .5
+//! *ELEMENT, TYPE=R3D4, ELSET=LOW\n1, 1, 2, 3, 4
+//! *ELEMENT, TYPE=R3D4, ELSET=HIGH\n2, 5, 6, 7, 8
+//! *SURFACE, NAME=MASTER\nLOW, SPOS
+//! *SURFACE, NAME=SLAVE\nHIGH, SNEG
+//! *SURFACE INTERACTION, NAME=JOINT
+//! *CONTACT PAIR, INTERACTION=JOINT\nSLAVE, MASTER
+//! ";
+//! let deck = scan("joint.inp", text, Grammar::builtin());
+//! let (model, _) = model::read(&deck, Grammar::builtin());
+//! let mesh = mesh::read(&deck, Grammar::builtin(), &model, &mut KeptRows(&deck))?;
+//! let states = [State::initial(&mesh)];
+//! let mut rows = NodeRows::new(&mesh, &model, &states)?;
+//! let clearance = rows.numbers().iter().position(|column| *column == Column::Clearance).expect("from the mesh");
+//! let batch = rows.batches(&states).next().expect("a pair")?;
+//! assert_eq!((batch.rows, batch.numbers[clearance].get(0)), (4, Some(0.5)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod check;
+mod error;
 mod interfaces;
 mod join;
 mod naming;
@@ -25,10 +54,11 @@ pub use check::{
     BEYOND_CUTOFF, DEEP_OVERCLOSURE, GEOMETRY_RULES, NODE_BASED_SURFACE, TABLE_NOT_REACHED, WITHOUT_MASTER, WRONG_SIDE,
     check_geometry,
 };
+pub use error::Error;
 pub use interfaces::{InterfaceRow, Interfaces, LumpedPair, PairInterfaces, ProjectionRow, WeightedMean};
-pub use join::{FileSummary, Join, JoinError, Joined, MatchedBy, ResultNote};
+pub use join::{FileSummary, Join, Joined, MatchedBy, ResultNote};
 pub use picture::SlaveFaces;
-pub use rows::{NodeRows, RowsError};
+pub use rows::NodeRows;
 pub use state::{
     ContactField, ContactQuantity, Displacements, Moment, NodeField, NodeQuantity, OutputField, Source, State,
 };

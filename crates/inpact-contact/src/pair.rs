@@ -1,6 +1,6 @@
 //! A contact pair in a state: what is across from each slave node, and what ADJUST and small sliding make of it.
 
-use crate::rows::RowsError;
+use crate::Error;
 use crate::state::State;
 use crate::summary::PairSummary;
 use inpact_geometry::{ContactNode, GeometryError, NodeId, Point, Projection, Vector};
@@ -29,18 +29,18 @@ impl<'a> Pair<'a> {
         thickness: f64,
         summary: PairSummary,
         names: impl FnMut(&ContactNode) -> String,
-    ) -> Result<Self, RowsError> {
+    ) -> Result<Self, Error> {
         let of = &mesh.pairs[index];
         let start = mesh.contact(of, thickness);
         let start = start.and_then(|start| Ok((start, adjusted(mesh, of, thickness)?)));
         let (start, adjusted) =
-            start.map_err(|error| RowsError::new(&summary.slave, &summary.master, None, reason(mesh, &error)))?;
+            start.map_err(|error| Error::geometry(&summary.slave, &summary.master, None, reason(mesh, &error)))?;
         let names = start.iter().map(names).collect();
         Ok(Self { of, index, start, names, summary, thickness, adjusted })
     }
 
     /// The geometry in a state.
-    pub(crate) fn contact(&self, mesh: &Mesh, state: &State) -> Result<Cow<'_, [ContactNode]>, RowsError> {
+    pub(crate) fn contact(&self, mesh: &Mesh, state: &State) -> Result<Cow<'_, [ContactNode]>, Error> {
         let Some(moved) = &state.displacements else { return Ok(Cow::Borrowed(&self.start)) };
         let moved = &moved.vectors;
         if self.of.sliding == Sliding::Small {
@@ -52,7 +52,7 @@ impl<'a> Pair<'a> {
         }
         let contact = mesh.contact_at(&points, &without_start(self.of), self.thickness);
         let contact = contact.map_err(|error| {
-            RowsError::new(&self.summary.slave, &self.summary.master, state.moment.time, reason(mesh, &error))
+            Error::geometry(&self.summary.slave, &self.summary.master, state.moment.time, reason(mesh, &error))
         })?;
         Ok(Cow::Owned(contact))
     }

@@ -1,5 +1,6 @@
 //! From states to rows: a batch a pair and state.
 
+use crate::Error;
 use crate::naming::Names;
 use crate::pair::{Pair, across};
 use crate::picture::SlaveFaces;
@@ -9,28 +10,8 @@ use crate::values::{Origin, columns, number};
 use inpact_evaluation::nodes::{Batch, Column};
 use inpact_evaluation::results::push_number;
 use inpact_parser::mesh::{Mesh, MeshNote, SurfaceKind};
-use inpact_parser::model::{Model, Name};
+use inpact_parser::model::Model;
 use std::sync::Arc;
-
-/// The reason why the rows of a pair cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the contact pair of `{slave}` and `{master}` has no geometry{}: {reason}", at(*.time))]
-pub struct RowsError {
-    slave: String,
-    master: String,
-    time: Option<f64>,
-    reason: String,
-}
-
-impl RowsError {
-    pub(crate) fn new(slave: &Name, master: &Name, time: Option<f64>, reason: String) -> Self {
-        Self { slave: slave.to_string(), master: master.to_string(), time, reason }
-    }
-}
-
-fn at(time: Option<f64>) -> String {
-    time.map_or_else(String::new, |time| format!(" at time {time:?}"))
-}
 
 /// The rows of all pairs of a mesh.
 pub struct NodeRows<'a> {
@@ -69,7 +50,7 @@ impl<'a> NodeRows<'a> {
     ///
     /// # Errors
     /// A pair has no geometry as the deck defines it.
-    pub fn new(mesh: &'a Mesh, model: &'a Model, states: &[State]) -> Result<Self, RowsError> {
+    pub fn new(mesh: &'a Mesh, model: &'a Model, states: &[State]) -> Result<Self, Error> {
         let mut notes = Vec::new();
         let mut names = Names::default();
         let mut pairs = Vec::new();
@@ -171,10 +152,7 @@ impl<'a> NodeRows<'a> {
     }
 
     /// The rows of all states one after the other, a batch a pair and state, in the order of the deck.
-    pub fn batches<'b>(
-        &'b mut self,
-        states: &'b [State],
-    ) -> impl Iterator<Item = Result<Batch, RowsError>> + use<'a, 'b> {
+    pub fn batches<'b>(&'b mut self, states: &'b [State]) -> impl Iterator<Item = Result<Batch, Error>> + use<'a, 'b> {
         let pairs = self.pairs.len();
         let each = states.iter().flat_map(move |state| (0..pairs).map(move |pair| (pair, state)));
         each.map(|(pair, state)| self.batch(pair, state))
@@ -184,7 +162,7 @@ impl<'a> NodeRows<'a> {
     ///
     /// # Errors
     /// The nodes have moved to places that have no geometry; and errors of `take`.
-    pub fn write<E: From<RowsError>>(
+    pub fn write<E: From<Error>>(
         &mut self,
         state: &State,
         mut take: impl FnMut(&Batch) -> Result<(), E>,
@@ -196,7 +174,7 @@ impl<'a> NodeRows<'a> {
     }
 
     /// The rows of a pair, counted among those that have rows, in a state.
-    fn batch(&mut self, pair: usize, state: &State) -> Result<Batch, RowsError> {
+    fn batch(&mut self, pair: usize, state: &State) -> Result<Batch, Error> {
         let pair = &mut self.pairs[pair];
         let contact = pair.contact(self.mesh, state)?;
         let mut summary = pair.summary.clone();

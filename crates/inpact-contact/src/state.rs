@@ -58,6 +58,7 @@ pub struct ContactField {
 
 /// Quantities of a solver at slave nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum ContactQuantity {
     /// The clearance, open > 0 (L).
     Clearance,
@@ -84,6 +85,7 @@ pub struct NodeField {
 
 /// Quantities of nodes of both sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum NodeQuantity {
     /// Temperature (θ).
     Temperature,

@@ -2,7 +2,7 @@
 
 use crate::state::Source;
 use crate::values::Origin;
-use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::law::ContactState;
 use inpact_evaluation::nodes::Column;
 use inpact_geometry::Shares;
 use inpact_parser::mesh::{Mesh, MeshPair, Sliding, SurfaceKind};
@@ -11,6 +11,7 @@ use std::fmt;
 
 /// Sources of the areas of slave nodes.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum AreaSource {
     /// The faces of the slave, shared among their nodes.
     Faces(Shares),

@@ -2,6 +2,16 @@
 //!
 //! Findings in decks, node tables and scenes are of one kind, [`Diagnostic`], a plain value that knows its file, line, column and bytes.
 //! Knows nothing of keywords, tables or laws, opens no file and prints nothing.
+//!
+//! A [`Fix`] is edits on bytes:
+//!
+//! ```
+//! use inpact_diagnostics::span::{SourceId, Span};
+//! use inpact_diagnostics::{Edit, apply};
+//!
+//! let comma = Span::new(SourceId::ROOT, 7, 10);
+//! assert_eq!(apply(b"4000., 0,2\n", &[Edit::new(comma, "0.2")]), b"4000., 0.2\n");
+//! ```
 
 mod columns;
 mod diagnostic;

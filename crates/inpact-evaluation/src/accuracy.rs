@@ -25,6 +25,7 @@ use crate::table::{AxisSummary, PiecewiseTable};
 
 /// The accuracy a user asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Accuracy {
     /// Double-double throughout, rounded once: within 0.501 ulp.
     Reference,

@@ -15,7 +15,7 @@
 )]
 
 mod axis;
-pub mod electrical;
+pub(crate) mod electrical;
 mod instruction_set;
 mod nested;
 mod pieces;

@@ -17,6 +17,13 @@ pub use build::{TableError, TableFault};
 pub use fold::FoldRefusal;
 pub use sides::Sides;
 
+pub use crate::accuracy::{
+    Candidate, Choice, ErrorBound, FAST_TOLERANCE, Grid, Method, Refusal, Shape, choose, commensurate_cells,
+    full_bound, reference_bound,
+};
+pub use crate::evaluator::{Evaluator, FoundValue, SeenError, TableValues};
+pub use crate::kernel::{InstructionSet, Search, TableKernel};
+
 use std::sync::Arc;
 
 use crate::numbers::KernelSlope;

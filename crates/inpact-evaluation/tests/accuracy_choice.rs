@@ -2,10 +2,8 @@
 
 mod table_judge;
 
-use inpact_evaluation::accuracy::{
-    Accuracy, Candidate, Choice, Method, Refusal, Shape, Tolerance, Wanted, choose, full_bound,
-};
-use inpact_evaluation::table::{PiecewiseTable, Tail};
+use inpact_evaluation::table::{Candidate, Choice, Method, PiecewiseTable, Refusal, Shape, Tail, choose, full_bound};
+use inpact_evaluation::{Accuracy, Tolerance, Wanted};
 use table_judge::random_tables::{Range, compile, random_ending, random_rows};
 use table_judge::{Random, cases};
 

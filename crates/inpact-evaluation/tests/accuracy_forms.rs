@@ -2,9 +2,11 @@
 
 mod table_judge;
 
-use inpact_evaluation::accuracy::{ErrorBound, Grid, Method, Refusal, Tolerance, Wanted, choose, commensurate_cells};
 use inpact_evaluation::numbers::Scaled;
-use inpact_evaluation::table::{AxisSummary, PiecewiseTable, Tail};
+use inpact_evaluation::table::{
+    AxisSummary, ErrorBound, Grid, Method, PiecewiseTable, Refusal, Tail, choose, commensurate_cells,
+};
+use inpact_evaluation::{Tolerance, Wanted};
 use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Ending, Random, Rows, cases, report};
 

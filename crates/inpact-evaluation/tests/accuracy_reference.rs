@@ -2,8 +2,7 @@
 
 mod table_judge;
 
-use inpact_evaluation::accuracy::full_bound;
-use inpact_evaluation::table::{PiecewiseTable, Tail};
+use inpact_evaluation::table::{PiecewiseTable, Tail, full_bound};
 use num_traits::Signed;
 use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Random, cases, exact, report, table_value, ulps_from};

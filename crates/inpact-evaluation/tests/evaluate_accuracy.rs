@@ -4,9 +4,9 @@ mod evaluate_support;
 mod table_judge;
 
 use evaluate_support::{evaluate, evaluate_with};
-use inpact_evaluation::accuracy::{Accuracy, Wanted};
 use inpact_evaluation::plan::Choices;
 use inpact_evaluation::results::Output;
+use inpact_evaluation::{Accuracy, Wanted};
 use inpact_parser::model::Regime;
 use num_rational::BigRational;
 use table_judge::random_tables::{Range, random_rows};

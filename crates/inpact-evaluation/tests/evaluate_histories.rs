@@ -3,7 +3,8 @@
 mod evaluate_support;
 
 use evaluate_support::{Run, evaluate_with};
-use inpact_evaluation::history::{ClosingHeat, HistoryStart};
+use inpact_evaluation::HistoryStart;
+use inpact_evaluation::law::ClosingHeat;
 use inpact_evaluation::plan::Choices;
 use inpact_parser::model::Regime;
 

@@ -3,7 +3,7 @@
 mod evaluate_support;
 
 use evaluate_support::{evaluate, evaluate_with};
-use inpact_evaluation::law::pore::CutoffBoundary;
+use inpact_evaluation::law::CutoffBoundary;
 use inpact_evaluation::plan::{Choices, Derivatives};
 use inpact_evaluation::results::Output;
 use inpact_parser::model::Regime;

@@ -7,8 +7,8 @@ mod scene;
 mod table_judge;
 
 use evaluate_support::{evaluate_kept, evaluate_with};
-use inpact_evaluation::accuracy::{Accuracy, Wanted};
 use inpact_evaluation::plan::{Choices, Derivatives};
+use inpact_evaluation::{Accuracy, Wanted};
 use scene::Scene;
 use std::fmt::Write;
 use table_judge::{Random, cases};

@@ -3,13 +3,13 @@
 mod evaluate_support;
 
 use evaluate_support::{Run, evaluate, evaluate_with};
-use inpact_evaluation::accuracy::{Accuracy, Wanted};
-use inpact_evaluation::law::user::{
+use inpact_evaluation::law::{
     UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserLaw, UserNames,
 };
 use inpact_evaluation::nodes::Column;
 use inpact_evaluation::plan::{Choices, Derivatives};
 use inpact_evaluation::results::Output;
+use inpact_evaluation::{Accuracy, Wanted};
 use std::fmt::Write;
 use std::sync::{Arc, Mutex};
 

@@ -2,8 +2,8 @@
 
 mod table_judge;
 
-use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::evaluator::{Evaluator, SeenError, TableValues};
+use inpact_evaluation::table::{Evaluator, SeenError, TableValues};
+use inpact_evaluation::{Accuracy, Tolerance, Wanted};
 use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Random, Rows, cases};
 

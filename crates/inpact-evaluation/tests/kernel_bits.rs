@@ -2,8 +2,7 @@
 
 mod table_judge;
 
-use inpact_evaluation::kernel::{InstructionSet, Search, TableKernel};
-use inpact_evaluation::table::{PiecewiseTable, Sides, Tail};
+use inpact_evaluation::table::{InstructionSet, PiecewiseTable, Search, Sides, TableKernel, Tail};
 use proptest::prelude::*;
 use table_judge::{Random, cases};
 

@@ -2,13 +2,11 @@
 
 mod table_judge;
 
-use inpact_evaluation::kernel::InstructionSet;
-use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs};
-use inpact_evaluation::law::conductance::ConductanceTables;
-use inpact_evaluation::law::contact::PotentialJump;
-use inpact_evaluation::law::electrical::{Dissipation, ElectricalLaw};
-use inpact_evaluation::law::heat::HeatGeneration;
-use inpact_evaluation::table::PiecewiseTable;
+use inpact_evaluation::law::{
+    ConductanceTables, Dissipation, ElectricalInputs, ElectricalLaw, ElectricalOutputs, HeatGeneration, PotentialJump,
+    electrical_outputs,
+};
+use inpact_evaluation::table::{InstructionSet, PiecewiseTable};
 use proptest::prelude::*;
 use table_judge::{Random, cases};
 

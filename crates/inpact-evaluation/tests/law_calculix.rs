@@ -2,14 +2,12 @@
 //!
 //! All temperatures of a run are prescribed, so the heat that ccx printed is Q = k(p, θ̄) × 1 × 100.
 
-use inpact_evaluation::law::calculix::{CalculixConductance, CalculixError};
-use inpact_evaluation::law::conductance::ContactPoint;
-use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState};
-use inpact_evaluation::law::friction::{ShearStress, SlipRate, frictional_heat};
-use inpact_evaluation::law::heat::HeatGeneration;
-use inpact_evaluation::law::thermal::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat};
+use inpact_evaluation::law::{
+    CalculixConductance, Clearance, ContactPoint, ContactPressure, ContactState, HeatGeneration, InterfaceHeat,
+    ShearStress, SlipRate, Temperatures, ThermalConductance, conducted_heat, frictional_heat,
+};
 use inpact_evaluation::numbers::Amount;
-use inpact_evaluation::table::{PiecewiseTable, Tail};
+use inpact_evaluation::table::{PiecewiseTable, TableFault, Tail};
 use proptest::prelude::*;
 
 type Row = [f64; 3];
@@ -206,10 +204,10 @@ fn curves_without_pressures_in_common_are_refused() {
         let rows = [[1.0, first[0], 0.0], [2.0, first[1], 0.0], [3.0, second[0], 9.0], [4.0, second[1], 9.0]];
         CalculixConductance::from_rows(rows.as_flattened()).err()
     };
-    let error = CalculixError::Disjoint { first: 0.0, second: 9.0 };
+    let disjoint = of([0.0, 1.0], [2.0, 3.0]);
+    let error = disjoint.expect("no pressures in common");
     assert_eq!(error.to_string(), "the curves at temperatures 0.0 and 9.0 share no pressures");
-    let disjoint = Some(error);
-    assert_eq!(of([0.0, 1.0], [2.0, 3.0]), disjoint);
+    assert_eq!((error.row(), error.fault()), (2, TableFault::NoSharedPressures { temperatures: [0.0, 9.0] }));
     assert_eq!(of([2.0, 3.0], [0.0, 1.0]), disjoint);
     assert_eq!(of([0.0, 1.0], [1.0, 3.0]), disjoint);
     assert_eq!(of([1.0, 3.0], [0.0, 1.0]), disjoint);

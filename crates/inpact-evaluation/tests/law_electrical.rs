@@ -2,10 +2,10 @@
 
 mod table_judge;
 
-use inpact_evaluation::law::conductance::{Branch, ConductanceTables, ContactPoint};
-use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PotentialJump};
-use inpact_evaluation::law::electrical::{Dissipation, ElectricalLaw, generated_heat};
-use inpact_evaluation::law::heat::HeatGeneration;
+use inpact_evaluation::law::{
+    Branch, Clearance, ConductanceTables, ContactPoint, ContactPressure, ContactState, Dissipation, ElectricalLaw,
+    HeatGeneration, PotentialJump, generated_heat,
+};
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 use num_rational::BigRational;
 use proptest::prelude::*;

@@ -2,16 +2,12 @@
 
 mod table_judge;
 
-use inpact_evaluation::history::{
-    ClosingHeat, ElectricalHistory, FlowHistory, HistoryStart, PoreHistory, ThermalHistory,
+use inpact_evaluation::HistoryStart;
+use inpact_evaluation::law::{
+    Clearance, ClearanceRate, ClosingHeat, ConductanceTables, ContactPressure, ContactState, CutoffBoundary, Cutoffs,
+    Dissipation, ElectricalFlow, ElectricalHistory, ElectricalLaw, FlowHistory, Gap, GeneratedHeat, HeatGeneration,
+    Permeability, PoreHistory, PoreLaw, PorePoint, PorePressure, PotentialJump, ThermalHistory,
 };
-use inpact_evaluation::law::conductance::ConductanceTables;
-use inpact_evaluation::law::contact::{
-    Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure, PotentialJump,
-};
-use inpact_evaluation::law::electrical::{Dissipation, ElectricalFlow, ElectricalLaw};
-use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
-use inpact_evaluation::law::pore::{CutoffBoundary, Cutoffs, Gap, Permeability, PoreLaw, PorePoint};
 use inpact_evaluation::numbers::{Amount, Scaled};
 use inpact_evaluation::table::PiecewiseTable;
 use table_judge::{exact, ulps_from};

@@ -1,8 +1,8 @@
 //! The pore fluid law by the numbered rules: flow across, gap filling, cutoffs, signs.
 
-use inpact_evaluation::law::contact::{Clearance, ClearanceRate, ContactPressure, ContactState, PorePressure};
-use inpact_evaluation::law::pore::{
-    BulkPermeabilities, CutoffBoundary, Cutoffs, Flow, Gap, Permeability, PoreFlow, PoreLaw, PorePoint, across_slopes,
+use inpact_evaluation::law::{
+    BulkPermeabilities, Clearance, ClearanceRate, ContactPressure, ContactState, CutoffBoundary, Cutoffs, Flow, Gap,
+    Permeability, PoreFlow, PoreLaw, PorePoint, PorePressure, across_slopes,
 };
 use inpact_evaluation::numbers::Amount;
 use inpact_evaluation::table::{PiecewiseTable, Tail};

@@ -2,9 +2,9 @@
 
 mod table_judge;
 
-use inpact_evaluation::law::contact::{Clearance, ContactState};
-use inpact_evaluation::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw, radiated_heat};
-use inpact_evaluation::law::thermal::Temperatures;
+use inpact_evaluation::law::{
+    Clearance, ContactState, Emissivities, RadiationCoefficient, RadiationLaw, Temperatures, radiated_heat,
+};
 use inpact_evaluation::table::{PiecewiseTable, Tail};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Zero};

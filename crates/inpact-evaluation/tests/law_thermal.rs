@@ -2,13 +2,10 @@
 
 mod table_judge;
 
-use inpact_evaluation::law::conductance::{Branch, ConductanceTables, ContactPoint};
-use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PotentialJump};
-use inpact_evaluation::law::electrical::{Dissipation, generated_heat};
-use inpact_evaluation::law::friction::{ShearStress, SlipRate, frictional_heat};
-use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
-use inpact_evaluation::law::thermal::{
-    InterfaceHeat, Temperatures, ThermalConductance, conducted_heat, conducted_heat_slopes, mean_mass_flow,
+use inpact_evaluation::law::{
+    Branch, Clearance, ConductanceTables, ContactPoint, ContactPressure, ContactState, Dissipation, GeneratedHeat,
+    HeatGeneration, InterfaceHeat, PotentialJump, ShearStress, SlipRate, Temperatures, ThermalConductance,
+    conducted_heat, conducted_heat_slopes, frictional_heat, generated_heat, mean_mass_flow,
 };
 use inpact_evaluation::numbers::Amount;
 use inpact_evaluation::table::{PiecewiseTable, Tail};

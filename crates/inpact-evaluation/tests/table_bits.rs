@@ -4,8 +4,7 @@
 
 mod table_judge;
 
-use inpact_evaluation::kernel::{InstructionSet, TableKernel};
-use inpact_evaluation::table::{PiecewiseTable, Sides};
+use inpact_evaluation::table::{InstructionSet, PiecewiseTable, Sides, TableKernel};
 use table_judge::random_tables::{Range, compile, random_ending, random_point, random_rows};
 use table_judge::{Random, Rows};
 

@@ -6,7 +6,7 @@
 //! There the nodes of a solid's face go round so that they are clockwise seen from outside; here they are the other way round, so that normals point out of
 //! solids, and out of shells on the side that the face is.
 
-use crate::FaceShape;
+use crate::{FaceShape, GeometryError};
 use std::fmt;
 use std::str::FromStr;
 
@@ -31,22 +31,17 @@ impl fmt::Display for FaceLabel {
     }
 }
 
-/// A text that names no face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected a face: `S1` to `S6`, `SPOS` or `SNEG`")]
-pub struct NoFaceLabel;
-
 impl FromStr for FaceLabel {
-    type Err = NoFaceLabel;
+    type Err = GeometryError;
 
     /// `S1` to `S6`, `SPOS`, `SNEG`, in any case.
-    fn from_str(text: &str) -> Result<Self, NoFaceLabel> {
+    fn from_str(text: &str) -> Result<Self, GeometryError> {
         let text = text.to_ascii_uppercase();
         match text.as_bytes() {
             [b'S', digit @ b'1'..=b'6'] => Ok(Self::Numbered(digit - b'0')),
             b"SPOS" => Ok(Self::Positive),
             b"SNEG" => Ok(Self::Negative),
-            _ => Err(NoFaceLabel),
+            _ => Err(GeometryError::FaceLabel),
         }
     }
 }

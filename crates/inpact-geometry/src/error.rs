@@ -57,6 +57,9 @@ pub enum GeometryError {
         /// The number given.
         found: usize,
     },
+    /// A text names no face.
+    #[error("expected a face: `S1` to `S6`, `SPOS` or `SNEG`")]
+    FaceLabel,
     /// A solid element is inside out or flat.
     #[error(
         "the element is inside out or flat: expected a Jacobian determinant above 0 at its integration points, found {determinant:?}"

@@ -67,7 +67,7 @@ pub use area::{Extent, Shares, face_areas, node_areas, shape_function_areas};
 pub use closest::Closest;
 pub use conduction::{Conductivity, SolidElement, SolidIntegrals};
 pub use coordinates::Placed;
-pub use element::{ElementShape, FaceLabel, LocalFace, NoFaceLabel};
+pub use element::{ElementShape, FaceLabel, LocalFace};
 pub use element_type::{ElementSpace, ElementType};
 pub use error::GeometryError;
 pub use face_shape::{FaceShape, MAX_NODES};

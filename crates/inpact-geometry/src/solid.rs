@@ -16,6 +16,7 @@ pub const MAX_SOLID_NODES: usize = 20;
 
 /// The number of integration points of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Integration {
     /// As many as its order needs.
     Full,

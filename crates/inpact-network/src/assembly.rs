@@ -6,8 +6,7 @@ use crate::knowledge::{Guess, Knowledge};
 use crate::linear::{LinearNetwork, Link, NONE, Sets, Store};
 use crate::problem::FieldNodes;
 use crate::scene::{Field, SceneInterface};
-use inpact_evaluation::law::interface::InterfaceLaws;
-use inpact_evaluation::law::user::UserFault;
+use inpact_evaluation::law::{InterfaceLaws, UserFault};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The contribution of the rows to the network of a field, at some state.
@@ -235,8 +234,7 @@ pub(crate) fn add_heat(
         if of.joule_heat_fraction == 0.0 || conductance.is_infinite() {
             continue;
         }
-        let generation =
-            inpact_evaluation::law::heat::HeatGeneration { fraction: of.joule_heat_fraction, slave_weight: 0.5 };
+        let generation = inpact_evaluation::law::HeatGeneration { fraction: of.joule_heat_fraction, slave_weight: 0.5 };
         let jump = (currents.flows[place] / DoubleDouble::new(conductance)).to_f64();
         let start = knowledge.link_jump_at_start(link, conductance);
         let found = interface::heat_of_current(conductance, jump, start, generation);

@@ -1,11 +1,7 @@
 //! Dependence of the laws of a row: the quantities that a scene has to give, and the fields that a law couples.
 
 use crate::scene::Field;
-use inpact_evaluation::law::conductance::Branch;
-use inpact_evaluation::law::contact::ContactState;
-use inpact_evaluation::law::interface::{ElectricalSource, InterfaceLaws};
-use inpact_evaluation::law::pore::Permeability;
-use inpact_evaluation::law::thermal::ThermalConductance;
+use inpact_evaluation::law::{Branch, ContactState, ElectricalSource, InterfaceLaws, Permeability, ThermalConductance};
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable};
 
 /// The variables without which a row's law has no value.

@@ -4,8 +4,7 @@ use crate::interface::Contact;
 use crate::linear::NONE;
 use crate::problem::Problem;
 use crate::scene::{Course, Field, Procedure, SceneInterface, UNUSABLE_NUMBER};
-use inpact_evaluation::history::contradicts;
-use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::law::{ContactState, contradicts};
 use inpact_evaluation::nodes::{CONTRADICTORY_RATE, Findings, Place};
 
 impl Problem<'_> {
@@ -142,7 +141,7 @@ impl Problem<'_> {
         let Some(laws) = self.laws_of(row).filter(|_| of.field_variables.iter().any(|value| !value.is_nan())) else {
             return false;
         };
-        if matches!(laws.electrical, Some(inpact_evaluation::law::interface::ElectricalSource::User(..))) {
+        if matches!(laws.electrical, Some(inpact_evaluation::law::ElectricalSource::User(..))) {
             return false;
         }
         let reads = |field: Field| {

@@ -10,15 +10,11 @@
 //! Source: semantics T-20 to T-25, H-01 to H-08, K-41, P-30 to P-42, section 8.
 
 use crate::scene::SceneInterface;
-use inpact_evaluation::law::conductance::ContactPoint;
-use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PorePressure, PotentialJump};
-use inpact_evaluation::law::electrical::{Dissipation, generated_heat};
-use inpact_evaluation::law::friction::{ShearStress, SlipRate, frictional_heat};
-use inpact_evaluation::law::heat::{GeneratedHeat, HeatGeneration};
-use inpact_evaluation::law::interface::{ElectricalSource, InterfaceLaws};
-use inpact_evaluation::law::pore::{BulkPermeabilities, Flow, Gap, PorePoint};
-use inpact_evaluation::law::thermal::Temperatures;
-use inpact_evaluation::law::user::{UserConductancePoint, UserFault};
+use inpact_evaluation::law::{
+    BulkPermeabilities, Clearance, ContactPoint, ContactPressure, ContactState, Dissipation, ElectricalSource, Flow,
+    Gap, GeneratedHeat, HeatGeneration, InterfaceLaws, PorePoint, PorePressure, PotentialJump, ShearStress, SlipRate,
+    Temperatures, UserConductancePoint, UserFault, frictional_heat, generated_heat,
+};
 use inpact_evaluation::numbers::{DoubleDouble, product};
 
 /// State of contact of a row at one time.

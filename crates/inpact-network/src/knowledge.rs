@@ -4,9 +4,8 @@ use crate::interface::{Contact, Moment, Sides};
 use crate::problem::Problem;
 use crate::scene::{Field, SceneInterface};
 use crate::state::State;
-use inpact_evaluation::history::{ClosingHeat, HistoryStart};
-use inpact_evaluation::law::contact::{Clearance, ClearanceRate};
-use inpact_evaluation::law::pore::Gap;
+use inpact_evaluation::HistoryStart;
+use inpact_evaluation::law::{Clearance, ClearanceRate, ClosingHeat, Gap};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The least first guess of a temperature, above absolute zero, θ.
@@ -130,9 +129,9 @@ impl<'a> Knowledge<'a> {
     pub(crate) fn contact(&self, row: u32) -> Contact {
         // Rows without contact were refused before anything is solved.
         Contact::of(self.row(row), self.time).unwrap_or(Contact {
-            clearance: inpact_evaluation::law::contact::Clearance(f64::NAN),
-            pressure: inpact_evaluation::law::contact::ContactPressure(f64::NAN),
-            state: inpact_evaluation::law::contact::ContactState::Undetermined,
+            clearance: inpact_evaluation::law::Clearance(f64::NAN),
+            pressure: inpact_evaluation::law::ContactPressure(f64::NAN),
+            state: inpact_evaluation::law::ContactState::Undetermined,
         })
     }
 

@@ -17,8 +17,7 @@ use crate::dependence::{Dependence, dependence_of_electrical, dependence_of_pore
 use crate::interface::{Contact, heat_of_friction};
 use crate::linear::{NONE, Sets, index};
 use crate::scene::{Course, Field, Scene, SceneInterface};
-use inpact_evaluation::law::contact::ContactState;
-use inpact_evaluation::law::interface::{FlowOf, InterfaceLaws};
+use inpact_evaluation::law::{ContactState, FlowOf, InterfaceLaws};
 use inpact_evaluation::nodes::Findings;
 use inpact_evaluation::plan::Choices;
 use inpact_parser::model::Model;

@@ -21,7 +21,8 @@ pub use rules::{
     MISSING_QUANTITY, NOT_CONVERGED, NOT_ONE_CONDITION, SCENE_RULES, UNKNOWN_NODE, UNKNOWN_PART, UNUSABLE_NUMBER,
 };
 
-use inpact_evaluation::history::{ClosingHeat, HistoryStart};
+use inpact_evaluation::HistoryStart;
+use inpact_evaluation::law::ClosingHeat;
 use inpact_evaluation::nodes::Place;
 use inpact_parser::model::Name;
 use std::collections::BTreeMap;
@@ -85,6 +86,7 @@ pub struct ConditionsOfDeck {
 
 /// Steady state or transient.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Procedure {
     /// Nothing.
     Steady,
@@ -133,6 +135,7 @@ pub enum Steps {
 
 /// A field that nodes carry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Field {
     /// Electric potential φ; its flow is current.
     Potential,

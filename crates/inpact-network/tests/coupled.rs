@@ -3,7 +3,7 @@
 mod scene_support;
 mod seeded;
 
-use inpact_evaluation::history::ClosingHeat;
+use inpact_evaluation::law::ClosingHeat;
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::scene::{
     Conditions, Course, Field, Procedure, Scene, SceneInterface, SceneLink, StartFrom, Steps, TimeSpan,

@@ -2,7 +2,7 @@
 
 mod scene_support;
 
-use inpact_evaluation::history::ClosingHeat;
+use inpact_evaluation::law::ClosingHeat;
 use inpact_network::scene::{Course, Field, Procedure, SCENE_RULES, SceneLink, StartFrom, Steps, TimeSpan};
 use inpact_parser::model::Name;
 use proptest::prelude::*;

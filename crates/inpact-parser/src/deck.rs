@@ -90,6 +90,7 @@ pub struct LineNote {
 
 /// Kinds of [`LineNote`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum LineNoteKind {
     /// More than 256 characters on a keyword or data line (S-06).
     TooLong,

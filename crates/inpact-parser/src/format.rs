@@ -35,13 +35,13 @@ const USES_OF_INTERACTIONS: [&str; 2] = ["CONTACT PAIR", "CONTACT PROPERTY ASSIG
 /// The deck must have been scanned with [`Keep::Everything`](crate::deck::Keep::Everything), in the language of
 /// `grammar`; rows that were not kept would be missing.
 pub fn format(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<u8> {
-    apply(&deck.print(source), &edits(deck, source, grammar))
+    apply(&deck.print(source), &format_edits(deck, source, grammar))
 }
 
 /// The edits that bring a source file of the deck into the one style: a keyword line or the rows of a block each, in order.
 ///
 /// Rows that were not kept are none that are formatted: a deck whose interpreted rows are kept gives all edits.
-pub fn edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edit> {
+pub fn format_edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edit> {
     let mut place = Place { grammar, in_interaction: false, parent: None };
     let mut edits = Vec::new();
     for block in deck.blocks() {

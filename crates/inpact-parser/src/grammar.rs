@@ -13,11 +13,11 @@ mod nearest;
 mod release;
 
 pub use data::{Column, ColumnKind, Counted, Data, Layout, RowShape};
-pub use definition::{Definition, DefinitionError, Level, ParameterDefinition, ParameterKind, Product, ValueUse};
-pub use dimension::{Base, Dimension, DimensionError};
+pub use definition::{Definition, Level, ParameterDefinition, ParameterKind, Product, ValueUse};
+pub use dimension::{Base, Dimension};
 pub use lookup::{Lookup, lookup_name};
 pub use nearest::nearest as nearest_names;
-pub use release::{Release, ReleaseError};
+pub use release::Release;
 
 use lookup::Folded;
 use std::collections::HashMap;

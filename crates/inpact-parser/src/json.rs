@@ -11,28 +11,8 @@ pub mod model;
 mod schema;
 pub mod syntax;
 
+use crate::Error;
 use serde::de::{Deserialize, DeserializeOwned, Deserializer};
-use thiserror::Error;
-
-/// JSON that is not what it should be.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}{message}", if path.is_empty() { String::new() } else { format!("at `{path}`: ") })]
-pub struct JsonError {
-    path: String,
-    message: String,
-}
-
-impl JsonError {
-    /// An error at a JSON path such as `interactions.STEEL.thickness`.
-    pub(crate) fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { path: path.into(), message: message.into() }
-    }
-
-    /// The path to it, in the form `interactions.STEEL.thickness`; empty when the text is no JSON at all.
-    pub fn path(&self) -> &str {
-        &self.path
-    }
-}
 
 /// Views of JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +27,7 @@ pub enum View {
 ///
 /// # Errors
 /// A text that is no JSON object, or whose `schema` is missing or names neither view.
-pub fn view_of(text: &str) -> Result<View, JsonError> {
+pub fn view_of(text: &str) -> Result<View, Error> {
     #[derive(serde::Deserialize)]
     #[serde(expecting = "a document: an object")]
     struct Head {
@@ -59,19 +39,19 @@ pub fn view_of(text: &str) -> Result<View, JsonError> {
         syntax::SCHEMA => Ok(View::Syntax),
         other => {
             let expected = format!("expected `{}` or `{}`", model::SCHEMA, syntax::SCHEMA);
-            Err(JsonError::new("schema", format!("unknown schema `{other}`, {expected}")))
+            Err(Error::json("schema", format!("unknown schema `{other}`, {expected}")))
         }
     }
 }
 
 /// Parses a document; the path of what is wrong with it is in the error.
-fn parse<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
+fn parse<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let document = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let path = error.path().to_string();
-        JsonError::new(if path == "." { String::new() } else { path }, json_message(&error.inner().to_string()))
+        Error::json(if path == "." { String::new() } else { path }, json_message(&error.inner().to_string()))
     })?;
-    deserializer.end().map_err(|error| JsonError::new("", json_message(&error.to_string())))?;
+    deserializer.end().map_err(|error| Error::json("", json_message(&error.to_string())))?;
     Ok(document)
 }
 
@@ -107,7 +87,7 @@ pub(crate) fn required<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deseriali
 
 #[cfg(test)]
 mod tests {
-    use super::{JsonError, json_message, model, syntax};
+    use super::{Error, json_message, model, syntax};
     use crate::grammar::Grammar;
     use serde_json::{Value, json};
 
@@ -141,7 +121,7 @@ mod tests {
     }
 
     /// Puts something else in the place of every value, and looks at what reading says to it.
-    fn check_messages(text: &str, error_of: impl Fn(&str) -> Option<JsonError>) {
+    fn check_messages(text: &str, error_of: impl Fn(&str) -> Option<Error>) {
         let names = ["Document", "Line", "struct", "enum", "f64", "u64", "usize", "u8", "variant", "element"];
         let document: Value = serde_json::from_str(text).unwrap();
         let mut refused = 0;

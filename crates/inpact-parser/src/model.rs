@@ -16,7 +16,7 @@ mod table;
 pub use name::Name;
 pub use options::{Friction, GapConductance, GapRadiation, OptionKind};
 pub(crate) use print::named_in;
-pub use print::{PrintError, print};
+pub use print::print;
 pub use read::{MOST_FIELD_VARIABLES, read};
 pub use row_places::RowPlaces;
 pub use table::{CellText, Table};
@@ -108,6 +108,7 @@ pub struct ContactPermeability {
 
 /// CONSTRAINT METHOD of *CONTACT PERMEABILITY.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ConstraintMethod {
     /// Enforced directly.
     Direct,

@@ -33,6 +33,7 @@ pub enum LongNumber {
 
 /// Kinds of [`Problem`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum ProblemKind {
     /// An item that should be a number is none (S-34).
     MalformedNumber {

@@ -10,8 +10,8 @@ use inpact_parser::deck::{
 use inpact_parser::expression::MAX_TEXT;
 use inpact_parser::grammar::{Grammar, Lookup};
 use inpact_parser::model::{self, Model};
-use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::SourceId;
+use inpact_parser::{Problem, ProblemKind};
 use std::path::PathBuf;
 
 /// The number of each element of a deck.

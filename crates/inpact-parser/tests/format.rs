@@ -1,7 +1,7 @@
 //! Formatting: one style for the blocks of contact interfaces, and nothing else changed.
 
 use inpact_parser::deck::{Block, Deck, items, lines, scan};
-use inpact_parser::format::format;
+use inpact_parser::format;
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model::{self, Model};
 use inpact_parser::span::SourceId;
@@ -41,7 +41,7 @@ fn check_promises(bytes: &[u8], grammar: &Grammar) -> Result<(), String> {
     if said(&model_before) != said(&model_after) {
         return Err("the model changes".to_owned());
     }
-    let kinds = |problems: &[inpact_parser::problem::Problem]| -> Vec<_> {
+    let kinds = |problems: &[inpact_parser::Problem]| -> Vec<_> {
         problems.iter().map(|problem| std::mem::discriminant(&problem.kind)).collect()
     };
     if kinds(&problems_before) != kinds(&problems_after) || model_before.set_aside.len() != model_after.set_aside.len()

@@ -5,8 +5,8 @@ use inpact_parser::deck::{Deck, items, scan};
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::read;
 use inpact_parser::number::{read_float, read_integer};
-use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::SourceId;
+use inpact_parser::{Problem, ProblemKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 const SYNTAX: &str = include_str!("../grammar/syntax.ebnf");

@@ -65,6 +65,7 @@ pub enum Space {
 
 /// A kind of cell, by VTK's number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CellKind {
     /// 1.
     Vertex,

@@ -3,10 +3,21 @@
 //! [`check`] runs every rule and gives the [`Diagnostic`]s in the order of the deck.
 //! A rule sees the deck, the grammar, the model and what the reader met; it opens no file, prints nothing and cannot fail.
 //! Its doc comment is its page, its `explain` text and its test: the examples in it are run.
+//!
+//! ```
+//! use inpact_parser::{deck::scan, grammar::Grammar, model};
+//!
+//! let text = b"*SURFACE INTERACTION, NAME=JOINT\n*GAP ELECTRICAL CONDUCTANCE\n4000., 0.\n0., -2.\n";
+//! let grammar = Grammar::builtin();
+//! let deck = scan("joint.inp", text, grammar);
+//! let (model, problems) = model::read(&deck, grammar);
+//! let findings = inpact_validation::check(&deck, grammar, &model, &problems);
+//! assert_eq!((findings[0].code, findings[0].primary.line()), ("T001", Some(4)));
+//! ```
 
-pub mod rule;
+mod rule;
 
-pub mod rules;
+mod rules;
 
 mod assembly;
 mod checking;
@@ -39,4 +50,4 @@ mod directives;
 
 pub use checking::{check, check_with, fixable, time_rules};
 pub use inpact_diagnostics::{Diagnostic, Edit, Fix, FixKind, FixSafety, Label, Rule, Severity, apply};
-pub use rule::{Context, Report};
+pub use rules::RULES;

@@ -3,14 +3,14 @@
 //! They are rows of the option above, and so are the rows after them: what is wrong with these has one cause (S021).
 
 use crate::invisible;
+use inpact_parser::Problem;
 use inpact_parser::deck::{DataLine, Deck, items};
 use inpact_parser::grammar::{Grammar, Lookup, RowShape};
-use inpact_parser::problem::Problem;
 use inpact_parser::span::Span;
 
 /// A row that reads exactly as a keyword line.
 #[derive(Debug, Clone, Copy)]
-pub struct LostLine<'a> {
+pub(crate) struct LostLine<'a> {
     /// The row.
     pub(crate) span: Span,
     /// The keyword line of its block; an empty span before the first.

@@ -4,8 +4,8 @@
 
 use crate::rule::Context;
 use inpact_parser::deck::KeywordLine;
-use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::Span;
+use inpact_parser::{Problem, ProblemKind};
 use std::collections::HashMap;
 
 /// A keyword at a wrong place, and the sub-options after it that are there because of it.

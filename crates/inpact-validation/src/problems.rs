@@ -2,8 +2,8 @@
 
 use crate::rule::{Context, DefinedBlock};
 use crate::tables::columns_are_unclear;
-use inpact_parser::problem::{Problem, ProblemKind};
 use inpact_parser::span::Span;
+use inpact_parser::{Problem, ProblemKind};
 
 /// The first problem of a kind in a block.
 #[derive(Debug, Clone, Copy)]

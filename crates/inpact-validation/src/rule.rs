@@ -3,11 +3,11 @@
 use crate::lost::LostLine;
 use crate::tables::trimmed;
 use inpact_diagnostics::{Diagnostic, Label, Rule};
+use inpact_parser::Problem;
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Dialect, Grammar};
 use inpact_parser::model::{Model, Name, OptionKind, TableOf};
-use inpact_parser::problem::Problem;
 use inpact_parser::span::Span;
 
 /// The most findings of one rule in one deck; more are counted, not shown.
@@ -20,7 +20,7 @@ pub(crate) type Check = fn(&Context<'_>, &mut Report<'_>);
 macro_rules! declare_rule {
     ($(#[doc = $line:literal])+ $code:literal, $name:literal, $severity:ident, fix: $fix:ident, source: $source:literal) => {
         $(#[doc = $line])+
-        pub static RULE: inpact_diagnostics::Rule = inpact_diagnostics::Rule {
+        pub(crate) static RULE: inpact_diagnostics::Rule = inpact_diagnostics::Rule {
             code: $code,
             name: $name,
             severity: inpact_diagnostics::Severity::$severity,
@@ -36,70 +36,70 @@ pub(crate) use declare_rule;
 
 /// The input of rules.
 #[derive(Debug)]
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// The deck as it is in its files.
-    pub deck: &'a Deck,
+    pub(crate) deck: &'a Deck,
     /// The keyword language.
-    pub grammar: &'a Grammar,
+    pub(crate) grammar: &'a Grammar,
     /// The typed model.
-    pub model: &'a Model,
+    pub(crate) model: &'a Model,
     /// The problems that the reader found.
-    pub problems: &'a [Problem],
+    pub(crate) problems: &'a [Problem],
     /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
-    pub tables: Vec<TableOf<'a>>,
+    pub(crate) tables: Vec<TableOf<'a>>,
     /// The rows that read exactly as keyword lines (S021).
-    pub lost_lines: Vec<LostLine<'a>>,
+    pub(crate) lost_lines: Vec<LostLine<'a>>,
 }
 
 /// A block whose keyword the grammar defines.
 #[derive(Debug, Clone, Copy)]
-pub struct DefinedBlock<'a> {
+pub(crate) struct DefinedBlock<'a> {
     /// The block.
-    pub block: &'a Block,
+    pub(crate) block: &'a Block,
     /// Its keyword line.
-    pub keyword: &'a KeywordLine,
+    pub(crate) keyword: &'a KeywordLine,
     /// The keyword in full.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// Its definition in the grammar.
-    pub definition: &'a Definition,
+    pub(crate) definition: &'a Definition,
 }
 
 impl DefinedBlock<'_> {
     /// The kind of the option of an interaction that it is.
-    pub fn kind(self) -> OptionKind {
+    pub(crate) fn kind(self) -> OptionKind {
         OptionKind::of(self.name)
     }
 }
 
 impl<'a> Context<'a> {
     /// The keyword lines of the deck.
-    pub fn keyword_lines(&self) -> impl Iterator<Item = &'a KeywordLine> {
+    pub(crate) fn keyword_lines(&self) -> impl Iterator<Item = &'a KeywordLine> {
         self.deck.blocks().iter().filter_map(|block| block.keyword.as_ref())
     }
 
     /// The blocks whose keyword the grammar defines.
-    pub fn defined_blocks(&self) -> impl Iterator<Item = DefinedBlock<'a>> {
+    pub(crate) fn defined_blocks(&self) -> impl Iterator<Item = DefinedBlock<'a>> {
         let grammar = self.grammar;
         self.deck.blocks().iter().filter_map(move |block| defined(grammar, block))
     }
 
     /// A block with what the grammar says of it, where it defines the keyword.
-    pub fn defined(&self, block: &'a Block) -> Option<DefinedBlock<'a>> {
+    pub(crate) fn defined(&self, block: &'a Block) -> Option<DefinedBlock<'a>> {
         defined(self.grammar, block)
     }
 
     /// Whether the deck is for CalculiX, and judged as ccx reads it (semantics, section 12).
-    pub fn is_for_calculix(&self) -> bool {
+    pub(crate) fn is_for_calculix(&self) -> bool {
         self.grammar.dialect() == Dialect::Calculix
     }
 
     /// The text of a span for a message.
-    pub fn shown(&self, span: Span) -> String {
+    pub(crate) fn shown(&self, span: Span) -> String {
         shorten(&self.deck.shown(span))
     }
 
     /// The text of a value or an item with every `<parameter>` in it replaced (S-62); one without a value stays as it is.
-    pub fn value(&self, span: Span) -> String {
+    pub(crate) fn value(&self, span: Span) -> String {
         let text = self.deck.shown(span);
         match substitute(&text, &self.model.parameters) {
             Ok(replaced) => replaced.trim().to_owned(),
@@ -108,12 +108,12 @@ impl<'a> Context<'a> {
     }
 
     /// The name that a value or an item is in the dialect of the deck.
-    pub fn name(&self, span: Span) -> Name {
+    pub(crate) fn name(&self, span: Span) -> Name {
         Name::in_dialect(&self.value(span), self.grammar.dialect())
     }
 
     /// The span of cell `column` of row `row` of a table, found again in the deck's text; the row's span when it is not there.
-    pub fn cell(&self, of: &TableOf<'_>, row: usize, column: usize) -> Span {
+    pub(crate) fn cell(&self, of: &TableOf<'_>, row: usize, column: usize) -> Span {
         let row_span = of.table.row_span(row);
         let mut lines = self.deck.data_lines_in(row_span).filter(|line| !line.is_blank());
         let (first_line, following) = self.items_on_lines(of);
@@ -141,14 +141,14 @@ impl<'a> Context<'a> {
     }
 
     /// Whether the deck includes files that were not read: they may define any name.
-    pub fn has_unread_files(&self) -> bool {
+    pub(crate) fn has_unread_files(&self) -> bool {
         let included = self.defined_blocks().filter(|block| block.name == "INCLUDE").count();
         let read = self.deck.includes().iter().filter(|include| matches!(include.outcome, IncludeOutcome::Read(_)));
         included > read.count()
     }
 
     /// The span without blanks and line ends around it: what a label underlines.
-    pub fn trimmed(&self, span: Span) -> Span {
+    pub(crate) fn trimmed(&self, span: Span) -> Span {
         trimmed(self.deck, span)
     }
 }
@@ -173,7 +173,7 @@ fn shorten(text: &str) -> String {
 
 /// Takes the findings of one rule.
 #[derive(Debug)]
-pub struct Report<'a> {
+pub(crate) struct Report<'a> {
     rule: &'static Rule,
     diagnostics: &'a mut Vec<Diagnostic>,
     reported: usize,
@@ -193,7 +193,7 @@ impl<'a> Report<'a> {
     }
 
     /// Reports a finding at `span`; what comes back takes labels, help and fix.
-    pub fn at(&mut self, span: Span, message: impl Into<String>) -> &mut Diagnostic {
+    pub(crate) fn at(&mut self, span: Span, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = Diagnostic::new(self.rule, message, Label::new(span, ""));
         self.reported += 1;
         if self.reported > self.most {

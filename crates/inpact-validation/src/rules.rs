@@ -8,7 +8,7 @@ use inpact_diagnostics::Rule;
 /// Declares the modules of the rules and lists them.
 macro_rules! list_rules {
     ($($module:ident),+ $(,)?) => {
-        $(pub mod $module;)+
+        $(pub(crate) mod $module;)+
 
         /// Every rule, in the order of the codes.
         pub static RULES: &[&Rule] = &[$(&$module::RULE),+];

@@ -5,12 +5,12 @@
 
 use crate::parameter::given;
 use crate::rule::{Context, DefinedBlock};
+use inpact_parser::ProblemKind;
 use inpact_parser::deck::{Deck, KeywordLine};
 use inpact_parser::expression::{Parameters, substitute};
 use inpact_parser::grammar::{Grammar, RowShape};
 use inpact_parser::model::{MOST_FIELD_VARIABLES, Model, OptionKind, Table, TableKind, TableOf};
 use inpact_parser::number::{read_float, read_integer};
-use inpact_parser::problem::ProblemKind;
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 

@@ -8,7 +8,7 @@
 use inpact_parser::deck::{FoundFile, IncludedFiles, Keep, ScanOptions, Scanner, scan};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model;
-use inpact_validation::rules::RULES;
+use inpact_validation::RULES;
 use inpact_validation::{Diagnostic, FixSafety, apply};
 use inpact_validation::{FixKind, Rule};
 use std::collections::BTreeSet;

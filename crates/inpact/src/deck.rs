@@ -10,11 +10,11 @@ use crate::render::{self, Format, Sources, Style};
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::Diagnostic;
 use inpact_evaluation::plan::Choices;
+use inpact_parser::Problem;
 use inpact_parser::deck::Deck as Syntax;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::json;
 use inpact_parser::model::{self, Model};
-use inpact_parser::problem::Problem;
 use std::path::{Path, PathBuf};
 
 /// A deck or a fragment of one, with everything it includes and the settings that count for it.

@@ -9,13 +9,11 @@ use arrow::array::RecordBatch;
 use arrow::datatypes::SchemaRef;
 use arrow::error::ArrowError;
 use inpact_diagnostics::{Diagnostic, Findings, Severity};
-use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::evaluate::{Evaluation, RunFailure};
-use inpact_evaluation::history::HistoryStart;
-use inpact_evaluation::law::user::{UserConductance, UserLaw};
+use inpact_evaluation::law::{UserConductance, UserLaw};
 use inpact_evaluation::nodes::{NodeReader, RecordBatches};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, concerning, make, survey_keeping};
 use inpact_evaluation::results::{Output, ResultRecords};
+use inpact_evaluation::{Accuracy, Evaluation, HistoryStart, RunFailure, Tolerance, Wanted};
 use inpact_parser::model::{Name, Regime};
 use std::ops::ControlFlow;
 

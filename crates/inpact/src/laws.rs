@@ -2,10 +2,8 @@
 
 use crate::deck::Deck;
 use crate::error::Error;
-use inpact_evaluation::kernel::TableKernel;
-use inpact_evaluation::law::conductance::{ConductanceTables, ContactPoint};
-use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState};
-use inpact_evaluation::table::{AxisSummary, PiecewiseTable, Tail};
+use inpact_evaluation::law::{Clearance, ConductanceTables, ContactPoint, ContactPressure, ContactState};
+use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableKernel, Tail};
 use inpact_parser::model::{ElectricalConductance, Interaction, Name, Table};
 
 /// The gap electrical conductance of an interaction, σ_g (C T⁻¹ L⁻² φ⁻¹), as *GAP ELECTRICAL CONDUCTANCE gives it (T-20 to T-25).

@@ -26,6 +26,13 @@ pub mod cli;
 pub mod curves;
 pub mod pages;
 
+/// A conductance of the caller's own, in the place of user subroutine GAPELECTR.
+pub mod user {
+    pub use inpact_evaluation::law::{
+        NAME_LENGTH, UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserName, UserNames,
+    };
+}
+
 mod deck;
 mod error;
 #[cfg(feature = "columnar")]
@@ -65,9 +72,8 @@ pub use error::Error;
 pub use evaluation::{EvaluateOptions, Evaluated, EvaluatedTo};
 pub use fixes::{Fixed, FixedFile, Fixes};
 pub use inpact_diagnostics::{Diagnostic, Edit, Extent, Fix, FixKind, FixSafety, Label, Rule, Severity, span};
-pub use inpact_evaluation::accuracy::{Accuracy, Tolerance};
-pub use inpact_evaluation::history::HistoryStart;
-pub use inpact_evaluation::law::user;
+pub use inpact_evaluation::HistoryStart;
+pub use inpact_evaluation::{Accuracy, Tolerance};
 pub use inpact_network::linear::Method;
 pub use inpact_network::scene::Field;
 pub use inpact_parser::grammar::{Dialect, Release};

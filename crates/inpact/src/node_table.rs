@@ -81,8 +81,8 @@ impl From<Failure> for Failed {
     }
 }
 
-impl From<inpact_contact::RowsError> for Failed {
-    fn from(error: inpact_contact::RowsError) -> Self {
+impl From<inpact_contact::Error> for Failed {
+    fn from(error: inpact_contact::Error) -> Self {
         Self(Failure::Data(error.to_string()))
     }
 }

@@ -18,7 +18,6 @@ use inpact_validation::Diagnostic;
 
 /// The output formats of diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-#[non_exhaustive]
 pub enum Format {
     /// With an excerpt of the file, labels and help.
     Full,

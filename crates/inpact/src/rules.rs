@@ -4,7 +4,7 @@ use inpact_contact::GEOMETRY_RULES;
 use inpact_diagnostics::{Rule, Severity};
 use inpact_evaluation::nodes::DATA_RULES;
 use inpact_network::scene::SCENE_RULES;
-use inpact_validation::rules::RULES;
+use inpact_validation::RULES;
 
 /// Every rule, in the order of the codes of decks, of geometry, of node tables, of scenes.
 pub(crate) fn all() -> impl Iterator<Item = &'static Rule> {

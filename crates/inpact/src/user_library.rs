@@ -39,7 +39,7 @@ mod stopping;
 mod tests;
 
 use crate::failure::Failure;
-use inpact_evaluation::law::user::{
+use inpact_evaluation::law::{
     NAME_LENGTH, UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserLaw,
 };
 use libloading::Library;

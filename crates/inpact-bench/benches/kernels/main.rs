@@ -12,10 +12,8 @@ mod tables;
 use std::hint::black_box;
 use std::time::Instant;
 
-use inpact_evaluation::accuracy::Grid;
-use inpact_evaluation::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs};
-use inpact_evaluation::kernel::{InstructionSet, TableKernel};
-use inpact_evaluation::law::heat::HeatGeneration;
+use inpact_evaluation::law::{ElectricalInputs, ElectricalOutputs, HeatGeneration, electrical_outputs};
+use inpact_evaluation::table::{Grid, InstructionSet, TableKernel};
 use tables::Case;
 
 /// Something that is timed: what it is and one run of it over all rows.

@@ -1,8 +1,9 @@
 //! The ways to evaluate a table, each a line of a list: the modes and their kernels.
 
-use inpact_evaluation::accuracy::{ErrorBound, Grid, Refusal, commensurate_cells, full_bound, reference_bound};
-use inpact_evaluation::kernel::{InstructionSet, TableKernel};
-use inpact_evaluation::table::PiecewiseTable;
+use inpact_evaluation::table::{
+    ErrorBound, Grid, InstructionSet, PiecewiseTable, Refusal, TableKernel, commensurate_cells, full_bound,
+    reference_bound,
+};
 
 /// The value of a table at a point.
 pub(super) type Value<'a> = Box<dyn Fn(&[f64]) -> f64 + 'a>;

@@ -4,11 +4,9 @@ use super::judge::{exact, ulps_from};
 use super::markdown::{count, number, table, ulps};
 use super::run::{Results, Scene};
 use crate::random::Random;
-use inpact_evaluation::history::ElectricalHistory;
-use inpact_evaluation::law::conductance::ConductanceTables;
-use inpact_evaluation::law::contact::PotentialJump;
-use inpact_evaluation::law::electrical::{Dissipation, ElectricalLaw};
-use inpact_evaluation::law::heat::HeatGeneration;
+use inpact_evaluation::law::{
+    ConductanceTables, Dissipation, ElectricalHistory, ElectricalLaw, HeatGeneration, PotentialJump,
+};
 use inpact_evaluation::nodes::{Batch, Column, Part};
 use inpact_evaluation::table::PiecewiseTable;
 use num_bigint::BigInt;

@@ -1,7 +1,7 @@
 //! Values against what is exact, and against the bound that was promised.
 
 use super::judge::{exact, ulps_from};
-use inpact_evaluation::accuracy::ErrorBound;
+use inpact_evaluation::table::ErrorBound;
 use num_rational::BigRational;
 use num_traits::Signed;
 

@@ -1,9 +1,9 @@
 //! A deck and a node table through the library: what `inpact eval` does, without files.
 
-use inpact_evaluation::evaluate::{Evaluation, InteractionTally, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, NodeReader};
 use inpact_evaluation::plan::{Choices, Plan, make, survey};
 use inpact_evaluation::results::{ResultBatch, Status};
+use inpact_evaluation::{Evaluation, InteractionTally, Tally};
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{self, Model};

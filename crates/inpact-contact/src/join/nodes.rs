@@ -13,6 +13,7 @@ use std::fmt;
 
 /// Ways of finding the nodes of a file in the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MatchedBy {
     /// By their labels.
     Labels,

@@ -4,7 +4,7 @@
 #[path = "../../../inpact-results/tests/common/mod.rs"]
 pub(crate) mod files;
 
-use inpact_contact::{Join, JoinError, Joined, NodeRows, RowsError, State};
+use inpact_contact::{Error, Join, Joined, NodeRows, State};
 use inpact_evaluation::nodes::Column;
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::Grammar;
@@ -27,7 +27,7 @@ pub(crate) fn deck(text: &str) -> Read {
 }
 
 impl Read {
-    pub(crate) fn join(&self, files: &[(&str, &[u8])]) -> Result<Joined, JoinError> {
+    pub(crate) fn join(&self, files: &[(&str, &[u8])]) -> Result<Joined, Error> {
         let mut join = Join::new(&self.mesh, &self.model);
         for (name, bytes) in files {
             join.add(name, &inpact_results::read(bytes).expect("whole"))?;
@@ -40,7 +40,7 @@ impl Read {
         let names = rows.keys().iter().chain(rows.numbers()).map(ToString::to_string).collect();
         let mut cells = Vec::new();
         for state in states {
-            let taken = rows.write(state, |batch| -> Result<(), RowsError> {
+            let taken = rows.write(state, |batch| -> Result<(), Error> {
                 for row in 0..batch.rows {
                     let labels =
                         batch.labels.iter().map(|column| String::from_utf8_lossy(column.get(row)).into_owned());

@@ -13,6 +13,7 @@ use crate::table::PiecewiseTable;
 
 /// A way to evaluate a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// Double-double, rounded once.
     Reference,

@@ -13,6 +13,7 @@ use std::arch::x86_64::{__m256d, _CMP_EQ_OQ};
 
 /// A set of vector instructions. The results of a kernel are the same with each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum InstructionSet {
     /// What every processor of the architecture has.
     Scalar,

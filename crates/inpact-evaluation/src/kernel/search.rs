@@ -8,6 +8,7 @@ use super::pieces::ordered;
 
 /// How a kernel finds the rows' places in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Search {
     /// There is nothing to find: the table is a constant.
     Constant,

@@ -26,7 +26,6 @@
 use super::conductance::{Branch, Conductance, ConductanceSlopes, ContactPoint};
 use super::contact::ContactState;
 use crate::table::{PiecewiseTable, Sides, TableError, TableFault, Tail};
-use std::fmt;
 use std::ops::Range;
 
 /// The conductance of an interaction in the dialect of CalculiX.
@@ -42,33 +41,6 @@ pub struct CalculixConductance {
     rows: PiecewiseTable,
 }
 
-/// Rows that CalculiX makes no conductance of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CalculixError {
-    /// They form no table: pressures or temperatures do not ascend, a number is not finite.
-    Table(TableError),
-    /// Two neighbouring curves share no pressures.
-    Disjoint {
-        /// The temperature of the first of the two.
-        first: f64,
-        /// The temperature of the second.
-        second: f64,
-    },
-}
-
-impl fmt::Display for CalculixError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Table(error) => error.fmt(formatter),
-            Self::Disjoint { first, second } => {
-                write!(formatter, "the curves at temperatures {first:?} and {second:?} share no pressures")
-            }
-        }
-    }
-}
-
-impl std::error::Error for CalculixError {}
-
 const WIDTH: usize = CalculixConductance::WIDTH;
 
 impl CalculixConductance {
@@ -79,14 +51,19 @@ impl CalculixConductance {
     ///
     /// # Errors
     /// Rows that do not ascend, which ccx would take without a word and read wrongly; and neighbouring curves without pressures in common, at which it stops.
-    pub fn from_rows(cells: &[f64]) -> Result<Self, CalculixError> {
-        let rows = PiecewiseTable::from_rows(cells, WIDTH, Tail::Constant).map_err(CalculixError::Table)?;
+    pub fn from_rows(cells: &[f64]) -> Result<Self, TableError> {
+        let rows = PiecewiseTable::from_rows(cells, WIDTH, Tail::Constant)?;
         let (rows_of_table, _) = cells.as_chunks::<WIDTH>();
         let curves: Vec<&[[f64; WIDTH]]> = rows_of_table.chunk_by(|row, next| row[2] == next[2]).collect();
-        let nothing = CalculixError::Table(TableError { row: 0, fault: TableFault::NoRows });
+        let nothing = TableError::new(0, TableFault::NoRows);
         let (Some(first), Some(last)) = (curves.first(), curves.last()) else { return Err(nothing) };
         let outermost = [curve_table(first)?, curve_table(last)?];
-        let between = curves.windows(2).map(|pair| clipped(pair[0], pair[1])).collect::<Result<_, _>>()?;
+        let starts = curves.iter().scan(0, |next, curve| {
+            *next += curve.len();
+            Some(*next)
+        });
+        let pairs = curves.windows(2).zip(starts);
+        let between = pairs.map(|(pair, row)| clipped(row, pair[0], pair[1])).collect::<Result<_, _>>()?;
         Ok(Self { temperatures: curves.iter().map(|curve| curve[0][2]).collect(), outermost, between, rows })
     }
 
@@ -172,13 +149,13 @@ enum Outside {
 }
 
 /// A curve by itself, against pressure.
-fn curve_table(rows: &[[f64; WIDTH]]) -> Result<PiecewiseTable, CalculixError> {
+fn curve_table(rows: &[[f64; WIDTH]]) -> Result<PiecewiseTable, TableError> {
     let cells: Vec<[f64; 2]> = rows.iter().map(|&[value, pressure, _]| [value, pressure]).collect();
-    PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Constant).map_err(CalculixError::Table)
+    PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Constant)
 }
 
-/// Two neighbouring curves over the pressures both have.
-fn clipped(first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseTable, CalculixError> {
+/// Two neighbouring curves over the pressures both have; the second begins in that row of the table.
+fn clipped(row: usize, first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseTable, TableError> {
     let (first_range, second_range) = (pressures(first), pressures(second));
     let shared = first_range.start.max(second_range.start)..first_range.end.min(second_range.end);
     // Curves that begin together share at least that pressure; otherwise the one that begins earlier must reach beyond where the other begins.
@@ -189,7 +166,7 @@ fn clipped(first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseT
             first_range.start < second_range.end
         };
     if !do_share {
-        return Err(CalculixError::Disjoint { first: first[0][2], second: second[0][2] });
+        return Err(TableError::new(row, TableFault::NoSharedPressures { temperatures: [first[0][2], second[0][2]] }));
     }
     let mut cells = Vec::new();
     for curve in [first, second] {
@@ -203,7 +180,7 @@ fn clipped(first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseT
             push(shared.end);
         }
     }
-    PiecewiseTable::from_rows(cells.as_flattened(), WIDTH, Tail::Constant).map_err(CalculixError::Table)
+    PiecewiseTable::from_rows(cells.as_flattened(), WIDTH, Tail::Constant)
 }
 
 /// From the first to the last pressure of a curve; both belong to it.

@@ -59,7 +59,7 @@ impl ElectricalLaw {
 
 /// Current and heat for a conductance, whatever gives it.
 #[inline]
-pub fn flow(
+pub(crate) fn flow(
     conductance: f64,
     jump: PotentialJump,
     dissipation: Dissipation,

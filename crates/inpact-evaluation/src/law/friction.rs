@@ -39,7 +39,11 @@ pub fn frictional_heat(shear: ShearStress, slip_rate: SlipRate, generation: Heat
 }
 
 /// [`frictional_heat`] for what it is multiplied with and summed up to.
-pub fn frictional_heat_amounts(shear: ShearStress, slip_rate: SlipRate, generation: HeatGeneration) -> HeatAmounts {
+pub(crate) fn frictional_heat_amounts(
+    shear: ShearStress,
+    slip_rate: SlipRate,
+    generation: HeatGeneration,
+) -> HeatAmounts {
     let HeatGeneration { fraction, slave_weight } = generation;
     let inputs = [shear.0, slip_rate.0, fraction, slave_weight];
     if inputs.into_iter().all(is_moderate) || !inputs.into_iter().all(f64::is_finite) {

@@ -104,7 +104,7 @@ pub fn conducted_heat(conductance: f64, temperatures: Temperatures) -> f64 {
 }
 
 /// [`conducted_heat`] for what it is multiplied with and summed up to; `rest` is what rounding took away from the conductance, where that is known.
-pub fn conducted_heat_amount(value: f64, rest: Option<f64>, temperatures: Temperatures) -> Amount {
+pub(crate) fn conducted_heat_amount(value: f64, rest: Option<f64>, temperatures: Temperatures) -> Amount {
     let Temperatures { slave, master, jump } = temperatures;
     if rest.is_none() && [value, slave, master, jump.unwrap_or(0.0)].into_iter().all(is_moderate) {
         return Amount::new(conducted_heat(value, temperatures));

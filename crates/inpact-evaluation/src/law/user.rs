@@ -19,7 +19,7 @@
 //! A law as a Rust type:
 //!
 //! ```
-//! use inpact_evaluation::law::user::{UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserLaw};
+//! use inpact_evaluation::law::{UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserLaw};
 //! use inpact_evaluation::plan::Choices;
 //!
 //! /// σ = a exp(−d/b): the contact opens gradually.
@@ -89,6 +89,7 @@ pub struct UserConductanceValue {
 
 /// Why the answer of a user's routine is no conductance.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum UserFault {
     /// The conductance or a slope is NaN or infinite.
     NotFinite {

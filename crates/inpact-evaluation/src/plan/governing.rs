@@ -115,6 +115,7 @@ impl<'a> RowInteractions<'a> {
 
 /// Why a text names no interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NameFault {
     /// The deck has none of that name.
     Unknown,

@@ -1,6 +1,5 @@
 //! Why something is left out of an evaluation.
 
-use crate::law::calculix::CalculixError;
 use crate::nodes::Column;
 use crate::results::{Output, number_text};
 use crate::table::TableError;
@@ -26,6 +25,7 @@ impl LeftOut {
 
 /// Why something is left out.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Reason {
     /// Columns of the node table are missing or empty.
     Missing(Missing),
@@ -38,7 +38,7 @@ pub enum Reason {
     /// The rows of a table do not form one.
     BrokenTable(TableError),
     /// The curves of CalculiX do not form a conductance.
-    BrokenCurves(CalculixError),
+    BrokenCurves(TableError),
     /// *PHYSICAL CONSTANTS does not give a constant that radiation needs (T-42).
     NoConstant(&'static str),
     /// *GAP RADIATION has no two emissivities from 0 to 1.

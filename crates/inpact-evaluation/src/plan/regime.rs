@@ -14,6 +14,7 @@ pub struct RegimeInForce {
 
 /// The decision between steady state and transient, and its reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum RegimeReason {
     /// The user.
     Chosen,

@@ -4,6 +4,7 @@ use std::path::Path;
 
 /// How a result table is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum TableFormat {
     /// Comma-separated values (RFC 4180).
     #[default]

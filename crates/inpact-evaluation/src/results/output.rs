@@ -7,6 +7,7 @@ use std::fmt;
 /// Abaqus' own identifiers are in capitals, everything else in lower case; the order is that of the columns.
 /// Signs and units: semantics section 6 and 3.6.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Output {
     /// `ECD`: electric current per area leaving the slave surface, C T⁻¹ L⁻².
     Ecd,
@@ -96,6 +97,7 @@ pub enum Output {
 
 /// Along which variable of a table a slope is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Along {
     /// `clearance`.
     Clearance,

@@ -9,14 +9,29 @@ use crate::numbers::KernelSlope;
 /// Rows that do not form a table: which row it is, counted from zero, and what is wrong with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableError {
+    row: usize,
+    fault: TableFault,
+}
+
+impl TableError {
+    pub(crate) fn new(row: usize, fault: TableFault) -> Self {
+        Self { row, fault }
+    }
+
     /// The row, counted from zero.
-    pub row: usize,
+    pub fn row(&self) -> usize {
+        self.row
+    }
+
     /// The fault.
-    pub fault: TableFault,
+    pub fn fault(&self) -> TableFault {
+        self.fault
+    }
 }
 
 /// Faults of rows of tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum TableFault {
     /// There are no rows.
     NoRows,
@@ -45,6 +60,11 @@ pub enum TableFault {
         /// The abscissa of this row.
         found: f64,
     },
+    /// Neighbouring curves of a conductance for CalculiX have no pressures in common, where ccx stops.
+    NoSharedPressures {
+        /// The temperatures of the two curves, θ.
+        temperatures: [f64; 2],
+    },
 }
 
 impl fmt::Display for TableError {
@@ -63,6 +83,9 @@ impl fmt::Display for TableError {
             }
             TableFault::NotAscending { axis, previous, found } => {
                 write!(f, "row {row} has {found:?} after {previous:?} in column {}, which must ascend", axis + 2)
+            }
+            TableFault::NoSharedPressures { temperatures: [first, second] } => {
+                write!(f, "the curves at temperatures {first:?} and {second:?} share no pressures")
             }
         }
     }

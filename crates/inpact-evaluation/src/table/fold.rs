@@ -17,6 +17,7 @@ const MOST_ROWS: usize = 1 << 20;
 
 /// Why a table cannot be folded along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FoldRefusal {
     /// The groups of an axis, counted from zero, have different ranges, so that no one range says which points lie beyond the table.
     RangesDiffer {

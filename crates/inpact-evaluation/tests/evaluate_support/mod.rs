@@ -2,10 +2,10 @@
 
 #![allow(dead_code, reason = "every test uses some of it")]
 
-use inpact_evaluation::evaluate::{Evaluation, Tally};
 use inpact_evaluation::nodes::{Batch, Findings, KeptRows, NodeReader};
 use inpact_evaluation::plan::{Choices, Plan, make, survey, survey_keeping};
 use inpact_evaluation::results::{ResultBatch, ResultWriter};
+use inpact_evaluation::{Evaluation, Tally};
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::model::{self, Model};

@@ -40,6 +40,7 @@ pub struct Store {
 
 /// Reasons why a network has no solution or more than one.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Unsolvable {
     /// Bodies without a path to a held value or a store: the nodes of each. A path needs conductances above zero.
     Floating(Vec<Vec<u32>>),

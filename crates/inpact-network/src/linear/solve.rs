@@ -25,6 +25,7 @@ use std::time::Instant;
 
 /// Methods of solving a network.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// A Cholesky factor in f64.
     #[default]
@@ -146,6 +147,7 @@ pub struct LinearReport {
 
 /// Reasons why a method was given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Shortcoming {
     /// It could not begin.
     NoSolution(NoSolution),
@@ -159,6 +161,7 @@ pub enum Shortcoming {
 
 /// Reasons why a network has no solution.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LinearFailure {
     /// It has none, or more than one.
     Unsolvable(Unsolvable),

@@ -61,6 +61,7 @@ pub struct Symbolic {
 
 /// Results of a network before that were used again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Reused {
     /// None.
     #[default]

@@ -17,6 +17,7 @@ pub struct Reference<'text> {
 
 /// Reasons why a text cannot be substituted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SubstitutionError {
     /// No *PARAMETER defines the name (S015).
     #[error("the parameter `{0}` is not defined")]

@@ -77,6 +77,7 @@ pub struct Column {
 /// Kinds of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ColumnKind {
     /// A number (S-34).
     Float,

@@ -5,6 +5,7 @@ use super::dimension::Dimension;
 use super::lookup::{Lookup, begins_with_name, is_name, lookup_among, lookup_name};
 use super::nearest;
 use super::release::Release;
+use crate::Error;
 use serde::Deserialize;
 use std::collections::HashSet;
 
@@ -165,24 +166,16 @@ pub enum Product {
     Explicit,
 }
 
-/// A text that is no definition of a keyword.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{message}")]
-pub struct DefinitionError {
-    message: String,
-}
-
 impl Definition {
     /// Reads a definition from its TOML.
     ///
     /// # Errors
     ///
     /// A text that is no TOML, has an unknown key, lacks one, or contradicts itself.
-    pub fn parse(toml: &str) -> Result<Self, DefinitionError> {
-        let error = |message: String| DefinitionError { message };
-        let definition: Self = toml::from_str(toml).map_err(|reason| error(reason.to_string()))?;
+    pub fn parse(toml: &str) -> Result<Self, Error> {
+        let definition: Self = toml::from_str(toml).map_err(|reason| Error::definition(reason.to_string()))?;
         match definition.contradiction() {
-            Some(contradiction) => Err(error(format!("{}: {contradiction}", definition.name))),
+            Some(contradiction) => Err(Error::definition(format!("{}: {contradiction}", definition.name))),
             None => Ok(definition),
         }
     }

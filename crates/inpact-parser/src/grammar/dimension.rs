@@ -3,6 +3,7 @@
 //! Abaqus has no units, only dimensions (O-2): whoever writes a deck keeps them consistent.
 //! Energy J and force F of the manual are written out: J = M L^2 T^-2, F = M L T^-2.
 
+use crate::Error;
 use serde::Deserialize;
 use std::fmt;
 use std::str::FromStr;
@@ -29,14 +30,6 @@ pub enum Base {
     Potential,
     /// C, electric charge
     Charge,
-}
-
-/// A text that is no dimension.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{written}` is no dimension: {reason}")]
-pub struct DimensionError {
-    written: String,
-    reason: &'static str,
 }
 
 impl Base {
@@ -84,10 +77,10 @@ impl fmt::Display for Dimension {
 }
 
 impl FromStr for Dimension {
-    type Err = DimensionError;
+    type Err = Error;
 
-    fn from_str(written: &str) -> Result<Self, DimensionError> {
-        let error = |reason| DimensionError { written: written.to_owned(), reason };
+    fn from_str(written: &str) -> Result<Self, Error> {
+        let error = |reason| Error::dimension(written, reason);
         let mut dimension = Self::default();
         if written == "1" {
             return Ok(dimension);
@@ -113,9 +106,9 @@ impl FromStr for Dimension {
 }
 
 impl TryFrom<String> for Dimension {
-    type Error = DimensionError;
+    type Error = Error;
 
-    fn try_from(written: String) -> Result<Self, DimensionError> {
+    fn try_from(written: String) -> Result<Self, Error> {
         written.parse()
     }
 }

@@ -1,5 +1,6 @@
 //! The releases of Abaqus whose keyword language is distinguished (2.8).
 
+use crate::Error;
 use serde::Deserialize;
 use std::fmt;
 use std::str::FromStr;
@@ -7,6 +8,7 @@ use std::str::FromStr;
 /// A release of Abaqus, oldest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Deserialize)]
 #[serde(try_from = "String")]
+#[non_exhaustive]
 pub enum Release {
     /// 6.11
     R6_11,
@@ -21,13 +23,6 @@ pub enum Release {
     /// 2024
     #[default]
     R2024,
-}
-
-/// A text that names no release.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{written}` is no release: there are 6.11, 6.14, 2016, 2017, 2022 and 2024")]
-pub struct ReleaseError {
-    written: String,
 }
 
 impl Release {
@@ -61,18 +56,18 @@ impl fmt::Display for Release {
 }
 
 impl FromStr for Release {
-    type Err = ReleaseError;
+    type Err = Error;
 
-    fn from_str(written: &str) -> Result<Self, ReleaseError> {
+    fn from_str(written: &str) -> Result<Self, Error> {
         let found = Self::ALL.into_iter().find(|release| release.name() == written.trim());
-        found.ok_or_else(|| ReleaseError { written: written.to_owned() })
+        found.ok_or_else(|| Error::release(written))
     }
 }
 
 impl TryFrom<String> for Release {
-    type Error = ReleaseError;
+    type Error = Error;
 
-    fn try_from(written: String) -> Result<Self, ReleaseError> {
+    fn try_from(written: String) -> Result<Self, Error> {
         written.parse()
     }
 }

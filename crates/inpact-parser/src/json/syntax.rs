@@ -5,7 +5,8 @@
 //! when the JSON comes back it must still agree with them, so that an edit to it is refused rather than ignored.
 //! `schema/syntax.schema.json` is generated from the types here, and a test holds it fresh.
 
-use super::{JsonError, layout, parse, required};
+use super::{layout, parse, required};
+use crate::Error;
 use crate::deck::lines::{lines, without_line_end};
 use crate::deck::{Block, Deck, scan};
 use crate::grammar::Grammar;
@@ -126,10 +127,10 @@ pub fn write(deck: &Deck, grammar: &Grammar) -> String {
 ///
 /// # Errors
 /// JSON that is not of this view, or whose `keyword` and `parameters` say something else than its lines.
-pub fn read(text: &str, grammar: &Grammar) -> Result<Vec<(String, Vec<u8>)>, JsonError> {
+pub fn read(text: &str, grammar: &Grammar) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let document: Document = parse(text)?;
     if document.schema != SCHEMA {
-        return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
+        return Err(Error::json("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
     }
     let files = document.files.into_iter().enumerate().map(|(number, file)| {
         let mut bytes = Vec::new();
@@ -145,24 +146,24 @@ pub fn read(text: &str, grammar: &Grammar) -> Result<Vec<(String, Vec<u8>)>, Jso
 }
 
 /// Refuses a file whose derived fields do not follow from its lines.
-fn compare(file: &File, deck: &Deck, grammar: &Grammar, number: usize) -> Result<(), JsonError> {
+fn compare(file: &File, deck: &Deck, grammar: &Grammar, number: usize) -> Result<(), Error> {
     let path = format!("files[{number}].blocks");
     if deck.blocks().len() != file.blocks.len() {
         let found = format!("the lines form {} blocks, not {}", deck.blocks().len(), file.blocks.len());
-        return Err(JsonError::new(path, found));
+        return Err(Error::json(path, found));
     }
     for (index, (block, stated)) in deck.blocks().iter().zip(&file.blocks).enumerate() {
         let derived = block_document(deck, grammar, block, &file.line_end);
         let path = format!("{path}[{index}]");
         let says = "does not agree with the lines of the block: change the lines instead";
         if derived.keyword != stated.keyword {
-            return Err(JsonError::new(format!("{path}.keyword"), says));
+            return Err(Error::json(format!("{path}.keyword"), says));
         }
         if derived.parameters != stated.parameters {
-            return Err(JsonError::new(format!("{path}.parameters"), says));
+            return Err(Error::json(format!("{path}.parameters"), says));
         }
         if derived.keyword_lines.len() != stated.keyword_lines.len() {
-            return Err(JsonError::new(format!("{path}.keyword_lines"), "these lines are no keyword line"));
+            return Err(Error::json(format!("{path}.keyword_lines"), "these lines are no keyword line"));
         }
     }
     Ok(())

@@ -95,6 +95,7 @@ impl ConditionField {
 
 /// The mesh parts that are read beside those of contact pairs.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Target {
     /// A surface, by its name.
     Surface(Reference),

@@ -6,29 +6,22 @@ use super::{
     ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction, Model,
     Name, Procedure, PropertyAssignment, Reference, SubOption, Table, read,
 };
+use crate::Error;
 use crate::deck::scan;
 use crate::expression;
 use crate::grammar::{Definition, Dialect, Grammar};
 use crate::number::float_text;
 use std::fmt::Write;
-use thiserror::Error;
 
 /// The longest keyword line that is written in one piece (S-06 allows 256).
 const KEYWORD_LINE: usize = 120;
-
-/// A model that no deck can hold.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no deck can say this: {what} reads back as something else")]
-pub struct PrintError {
-    what: String,
-}
 
 /// Writes the model as a deck: interactions first, then what uses them, then the steps with their procedures.
 ///
 /// # Errors
 /// A deck that would read back as another model: a name with a comma and no quotes, a keyword the grammar does not
 /// know, a row that begins with an asterisk.
-pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
+pub fn print(model: &Model, grammar: &Grammar) -> Result<String, Error> {
     let mut out = String::new();
     print_parameters(&mut out, model.parameters.definitions());
     let is_explicit = |procedure: &Procedure| {
@@ -48,12 +41,12 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, PrintError> {
     let named = named_in(grammar.dialect(), model.without_places());
     // Names that the dialect does not tell apart were two.
     if named.interactions.len() < model.interactions.len() {
-        return Err(PrintError { what: "the list of interactions".to_owned() });
+        return Err(Error::unprintable("the list of interactions"));
     }
     let (again, _) = read(&scan("", out.as_bytes(), grammar), grammar);
     match difference(&named, &again.without_places()) {
         None => Ok(out),
-        Some(what) => Err(PrintError { what }),
+        Some(what) => Err(Error::unprintable(what)),
     }
 }
 

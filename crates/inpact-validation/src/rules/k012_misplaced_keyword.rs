@@ -5,7 +5,7 @@ use crate::rule::{Context, Report, declare_rule};
 use crate::suggestion::alternatives;
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::Lookup;
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// A sub-option is where no *SURFACE INTERACTION is open.

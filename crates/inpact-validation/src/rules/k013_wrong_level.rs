@@ -3,7 +3,7 @@
 use crate::placement::{runs, visible};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::Level;
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// A keyword is inside a *STEP, *PART, *INSTANCE or *ASSEMBLY, where it may not occur.

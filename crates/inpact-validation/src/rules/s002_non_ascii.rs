@@ -5,7 +5,7 @@ use crate::parameter;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::{LineNote, LineNoteKind};
 use inpact_parser::grammar::{Lookup, ParameterKind};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 use inpact_parser::span::Span;
 
 declare_rule! {

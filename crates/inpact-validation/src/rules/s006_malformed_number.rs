@@ -7,7 +7,7 @@ use crate::parameter::{self, substituted};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ParameterKind;
 use inpact_parser::number::{NumberError, read_float};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 use inpact_parser::span::Span;
 
 declare_rule! {

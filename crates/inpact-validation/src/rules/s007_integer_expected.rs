@@ -4,7 +4,7 @@ use crate::parameter;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ParameterKind;
 use inpact_parser::number::{NumberError, read_float};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// A value is a number with a point, or a text, where an integer is due.

@@ -6,7 +6,7 @@ use crate::quantity::number;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::ParameterKind;
 use inpact_parser::number::{FLOAT_CHARACTERS, INTEGER_DIGITS, float_text, float_text_that_fits, read_float};
-use inpact_parser::problem::{LongNumber, ProblemKind};
+use inpact_parser::{LongNumber, ProblemKind};
 
 declare_rule! {
     /// A number has more characters than Abaqus allows: 20 for a float with sign, point and exponent, 9 digits for an integer.

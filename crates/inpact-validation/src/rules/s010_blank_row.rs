@@ -4,7 +4,7 @@ use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::KeywordLine;
 use inpact_parser::deck::lines::next_line;
-use inpact_parser::problem::{Problem, ProblemKind};
+use inpact_parser::{Problem, ProblemKind};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 

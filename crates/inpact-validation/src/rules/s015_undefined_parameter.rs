@@ -2,7 +2,7 @@
 
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::Dialect;
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// `<name>` is in place of a value, and no *PARAMETER defines the name.

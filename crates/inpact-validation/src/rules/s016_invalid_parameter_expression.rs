@@ -1,7 +1,7 @@
 //! S016: statements of *PARAMETER that cannot be executed.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// A row of *PARAMETER is no statement that can be executed.

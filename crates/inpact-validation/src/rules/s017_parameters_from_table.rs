@@ -1,7 +1,7 @@
 //! S017: parameters that a table gives.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// A *PARAMETER takes its parameters from a table (TABLE, DEPENDENT, INDEPENDENT), which inpact does not interpret.

@@ -5,7 +5,7 @@ use crate::parameter::given_as;
 use crate::problems::{first_of_each_block, has_no_place, of_clear_columns};
 use crate::quantity::{and_more, count};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 

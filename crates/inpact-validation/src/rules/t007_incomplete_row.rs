@@ -3,7 +3,7 @@
 use crate::problems::{first_of_each_block, of_clear_columns};
 use crate::quantity::count;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// The last row of a table should go over several lines and has too few.

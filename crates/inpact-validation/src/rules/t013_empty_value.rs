@@ -2,7 +2,7 @@
 
 use crate::problems::BlocksByKeyword;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::problem::ProblemKind;
+use inpact_parser::ProblemKind;
 
 declare_rule! {
     /// The first item of a row, the value that the row is for, is left empty.

@@ -4,7 +4,7 @@ use inpact_diagnostics::{Edit, FixSafety};
 use crate::problems::first_of_each_block;
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::problem::{Problem, ProblemKind};
+use inpact_parser::{Problem, ProblemKind};
 use inpact_parser::span::Span;
 
 declare_rule! {

@@ -21,7 +21,7 @@ use inpact_contact::check_geometry;
 use inpact_diagnostics::visible::visible_line;
 use inpact_parser::deck::Keep;
 use inpact_parser::model;
-use inpact_validation::rules::RULES;
+use inpact_validation::RULES;
 use inpact_validation::{Severity, check_with};
 use rayon::prelude::*;
 use std::io::Write;

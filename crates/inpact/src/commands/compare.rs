@@ -17,8 +17,8 @@ use clap::{Args, ValueEnum};
 use inpact_contact::{ContactQuantity, NodeRows, State};
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::{visible, visible_json};
-use inpact_evaluation::evaluate::{Evaluation, RunFailure};
 use inpact_evaluation::results::Output;
+use inpact_evaluation::{Evaluation, RunFailure};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -106,7 +106,7 @@ fn of_geometry(arguments: &CompareArguments, prepared: &Evaluable) -> Result<Vec
     // Without what the solver says the rows have what the mesh says.
     let states: Vec<State> =
         made.drawn.states.iter().cloned().map(|state| State { contact: Vec::new(), ..state }).collect();
-    let failed = |error: inpact_contact::RowsError| Failure::Data(error.to_string());
+    let failed = |error: inpact_contact::Error| Failure::Data(error.to_string());
     let mut rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &states).map_err(failed)?;
     let places: Vec<Option<usize>> =
         kinds.iter().map(|kind| rows.numbers().iter().position(|column| *column == kind.column())).collect();

@@ -11,13 +11,11 @@ use crate::files::{self, STANDARD_STREAM};
 use crate::settings::{DeckArguments, Settings};
 use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
-use inpact_contact::RowsError;
 use inpact_diagnostics::{Diagnostic, Extent, Findings, keep_lines};
-use inpact_evaluation::accuracy::{Accuracy, Tolerance, Wanted};
-use inpact_evaluation::history::HistoryStart;
 use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, MakeSpillFile, NodeReader, locate};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, make, survey_keeping};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
+use inpact_evaluation::{Accuracy, HistoryStart, Tolerance, Wanted};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::check;
@@ -306,7 +304,7 @@ impl EvaluableArguments {
         let reader = NodeReader::of_made(&keys, &numbers, Box::new(batches));
         let mut findings = Findings::new(&nodes_name);
         let mut rows = kept_rows();
-        let failed = |error: io::Error| match error.downcast::<RowsError>() {
+        let failed = |error: io::Error| match error.downcast::<inpact_contact::Error>() {
             Ok(error) => Failure::Data(error.to_string()),
             Err(error) => Failure::read(&self.deck, error),
         };

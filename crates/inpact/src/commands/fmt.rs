@@ -11,7 +11,7 @@ use crate::settings::DeckArguments;
 use crate::threads::with_threads;
 use clap::Args;
 use inpact_parser::deck::scan;
-use inpact_parser::format::format;
+use inpact_parser::format;
 use inpact_parser::span::SourceId;
 use rayon::prelude::*;
 use std::io::Write;

@@ -4,7 +4,7 @@ use super::findings::Messages;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
 use crate::files;
-use inpact_contact::{FileSummary, Join, JoinError, Joined, ResultNote, State};
+use inpact_contact::{FileSummary, Join, Joined, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_results::{Incomplete, Results};
 use serde_json::json;
@@ -36,7 +36,7 @@ pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, 
         return Ok((States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() }, Vec::new()));
     }
     let mut join = Join::new(&meshed.mesh, &meshed.read.model);
-    let failed = |error: JoinError| Failure::Data(error.to_string());
+    let failed = |error: inpact_contact::Error| Failure::Data(error.to_string());
     for path in results {
         join.add(&path.display().to_string(), &read(path)?).map_err(failed)?;
     }

@@ -6,12 +6,12 @@ use crate::chart::surface::Surface;
 use crate::curves::{Figure, HeldPlace, LawKind, NodeRows, NodeSample, Side};
 use crate::failure::Failure;
 use crate::report::History;
-use inpact_evaluation::evaluate::{Evaluation, Tally};
-use inpact_evaluation::law::contact::ContactState;
+use inpact_evaluation::law::ContactState;
 use inpact_evaluation::nodes::{Batch, Column, Findings, Selection};
 use inpact_evaluation::numbers::UnboundedSum;
 use inpact_evaluation::plan::{Plan, RowInteractions};
 use inpact_evaluation::results::{Output, ResultBatch, Status};
+use inpact_evaluation::{Evaluation, Tally};
 use inpact_results::vtu::{Cell, CellKind};
 use std::collections::{BTreeMap, HashMap};
 

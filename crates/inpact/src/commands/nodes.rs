@@ -11,7 +11,7 @@ use crate::files::{self, ResultFile};
 use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::Args;
-use inpact_contact::{NodeRows, RowsError, State};
+use inpact_contact::{NodeRows, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::results::{ResultWriter, TableFormat};
 use serde_json::json;
@@ -88,12 +88,12 @@ fn draw(rows: &mut NodeRows<'_>, drawn: &Drawn, target: &Path) -> Result<(), Fai
 
 /// Reasons why making a table ended early.
 enum Stopped {
-    Rows(RowsError),
+    Rows(inpact_contact::Error),
     Writing(io::Error),
 }
 
-impl From<RowsError> for Stopped {
-    fn from(error: RowsError) -> Self {
+impl From<inpact_contact::Error> for Stopped {
+    fn from(error: inpact_contact::Error) -> Self {
         Self::Rows(error)
     }
 }

@@ -6,7 +6,7 @@ use super::request::{Extents, Probing, Request, extents};
 use super::rows::LawRows;
 use super::sample::{self, spread, thinned};
 use super::{Branch, Curve, Figure, Half, Held, Knot, LawKind, Panel, Quantity, Reach, Sample, Side, number};
-use inpact_evaluation::law::interface::{FlowOf, InterfaceLaws};
+use inpact_evaluation::law::{FlowOf, InterfaceLaws};
 use inpact_evaluation::plan::{Choices, Reason};
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Interaction, Model};

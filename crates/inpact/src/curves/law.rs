@@ -1,12 +1,10 @@
 //! The laws that have curves, and their values at a point: what an evaluation of a node row would find there.
 
 use super::{Reach, Side};
-use inpact_evaluation::law::conductance::{Conductance, ConductanceTables, ContactPoint};
-use inpact_evaluation::law::contact::{Clearance, ContactPressure, ContactState, PorePressure};
-use inpact_evaluation::law::interface::{ElectricalSource, InterfaceLaws};
-use inpact_evaluation::law::pore::{Gap, Permeability, PoreLaw, PorePoint};
-use inpact_evaluation::law::radiation::RadiationLaw;
-use inpact_evaluation::law::thermal::ThermalConductance;
+use inpact_evaluation::law::{
+    Clearance, Conductance, ConductanceTables, ContactPoint, ContactPressure, ContactState, ElectricalSource, Gap,
+    InterfaceLaws, Permeability, PoreLaw, PorePoint, PorePressure, RadiationLaw, ThermalConductance,
+};
 use inpact_evaluation::table::Sides;
 use inpact_parser::model::OptionKind;
 
@@ -137,7 +135,7 @@ impl<'a> Law<'a> {
 
 impl Value {
     fn of(side: Side, found: Conductance) -> Self {
-        use inpact_evaluation::law::conductance::Branch;
+        use inpact_evaluation::law::Branch;
         let has_rows = match side {
             Side::Open => found.branch == Branch::Clearance,
             Side::Closed => found.branch == Branch::Pressure,

@@ -3,7 +3,7 @@
 use super::law::Law;
 use super::rows::{LawRows, Rows};
 use super::{LawKind, Side, Units};
-use inpact_evaluation::law::interface::InterfaceLaws;
+use inpact_evaluation::law::InterfaceLaws;
 use inpact_evaluation::plan::Choices;
 use inpact_parser::model::{Interaction, Model, Name};
 use std::collections::HashMap;

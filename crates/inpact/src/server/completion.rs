@@ -67,7 +67,7 @@ impl<'a> Place<'a> {
             documentation: Some(markdown(page::of_rule(rule))),
             ..self.item(rule.code, CompletionItemKind::EnumMember, word, rule.code.to_owned())
         };
-        inpact_validation::rules::RULES
+        inpact_validation::RULES
             .iter()
             .map(|rule| item(rule))
             .chain(

@@ -5,7 +5,7 @@ use super::workspace::{View, Workspace};
 use gen_lsp_types::{DocumentFormattingParams, DocumentRangeFormattingParams, TextEdit};
 use inpact_diagnostics::Edit;
 use inpact_parser::deck::{Keep, ScanOptions, Scanner};
-use inpact_parser::format;
+use inpact_parser::format_edits;
 use inpact_parser::span::{SourceId, Span};
 
 pub(super) fn whole(
@@ -34,7 +34,7 @@ fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
     text.push_into(&mut scanner);
     let deck = scanner.finish();
     let touches = |edit: &Edit| edit.span.start <= selected.end && selected.start <= edit.span.end;
-    let edits = format::edits(&deck, SourceId::ROOT, grammar).into_iter().filter(touches);
+    let edits = format_edits(&deck, SourceId::ROOT, grammar).into_iter().filter(touches);
     edits.map(|edit| narrowed(view, edit)).collect()
 }
 

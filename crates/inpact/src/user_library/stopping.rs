@@ -2,7 +2,7 @@
 
 use crate::failure::say;
 use crate::files;
-use inpact_evaluation::law::user::UserConductancePoint;
+use inpact_evaluation::law::UserConductancePoint;
 use std::ffi::c_int;
 use std::sync::Once;
 use std::sync::atomic::{AtomicI64, Ordering};

@@ -3,7 +3,7 @@
 //! Without gfortran the tests of real libraries do nothing and say so; where `INPACT_REQUIRE_GFORTRAN` is set, as in the gate, they fail instead.
 
 use super::load;
-use inpact_evaluation::law::user::{UserConductancePoint, UserConductanceValue, UserLaw, UserName, UserNames};
+use inpact_evaluation::law::{UserConductancePoint, UserConductanceValue, UserLaw, UserName, UserNames};
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;

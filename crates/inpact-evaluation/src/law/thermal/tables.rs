@@ -1,6 +1,6 @@
 //! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
 
-use crate::law::calculix::{CalculixConductance, CalculixError};
+use crate::law::calculix::CalculixConductance;
 use crate::law::conductance::ConductanceTables;
 use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
 use crate::law::thermal::ThermalConductance;
@@ -35,7 +35,7 @@ pub(crate) enum ConductanceRows {
         pressure: Option<Result<PiecewiseTable, TableError>>,
     },
     /// The curves of CalculiX.
-    Calculix(Result<CalculixConductance, CalculixError>),
+    Calculix(Result<CalculixConductance, TableError>),
 }
 
 /// Why *GAP RADIATION gives no law.

@@ -5,7 +5,7 @@ use crate::scene::file::{ClosingHeatName, ProcedureName, SceneFile, StartFromNam
 use crate::scene::rules::MALFORMED_TIME;
 use crate::scene::values::{Keyed, Number};
 use crate::scene::{Procedure, StartFrom, Steps, TimeSpan};
-use inpact_evaluation::history::ClosingHeat;
+use inpact_evaluation::law::ClosingHeat;
 
 /// Below this share of the range of values, the local error of an increment is lost in rounding.
 const LEAST_TOLERANCE: f64 = 1e-12;

@@ -6,9 +6,10 @@ use super::document::{
     MethodDocument, ParameterDocument, PermeabilityDocument, ProcedureDocument, SubOptionDocument, SymbolicCell,
     TableDocument,
 };
+use crate::Error;
 use crate::expression::{Parameters, StatementLine, define};
 use crate::grammar::{Dialect, Release};
-use crate::json::{JsonError, parse};
+use crate::json::parse;
 use crate::model::named_in;
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
@@ -25,10 +26,10 @@ const MOST_STEPS: usize = 100_000;
 ///
 /// # Errors
 /// JSON that is not of this view, a table whose rows do not fit its columns, a name or an item that no deck could hold.
-pub fn read(text: &str) -> Result<Model, JsonError> {
+pub fn read(text: &str) -> Result<Model, Error> {
     let document: Document = parse(text)?;
     if document.schema != SCHEMA {
-        return Err(JsonError::new("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
+        return Err(Error::json("schema", format!("expected `{SCHEMA}`, found `{}`", document.schema)));
     }
     let mut model = Model { parameters: parameters(&document.parameters)?, ..Model::default() };
     let dialect = dialect_of(&document.interactions.iter().map(|(key, _)| key.as_str()));
@@ -36,12 +37,12 @@ pub fn read(text: &str) -> Result<Model, JsonError> {
         let path = format!("interactions.{key}");
         if Name::new(&key) != Name::new(&interaction.name) {
             let message = format!("expected the name of its key, found `{}`", interaction.name);
-            return Err(JsonError::new(format!("{path}.name"), message));
+            return Err(Error::json(format!("{path}.name"), message));
         }
         let mut interaction = interaction.into_model(&path)?;
         interaction.name = Name::in_dialect(interaction.name.written(), dialect);
         if model.interactions.contains_key(&interaction.name) {
-            return Err(JsonError::new(path, "duplicate interaction"));
+            return Err(Error::json(path, "duplicate interaction"));
         }
         model.interactions.insert(interaction.name.clone(), interaction);
     }
@@ -66,12 +67,12 @@ fn dialect_of<'key>(keys: &(impl Iterator<Item = &'key str> + Clone)) -> Dialect
 /// Executes the definitions again; what the JSON says of their values must agree.
 ///
 /// The values are those of some release: where they are not those of the newest, they may be those of an older one (S-60).
-fn parameters(documents: &[ParameterDocument]) -> Result<Parameters, JsonError> {
+fn parameters(documents: &[ParameterDocument]) -> Result<Parameters, Error> {
     parameters_of(documents, Release::NEWEST)
         .or_else(|error| parameters_of(documents, Release::R2022).map_err(|_| error))
 }
 
-fn parameters_of(documents: &[ParameterDocument], release: Release) -> Result<Parameters, JsonError> {
+fn parameters_of(documents: &[ParameterDocument], release: Release) -> Result<Parameters, Error> {
     let mut parameters = Parameters::of_release(release);
     for (index, document) in documents.iter().enumerate() {
         let statement = format!("{} = {}", document.name, document.expression);
@@ -80,21 +81,21 @@ fn parameters_of(documents: &[ParameterDocument], release: Release) -> Result<Pa
         define([line], &mut parameters, &mut problems);
         let path = format!("parameters[{index}]");
         if let Some(problem) = problems.first().filter(|_| document.value.is_some()) {
-            return Err(JsonError::new(format!("{path}.expression"), problem.message.clone()));
+            return Err(Error::json(format!("{path}.expression"), problem.message.clone()));
         }
         let again = parameters.definitions().get(index).map(ParameterDocument::from);
         // Without a value there is nothing to agree with: the statement had a problem where it was read, which may be
         // a byte that JSON cannot show.
         let agrees = document.value.is_none() || again.is_some_and(|again| again.value == document.value);
         if !agrees {
-            return Err(JsonError::new(format!("{path}.value"), "does not follow from the expression"));
+            return Err(Error::json(format!("{path}.value"), "does not follow from the expression"));
         }
     }
     Ok(parameters)
 }
 
 impl InteractionDocument {
-    fn into_model(self, path: &str) -> Result<Interaction, JsonError> {
+    fn into_model(self, path: &str) -> Result<Interaction, Error> {
         let [start, end] = self.span;
         let mut interaction = Interaction::new(Name::new(&self.name), Span::new(SourceId::ROOT, start, end));
         interaction.thickness = self.thickness;
@@ -144,11 +145,11 @@ fn given_parameters(parameters: GivenDocuments) -> Vec<GivenParameter> {
 }
 
 impl ElectricalDocument {
-    fn into_model(self, path: &str) -> Result<ElectricalConductance, JsonError> {
+    fn into_model(self, path: &str) -> Result<ElectricalConductance, Error> {
         if !self.user {
             for (branch, is_there) in [("clearance", self.clearance.is_some()), ("pressure", self.pressure.is_some())] {
                 if !is_there {
-                    return Err(JsonError::new(path, format!("missing field `{branch}`: a table, or null")));
+                    return Err(Error::json(path, format!("missing field `{branch}`: a table, or null")));
                 }
             }
         }
@@ -169,7 +170,7 @@ impl ElectricalDocument {
 }
 
 impl PermeabilityDocument {
-    fn into_model(self, path: &str) -> Result<ContactPermeability, JsonError> {
+    fn into_model(self, path: &str) -> Result<ContactPermeability, Error> {
         let expected = ["permeability", "pressure", "pore_pressure", "temp"];
         Ok(ContactPermeability {
             span: Span::default(),
@@ -185,7 +186,7 @@ impl PermeabilityDocument {
 }
 
 impl SubOptionDocument {
-    fn into_model(self, path: &str) -> Result<SubOption, JsonError> {
+    fn into_model(self, path: &str) -> Result<SubOption, Error> {
         Ok(SubOption {
             keyword: self.keyword,
             span: Span::default(),
@@ -198,7 +199,7 @@ impl SubOptionDocument {
 
 impl TableDocument {
     /// The table; its first columns must be `expected`, and field variables may follow.
-    fn into_model(self, path: &str, expected: &[&str]) -> Result<Table, JsonError> {
+    fn into_model(self, path: &str, expected: &[&str]) -> Result<Table, Error> {
         self.check_columns(path, expected)?;
         let mut table = Table { columns: self.columns.into(), ..Table::default() };
         if let Some(dependencies) = self.dependencies {
@@ -207,14 +208,14 @@ impl TableDocument {
                 let message = format!(
                     "expected a number from {listed}, which are listed, to {MOST_FIELD_VARIABLES}, found {dependencies}"
                 );
-                return Err(JsonError::new(format!("{path}.dependencies"), message));
+                return Err(Error::json(format!("{path}.dependencies"), message));
             }
             table.unwritten = dependencies - listed;
         }
         for (index, row) in self.rows.into_iter().enumerate() {
             if row.len() != table.width() {
                 let message = format!("{} items in a table of {} columns", row.len(), table.width());
-                return Err(JsonError::new(format!("{path}.rows[{index}]"), message));
+                return Err(Error::json(format!("{path}.rows[{index}]"), message));
             }
             for cell in row {
                 let value = cell.value();
@@ -225,17 +226,17 @@ impl TableDocument {
         Ok(table)
     }
 
-    fn check_columns(&self, path: &str, expected: &[&str]) -> Result<(), JsonError> {
+    fn check_columns(&self, path: &str, expected: &[&str]) -> Result<(), Error> {
         let fields = (1..).map(|number| format!("fv{number}"));
         let names = expected.iter().map(|name| (*name).to_owned()).chain(fields);
         if self.columns.is_empty() || self.columns.len() < expected.len() {
             let message = format!("expected the columns {}, then fv1, fv2, …", expected.join(", "));
-            return Err(JsonError::new(format!("{path}.columns"), message));
+            return Err(Error::json(format!("{path}.columns"), message));
         }
         for (index, (column, name)) in self.columns.iter().zip(names).enumerate() {
             if !expected.is_empty() && *column != name {
                 let message = format!("unknown column `{column}`, expected `{name}`");
-                return Err(JsonError::new(format!("{path}.columns[{index}]"), message));
+                return Err(Error::json(format!("{path}.columns[{index}]"), message));
             }
         }
         Ok(())
@@ -269,7 +270,7 @@ impl AssignmentDocument {
 }
 
 impl ProcedureDocument {
-    fn into_model(self, index: usize) -> Result<Procedure, JsonError> {
+    fn into_model(self, index: usize) -> Result<Procedure, Error> {
         let option = SubOption {
             keyword: self.keyword,
             span: Span::default(),
@@ -279,13 +280,13 @@ impl ProcedureDocument {
         };
         if self.step > MOST_STEPS {
             let message = format!("a deck has {MOST_STEPS} steps at most here");
-            return Err(JsonError::new(format!("procedures[{index}].step"), message));
+            return Err(Error::json(format!("procedures[{index}].step"), message));
         }
         let procedure = Procedure { step: self.step, option };
         let derived = ProcedureDocument::from(&procedure).regime;
         if self.regime.is_some() && self.regime != derived {
             let message = "does not follow from the keyword and its parameters";
-            return Err(JsonError::new(format!("procedures[{index}].regime"), message));
+            return Err(Error::json(format!("procedures[{index}].regime"), message));
         }
         Ok(procedure)
     }

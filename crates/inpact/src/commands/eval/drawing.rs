@@ -4,9 +4,9 @@ use super::super::evaluable::Evaluable;
 use super::super::findings::refuse_configured_errors;
 use super::super::picture::{Drawn, PictureWriter};
 use crate::failure::Failure;
-use inpact_evaluation::evaluate::{Evaluation, RunFailure, Tally};
 use inpact_evaluation::nodes::{Column, Findings, GivenBack, Selection};
 use inpact_evaluation::plan::Plan;
+use inpact_evaluation::{Evaluation, RunFailure, Tally};
 use std::path::Path;
 
 /// Evaluates the rows that were made of a mesh and draws them; gives the counts and the number of rows.

@@ -1,8 +1,8 @@
 //! Summary of an evaluation for standard error: as text for users, as JSON for programs.
 
-use inpact_evaluation::evaluate::{InteractionTally, Tally};
 use inpact_evaluation::plan::{InteractionPlan, LeftOut, Plan, Reason, TablePlan};
 use inpact_evaluation::results::{Output, push_number};
+use inpact_evaluation::{InteractionTally, Tally};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Duration;

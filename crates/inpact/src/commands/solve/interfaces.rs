@@ -6,10 +6,10 @@ use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_diagnostics::{Cell, Diagnostic, Findings, Place};
-use inpact_evaluation::evaluate::{Evaluation, RunFailure};
 use inpact_evaluation::nodes::{CONTRADICTORY_RATE, KeptRows, NodeReader, Selection};
 use inpact_evaluation::plan::{make, survey_keeping};
 use inpact_evaluation::results::{ResultWriter, TableFormat};
+use inpact_evaluation::{Evaluation, RunFailure};
 use inpact_network::scene::Scene;
 use std::path::Path;
 

@@ -4,8 +4,8 @@ use super::modes::{Copied, MODES, Mode, Prepared, share_of_copy};
 use super::subjects::{Sample, Subject, WholeRow};
 use crate::commands::tradeoff::front::front;
 use crate::commands::tradeoff::rounds::least_times;
-use inpact_evaluation::accuracy::ErrorBound;
 use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
+use inpact_evaluation::table::ErrorBound;
 
 /// Fewer rows than that are repeated, so that a run takes long enough to be timed.
 const LEAST_ROWS: usize = 1 << 16;

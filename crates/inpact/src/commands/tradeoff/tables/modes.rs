@@ -3,8 +3,9 @@
 //! Values alone are computed, columns in, columns out, in blocks of the size that an evaluation has.
 
 use super::subjects::Subject;
-use inpact_evaluation::accuracy::{ErrorBound, Grid, Refusal, commensurate_cells, full_bound, reference_bound};
-use inpact_evaluation::kernel::TableKernel;
+use inpact_evaluation::table::{
+    ErrorBound, Grid, Refusal, TableKernel, commensurate_cells, full_bound, reference_bound,
+};
 use std::hint::black_box;
 
 /// A mode of evaluation.

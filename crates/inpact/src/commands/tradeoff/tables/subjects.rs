@@ -2,10 +2,10 @@
 
 use crate::commands::evaluable::Evaluable;
 use crate::failure::Failure;
-use inpact_evaluation::evaluate::{Coordinates, Evaluation, TableReads, TabulatedQuantity};
 use inpact_evaluation::nodes::Batch;
 use inpact_evaluation::results::{Along, ResultBatch, ResultWriter};
 use inpact_evaluation::table::PiecewiseTable;
+use inpact_evaluation::{Coordinates, Evaluation, TableReads, TabulatedQuantity};
 use inpact_parser::model::Model;
 use std::io;
 use std::path::Path;
