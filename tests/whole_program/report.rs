@@ -98,6 +98,26 @@ fn rows_are_read_to_the_last_digit() {
     }
 }
 
+/// Of more rows than a page can hold, those stay where a curve bends most, and the panel says how many were left out.
+#[test]
+fn a_spike_among_very_many_rows_is_in_curves_and_sliders() {
+    let mut deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n".to_owned();
+    for temperature in [20, 90] {
+        for index in 0..3_000 {
+            let value = if (temperature, index) == (20, 1_234) { 777 } else { temperature };
+            let _ = writeln!(deck, "{value}., {index}., {temperature}.");
+        }
+    }
+    let html = reported(&deck, &[]);
+    let data = data(&html);
+    let x = numbers(&data[0]["halves"][1]["x"]);
+    assert!(x.contains(&1_234.0) && x.len() <= 400, "{} abscissae", x.len());
+    let x = numbers(&data[0]["probe"]["branches"][1]["x"]);
+    assert!(x.contains(&1_234.0) && x.len() <= 40, "{} abscissae of the sliders", x.len());
+    assert!(numbers(&data[0]["probe"]["branches"][1]["y"]).contains(&777.0));
+    assert!(html.contains("abscissae, those where a curve bends most among them"));
+}
+
 /// Curves and sliders have the values of `eval`, which prints them to the last digit.
 #[test]
 fn curves_and_sliders_have_the_values_of_eval() {

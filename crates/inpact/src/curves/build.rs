@@ -4,7 +4,7 @@ use super::law::Law;
 use super::probe::probe;
 use super::request::{Extents, Probing, Request, extents};
 use super::rows::LawRows;
-use super::sample::{self, spread, thinned};
+use super::sample::{self, spread, thinned, thinned_together};
 use super::{Branch, Curve, Figure, Half, Held, Knot, LawKind, Panel, Quantity, Reach, Sample, Side, number};
 use inpact_evaluation::law::{FlowOf, InterfaceLaws};
 use inpact_evaluation::plan::{Choices, Reason};
@@ -21,8 +21,11 @@ const MOST_MULTIPLES: usize = 6;
 /// The most lines about what is not drawn.
 const MOST_NOTES: usize = 20;
 
-/// The most abscissae that all curves of a panel are evaluated at.
+/// The most abscissae of a side that all curves of a panel have, where whoever points at one curve reads all of them.
 const MOST_SHARED: usize = 400;
+
+/// The most values among which these are chosen.
+const MOST_CHOSEN_FROM: usize = 200_000;
 
 /// The panels of one deck.
 pub fn figure(deck: (&str, &Model), grammar: &Grammar, choices: &Choices, request: &Request) -> Figure {
@@ -179,6 +182,10 @@ impl Builder<'_> {
                 subject.variables.iter().map(|of| of.chosen.or(of.values.first().copied()).unwrap_or(0.0)).collect();
             let halves = [first.open.clone(), first.closed.clone()];
             first.probe = probe(law, &subject.sides, &halves, &variables, &movable);
+            let branches = first.probe.iter().flat_map(|probe| &probe.branches);
+            let counts = branches.map(|of| Shared { kept: of.abscissae.len(), all: of.all_abscissae });
+            let most = counts.max_by_key(|of| of.all - of.kept).unwrap_or_default();
+            first.notes.extend(most.note().map(|note| format!("sliders: {note}")));
         }
         panels
     }
@@ -195,6 +202,7 @@ impl Builder<'_> {
         let column = first.and_then(|rows| rows.columns.first()).map_or("", String::as_str);
         let mut value = self.request.units.quantity(self.grammar, subject.kind.keyword(), column);
         subject.kind.name().clone_into(&mut value.name);
+        let mut shared = Shared::default();
         let (curves, all_curves) = if subject.law.is_some() {
             let places =
                 family.map_or_else(|| vec![None], |(_, family)| family.values.iter().copied().map(Some).collect());
@@ -206,28 +214,22 @@ impl Builder<'_> {
                 }
                 variables
             };
-            // Whoever points at one curve reads all of them.
-            let shared = (self.request.probing == Probing::On).then(|| {
-                [0, 1].map(|side| {
-                    let all = places_drawn
-                        .iter()
-                        .flat_map(|at| self.abscissae(subject, side, &halves[side], &variables_at(at)));
-                    let mut all: Vec<f64> = all.collect();
-                    all.sort_unstable_by(f64::total_cmp);
-                    all.dedup();
-                    spread(&all, MOST_SHARED)
-                })
+            let variables: Vec<Vec<f64>> = places_drawn.iter().map(variables_at).collect();
+            let [open, closed] = [0, 1].map(|side| {
+                let abscissae =
+                    variables.iter().map(|variables| self.abscissae(subject, side, &halves[side], variables));
+                match self.request.probing {
+                    Probing::On => {
+                        shared_branches(subject, side, abscissae.flatten().collect(), &variables, &mut shared)
+                    }
+                    Probing::Off => {
+                        let each = abscissae.zip(&variables);
+                        each.map(|(abscissae, variables)| branch(subject, side, abscissae, variables)).collect()
+                    }
+                }
             });
-            let curves = places_drawn.iter().map(|at| {
-                let variables = variables_at(at);
-                let [open, closed] = [0, 1].map(|side| {
-                    let abscissae = shared.as_ref().map(|shared| shared[side].clone());
-                    let abscissae =
-                        abscissae.unwrap_or_else(|| self.abscissae(subject, side, &halves[side], &variables));
-                    branch(subject, side, abscissae, &variables)
-                });
-                Curve { at: *at, open, closed }
-            });
+            let curves = places_drawn.iter().zip(open.into_iter().zip(closed));
+            let curves = curves.map(|(at, (open, closed))| Curve { at: *at, open, closed });
             (curves.collect::<Vec<_>>(), places.len())
         } else {
             as_written(subject)
@@ -250,6 +252,7 @@ impl Builder<'_> {
             notes: Vec::new(),
         };
         panel.notes = notes(subject, &panel);
+        panel.notes.extend(shared.note());
         panel
     }
 
@@ -289,14 +292,57 @@ impl Builder<'_> {
 
 /// A curve on one side of contact.
 fn branch(subject: &Subject<'_>, side: usize, abscissae: Vec<f64>, variables: &[f64]) -> Branch {
-    let Some(law) = subject.law else { return Branch::default() };
+    let samples = abscissae.into_iter().filter_map(|x| sample(subject, side, x, variables));
+    with_knots(subject, side, thinned(samples.collect()), variables)
+}
+
+fn sample(subject: &Subject<'_>, side: usize, x: f64, variables: &[f64]) -> Option<Sample> {
+    let value = subject.law?.value(Side::BOTH[side], x, variables)?;
+    Some(Sample { x, y: value.y, reach: value.reach })
+}
+
+fn with_knots(subject: &Subject<'_>, side: usize, samples: Vec<Sample>, variables: &[f64]) -> Branch {
     let of = &subject.sides[side];
     let (knots, knot_count) = of.knots(of.group(variables));
-    let samples = abscissae.into_iter().filter_map(|x| {
-        let value = law.value(Side::BOTH[side], x, variables)?;
-        Some(Sample { x, y: value.y, reach: value.reach })
+    Branch { knots, knot_count, samples }
+}
+
+/// How many of the abscissae of a panel's curves are kept.
+#[derive(Default)]
+struct Shared {
+    kept: usize,
+    all: usize,
+}
+
+impl Shared {
+    fn note(&self) -> Option<String> {
+        let Self { kept, all } = self;
+        (kept < all).then(|| format!("{kept} of {all} abscissae, those where a curve bends most among them"))
+    }
+}
+
+/// All curves on one side of contact at the same abscissae.
+fn shared_branches(
+    subject: &Subject<'_>,
+    side: usize,
+    mut abscissae: Vec<f64>,
+    variables: &[Vec<f64>],
+    shared: &mut Shared,
+) -> Vec<Branch> {
+    abscissae.sort_unstable_by(f64::total_cmp);
+    abscissae.dedup();
+    shared.all += abscissae.len();
+    let abscissae = spread(&abscissae, MOST_CHOSEN_FROM / variables.len().max(1));
+    let samples = variables.iter().map(|of| abscissae.iter().map(|x| sample(subject, side, *x, of)).collect());
+    let samples: Vec<Vec<Option<Sample>>> = samples.collect();
+    let values = samples.iter().map(|of| of.iter().map(|sample| sample.map(|sample| sample.y)).collect());
+    let kept = thinned_together(&abscissae, &values.collect::<Vec<_>>(), MOST_SHARED);
+    shared.kept += kept.len();
+    let branches = samples.iter().zip(variables).map(|(samples, variables)| {
+        let samples = kept.iter().filter_map(|index| samples[*index]);
+        with_knots(subject, side, samples.collect(), variables)
     });
-    Branch { knots, knot_count, samples: thinned(samples.collect()) }
+    branches.collect()
 }
 
 /// The reason why a law of the interaction has no values.

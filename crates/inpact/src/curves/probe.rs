@@ -1,7 +1,7 @@
 //! Values of a law at stops of its temperature and field variables, found beforehand: what a page without the law itself can show by sliders.
 
 use super::law::Law;
-use super::sample::{Side as SideRows, spread};
+use super::sample::{Side as SideRows, spread, thinned_together};
 use super::{Detail, Half, Quantity, Side};
 
 /// The values of a law at all combinations of stops.
@@ -27,6 +27,8 @@ pub struct ProbeAxis {
 pub struct ProbeBranch {
     /// Clearances or contact pressures, ascending.
     pub abscissae: Vec<f64>,
+    /// The number of all abscissae of its rows: more than there are here where there are too many for a page.
+    pub all_abscissae: usize,
     /// For each combination of stops, the last variable running fastest, a value an abscissa; `None` where the law has none.
     pub values: Vec<Option<f64>>,
 }
@@ -36,6 +38,9 @@ const MOST_VALUES: usize = 4000;
 
 /// The most abscissae of each side.
 const MOST_ABSCISSAE: usize = 40;
+
+/// The most values of each side among which these are chosen.
+const MOST_CHOSEN_FROM: usize = 200_000;
 
 /// Into how many parts the range between two values of a variable is divided.
 const PARTS: [usize; 3] = [4, 2, 1];
@@ -54,30 +59,25 @@ pub(super) fn probe(
     let most_stops = MOST_VALUES / (2 * MOST_ABSCISSAE);
     let axes = axes(movable, most_stops);
     let stops: usize = axes.iter().map(|axis| axis.stops.len()).product();
-    let abscissae = [0, 1].map(|side| {
-        let mut all = Vec::new();
-        for stop in 0..stops {
-            let variables = at_stop(variables, movable, &axes, stop);
-            all.extend(sides[side].abscissae(
-                &variables,
-                (halves[side].start, halves[side].end),
-                &law.cutoff().filter(|_| side == 0).into_iter().collect::<Vec<_>>(),
-                Detail::Rows,
-            ));
-        }
-        all.sort_unstable_by(f64::total_cmp);
-        all.dedup();
-        spread(&all, MOST_ABSCISSAE)
-    });
+    let variables: Vec<Vec<f64>> = (0..stops).map(|stop| at_stop(variables, movable, &axes, stop)).collect();
     let branches = [0, 1].map(|side| {
-        let values = (0..stops).flat_map(|stop| {
-            let variables = at_stop(variables, movable, &axes, stop);
-            abscissae[side]
-                .iter()
-                .map(move |x| law.value(Side::BOTH[side], *x, &variables).map(|value| value.y))
-                .collect::<Vec<_>>()
-        });
-        ProbeBranch { values: values.collect(), abscissae: abscissae[side].clone() }
+        let cutoff: Vec<f64> = law.cutoff().filter(|_| side == 0).into_iter().collect();
+        let ends = (halves[side].start, halves[side].end);
+        let each = variables.iter().flat_map(|of| sides[side].abscissae(of, ends, &cutoff, Detail::Rows));
+        let mut abscissae: Vec<f64> = each.collect();
+        abscissae.sort_unstable_by(f64::total_cmp);
+        abscissae.dedup();
+        let all = abscissae.len();
+        let abscissae = spread(&abscissae, MOST_CHOSEN_FROM / stops);
+        let value = |x: &f64, of: &Vec<f64>| law.value(Side::BOTH[side], *x, of).map(|value| value.y);
+        let values = variables.iter().map(|of| abscissae.iter().map(|x| value(x, of)).collect());
+        let values: Vec<Vec<Option<f64>>> = values.collect();
+        let kept = thinned_together(&abscissae, &values, MOST_ABSCISSAE);
+        ProbeBranch {
+            abscissae: kept.iter().map(|index| abscissae[*index]).collect(),
+            values: values.iter().flat_map(|of| kept.iter().map(|index| of[*index])).collect(),
+            all_abscissae: all,
+        }
     });
     Some(Probe { axes, branches })
 }

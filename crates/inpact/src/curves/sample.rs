@@ -161,6 +161,48 @@ pub(super) fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
     kept
 }
 
+/// The indices of at most so many of the abscissae that some curves share.
+///
+/// Of each stretch the first stays, and the one where a curve departs furthest from the straight line through the stretch's ends,
+/// as a part of the curve's own range: a spike of one small curve is seen beside large ones. The last stays as well.
+pub(super) fn thinned_together(abscissae: &[f64], curves: &[Vec<Option<f64>>], most: usize) -> Vec<usize> {
+    let count = abscissae.len();
+    if count <= most {
+        return (0..count).collect();
+    }
+    let ranges: Vec<f64> = curves.iter().map(|curve| range(curve)).collect();
+    let stretch = (count - 1).div_ceil((most - 1) / 2);
+    let mut kept = Vec::new();
+    for first in (0..count - 1).step_by(stretch) {
+        let last = (first + stretch).min(count - 1);
+        let bend = |index: &usize| {
+            let places = [first, *index, last].map(|place| abscissae[place]);
+            let departures = curves.iter().zip(&ranges).map(|(curve, range)| {
+                departure(places, [curve[first], curve[*index], curve[last]]).unwrap_or(0.0) / range
+            });
+            departures.fold(0.0, f64::max)
+        };
+        kept.push(first);
+        kept.extend((first + 1..last).max_by(|a, b| bend(a).total_cmp(&bend(b))));
+    }
+    kept.push(count - 1);
+    kept
+}
+
+/// How far the second of three points lies from the straight line through the two others.
+fn departure([x0, x, x1]: [f64; 3], [y0, y, y1]: [Option<f64>; 3]) -> Option<f64> {
+    let (y0, y, y1) = (y0?, y?, y1?);
+    let found = (y - (y0 + (x - x0) / (x1 - x0) * (y1 - y0))).abs();
+    (!found.is_nan()).then_some(found)
+}
+
+/// The difference of the largest and the smallest finite value; 1 where there is none.
+fn range(curve: &[Option<f64>]) -> f64 {
+    let values = curve.iter().flatten().filter(|y| y.is_finite());
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(*y), high.max(*y)));
+    if low < high { high - low } else { 1.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::Reach;
@@ -178,6 +220,20 @@ mod tests {
         assert!(kept.iter().any(|sample| sample.y == 7.0));
         assert!(kept.windows(2).all(|pair| pair[0].x < pair[1].x));
         assert_eq!(kept.last().map(|sample| sample.x), Some(999_999.0));
+    }
+
+    #[test]
+    fn a_spike_of_one_small_curve_stays_among_large_ones() {
+        let abscissae: Vec<f64> = (0..10_000).map(f64::from).collect();
+        let wave = abscissae.iter().map(|x| Some(1e9 * (x % 97.0))).collect();
+        let spike = abscissae.iter().map(|x| Some(if *x == 6_543.0 { 1e-3 } else { 0.0 })).collect();
+        let kept = thinned_together(&abscissae, &[wave, spike], 400);
+        assert!(kept.len() <= 400, "{} abscissae", kept.len());
+        assert!(kept.contains(&6_543));
+        assert!(kept.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!((kept.first(), kept.last()), (Some(&0), Some(&9_999)));
+        assert_eq!(thinned_together(&abscissae[..400], &[vec![None; 400]], 400).len(), 400);
+        assert_eq!(thinned_together(&abscissae[..401], &[vec![None; 401]], 400).len(), 268);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
     for (number, panel) in panels.iter().enumerate() {
         let is_live = number == 0 && panel.fault.is_none();
-        let words = panel.description();
+        let caption = [vec![panel.description()], panel.notes.clone()].concat().join("; ");
         let id = format!("{id}-{}", number + 1);
         let mut attributes = vec![("class", "law"), ("id", id.as_str())];
         if is_live {
@@ -27,7 +27,7 @@ pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
             page.element("div", &[("class", "chart")], "");
             page.data(&data(panel).to_string());
         }
-        page.element("figcaption", &[("class", "quiet")], &words);
+        page.element("figcaption", &[("class", "quiet")], &caption);
         page.close("figure");
     }
 }
