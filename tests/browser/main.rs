@@ -119,13 +119,18 @@ fn browser_number(value: f64) -> String {
 fn paper_has_every_panel() {
     let Some(program) = chromium() else { return };
     let mut browser = Browser::start(program);
-    let (_folder, path) = report(&["ROOT/decks/spot-weld/spot-weld.inp"]);
+    let (_folder, path) = report(&[
+        "ROOT/decks/spot-weld/spot-weld.inp",
+        "--nodes",
+        "ROOT/decks/spot-weld/spot-weld-nodes.csv",
+        "--tradeoff",
+    ]);
     browser.open(&path);
     show(&mut browser, "figure.law[data-live]");
     browser.call("Emulation.setEmulatedMedia", &json!({"media": "print"}));
     let heights = browser.value(
-        "[...document.querySelectorAll('figure.law')].map((figure) => [figure.querySelector('svg').getBoundingClientRect().height, \
-         (figure.querySelector('.chart') || figure).getBoundingClientRect().height])",
+        "[...document.querySelectorAll('figure.law:has(.chart)')].map((figure) => [figure.querySelector('svg').getBoundingClientRect().height, \
+         figure.querySelector('.chart').getBoundingClientRect().height])",
     );
     let heights = heights.as_array().expect("figures");
     assert_eq!(heights.len(), 4);
@@ -133,6 +138,14 @@ fn paper_has_every_panel() {
         assert!(100.0 < height[0].as_f64().expect("a height"), "a drawing that is not printed");
         assert_eq!(height[1], 0, "a canvas that is printed");
     }
+    // A sheet of A4 without its margins: what is wider would be cut off.
+    let sheet = json!({"width": 718, "height": 1000, "deviceScaleFactor": 1, "mobile": false});
+    browser.call("Emulation.setDeviceMetricsOverride", &sheet);
+    let cut = browser.value(
+        "[...document.querySelectorAll('body *')].filter((part) => !part.closest('svg') && part.clientWidth + 1 < part.scrollWidth)\
+         .map((part) => part.tagName + ' ' + part.className + ' ' + part.textContent.slice(0, 40))",
+    );
+    assert_eq!(cut, json!([]), "cut off at the edge of the sheet");
     let printed = browser.call("Page.printToPDF", &json!({}));
     let pdf = printed["data"].as_str().expect("a file");
     assert!(pdf.starts_with("JVBERi0") && 20_000 < pdf.len(), "no PDF");

@@ -9,6 +9,7 @@ use inpact::{Deck, EvaluateOptions, ReadOptions};
 use std::error::Error;
 use std::hint::black_box;
 use std::io::{self, Write};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -47,7 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let deck = Deck::parse("joint.inp", DECK, &ReadOptions::new().isolated())?;
     let in_f64 = batches(rows, |values| Arc::new(Float64Array::from(values)))?;
     let in_f32 = batches(rows, singles)?;
-    let results = evaluate(&deck, &in_f64)?;
+    let mut results = Vec::new();
+    evaluate(&deck, &in_f64, |batch| results.push(batch))?;
     let mut best = [f64::INFINITY; 3];
     for _ in 0..rounds {
         let mut contenders: [&mut dyn FnMut() -> Result<(), Box<dyn Error>>; 3] = [
@@ -55,8 +57,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 in_f64.iter().chain(&results).for_each(copy);
                 Ok(())
             },
-            &mut || evaluate(&deck, &in_f64).map(|results| drop(black_box(results))),
-            &mut || evaluate(&deck, &in_f32).map(|results| drop(black_box(results))),
+            &mut || evaluate(&deck, &in_f64, |batch| drop(black_box(batch))),
+            &mut || evaluate(&deck, &in_f32, |batch| drop(black_box(batch))),
         ];
         for (contender, best) in contenders.iter_mut().zip(&mut best) {
             let start = Instant::now();
@@ -78,10 +80,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn evaluate(deck: &Deck, batches: &[RecordBatch]) -> Result<Vec<RecordBatch>, Box<dyn Error>> {
+/// Evaluates the batches; results are taken one at a time and dropped, as copies are.
+fn evaluate(
+    deck: &Deck,
+    batches: &[RecordBatch],
+    mut take: impl FnMut(RecordBatch) + Send,
+) -> Result<(), Box<dyn Error>> {
     let options = EvaluateOptions::new().threads(1);
     let rows = batches.iter().map(|batch| Ok::<_, ArrowError>(batch.clone())).collect::<Vec<_>>();
-    Ok(deck.evaluate(batches[0].schema(), rows, &options)?.into_batches())
+    deck.evaluate_to(batches[0].schema(), rows, &options, |_, batch| {
+        take(batch);
+        ControlFlow::Continue(())
+    })?;
+    Ok(())
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "columns of half the size are what is measured")]

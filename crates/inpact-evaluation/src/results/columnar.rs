@@ -11,7 +11,7 @@ use super::writer::{Heading, Values};
 use crate::nodes::{Batch, Column, LabelColumn, NumberColumn};
 use crate::spread;
 use arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
-use arrow::buffer::{NullBuffer, ScalarBuffer};
+use arrow::buffer::{NullBuffer, OffsetBuffer, ScalarBuffer};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use arrow::error::ArrowError;
@@ -158,8 +158,30 @@ fn no_key(batch: &Batch, row: usize, key: Column, text: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, message)
 }
 
+/// The words of statuses, each copied with what follows it in a block of fixed size, which the next word covers: no call for a few bytes.
 pub(super) fn status_array(statuses: &[Option<super::Status>]) -> ArrayRef {
-    Arc::new(statuses.iter().map(|status| status.map(super::Status::word)).collect::<StringArray>())
+    const BLOCK: usize = 16;
+    let blocks = super::Status::ALL.map(|status| {
+        let word = status.word().as_bytes();
+        let mut block = [0; BLOCK];
+        block[..word.len()].copy_from_slice(word);
+        (block, word.len())
+    });
+    let mut bytes = vec![0; statuses.len() * BLOCK];
+    let mut lengths = Vec::with_capacity(statuses.len());
+    let mut end = 0;
+    for status in statuses {
+        let (block, length) = status.map_or((&[0; BLOCK], 0), |status| {
+            let (block, length) = &blocks[status as usize];
+            (block, *length)
+        });
+        bytes[end..end + BLOCK].copy_from_slice(block);
+        end += length;
+        lengths.push(length);
+    }
+    bytes.truncate(end);
+    let nulls = statuses.contains(&None).then(|| statuses.iter().map(Option::is_some).collect::<NullBuffer>());
+    Arc::new(StringArray::new(OffsetBuffer::from_lengths(lengths), bytes.into(), nulls))
 }
 
 fn status_dictionary(statuses: &[Option<super::Status>]) -> ArrayRef {
