@@ -5,6 +5,7 @@ mod bytes;
 mod calculix;
 mod check;
 mod check_geometry;
+mod check_scenes;
 mod columns;
 mod compare;
 mod configuration;

@@ -8,6 +8,7 @@
 //! - a field whose conductances depend on no other is solved before those that depend on it; fields that depend on each other are solved together;
 //! - a field that depends on nothing unsolved is linear: it takes one solve, no Newton.
 
+mod certain;
 mod notes;
 
 use notes::interaction_of;

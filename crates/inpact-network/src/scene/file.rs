@@ -320,37 +320,18 @@ entries! {
 }
 
 #[cfg(test)]
+#[path = "../../../../tests/support/schema.rs"]
+mod schema;
+
+#[cfg(test)]
 mod tests {
     use super::SceneFile;
+    use schemars::JsonSchema;
     use schemars::generate::SchemaSettings;
-    use schemars::transform::RecursiveTransform;
-    use schemars::{JsonSchema, Schema};
-    use serde_json::Value;
-    use std::path::Path;
-
-    /// Takes away what says more about Rust than about the file.
-    fn plain(schema: &mut Schema) {
-        schema.remove("format");
-        if let Some(description) = schema.get("description").and_then(Value::as_str).map(|text| text.replace('\n', " "))
-        {
-            schema.insert("description".to_owned(), description.into());
-        }
-    }
 
     #[test]
     fn the_committed_schema_is_that_of_the_file() {
-        let settings = SchemaSettings::draft2020_12().with_transform(RecursiveTransform(plain));
-        let schema = settings.into_generator().into_root_schema_for::<SceneFile>();
         assert_eq!(SceneFile::schema_name(), "Scene of inpact solve");
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema/scene.schema.json");
-        let written = serde_json::to_string_pretty(&schema).expect("a schema is JSON") + "\n";
-        if std::env::var_os("INPACT_UPDATE").is_some() {
-            std::fs::write(&path, &written).expect("schema/ can be written");
-        }
-        let committed = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(
-            committed == written,
-            "`schema/scene.schema.json` is out of date: run this test again with INPACT_UPDATE=1"
-        );
+        super::schema::check::<SceneFile>("scene.schema.json", SchemaSettings::draft2020_12());
     }
 }

@@ -1,12 +1,14 @@
-//! `inpact check`: decks in, diagnostics out.
+//! `inpact check`: decks and scenes in, diagnostics out.
 
 mod mending;
+mod scene;
 mod tally;
 mod watch;
 
 use self::mending::Mending;
 use self::tally::Tally;
 use super::decks::{self, Changed, Named};
+use super::laws::LawArguments;
 use super::meshed::mesh_of;
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
@@ -29,9 +31,10 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// Decks, fragments, or folders of them; `-` reads standard input.
+    /// Decks, fragments, or folders of them, and scenes; `-` reads standard input.
     ///
     /// In a folder every `.inp` is checked, but for what `.gitignore` or `exclude` of the configuration names; one that another includes is judged there.
+    /// A scene is named: a `.toml`, or a file that begins as one. It is judged with its tables and its deck as `solve` judges it, and not solved.
     #[arg(required = true, value_name = "DECK")]
     decks: Vec<PathBuf>,
     /// How to print what was found.
@@ -42,7 +45,7 @@ pub(crate) struct CheckArguments {
     output: Option<PathBuf>,
     /// Mend what can be mended without changing what the deck means, and write the files back: all of them, or none where one cannot be written.
     ///
-    /// Mended are the decks that are named, and of the files that they include those below the folder of the deck.
+    /// Mended are the decks that are named, and of the files that they include those below the folder of the deck; scenes are not.
     #[arg(long)]
     fix: bool,
     /// Mend the findings of these rules as well, though it changes what the deck means: T001,S006.
@@ -77,15 +80,29 @@ pub(crate) struct CheckArguments {
     timings: bool,
     #[command(flatten)]
     reading: DeckArguments,
+    #[command(flatten, next_help_heading = "Laws of scenes")]
+    laws: LawArguments,
 }
 
-/// Result of checking one deck.
+/// What is checked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    /// A deck or a fragment of one.
+    Deck,
+    /// A scene.
+    Scene,
+}
+
+/// Result of checking one deck or scene.
 struct Checked<'a> {
     path: &'a Path,
+    kind: Kind,
     settings: Settings,
     text: String,
     tally: Tally,
-    /// The paths of its files.
+    /// What else there is to say, a line each.
+    remarks: Vec<String>,
+    /// The paths of its files, itself first.
     places: Vec<PathBuf>,
     need: Need,
     /// The files of a deck that needs mending.
@@ -151,7 +168,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     let selection = arguments.selection();
     let mut checked: Vec<Result<Checked<'_>, Failure>> = with_threads(0, || {
         let decks = decks.par_iter();
-        decks.map(|deck| check_deck(&deck.path, arguments, selection.as_ref(), style, &progress)).collect()
+        decks.map(|deck| check_one(&deck.path, arguments, selection.as_ref(), style, &progress)).collect()
     });
     progress.finish();
     let places_of = |result: &Result<Checked<'_>, Failure>| match result {
@@ -159,7 +176,13 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         Err(_) => Vec::new(),
     };
     let places: Vec<Vec<PathBuf>> = checked.iter().map(places_of).collect();
-    let mut parts = decks::parts_of_others(decks, &places).into_iter();
+    // What a scene is made from is no part of it that is judged there: its deck is judged whole.
+    let includes = |result: &Result<Checked<'_>, Failure>| match result {
+        Ok(Checked { kind: Kind::Scene, places, .. }) => places.iter().take(1).cloned().collect(),
+        result => places_of(result),
+    };
+    let including: Vec<Vec<PathBuf>> = checked.iter().map(includes).collect();
+    let mut parts = decks::parts_of_others(decks, &including).into_iter();
     checked.retain(|result| {
         let is_part = parts.next() == Some(true);
         let has_changed = |checked: &Checked<'_>| {
@@ -173,7 +196,8 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     };
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
     let mut total = Tally::default();
-    let (mut unreadable, mut count) = (mending.has_failed, 0);
+    let mut unreadable = mending.has_failed;
+    let (mut kinds, mut remarks): (Vec<Kind>, Vec<String>) = (Vec::new(), Vec::new());
     let document = render::document(arguments.format);
     let has_frame = !arguments.statistics && !arguments.diff;
     let mut text = if has_frame { document.head } else { String::new() };
@@ -181,7 +205,8 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     for result in checked {
         match result {
             Ok(checked) => {
-                count += 1;
+                kinds.push(checked.kind);
+                remarks.extend(checked.remarks);
                 if !is_first && !checked.text.is_empty() {
                     text += document.separator;
                 }
@@ -206,8 +231,12 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     text += &mending.differences;
     output.write_all(text.as_bytes()).map_err(|error| output.failure(error))?;
     output.finish()?;
-    if !arguments.quiet && (count > 0 || changed.is_some()) {
-        say(&total.summary(count));
+    if !arguments.quiet && (!kinds.is_empty() || changed.is_some()) {
+        for remark in &remarks {
+            say(&visible_line(remark));
+        }
+        let scenes = kinds.iter().filter(|kind| **kind == Kind::Scene).count();
+        say(&total.summary(kinds.len() - scenes, scenes));
         if arguments.statistics && total.fixable() > 0 {
             say(&format!("[*] `--fix` mends {}", tally::count(total.fixable(), "finding")));
         }
@@ -219,6 +248,19 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         () => Outcome::Clean,
     };
     Ok(Round { outcome, places })
+}
+
+fn check_one<'a>(
+    path: &'a Path,
+    arguments: &CheckArguments,
+    selection: Option<&FixSelection>,
+    style: Style,
+    progress: &Progress,
+) -> Result<Checked<'a>, Failure> {
+    match scene::kind_of(path) {
+        Kind::Deck => check_deck(path, arguments, selection, style, progress),
+        Kind::Scene => scene::check(path, arguments, style).inspect(|_| progress.advance(path)),
+    }
 }
 
 /// Checks a deck as it is; the files of one that needs mending are held.
@@ -243,7 +285,8 @@ fn check_deck<'a>(
     let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, selection));
     let (text, tally) = judge(path, &deck, &settings, arguments, style)?;
     let held = held.filter(|_| need == Need::Mending);
-    Ok(Checked { path, settings, text, tally, places: deck.places().to_vec(), need, held })
+    let (kind, remarks, places) = (Kind::Deck, Vec::new(), deck.places().to_vec());
+    Ok(Checked { path, kind, settings, text, tally, remarks, places, need, held })
 }
 
 /// The findings of a deck.
@@ -278,6 +321,12 @@ fn judge(
 fn time_rules(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     let mut text = String::new();
     for path in &arguments.decks {
+        if scene::kind_of(path) == Kind::Scene {
+            return Err(Failure::Usage(format!(
+                "`--timings`: `{}` is a scene, and rules of decks are timed",
+                path.display()
+            )));
+        }
         let settings = arguments.reading.settings(path)?;
         let start = std::time::Instant::now();
         let deck = input::read_deck(path, Keep::Interpreted, &settings)?;

@@ -9,7 +9,7 @@ pub(crate) use changed::Changed;
 
 use crate::failure::Failure;
 use crate::files;
-use crate::settings::DeckArguments;
+use crate::settings::{DeckArguments, FILE_NAME};
 use ignore::WalkBuilder;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -60,6 +60,10 @@ fn in_folder(folder: &Path, reading: &DeckArguments) -> Result<Vec<PathBuf>, Fai
             continue;
         }
         let path = entry.into_path();
+        // The configuration is no scene, whatever `include` says.
+        if path.file_name().is_some_and(|name| name == FILE_NAME) {
+            continue;
+        }
         let parent = files::folder_of(&path).to_owned();
         let settings = match of_folders.get(&parent) {
             Some(settings) => settings,

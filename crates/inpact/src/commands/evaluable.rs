@@ -202,7 +202,7 @@ impl EvaluableArguments {
         };
         let reading = start.elapsed();
         let Some(Surveyed { survey, rows, nodes_name, made, table }) = surveyed else { return Ok(None) };
-        let ReadDeck { deck, model, problems } = source.into_deck();
+        let ReadDeck { deck, model, problems, .. } = source.into_deck();
         let plan = make(&model, &survey, &choices);
         let mut unavailable = Findings::new(&nodes_name);
         plan.report_unavailable(&choices, &mut unavailable);

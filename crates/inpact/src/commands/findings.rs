@@ -3,12 +3,13 @@
 use crate::failure::{Failure, Outcome, say, say_as_it_is, say_json};
 use crate::render::{self, Format, SarifRun, Sources, Style};
 use crate::settings::Settings;
+use inpact_diagnostics::Extent;
 use inpact_evaluation::plan::concerning;
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::{Diagnostic, Severity};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The messages of a run on standard error, in the format that its user chose.
@@ -101,24 +102,27 @@ impl Messages<'_> {
         has_errors(&found)
     }
 
-    /// Says what the check found in some interactions, notes left out; true if there are errors.
-    pub(crate) fn deck(
-        self,
-        found: &[Diagnostic],
-        (deck, grammar, model): (&Deck, &Grammar, &Model),
-        (names, chosen): Governing<'_>,
-    ) -> bool {
-        let concerning = concerning(found, deck, grammar, model, names, chosen);
-        let shown = concerning.iter().filter(|found| found.severity != Severity::Note);
-        let shown: Vec<Diagnostic> = shown.map(|found| (*found).clone()).collect();
-        self.say(&shown, Sources::Deck(deck));
-        let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
-        let elsewhere = errors(found) - errors(&shown);
-        if elsewhere > 0 && matches!(self.format, Format::Concise | Format::Full | Format::Sarif) {
-            let errors = if elsewhere == 1 { "1 error".to_owned() } else { format!("{elsewhere} errors") };
-            self.line(&format!("{errors} elsewhere in the deck: see `inpact check`"));
+    /// Says what is wrong with a deck beside what the check finds, as the configuration has it; true if there are errors.
+    pub(crate) fn of_deck(self, found: Vec<Diagnostic>, deck: &Deck, settings: &Settings) -> bool {
+        let found = settings.apply(found);
+        // What is of the deck as a whole has no lines to be shown.
+        for found in &found {
+            let is_placed = found.primary.extent != Extent::File;
+            self.say(std::slice::from_ref(found), if is_placed { Sources::Deck(deck) } else { Sources::Data });
         }
-        errors(&shown) > 0
+        has_errors(&found)
+    }
+
+    /// Says what the check found in some interactions, notes left out; true if there are errors.
+    pub(crate) fn deck(self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
+        let shown = shown_of(found, of, governing);
+        self.say(&shown, Sources::Deck(of.0));
+        if let Some(line) = errors_elsewhere(found, &shown, "inpact check")
+            && matches!(self.format, Format::Concise | Format::Full | Format::Sarif)
+        {
+            self.line(&line);
+        }
+        has_errors(&shown)
     }
 
     fn say(self, found: &[Diagnostic], sources: Sources<'_>) {
@@ -149,6 +153,9 @@ pub(crate) trait Reporter {
 
     /// Whether findings are given with the lines around them.
     fn shows_lines(&self) -> bool;
+
+    /// Takes the whole paths of files that are read, or would be if they were there.
+    fn files(&mut self, _: &[PathBuf]) {}
 
     /// Takes what is wrong with a node table or a scene; true if there are errors, as the configuration has it.
     fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool;
@@ -204,25 +211,47 @@ impl Reporter for Collected {
     }
 
     fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
-        let (deck, grammar, model) = of;
-        let (names, chosen) = governing;
-        let concerning = concerning(found, deck, grammar, model, names, chosen);
-        let shown = concerning.into_iter().filter(|found| found.severity != Severity::Note);
-        let before = self.0.len();
-        self.0.extend(shown.cloned());
-        has_errors(&self.0[before..])
+        let shown = shown_of(found, of, governing);
+        let has_errors = has_errors(&shown);
+        self.0.extend(shown);
+        has_errors
     }
 
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
-        match <[Failure; 1]>::try_from(failures) {
-            Ok([failure]) => failure,
-            Err(failures) => Failure::Usage(failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")),
-        }
+        as_one(failures)
+    }
+}
+
+/// Several failures as one.
+pub(crate) fn as_one(failures: Vec<Failure>) -> Failure {
+    match <[Failure; 1]>::try_from(failures) {
+        Ok([failure]) => failure,
+        Err(failures) => Failure::Usage(failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")),
+    }
+}
+
+/// What the check found that concerns some interactions, notes left out.
+pub(crate) fn shown_of(
+    found: &[Diagnostic],
+    (deck, grammar, model): (&Deck, &Grammar, &Model),
+    (names, chosen): Governing<'_>,
+) -> Vec<Diagnostic> {
+    let concerning = concerning(found, deck, grammar, model, names, chosen);
+    concerning.into_iter().filter(|found| found.severity != Severity::Note).cloned().collect()
+}
+
+/// A line on the errors of a deck that are not shown, if there are any, with the command that shows them.
+pub(crate) fn errors_elsewhere(found: &[Diagnostic], shown: &[Diagnostic], command: &str) -> Option<String> {
+    let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
+    match errors(found) - errors(shown) {
+        0 => None,
+        1 => Some(format!("1 error elsewhere in the deck: see `{command}`")),
+        count => Some(format!("{count} errors elsewhere in the deck: see `{command}`")),
     }
 }
 
 /// Whether one of the findings is an error.
-fn has_errors(found: &[Diagnostic]) -> bool {
+pub(crate) fn has_errors(found: &[Diagnostic]) -> bool {
     found.iter().any(|found| found.severity == Severity::Error)
 }
 

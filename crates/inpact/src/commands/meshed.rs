@@ -7,6 +7,7 @@ use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
 use inpact_body::{Body, BodyError};
 use inpact_diagnostics::visible::visible_line;
+use inpact_diagnostics::{Diagnostic, Extent, Label, Rule};
 use inpact_parser::Problem;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::mesh::{self, DeckConditions, KeptRows, Mesh, MeshNote, RowBytes, SeekableRows, Target};
@@ -16,7 +17,7 @@ use serde::Serialize;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// More notes than these nobody reads, and each has to be looked for in the file.
 const MOST_NOTES: usize = 100;
@@ -24,6 +25,8 @@ const MOST_NOTES: usize = 100;
 /// A deck and its model.
 pub(crate) struct ReadDeck {
     pub(crate) deck: Deck,
+    /// The paths of its files, itself first.
+    pub(crate) places: Vec<PathBuf>,
     pub(crate) model: Model,
     pub(crate) problems: Vec<Problem>,
 }
@@ -42,12 +45,13 @@ pub(crate) struct MeshedDeck {
 impl ReadDeck {
     /// Reads a deck without its mesh.
     pub(crate) fn read(path: &Path, settings: &Settings) -> Result<Self, Failure> {
-        Ok(Self::of(input::read_deck(path, Keep::Interpreted, settings)?, settings))
+        Ok(Self::of(input::read_located_deck(path, Keep::Interpreted, settings, None)?, settings))
     }
 
-    fn of(deck: Deck, settings: &Settings) -> Self {
-        let (model, problems) = model::read(&deck, settings.grammar);
-        Self { deck, model, problems }
+    fn of(located: LocatedDeck, settings: &Settings) -> Self {
+        let (model, problems) = model::read(&located.deck, settings.grammar);
+        let places = located.places().to_vec();
+        Self { deck: located.deck, places, model, problems }
     }
 }
 
@@ -108,8 +112,7 @@ impl MeshedDeck {
         let keep = if is_file { Keep::Interpreted } else { Keep::Everything };
         let located = input::read_located_deck(path, keep, settings, None)?;
         let files = if is_file { Some(open_all(&located)?) } else { None };
-        let LocatedDeck { deck, .. } = located;
-        Ok((ReadDeck::of(deck, settings), files))
+        Ok((ReadDeck::of(located, settings), files))
     }
 
     /// Line and column of a span, also in rows that were not kept.
@@ -144,23 +147,46 @@ impl MeshedDeck {
     /// Says notes with their places.
     pub(crate) fn say_notes(&self, notes: &[MeshNote], messages: Messages<'_>) -> Result<(), Failure> {
         for note in notes.iter().take(MOST_NOTES) {
-            self.say_at(note, NoteSeverity::Note, messages)?;
+            self.say_note(note, messages)?;
         }
-        let more = notes.len().saturating_sub(MOST_NOTES);
-        if 0 < more {
-            messages.remark(|| format!("{}: note: {more} more notes", visible_line(&self.name)));
-        }
+        self.say_more(notes.len(), messages);
         Ok(())
     }
 
-    /// Says something of a place in the deck.
-    pub(crate) fn say_at(
+    /// A finding at a place in the deck; without one it is of the deck as a whole.
+    pub(crate) fn finding(&self, rule: &Rule, span: Option<Span>, message: &str) -> Result<Diagnostic, Failure> {
+        let mut label = Label::new(span.unwrap_or_default(), "");
+        label.file = self.read.deck.source(label.span.source).name().into();
+        match span {
+            Some(span) => label.position = self.position(span)?,
+            None => label.extent = Extent::File,
+        }
+        Ok(Diagnostic::new(rule, message, label))
+    }
+
+    /// Says findings of a rule that are not grave, each at its place; true if the configuration makes errors of them.
+    pub(crate) fn say_findings(
         &self,
-        note: &MeshNote,
-        severity: NoteSeverity,
-        messages: Messages<'_>,
-    ) -> Result<(), Failure> {
-        let (place, severity) = (self.position(note.span)?, severity.name());
+        rule: &Rule,
+        notes: &[MeshNote],
+        (messages, settings): (Messages<'_>, &Settings),
+    ) -> Result<bool, Failure> {
+        let found = notes.iter().take(MOST_NOTES).map(|note| self.finding(rule, Some(note.span), &note.message));
+        let has_errors = messages.of_deck(found.collect::<Result<_, _>>()?, &self.read.deck, settings);
+        self.say_more(notes.len(), messages);
+        Ok(has_errors)
+    }
+
+    fn say_more(&self, notes: usize, messages: Messages<'_>) {
+        let more = notes.saturating_sub(MOST_NOTES);
+        if 0 < more {
+            messages.remark(|| format!("{}: note: {more} more notes", visible_line(&self.name)));
+        }
+    }
+
+    /// Says something of a place in the deck.
+    fn say_note(&self, note: &MeshNote, messages: Messages<'_>) -> Result<(), Failure> {
+        let (place, severity) = (self.position(note.span)?, "note");
         let file = self.read.deck.source(note.span.source).name();
         let line = || {
             let line = format!("{file}:{}:{}: {severity}: {}", place.line, place.column, note.message);
@@ -181,24 +207,6 @@ impl MeshedDeck {
         // A note has no code, which an annotation would need as its title.
         messages.tell(line, record);
         Ok(())
-    }
-}
-
-/// Severities of what is said of a place without a code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum NoteSeverity {
-    /// Something was not read, or with an assumption.
-    Note,
-    /// Nothing can be done with the deck before it is mended.
-    Error,
-}
-
-impl NoteSeverity {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Note => "note",
-            Self::Error => "error",
-        }
     }
 }
 

@@ -3,20 +3,18 @@
 mod deck_conditions;
 mod failures;
 
-use super::findings::{Messages, Reporter};
+use super::findings::Reporter;
 use super::meshed::{MeshedDeck, ReadDeck};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
-use crate::input;
 use crate::reach;
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::{Diagnostic, Findings, keep_lines};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
-use inpact_parser::deck::Keep;
 use inpact_parser::grammar::{Dialect, Grammar};
-use inpact_parser::model::{self, Model, Name, Regime};
+use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::check;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -52,8 +50,10 @@ impl SolvableScene {
         let mut settings = Settings::of(path, reading)?;
         reporter.confine(&mut settings, path);
         let roots = settings.include_roots.as_slice();
-        let mut files = FilesBeside { folder, roots, failures: Vec::new() };
+        let mut files = FilesBeside { folder, roots, read: vec![path.to_owned()], failures: Vec::new() };
         let (scene, found) = scene::read_as_far_as_it_goes(&text, &name, &mut files);
+        let read: Vec<PathBuf> = files.read.iter().map(|file| files::whole_path(file)).collect();
+        reporter.files(&read);
         let shows_lines = reporter.shows_lines();
         let quote = |found| if shows_lines { quoted(&text, &name, found) } else { found };
         let found = quote(found);
@@ -71,12 +71,12 @@ impl SolvableScene {
             // Findings of the deck on the interfaces come in the same run, where there is a deck.
             let read = Settings::of(&deck_path, reading).and_then(|mut settings| {
                 reporter.confine(&mut settings, &deck_path);
-                let deck = input::read_deck(&deck_path, Keep::Interpreted, &settings)?;
-                Ok(model::read(&deck, settings.grammar).0)
+                ReadDeck::read(&deck_path, &settings)
             });
             let mut findings = Findings::new(&name);
-            if let Ok(model) = read {
-                report_unknown_interactions(&scene, &model, &mut findings);
+            if let Ok(read) = read {
+                reporter.files(&read.places);
+                report_unknown_interactions(&scene, &read.model, &mut findings);
             }
             reporter.data(quote(findings.into_list()), &settings);
             return Ok(None);
@@ -91,20 +91,22 @@ impl SolvableScene {
                 let mut findings = Findings::new(&name);
                 let parts = deck_conditions::targets(&scene);
                 let mut step = None;
-                let (meshed, places) = MeshedDeck::read_parts(&deck_path, &of_deck, |read| {
+                let (meshed, surfaces) = MeshedDeck::read_parts(&deck_path, &of_deck, |read| {
                     step = deck_conditions::step(wanted, steps_of(read, grammar), &mut findings);
                     step.map(|step| (parts, step))
                 })?;
                 if step.is_some() {
-                    deck_conditions::take(&mut scene, &meshed, &places, &meshed.read.model, &mut findings)?;
+                    deck_conditions::take(&mut scene, &meshed, &surfaces, &meshed.read.model, &mut findings)?;
                 }
                 if reporter.data(quote(findings.into_list()), &settings) {
+                    reporter.files(&meshed.read.places);
                     return Ok(None);
                 }
                 meshed.read
             }
         };
-        let ReadDeck { deck, model, problems } = read;
+        let ReadDeck { deck, places, model, problems } = read;
+        reporter.files(&places);
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
         let choices = choices_of(&scene, laws(&model, grammar.dialect(), Some(regime))?);
         let found = of_deck.apply(check(&deck, grammar, &model, &problems));
@@ -122,17 +124,14 @@ impl SolvableScene {
     pub(crate) fn problem(&self, reporter: &mut impl Reporter) -> Option<Problem<'_>> {
         let mut findings = Findings::new(&self.name);
         let problem = Problem::new(&self.scene, &self.model, &self.choices, &mut findings);
-        let mut found = findings.into_list();
-        if reporter.shows_lines() {
-            found = quoted(&self.text, &self.name, found);
-        }
+        let found = self.quoted(findings.into_list(), reporter);
         let has_errors = reporter.data(found, &self.settings);
         problem.filter(|_| !has_errors)
     }
 
     /// Findings in the scene with the lines around them, where they are shown.
-    pub(crate) fn quoted(&self, found: Vec<Diagnostic>, messages: Messages<'_>) -> Vec<Diagnostic> {
-        if messages.shows_lines() { quoted(&self.text, &self.name, found) } else { found }
+    pub(crate) fn quoted(&self, found: Vec<Diagnostic>, reporter: &impl Reporter) -> Vec<Diagnostic> {
+        if reporter.shows_lines() { quoted(&self.text, &self.name, found) } else { found }
     }
 
     /// The findings of a failure after the time of the last state.
@@ -188,6 +187,8 @@ struct FilesBeside<'a> {
     folder: &'a Path,
     /// Outside of which nothing is read.
     roots: &'a [PathBuf],
+    /// The files that were read, the scene first.
+    read: Vec<PathBuf>,
     /// The failures to read some.
     failures: Vec<Failure>,
 }
@@ -199,6 +200,7 @@ impl SceneFiles for FilesBeside<'_> {
 
     fn read(&mut self, name: &str) -> Option<Vec<u8>> {
         let path = self.folder.join(name);
+        self.read.push(path.clone());
         match refuse_outside(&path, self.roots).and_then(|()| files::read_lines(&path)) {
             Ok(bytes) => Some(bytes),
             Err(failure) => {

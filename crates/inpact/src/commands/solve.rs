@@ -124,7 +124,7 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
         Err(Stopped::Writing(failure)) => return Err(failure),
         Err(Stopped::Solving(failure)) => {
             let found = prepared.findings(&failure, last.as_ref().map(|state| state.time));
-            messages.data(prepared.quoted(found, messages), &prepared.settings);
+            messages.data(prepared.quoted(found, &messages), &prepared.settings);
             None
         }
     };

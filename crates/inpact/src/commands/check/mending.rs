@@ -1,7 +1,7 @@
 //! The work of `--fix` and `--diff` between checking the decks and printing the findings.
 
 use super::tally::count;
-use super::{CheckArguments, Checked, judge};
+use super::{CheckArguments, Checked, Kind, judge, scene};
 use crate::difference;
 use crate::failure::{Failure, say};
 use crate::files::transaction;
@@ -32,7 +32,8 @@ pub(super) fn mend(
 ) -> Mending {
     let held = HeldFiles::default();
     checked.iter_mut().flatten().filter_map(|checked| checked.held.take()).for_each(|files| held.take_over(files));
-    let subjects = checked.iter_mut().flatten().map(|checked| Subject {
+    let is_deck = |checked: &&mut Checked<'_>| checked.kind == Kind::Deck;
+    let subjects = checked.iter_mut().flatten().filter(is_deck).map(|checked| Subject {
         path: checked.path,
         settings: &checked.settings,
         places: std::mem::take(&mut checked.places),
@@ -41,7 +42,7 @@ pub(super) fn mend(
     let mut subjects: Vec<Subject<'_>> = subjects.collect();
     let Mended { findings, left, failures } = fixing::mend(&mut subjects, &held, selection);
     let places: Vec<Vec<PathBuf>> = subjects.into_iter().map(|subject| subject.places).collect();
-    for (checked, places) in checked.iter_mut().flatten().zip(places) {
+    for (checked, places) in checked.iter_mut().flatten().filter(is_deck).zip(places) {
         checked.places = places;
     }
     let mut mending = Mending { has_failed: !failures.is_empty(), ..Mending::default() };
@@ -81,6 +82,13 @@ pub(super) fn mend(
     checked.par_iter_mut().for_each(|result| {
         let Ok(checked) = result else { return };
         if !checked.places.iter().any(|place| changed.contains(place)) {
+            return;
+        }
+        if checked.kind == Kind::Scene {
+            match scene::check(checked.path, arguments, style) {
+                Ok(again) => *checked = again,
+                Err(failure) => *result = Err(failure),
+            }
             return;
         }
         let keep = arguments.keep(checked.path);

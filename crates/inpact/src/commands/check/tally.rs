@@ -33,6 +33,13 @@ impl Tally {
         tally
     }
 
+    /// The same of findings that no fix is applied to.
+    pub(super) fn without_fixes(diagnostics: &[Diagnostic]) -> Self {
+        let mut tally = Self::of_findings(diagnostics);
+        tally.codes.values_mut().for_each(|of_code| of_code.fixable = 0);
+        tally
+    }
+
     pub(super) fn add(&mut self, other: &Self) {
         for (severity, number) in &other.severities {
             *self.severities.entry(*severity).or_default() += number;
@@ -48,12 +55,17 @@ impl Tally {
         self.severities.get(&severity).copied().unwrap_or(0)
     }
 
-    pub(super) fn summary(&self, decks: usize) -> String {
+    pub(super) fn summary(&self, decks: usize, scenes: usize) -> String {
+        let checked = match (decks, scenes) {
+            (_, 0) => count(decks, "deck"),
+            (0, _) => count(scenes, "scene"),
+            _ => format!("{} and {}", count(decks, "deck"), count(scenes, "scene")),
+        };
         if self.codes.is_empty() {
-            return format!("{}: nothing to report", count(decks, "deck"));
+            return format!("{checked}: nothing to report");
         }
         let of = |severity: Severity| count(self.of(severity), severity.name());
-        format!("{}: {}, {}, {}", count(decks, "deck"), of(Severity::Error), of(Severity::Warning), of(Severity::Note))
+        format!("{checked}: {}, {}, {}", of(Severity::Error), of(Severity::Warning), of(Severity::Note))
     }
 
     /// The rules that found something, the most frequent first: a line each, or a JSON array.

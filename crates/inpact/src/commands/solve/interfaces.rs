@@ -29,7 +29,7 @@ pub(super) fn write(
     let (reader, mut rows) = (NodeReader::of_made(&columns.labels, &columns.numbers, Box::new(made)), kept_rows());
     let surveyed = survey_keeping(reader, model, choices, &mut findings, &mut rows).map_err(unreadable)?;
     let Some(surveyed) = surveyed.filter(|_| !findings.has_errors()) else {
-        messages.data(prepared.quoted(of_scene(findings, scene), messages), settings);
+        messages.data(prepared.quoted(of_scene(findings, scene), &messages), settings);
         return Err(Failure::Data("the interface rows of the scene cannot be evaluated".to_owned()));
     };
     let plan = make(model, &surveyed, choices);
@@ -54,7 +54,7 @@ pub(super) fn write(
     tally.report(&plan, &mut findings);
     let found = of_scene(findings, scene);
     let kept = refuse_configured_errors(&found, settings);
-    messages.data(prepared.quoted(found, messages), settings);
+    messages.data(prepared.quoted(found, &messages), settings);
     kept?;
     output.finish()
 }

@@ -1,0 +1,189 @@
+//! Scenes among what is checked: judged as `solve` judges them, with their tables and the part of their deck that they need, and not solved.
+
+use super::tally::Tally;
+use super::{CheckArguments, Checked, Kind};
+use crate::commands::findings::{Governing, Reporter, as_one, errors_elsewhere, has_errors, shown_of};
+use crate::commands::solvable::SolvableScene;
+use crate::failure::Failure;
+use crate::files::{self, STANDARD_STREAM};
+use crate::fixing::Need;
+use crate::render::{self, Format, Sources, Style};
+use crate::settings::Settings;
+use inpact_diagnostics::{Diagnostic, FixSafety};
+use inpact_parser::deck::Deck;
+use inpact_parser::grammar::Grammar;
+use inpact_parser::model::Model;
+use std::fs::File;
+use std::io::{BufRead, Read, stdin};
+use std::path::{Path, PathBuf};
+
+/// The number of bytes by which a file without `.toml` is recognised.
+const LOOKED_AT: u64 = 8 * 1024;
+
+/// What a file is: a scene by its name, or by what it begins with where its name says nothing.
+pub(super) fn kind_of(path: &Path) -> Kind {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    let begins_as_scene = || match beginning(path) {
+        Some(bytes) => is_scene(&bytes),
+        // What cannot be read is said by who reads it.
+        None => false,
+    };
+    match extension.as_deref() {
+        Some("toml") => Kind::Scene,
+        Some("inp") => Kind::Deck,
+        _ if begins_as_scene() => Kind::Scene,
+        _ => Kind::Deck,
+    }
+}
+
+/// The first bytes of a file; those of standard input stay to be read.
+fn beginning(path: &Path) -> Option<Vec<u8>> {
+    if path.as_os_str() == STANDARD_STREAM {
+        return stdin().lock().fill_buf().ok().map(<[u8]>::to_vec);
+    }
+    // What is no regular file can be read only once.
+    path.metadata().ok().filter(std::fs::Metadata::is_file)?;
+    let mut bytes = Vec::new();
+    File::open(path).ok()?.take(LOOKED_AT).read_to_end(&mut bytes).ok()?;
+    Some(bytes)
+}
+
+/// Whether a text begins as TOML does: with a table, or a key and a value; and has no keyword line.
+fn is_scene(bytes: &[u8]) -> bool {
+    let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    let Some(first) = lines.by_ref().find(|line| !line.is_empty() && !line.starts_with(b"#")) else { return false };
+    let is_of_key = |byte: &u8| byte.is_ascii_alphanumeric() || b"_-\"'. ".contains(byte);
+    let key = first.iter().take_while(|byte| is_of_key(byte)).count();
+    let is_first = first.starts_with(b"[") || (0 < key && first.get(key) == Some(&b'='));
+    is_first && !lines.any(|line| line.starts_with(b"*"))
+}
+
+/// Receives what is found in a scene, and in its deck, and makes a text of it.
+struct Judge<'a> {
+    format: Format,
+    style: Style,
+    /// Whether the text is wanted, not only the counts.
+    has_text: bool,
+    separator: &'a str,
+    text: String,
+    tally: Tally,
+    places: Vec<PathBuf>,
+    remarks: Vec<String>,
+}
+
+impl Judge<'_> {
+    fn take(&mut self, found: &[Diagnostic], sources: Sources<'_>) -> bool {
+        self.tally.add(&Tally::without_fixes(found));
+        if self.has_text {
+            let text = render::diagnostics(found, sources, self.format, self.style);
+            if !self.text.is_empty() && !text.is_empty() {
+                self.text += self.separator;
+            }
+            self.text += &text;
+        }
+        has_errors(found)
+    }
+}
+
+impl Reporter for Judge<'_> {
+    fn confine(&self, settings: &mut Settings, path: &Path) {
+        if matches!(self.format, Format::Github | Format::Sarif) {
+            settings.confine_to_repository(path);
+        }
+    }
+
+    fn shows_lines(&self) -> bool {
+        self.has_text && matches!(self.format, Format::Full | Format::Sarif)
+    }
+
+    fn files(&mut self, files: &[PathBuf]) {
+        for file in files {
+            if !self.places.contains(file) {
+                self.places.push(file.clone());
+            }
+        }
+    }
+
+    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
+        let found = settings.apply(found);
+        self.take(&found, Sources::Data)
+    }
+
+    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
+        let shown = shown_of(found, of, governing);
+        let deck = of.0.sources().first().map_or("the deck", |source| source.name());
+        self.remarks.extend(errors_elsewhere(found, &shown, &format!("inpact check {deck}")));
+        let is_mendable = |found: &Diagnostic| found.fix.as_ref().is_some_and(|fix| fix.safety == FixSafety::Safe);
+        if shown.iter().any(is_mendable) {
+            self.remarks.push(format!("what is found in the deck of a scene is mended by `inpact check --fix {deck}`"));
+        }
+        self.take(&shown, Sources::Deck(of.0))
+    }
+
+    fn failures(&mut self, failures: Vec<Failure>) -> Failure {
+        as_one(failures)
+    }
+}
+
+/// Judges a scene.
+pub(super) fn check<'a>(path: &'a Path, arguments: &CheckArguments, style: Style) -> Result<Checked<'a>, Failure> {
+    let mut judge = Judge {
+        format: arguments.format,
+        style,
+        has_text: !arguments.diff && !arguments.statistics,
+        separator: render::document(arguments.format).separator,
+        text: String::new(),
+        tally: Tally::default(),
+        places: Vec::new(),
+        remarks: Vec::new(),
+    };
+    let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
+    let reading = arguments.reading.options();
+    if let Some(scene) = SolvableScene::read(path, &laws, &reading, &mut judge)?
+        && let Some(problem) = scene.problem(&mut judge)
+    {
+        for failure in problem.certain_failures() {
+            let found = scene.quoted(scene.findings(&failure, None), &judge);
+            judge.data(found, &scene.settings);
+        }
+        judge.remarks.extend(problem.left_out.iter().map(|left_out| format!("left out: {left_out}")));
+    }
+    if arguments.geometry {
+        judge.remarks.push("the geometry of a scene is that of its deck: name the deck".to_owned());
+    }
+    let name = path.display();
+    let remarks = judge.remarks.iter().map(|remark| format!("{name}: {remark}")).collect();
+    // A table that cannot be read was a failure: what is left are files that were.
+    let mut places = judge.places;
+    if places.is_empty() {
+        places.push(files::whole_path(path));
+    }
+    Ok(Checked {
+        path,
+        kind: Kind::Scene,
+        settings: arguments.reading.settings(path)?,
+        text: judge.text,
+        tally: judge.tally,
+        remarks,
+        places,
+        need: Need::Nothing,
+        held: None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_scene;
+
+    #[test]
+    fn a_scene_is_known_by_its_beginning() {
+        for scene in ["deck = \"a.inp\"\n", "# made\n\n[time]\nend = 1.0\n", "[[node]]\n", " deck='a'"] {
+            assert!(is_scene(scene.as_bytes()), "{scene}");
+        }
+        for other in
+            ["", "*NODE\n1, 0.\n", "** A\n", "1., 2.\n", "a = 3\n*NODE\n", "version https://git-lfs\n", "# only\n"]
+        {
+            assert!(!is_scene(other.as_bytes()), "{other}");
+        }
+    }
+}
