@@ -136,36 +136,36 @@ fn what_cannot_be_taken_over_is_named_with_its_line() {
         (
             ELL.to_owned(),
             vec!["--terminals", "END,TOP"],
-            "a.inp:22:1: error: *CONDUCTIVITY of `STEEL` depends on temperature, from 0.0 to 100.0: a body is lumped at one temperature, which must be given\n",
+            "a.inp:22:1: error[D027] *CONDUCTIVITY of `STEEL` depends on temperature, from 0.0 to 100.0: a body is lumped at one temperature, which must be given\n",
         ),
         (
             ELL.to_owned(),
             vec!["--terminals", "TOP,26"],
-            "a.inp:1:1: error: the terminals `TOP` and `26` touch in node 26: no conductance is between them\n",
+            "a.inp:1:1: error[D028] the terminals `TOP` and `26` touch in node 26: no conductance is between them\n",
         ),
         (
             ELL.to_owned(),
             vec!["--terminals", "END,TIP"],
-            "error: the deck has no surface and no node set `TIP`: it has `END`, `TOP`, `SIDE`\n",
+            "a.inp: error[D028] the deck has no surface and no node set `TIP`: it has `END`, `TOP`, `SIDE`\n",
         ),
         (
             ELL.replace("*ELECTRICAL CONDUCTIVITY\n5e6\n", ""),
             vec!["--terminals", "END,TOP", "--field", "both", "--temperature", "25"],
-            "a.inp:39:1: error: the material `STEEL` has no *ELECTRICAL CONDUCTIVITY: found `C3D8` in a body with terminals\n",
+            "a.inp:39:1: error[D027] the material `STEEL` has no *ELECTRICAL CONDUCTIVITY: found `C3D8` in a body with terminals\n",
         ),
         (
             ELL.replace("MATERIAL=STEEL\n", "MATERIAL=IRON\n"),
             vec!["--terminals", "END,TOP", "--temperature", "25"],
-            "a.inp:38:1: error: the material `IRON` is not defined\n",
+            "a.inp:38:1: error[D027] the material `IRON` is not defined\n",
         ),
     ] {
         let run = of(&deck, &arguments);
         assert_eq!((run.code, run.output.as_str()), (1, ""), "{}", run.errors);
         // Places are looked for in the deck, since it has more lines than are shown here.
-        let said = expected.split_once("error: ").expect("an error").1;
-        assert!(run.errors.ends_with(&format!("error: {said}")), "{}", run.errors);
-        if let Some(place) = run.errors.strip_prefix("a.inp:") {
-            let line: usize = place.split(':').next().and_then(|line| line.parse().ok()).expect("a line");
+        let said = expected.split_once("error[").expect("an error").1;
+        assert!(run.errors.ends_with(&format!("error[{said}")), "{}", run.errors);
+        let place = run.errors.strip_prefix("a.inp:").and_then(|place| place.split(':').next());
+        if let Some(line) = place.and_then(|line| line.parse::<usize>().ok()) {
             let text = deck.lines().nth(line - 1).expect("a line of the deck");
             assert!(text.starts_with('*'), "{text}: {}", run.errors);
         }
@@ -178,7 +178,7 @@ fn parts_of_the_deck_beside_its_bodies_are_noted() {
         + "*ELEMENT, TYPE=S4R, ELSET=SKIN\n9, 1, 2, 12, 11\n*TIE, NAME=T\nEND, TOP\n*STEP\n*HEAT TRANSFER\n1., 1.\n*RADIATE\n1, R1, 0., 0.9\n*END STEP\n";
     let run = of(&deck, ALL);
     assert_eq!(run.code, 0, "{}", run.errors);
-    let notes: Vec<&str> = run.errors.lines().filter_map(|line| Some(line.split_once("note: ")?.1)).collect();
+    let notes: Vec<&str> = run.errors.lines().filter_map(|line| Some(line.split_once("note[D029] ")?.1)).collect();
     assert_eq!(
         notes,
         [

@@ -140,16 +140,42 @@ fn two_cubes_at_other_pressures() {
     }
 }
 
-/// The run of `friction.toml`: 1200 of heat, a quarter of it into the upper face.
+/// The run of `friction.toml`: 1200 of heat, a quarter of it into the upper face; pressure and shear are those that ccx prints of the joint.
 #[test]
 fn two_cubes_that_rub() {
     let laws = "*FRICTION\n0.5, 1.E9\n*GAP CONDUCTANCE\n100., 0.\n100., 5000.\n*GAP HEAT GENERATION\n0.8, 0.25, 3.\n";
-    let deck = cubes(1000.0, laws, "LA, 11, 11, 300.\nHB, 11, 11, 300.\n");
+    // A move of 1.E-6 to the side is twice what slips.
+    let held = "EBN, 1, 1, 1.E-6\nLA, 11, 11, 300.\nHB, 11, 11, 300.\n\
+                *NODE PRINT, NSET=LA, TOTALS=ONLY\nRFL\n*NODE PRINT, NSET=HB, TOTALS=ONLY\nRFL\n*CONTACT PRINT\nCSTR\n";
+    let deck = cubes(1000.0, laws, held);
     let folder = Folder::with(&[("job.inp", &deck)]);
     made(&folder, &CALCULIX);
     type_in(&folder, "pressure = 1000.0\nshear = 500.0");
     close(supply(&folder, "HB"), -540.0);
     close(supply(&folder, "LA"), -660.0);
+    let Some(folder) = ccx(&deck) else { return };
+    let dat = folder.read("job.dat");
+    let stresses = dat.split_once("contact stress").expect("contact stresses").1.lines().skip(2);
+    let stresses: Vec<[f64; 3]> = stresses
+        .take_while(|line| !line.trim().is_empty())
+        .map(|line| {
+            let cells: Vec<f64> = line.split_whitespace().skip(2).map(|cell| cell.parse().expect("a number")).collect();
+            [cells[0], cells[1], cells[2]]
+        })
+        .collect();
+    assert!(
+        !stresses.is_empty()
+            && stresses.iter().all(|stress| (0..3).all(|at| (stress[at] - stresses[0][at]).abs() < 1e-9)),
+        "{stresses:?}"
+    );
+    let [pressure, along, across] = stresses[0];
+    made(&folder, &CALCULIX);
+    type_in(&folder, &format!("pressure = {pressure:?}\nshear = {:?}", along.hypot(across)));
+    for set in ["HB", "LA"] {
+        to_the_last_digit(supply(&folder, set), &printed(&folder, set));
+    }
+    // Over all nodes of a cube ccx counts the heat of friction at its face as supplied, 300 of it: no more than that leaves through the joint.
+    to_the_last_digit(supply(&folder, "HB") + 300.0, &printed(&folder, "EBN"));
 }
 
 /// A block of one element type between z = low and high, on nodes from `first`; its ends are level, its sides may be crooked in between.
@@ -446,10 +472,92 @@ fn what_cannot_be_taken_over_is_named_with_its_line() {
             assert!(named, "{place}{said}\n{listed}");
         }
     }
-    assert!(!scene.contains("[[link]]"), "{scene}");
+    // The other body has its link.
+    assert_eq!(scene.matches("[[link]]").count(), 1, "{scene}");
+    assert!(scene.contains("nodes = [\"SUP\", \"NTOP\"]"), "{scene}");
     // At a temperature the conductivity is a number.
     made(&folder, &["--dialect", "calculix", "--temperature", "60"]);
-    assert!(folder.read("s.toml").contains("[[link]]"), "{}", folder.read("s.toml"));
+    assert_eq!(folder.read("s.toml").matches("[[link]]").count(), 2, "{}", folder.read("s.toml"));
+}
+
+/// A fault of one body, and a part that touches a joint, leave out the links of that body; the others have theirs.
+#[test]
+fn a_fault_leaves_out_the_links_of_its_body_alone() {
+    let whole = stack("C3D8", Shape::Straight, 3, STEADY);
+    let conducts = |scene: &str, a: &str, b: &str| scene.contains(&format!("nodes = [\"{a}\", \"{b}\"]\n"));
+    let varies = whole.replace("*CONDUCTIVITY\n90.0", "*CONDUCTIVITY\n90.0, 0.\n80.0, 100.");
+    // A part of an edge of the middle block that is held, of which one node is of a joint.
+    let edge: String = whole
+        .split_once("*NSET, NSET=EBN\n")
+        .and_then(|(_, rest)| rest.split_once('*'))
+        .map(|(rows, _)| rows.lines().take(2).map(|row| format!("{row}\n")).collect())
+        .expect("the nodes of the middle block");
+    let touches = whole
+        .replace("*SURFACE INTERACTION", &format!("*NSET, NSET=EDGE\n{edge}*SURFACE INTERACTION"))
+        .replace("*BOUNDARY\n", "*BOUNDARY\nEDGE, 11, 11, 50.\n");
+    let undefined = whole.replace("MATERIAL=MB\n", "MATERIAL=NONE\n");
+    for (deck, said) in [
+        (
+            varies,
+            "*CONDUCTIVITY of `MB` depends on temperature, from 0.0 to 100.0: a body is lumped at one temperature, which must be given: the thermal links of its body are left out",
+        ),
+        (touches, "`EDGE` of *BOUNDARY shares some of its nodes with"),
+        (undefined, "the material `NONE` is not defined: the thermal links of its body are left out"),
+    ] {
+        let folder = Folder::with(&[("job.inp", &deck)]);
+        let run = made(&folder, &CALCULIX);
+        let scene = folder.read("s.toml");
+        assert!(
+            run.errors.lines().any(|line| line.contains("job.inp:") && line.contains(said)),
+            "{said}\n{}",
+            run.errors
+        );
+        for (a, b) in [("LA", "SHA"), ("SLC", "HC")] {
+            assert!(conducts(&scene, a, b) || conducts(&scene, b, a), "{a} and {b}: {scene}");
+        }
+        let is_whole = said.starts_with("`EDGE`");
+        assert_eq!(conducts(&scene, "SLB", "SHB") || conducts(&scene, "SHB", "SLB"), is_whole, "{scene}");
+    }
+}
+
+/// A current into a bar, a joint and another bar to the ground: a deck of electrical conduction becomes a scene with nothing typed.
+#[test]
+fn an_electrical_scene_from_a_deck() {
+    let below = Block { first: 1000, name: "A", low: 0.0, high: 0.02, conductivity: 40.0 };
+    let above = Block { first: 2000, name: "B", low: 0.02, high: 0.05, conductivity: 90.0 };
+    let block = |of: &Block, electrical: f64| {
+        let text = block(of, "C3D8", Shape::Distorted, (2, 0.03)).replace("TYPE=C3D8", "TYPE=DC3D8E");
+        text.replace("*CONDUCTIVITY", &format!("*ELECTRICAL CONDUCTIVITY\n{electrical:?}\n*CONDUCTIVITY"))
+    };
+    let deck = format!(
+        "{}{}*SURFACE INTERACTION, NAME=JOINT\n*GAP ELECTRICAL CONDUCTANCE\n2.E6, 0.\n1.E5, 0.001\n*GAP CONDUCTANCE\n3000., 0.\n100., 0.001\n\
+         *CONTACT PAIR, INTERACTION=JOINT, TYPE=SURFACE TO SURFACE\nSLB, SHA\n*STEP\n*COUPLED THERMAL-ELECTRICAL, STEADY STATE\n1., 1.\n\
+         *BOUNDARY\nLA, 9, 9, 0.\nLA, 11, 11, 20.\nHB, 11, 11, 20.\n*CECURRENT\nHB, 9, 2.\n*END STEP\n",
+        block(&below, 5e6),
+        block(&above, 1e6)
+    );
+    let folder = Folder::with(&[("job.inp", &deck)]);
+    let run = made(&folder, &[]);
+    assert!(!run.errors.contains("missing"), "{}", run.errors);
+    let Solved { nodes, .. } = solve_in(&folder, "s.toml", &[]);
+    let area = 9e-4;
+    // Nine nodes at the top, 2 A each.
+    let current = 9.0 * 2.0;
+    let [lower, joint, upper] =
+        [5e6 * area / 0.02, 2e6 * area, 1e6 * area / 0.03].map(|conductance| current / conductance);
+    let potential = |node: &str| nodes.number(&[node], "potential");
+    let about = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-9, "{found} for {expected}");
+    about(potential("SHA"), lower);
+    about(potential("SLB"), lower + joint);
+    about(potential("HB"), lower + joint + upper);
+    // Half of what the joint dissipates warms either face; through 1.8, 2.7 and 2.7 W/K it leaves at both ends.
+    let half = 0.5 * current * joint;
+    let [below, between, above] = [40.0 * area / 0.02, 3000.0 * area, 90.0 * area / 0.03];
+    let determinant = (below + between) * (above + between) - between * between;
+    about(nodes.number(&["SHA"], "temperature") - 20.0, half * (above + 2.0 * between) / determinant);
+    about(nodes.number(&["SLB"], "temperature") - 20.0, half * (below + 2.0 * between) / determinant);
+    let checked = folder.inpact(&["check", "s.toml"]);
+    assert_eq!((checked.code, checked.output.as_str()), (0, ""), "{}", checked.errors);
 }
 
 /// A deck of several steps has to be told which, and none is written over the deck.

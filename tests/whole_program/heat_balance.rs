@@ -26,7 +26,9 @@ fn part(sample: &str, name: &str) -> (Vec<Node>, Vec<Vec<u32>>) {
 }
 
 /// The twin: the upper sheet at its place in the assembly, 11 micrometres lower, so that its crown is pressed flat and more.
-fn twin(discretisation: &str) -> String {
+///
+/// The nodes of its lower side are held column by column, in the sets `COLUMN-0` to `COLUMN-5`.
+pub(crate) fn twin(discretisation: &str, columns: [f64; 6]) -> String {
     let sample = std::fs::read_to_string(root().join("decks/weld-mesh/weld-mesh.inp")).expect("the sample");
     let ((lower, lower_elements), (upper, upper_elements)) = (part(&sample, "LOWER"), part(&sample, "UPPER"));
     let (sine, cosine) = 15.0_f64.to_radians().sin_cos();
@@ -43,21 +45,15 @@ fn twin(discretisation: &str) -> String {
     let of_upper: String = upper_elements.iter().map(|element| brick(element, 1000)).collect();
     let at_top: String =
         upper.iter().filter(|(_, [.., z])| top - 1e-6 < *z).map(|(node, _)| format!("{},\n", node + 1000)).collect();
-    // 120 degrees beside the weld before, 40 far from it, as the sample begins.
-    let warm: String = lower
-        .iter()
-        .filter(|(_, [.., z])| *z == 0.0)
-        .map(|(node, [x, ..])| {
-            let columns = [120, 90, 70, 55, 45, 40].into_iter().enumerate();
-            let nearest = columns.min_by(|(a, _), (b, _)| {
-                let distance = |column: usize| (x - 0.0012 * f64::from(u32::try_from(column).expect("few"))).abs();
-                distance(*a).total_cmp(&distance(*b))
-            });
-            format!("{node}, 11, 11, {}.\n", nearest.expect("six").1)
-        })
-        .collect();
+    let (mut sets, mut warm) = (String::new(), String::new());
+    for (number, temperature) in (0_u32..).zip(columns) {
+        let is_in = |(_, [x, _, z]): &&Node| *z == 0.0 && (x - 0.0012 * f64::from(number)).abs() < 1e-6;
+        let rows: String = lower.iter().filter(is_in).map(|(node, _)| format!("{node},\n")).collect();
+        sets += &format!("*NSET, NSET=COLUMN-{number}\n{rows}");
+        warm += &format!("COLUMN-{number}, 11, 11, {temperature:?}\n");
+    }
     format!(
-        "*NODE, NSET=HELD\n{nodes}*ELEMENT, TYPE=C3D8, ELSET=LOWER\n{of_lower}*ELEMENT, TYPE=C3D8, ELSET=UPPER\n{of_upper}*NSET, NSET=NTOP\n{at_top}\
+        "*NODE, NSET=HELD\n{nodes}*ELEMENT, TYPE=C3D8, ELSET=LOWER\n{of_lower}*ELEMENT, TYPE=C3D8, ELSET=UPPER\n{of_upper}*NSET, NSET=NTOP\n{at_top}{sets}\
 *SURFACE, NAME=MASTER
 LOWER, S2
 *SURFACE, NAME=SLAVE
@@ -96,9 +92,12 @@ CDIS, CSTR
     )
 }
 
+/// 120 degrees beside the weld before, 40 far from it, as the sample begins.
+pub(crate) const WARM: [f64; 6] = [120.0, 90.0, 70.0, 55.0, 45.0, 40.0];
+
 /// The heat that crosses: what ccx supplies at the upper side, and the sum of HFLA over all slave nodes.
 fn heats(discretisation: &str) -> Option<[f64; 2]> {
-    let folder = ccx(&twin(discretisation))?;
+    let folder = ccx(&twin(discretisation, WARM))?;
     let dat = folder.read("job.dat");
     let printed = dat.split_once("total heat generation for set NTOP").expect("the total").1;
     let supplied = printed.lines().nth(2).and_then(|line| line.trim().parse().ok()).expect("a number");

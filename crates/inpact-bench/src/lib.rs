@@ -6,9 +6,11 @@
 //! The benchmarks measure the other crates.
 //! The generator holds no more in memory than the interfaces of a node table, whatever the size of the output.
 //! [`network`] makes networks of nodes, and measures how exact and how fast they are solved.
+//! [`bodies`] measures what bodies take beside one linear solution.
 //! [`editing`] measures the language server as an editor sees it.
 //! [`extremes`] runs the other crates and writes the page of what they make of extreme numbers.
 
+pub mod bodies;
 pub mod deck;
 pub mod editing;
 pub mod extremes;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use inpact_bench::bodies;
 use inpact_bench::deck::{self, Content, DeckRequest};
 use inpact_bench::editing;
 use inpact_bench::extremes;
@@ -89,6 +90,21 @@ enum Command {
         /// Nodes along an edge of the cube.
         #[arg(default_values_t = [22, 100, 215], value_parser = clap::value_parser!(u32).range(3..=1000))]
         sides: Vec<u32>,
+    },
+    /// Print the page of bodies: what a body with four terminals takes beside one solution of its equations (docs/bodies-speed.md).
+    Bodies {
+        /// Elements along an edge of the body.
+        #[arg(default_values_t = [22, 47, 100], value_parser = clap::value_parser!(u32).range(4..=400))]
+        cells: Vec<u32>,
+    },
+    /// Solve a body once and print its measures.
+    #[command(hide = true)]
+    BodyOnce {
+        /// The deck.
+        deck: PathBuf,
+        /// How much is solved.
+        #[arg(value_enum)]
+        work: bodies::Work,
     },
     /// Read the mesh of a deck once and print its measures.
     #[command(hide = true)]
@@ -213,6 +229,8 @@ fn run(command: Command) -> io::Result<()> {
             let line = line.map_err(|failure| io::Error::other(format!("not solved: {failure:?}")))?;
             writeln!(io::stdout(), "{line}")
         }
+        Command::Bodies { cells } => io::stdout().lock().write_all(bodies::page(&cells)?.as_bytes()),
+        Command::BodyOnce { deck, work } => writeln!(io::stdout(), "{}", bodies::measure(&deck, work)?.line()),
         Command::Mesh { sides } => io::stdout().lock().write_all(mesh::page(&sides)?.as_bytes()),
         Command::MeshOnce { deck } => writeln!(io::stdout(), "{}", mesh::measure(&deck)?.line()),
         Command::GridMatrix { out, grid } => Assembled::of(&grid.grid().network()).write(&mut open(&out)?),

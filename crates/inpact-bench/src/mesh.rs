@@ -238,17 +238,17 @@ fn measure_all(program: &Path, path: &Path, sides: &[u32]) -> io::Result<Vec<(u3
 }
 
 /// Measures the time that the threads of this process have a processor, so that work beside it does not count; the time that passes where the system does not tell.
-struct Timer {
+pub(crate) struct Timer {
     start: Instant,
     busy: Option<f64>,
 }
 
 impl Timer {
-    fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self { start: Instant::now(), busy: Self::busy() }
     }
 
-    fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         let busy = Self::busy().zip(self.busy).map(|(now, before)| now - before);
         busy.unwrap_or_else(|| self.start.elapsed().as_secs_f64())
     }

@@ -2,7 +2,8 @@
 
 use crate::body::Body;
 use crate::error::BodyFault;
-use inpact_geometry::{Conductivity, Point, SolidElement};
+use crate::rules::UNUSABLE_MESH;
+use inpact_geometry::{Conductivity, SolidElement};
 use inpact_parser::mesh::ElementBlock;
 
 /// A symmetric matrix whose rows sum to zero: its entries below the diagonal, row by row, and the diagonal.
@@ -87,17 +88,19 @@ impl Matrix {
     /// The first element that is inside out or flat.
     pub(crate) fn add_block(
         &mut self,
+        body: &Body,
         block: &ElementBlock,
-        points: &[Point],
         conductivity: &Conductivity,
     ) -> Result<(), BodyFault> {
         let element = solid(block);
         let mut integrals = element.integrals();
         let mut places = Vec::with_capacity(element.nodes());
-        for (label, nodes) in block.labels.iter().zip(block.each()) {
+        for (label, nodes) in block.labels.iter().zip(block.each()).filter(|(_, nodes)| body.has_terminal(nodes)) {
             places.clear();
-            places.extend(nodes.iter().map(|node| points[node.index()]));
-            element.conduct(&places, conductivity, &mut integrals).map_err(|error| inverted(block, *label, &error))?;
+            places.extend(nodes.iter().map(|node| body.mesh.points[node.index()]));
+            element
+                .conduct(&places, conductivity, &mut integrals)
+                .map_err(|error| inverted(block, *label, &error).of(vec![body.body_of(nodes)]))?;
             for (a, node) in nodes.iter().enumerate() {
                 self.add(node.0, node.0, integrals.conductance(a, a));
                 for (b, other) in nodes[..a].iter().enumerate() {
@@ -188,10 +191,12 @@ impl Held {
             let element = solid(block);
             let mut integrals = element.integrals();
             let mut places = Vec::with_capacity(element.nodes());
-            for (label, nodes) in block.labels.iter().zip(block.each()) {
+            for (label, nodes) in block.labels.iter().zip(block.each()).filter(|(_, nodes)| body.has_terminal(nodes)) {
                 places.clear();
                 places.extend(nodes.iter().map(|node| body.mesh.points[node.index()]));
-                element.hold(&places, &mut integrals).map_err(|error| inverted(block, *label, &error))?;
+                element
+                    .hold(&places, &mut integrals)
+                    .map_err(|error| inverted(block, *label, &error).of(vec![body.body_of(nodes)]))?;
                 for (node, volume) in nodes.iter().zip(integrals.volumes()) {
                     held.volumes[node.index()] += volume;
                     held.capacities[node.index()] += heat * volume;
@@ -207,5 +212,5 @@ fn solid(block: &ElementBlock) -> SolidElement {
 }
 
 fn inverted(block: &ElementBlock, label: u32, error: &inpact_geometry::GeometryError) -> BodyFault {
-    BodyFault::at(block.span, format!("element {label} of type {}: {error}", block.type_name))
+    BodyFault::at(&UNUSABLE_MESH, block.span, format!("element {label} of type {}: {error}", block.type_name))
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{BodyError, BodyFault};
 use crate::material::BodyField;
+use crate::rules::UNUSABLE_TERMINAL;
 use inpact_geometry::NodeId;
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
@@ -60,43 +61,71 @@ impl Body {
     /// # Errors
     ///
     /// As [`read`](Self::read).
-    pub fn of(mut mesh: BodyMesh, names: &[Name]) -> Result<Self, BodyError> {
+    pub fn of(mesh: BodyMesh, names: &[Name]) -> Result<Self, BodyError> {
+        let (body, faults) = Self::sound(mesh, names)?;
+        BodyError::unless_none(faults)?;
+        Ok(body)
+    }
+
+    /// The same without the bodies that have faults of their own, and what these are; a terminal without a solid has no node and is of no body.
+    ///
+    /// # Errors
+    ///
+    /// Faults that no body is free of: the mesh cannot be read, or a terminal is not defined.
+    pub fn sound(mut mesh: BodyMesh, names: &[Name]) -> Result<(Self, Vec<BodyFault>), BodyError> {
         let mut faults: Vec<BodyFault> = std::mem::take(&mut mesh.faults).into_iter().map(BodyFault::from).collect();
-        let mut terminals = Vec::new();
+        let (mut terminals, mut alone) = (Vec::new(), Vec::new());
         for (name, terminal) in names.iter().zip(std::mem::take(&mut mesh.terminals)) {
             match terminal {
                 Some(terminal) if !terminal.nodes.is_empty() => terminals.push(terminal),
-                // What else is wrong with the deck may be why.
-                Some(terminal) if faults.is_empty() => {
+                Some(terminal) => {
                     let message = format!("no solid element has a node of `{name}`");
                     let span = Some(terminal.span).filter(|span| *span != Span::default());
-                    faults.push(BodyFault { span, message });
+                    alone.push(BodyFault { rule: &UNUSABLE_TERMINAL, span, message, bodies: Vec::new() });
+                    terminals.push(terminal);
                 }
-                Some(_) => {}
-                None => faults.push(BodyFault { span: None, message: undefined(name, &mesh.known) }),
+                None => faults.push(BodyFault {
+                    rule: &UNUSABLE_TERMINAL,
+                    span: None,
+                    message: undefined(name, &mesh.known),
+                    bodies: Vec::new(),
+                }),
             }
         }
         BodyError::unless_none(faults)?;
         if mesh.points.is_empty() {
-            return Err(BodyError::without_place("the deck has no solid element".to_owned()));
+            return Err(without_solid(&mesh));
         }
         let (part_of, mut parts) = parts(&mesh);
-        let mut faults = touching(&mesh, &terminals);
+        let mut faults = alone;
+        faults.extend(touching(&mesh, &terminals, &part_of));
         for (at, terminal) in terminals.iter().enumerate() {
-            let part = part_of[terminal.nodes[0].index()];
+            let Some(first) = terminal.nodes.first() else { continue };
+            let part = part_of[first.index()];
             parts[part as usize].terminals.push(at);
             if let Some(other) = terminal.nodes.iter().find(|node| part_of[node.index()] != part) {
                 let message = format!(
                     "`{}` lies in two bodies: nothing solid connects its nodes {} and {}",
                     terminal.name,
-                    mesh.node(terminal.nodes[0]),
+                    mesh.node(*first),
                     mesh.node(*other)
                 );
-                faults.push(BodyFault::at(terminal.span, message));
+                let bodies = terminal.nodes.iter().map(|node| part_of[node.index()]).collect();
+                faults.push(BodyFault::at(&UNUSABLE_TERMINAL, terminal.span, message).of(bodies));
             }
         }
-        BodyError::unless_none(faults)?;
-        Ok(Self { mesh, terminals, parts, part_of })
+        let mut body = Self { mesh, terminals, parts, part_of };
+        for fault in &faults {
+            body.leave_out(&fault.bodies);
+        }
+        Ok((body, faults))
+    }
+
+    /// Takes the terminals of some bodies away, which are then passed over.
+    pub fn leave_out(&mut self, bodies: &[u32]) {
+        for body in bodies {
+            self.parts[*body as usize].terminals.clear();
+        }
     }
 
     /// The bodies, with and without terminals, in the order of their first nodes.
@@ -122,15 +151,29 @@ impl Body {
     /// What a material of the bodies with terminals has a conductivity for.
     pub fn fields(&self) -> Vec<BodyField> {
         let blocks = self.blocks();
-        let conducts =
-            |field: &BodyField| blocks.iter().any(|block| field.of(&self.mesh.materials[block.material]).is_some());
+        let materials = || blocks.iter().filter_map(|block| self.mesh.materials.get(block.material));
+        let conducts = |field: &BodyField| materials().any(|material| field.of(material).is_some());
         [BodyField::Electrical, BodyField::Thermal].into_iter().filter(conducts).collect()
     }
 
     /// The blocks with an element in a body that has a terminal.
     pub(crate) fn blocks(&self) -> Vec<&ElementBlock> {
-        let has_terminal = |nodes: &[NodeId]| !self.parts[self.part_of[nodes[0].index()] as usize].terminals.is_empty();
-        self.mesh.elements.iter().filter(|block| block.each().any(has_terminal)).collect()
+        self.mesh.elements.iter().filter(|block| block.each().any(|nodes| self.has_terminal(nodes))).collect()
+    }
+
+    /// The bodies with a terminal that have an element of a block.
+    pub(crate) fn bodies_of(&self, block: &ElementBlock) -> Vec<u32> {
+        block.each().filter(|nodes| self.has_terminal(nodes)).map(|nodes| self.body_of(nodes)).collect()
+    }
+
+    /// Whether an element is of a body with a terminal; others are passed over.
+    pub(crate) fn has_terminal(&self, nodes: &[NodeId]) -> bool {
+        !self.parts[self.body_of(nodes) as usize].terminals.is_empty()
+    }
+
+    /// The body of an element.
+    pub(crate) fn body_of(&self, nodes: &[NodeId]) -> u32 {
+        self.part_of[nodes[0].index()]
     }
 }
 
@@ -142,6 +185,16 @@ fn undefined(name: &Name, known: &[Name]) -> String {
     let more = known.len() - shown.len();
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
     format!("the deck has no surface and no node set `{name}`: it has {}{more}", shown.join(", "))
+}
+
+/// The elements that a deck has instead of solids, each with its place.
+fn without_solid(mesh: &BodyMesh) -> BodyError {
+    let of_elements = mesh.left_out.iter().filter(|note| note.message.starts_with("elements of type"));
+    let faults: Vec<BodyFault> = of_elements.cloned().map(BodyFault::from).collect();
+    match BodyError::unless_none(faults) {
+        Err(error) => error,
+        Ok(()) => BodyError::without_place("the deck has no solid element".to_owned()),
+    }
 }
 
 /// The part of each node, and the parts.
@@ -186,7 +239,7 @@ fn root(parent: &mut [u32], node: u32) -> u32 {
 }
 
 /// Terminals that share nodes, each pair once.
-fn touching(mesh: &BodyMesh, terminals: &[MeshTerminal]) -> Vec<BodyFault> {
+fn touching(mesh: &BodyMesh, terminals: &[MeshTerminal], part_of: &[u32]) -> Vec<BodyFault> {
     let mut owner: Vec<Option<usize>> = vec![None; mesh.points.len()];
     let mut faults = Vec::new();
     let mut known: Vec<(usize, usize)> = Vec::new();
@@ -201,7 +254,8 @@ fn touching(mesh: &BodyMesh, terminals: &[MeshTerminal]) -> Vec<BodyFault> {
                     terminal.name,
                     mesh.node(*node)
                 );
-                faults.push(BodyFault::at(terminal.span, message));
+                let bodies = vec![part_of[node.index()]];
+                faults.push(BodyFault::at(&UNUSABLE_TERMINAL, terminal.span, message).of(bodies));
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Reasons why a body has no conductances.
 
+use crate::rules::UNUSABLE_MESH;
+use inpact_diagnostics::Rule;
 use inpact_parser::mesh::MeshNote;
 use inpact_parser::span::Span;
 use std::fmt;
@@ -13,10 +15,14 @@ pub struct BodyError {
 /// A fault, for users.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BodyFault {
+    /// The rule that it breaks.
+    pub rule: &'static Rule,
     /// Its place in the deck; `None` for names that were asked for, and for what cannot be solved.
     pub span: Option<Span>,
     /// What is wrong.
     pub message: String,
+    /// The bodies that it keeps from being lumped, as positions in [`Body::parts`](crate::Body::parts); empty where it is all of them.
+    pub bodies: Vec<u32>,
 }
 
 impl BodyError {
@@ -34,21 +40,28 @@ impl BodyError {
         Err(Self { faults })
     }
 
-    /// A fault without a place.
+    /// A fault of the mesh without a place.
     pub(crate) fn without_place(message: String) -> Self {
-        Self { faults: vec![BodyFault { span: None, message }] }
+        Self { faults: vec![BodyFault { rule: &UNUSABLE_MESH, span: None, message, bodies: Vec::new() }] }
     }
 }
 
 impl BodyFault {
-    pub(crate) fn at(span: Span, message: String) -> Self {
-        Self { span: Some(span), message }
+    pub(crate) fn at(rule: &'static Rule, span: Span, message: String) -> Self {
+        Self { rule, span: Some(span), message, bodies: Vec::new() }
+    }
+
+    /// The same of some bodies alone.
+    pub(crate) fn of(self, mut bodies: Vec<u32>) -> Self {
+        bodies.sort_unstable();
+        bodies.dedup();
+        Self { bodies, ..self }
     }
 }
 
 impl From<MeshNote> for BodyFault {
     fn from(note: MeshNote) -> Self {
-        Self::at(note.span, note.message)
+        Self::at(&UNUSABLE_MESH, note.span, note.message)
     }
 }
 

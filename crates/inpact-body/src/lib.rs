@@ -45,6 +45,7 @@ mod error;
 mod even;
 mod lumped;
 mod material;
+mod rules;
 mod solve;
 
 pub use body::{Body, BodyPart};
@@ -52,4 +53,5 @@ pub use conductances::Conductances;
 pub use error::{BodyError, BodyFault};
 pub use lumped::{BodySummary, Lumped, TerminalSummary};
 pub use material::BodyField;
+pub use rules::{BESIDE_BODIES, BODY_RULES, NEGATIVE_CONDUCTANCE, UNUSABLE_MESH, UNUSABLE_PROPERTY, UNUSABLE_TERMINAL};
 pub use solve::{Solution, SolutionMethod};

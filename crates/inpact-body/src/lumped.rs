@@ -6,12 +6,15 @@ use crate::conductances::Conductances;
 use crate::error::{BodyError, BodyFault};
 use crate::even::{Even, even};
 use crate::material::{BodyField, tensor, values_at};
+use crate::rules::UNUSABLE_PROPERTY;
 use crate::solve::{Equations, Solution};
-use inpact_geometry::{Conductivity, NodeId};
+use inpact_geometry::{Conductivity, NodeId, Point};
 use inpact_network::linear::{Cholesky, NoSolution};
-use inpact_parser::mesh::{BodyMaterial, ElementBlock, MaterialProperty, MeshNote, TensorKind};
+use inpact_parser::mesh::{BodyMaterial, ElementBlock, MaterialAxes, MaterialProperty, MeshNote, TensorKind};
 use inpact_parser::model::Name;
-use std::collections::HashSet;
+use inpact_parser::span::Span;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// What bodies conduct and hold between their terminals.
 #[derive(Debug, Clone)]
@@ -26,8 +29,8 @@ pub struct Lumped {
     pub terminals: Vec<TerminalSummary>,
     /// The bodies that have a terminal.
     pub bodies: Vec<BodySummary>,
-    /// What each terminal holds (M L² T⁻² θ⁻¹); `None` of a current, and where a material has no density or specific heat.
-    pub capacities: Option<Vec<f64>>,
+    /// What each terminal holds (M L² T⁻² θ⁻¹); `None` of a current, where a material of its body has no density or specific heat, and where its body was left out.
+    pub capacities: Vec<Option<f64>>,
     /// The lowest and the highest value of a potential that is 1 at one terminal and 0 at the others: from 0 to 1 by the maximum principle, which a mesh may break.
     pub potentials: [f64; 2],
     /// Parts of the deck that were not taken over for this field, with their places.
@@ -45,8 +48,8 @@ pub struct TerminalSummary {
     pub nodes: usize,
     /// Its area (L²); `None` of a node set that is not made of whole faces, whose nodes share a flow equally.
     pub area: Option<f64>,
-    /// The body it is of, a position in [`Lumped::bodies`].
-    pub body: usize,
+    /// The body it is of, a position in [`Lumped::bodies`]; `None` where that was left out.
+    pub body: Option<usize>,
     /// What it conducts to all others with even flows: no joint with an even flow has less.
     pub lower: f64,
     /// What it conducts to all others with one temperature: no joint has more.
@@ -86,31 +89,29 @@ impl Body {
     /// section with ORIENTATION or in a turned instance, an element that is inside out, or equations that rounding leaves without a solution.
     pub fn lumped(&self, field: BodyField, temperature: Option<f64>) -> Result<Lumped, BodyError> {
         let blocks = self.blocks();
-        let conductivities = self.conductivities(&blocks, field, temperature)?;
-        let mut matrix = Matrix::pattern(&blocks, self.mesh.points.len());
-        for (block, conductivity) in blocks.iter().zip(&conductivities) {
-            matrix.add_block(block, &self.mesh.points, conductivity).map_err(only)?;
-        }
+        let matrix = self.matrix(&blocks, field, temperature)?;
         let shares: Vec<Even> = self.terminals.iter().map(|terminal| even(self, terminal)).collect();
         let (potentials, isothermal_solution) = self.potentials(&matrix)?;
         let isothermal = self.isothermal(&matrix, &potentials);
         let (even, ranges, even_solution) = self.even(&matrix, &shares)?;
         let (held, left_out) = self.held(&blocks, field, temperature)?;
         let bodies = self.summaries(&held);
-        let capacities = held.capacities.as_ref().map(|capacities| {
-            let of = |potential: &Vec<f64>| {
-                let mut sum = Sum::default();
-                potential.iter().zip(capacities).for_each(|(potential, capacity)| sum.add(potential * capacity));
-                sum.value()
-            };
-            potentials.iter().map(of).collect()
-        });
+        let bodies_of: Vec<Option<usize>> =
+            (0..self.terminals.len()).map(|at| bodies.iter().position(|body| body.terminals.contains(&at))).collect();
+        let capacity = |at: usize| {
+            bodies[bodies_of[at]?].capacity?;
+            let mut sum = Sum::default();
+            let pairs = potentials[at].iter().zip(&held.capacities);
+            pairs.for_each(|(potential, capacity)| sum.add(potential * capacity));
+            Some(sum.value())
+        };
+        let capacities = (0..self.terminals.len()).map(capacity).collect();
         let all = || potentials.iter().flatten();
         let terminals = self.terminals.iter().enumerate().map(|(at, terminal)| TerminalSummary {
             name: terminal.name.clone(),
             nodes: terminal.nodes.len(),
             area: shares[at].area,
-            body: bodies.iter().position(|body| body.terminals.contains(&at)).unwrap_or_default(),
+            body: bodies_of[at],
             lower: even.to_all(at),
             upper: isothermal.to_all(at),
             range: ranges[at],
@@ -128,6 +129,48 @@ impl Body {
         })
     }
 
+    /// The potential of a terminal, by the nodes of [`mesh`](Self::mesh): 1 at it, and 0 at all other terminals and in all other bodies; one solution of one linear system.
+    ///
+    /// # Errors
+    ///
+    /// As [`lumped`](Self::lumped).
+    ///
+    /// # Panics
+    ///
+    /// There is no such terminal.
+    pub fn potential(
+        &self,
+        field: BodyField,
+        temperature: Option<f64>,
+        terminal: usize,
+    ) -> Result<(Vec<f64>, Solution), BodyError> {
+        let matrix = self.matrix(&self.blocks(), field, temperature)?;
+        let nodes = self.mesh.points.len();
+        let is_held = self.held_nodes();
+        let mut potential = vec![0.0; nodes];
+        self.terminals[terminal].nodes.iter().for_each(|node| potential[node.index()] = 1.0);
+        let mut fields = [potential];
+        let solution =
+            Equations { matrix: &matrix, is_held: &is_held, sources: vec![vec![0.0; nodes]] }.solve(&mut fields)?;
+        let [potential] = fields;
+        Ok((potential, solution))
+    }
+
+    /// The matrix of some blocks.
+    fn matrix(
+        &self,
+        blocks: &[&ElementBlock],
+        field: BodyField,
+        temperature: Option<f64>,
+    ) -> Result<Matrix, BodyError> {
+        let conductivities = self.conductivities(blocks, field, temperature)?;
+        let mut matrix = Matrix::pattern(blocks, self.mesh.points.len());
+        for (block, conductivity) in blocks.iter().zip(&conductivities) {
+            matrix.add_block(self, block, conductivity).map_err(only)?;
+        }
+        Ok(matrix)
+    }
+
     /// The conductivity of each block.
     fn conductivities(
         &self,
@@ -138,7 +181,11 @@ impl Body {
         let mut faults: Vec<BodyFault> = Vec::new();
         let mut found = Vec::new();
         for block in blocks {
-            let material = &self.mesh.materials[block.material];
+            let Some(material) = self.mesh.materials.get(block.material) else {
+                let message = format!("the material `{}` is not defined", block.material_name);
+                faults.push(BodyFault::at(&UNUSABLE_PROPERTY, block.section, message).of(self.bodies_of(block)));
+                continue;
+            };
             let Some(property) = field.of(material) else {
                 let message = format!(
                     "the material `{}` has no *{}: found `{}` in a body with terminals",
@@ -146,47 +193,61 @@ impl Body {
                     field.keyword(),
                     block.type_name
                 );
-                faults.push(BodyFault::at(material.span, message));
+                faults.push(BodyFault::at(&UNUSABLE_PROPERTY, material.span, message).of(self.bodies_of(block)));
                 continue;
             };
             let conductivity = values_at(property, &material.name, temperature)
                 .and_then(|values| tensor(property, &material.name, &values))
-                .and_then(|conductivity| self.in_axes(block, property, material).map(|()| conductivity));
+                .and_then(|conductivity| self.in_axes(conductivity, block, property, material));
             match conductivity {
                 Ok(conductivity) => found.push(conductivity),
-                Err(fault) => faults.push(fault),
+                Err(fault) => faults.push(fault.of(self.bodies_of(block))),
             }
         }
-        let mut met = HashSet::new();
-        faults.retain(|fault| met.insert((fault.span, fault.message.clone())));
+        // Of one that several blocks have the first is kept, with the bodies of all.
+        let mut met: HashMap<(Option<Span>, String), usize> = HashMap::new();
+        let mut kept: Vec<BodyFault> = Vec::new();
+        for fault in faults {
+            match met.entry((fault.span, fault.message.clone())) {
+                Entry::Occupied(at) => {
+                    let known = &mut kept[*at.get()];
+                    let bodies = known.bodies.iter().chain(&fault.bodies).copied().collect();
+                    *known = known.clone().of(bodies);
+                }
+                Entry::Vacant(at) => {
+                    at.insert(kept.len());
+                    kept.push(fault);
+                }
+            }
+        }
+        let faults = kept;
         BodyError::unless_none(faults)?;
         Ok(found)
     }
 
-    /// Refuses directions that are not those of the coordinates.
+    /// A conductivity in the axes of the coordinates; refuses directions that are not known.
     fn in_axes(
         &self,
+        conductivity: Conductivity,
         block: &ElementBlock,
         property: &MaterialProperty,
         material: &BodyMaterial,
-    ) -> Result<(), BodyFault> {
+    ) -> Result<Conductivity, BodyFault> {
         if property.kind == TensorKind::Isotropic {
-            return Ok(());
+            return Ok(conductivity);
         }
         let (keyword, name) = (property.keyword, &material.name);
-        if let Some(orientation) = &block.orientation {
-            let message = format!(
-                "*{keyword} of `{name}` has directions, and the section has the *ORIENTATION `{orientation}`, which is not read"
-            );
-            return Err(BodyFault::at(block.section, message));
-        }
-        if self.mesh.turned.contains(&block.instance) {
-            let message = format!(
-                "*{keyword} of `{name}` has directions, and its part stands turned in the assembly: which axes they follow is not read"
-            );
-            return Err(BodyFault::at(block.section, message));
-        }
-        Ok(())
+        let message = match &block.axes {
+            MaterialAxes::Along(axes) => return Ok(along(&conductivity, axes)),
+            MaterialAxes::Unread(orientation, why) => format!(
+                "*{keyword} of `{name}` has directions, and the *ORIENTATION `{orientation}` of its section {why}"
+            ),
+            MaterialAxes::Unsaid if self.mesh.turned.contains(&block.instance) => format!(
+                "*{keyword} of `{name}` has directions, and its part stands turned in the assembly: without *ORIENTATION it is not said which axes they follow"
+            ),
+            MaterialAxes::Unsaid => return Ok(conductivity),
+        };
+        Err(BodyFault::at(&UNUSABLE_PROPERTY, block.section, message))
     }
 
     /// The terminals of each body with at least two, which are all that conduct between terminals.
@@ -199,14 +260,20 @@ impl Body {
         self.part_of.iter().map(|part| self.parts[*part as usize].terminals.len() < 2).collect()
     }
 
-    /// The potential of each terminal: 1 at it, 0 at all others.
-    fn potentials(&self, matrix: &Matrix) -> Result<(Vec<Vec<f64>>, Solution), BodyError> {
-        let nodes = self.mesh.points.len();
-        let groups = self.groups();
+    /// Nodes whose value is given: those of terminals, and of bodies that nothing is asked of.
+    fn held_nodes(&self) -> Vec<bool> {
         let mut is_held = self.idle();
         for node in self.terminals.iter().flat_map(|terminal| &terminal.nodes) {
             is_held[node.index()] = true;
         }
+        is_held
+    }
+
+    /// The potential of each terminal: 1 at it, 0 at all others.
+    fn potentials(&self, matrix: &Matrix) -> Result<(Vec<Vec<f64>>, Solution), BodyError> {
+        let nodes = self.mesh.points.len();
+        let groups = self.groups();
+        let is_held = self.held_nodes();
         // The last terminal of a body has what the others leave of 1; bodies are solved together, a terminal of each at a time.
         let rounds = groups.iter().map(|group| group.len() - 1).max().unwrap_or(0);
         let mut fields = vec![vec![0.0; nodes]; rounds];
@@ -322,6 +389,8 @@ impl Body {
     ) -> Result<(OfNodes, Vec<MeshNote>), BodyError> {
         let mut left_out: Vec<MeshNote> = Vec::new();
         let mut heats = Vec::new();
+        // What is held of a body is known where it is of all its elements.
+        let mut is_known = vec![field == BodyField::Thermal; self.parts.len()];
         for block in blocks {
             let material = &self.mesh.materials[block.material];
             let heat = match field {
@@ -331,18 +400,18 @@ impl Body {
             heats.push(heat.unwrap_or_else(|fault| {
                 let note = MeshNote {
                     span: fault.span.unwrap_or(material.span),
-                    message: format!("{}, so that bodies have no capacity here", fault.message),
+                    message: format!("{}, so that its bodies have no capacity here", fault.message),
                 };
                 if !left_out.contains(&note) {
                     left_out.push(note);
                 }
+                self.bodies_of(block).into_iter().for_each(|body| is_known[body as usize] = false);
                 0.0
             }));
         }
         let pairs: Vec<(&ElementBlock, f64)> = blocks.iter().copied().zip(heats).collect();
         let Held { volumes, capacities } = Held::of(self, &pairs).map_err(only)?;
-        let is_known = field == BodyField::Thermal && left_out.is_empty();
-        Ok((OfNodes { volumes, capacities: is_known.then_some(capacities) }, left_out))
+        Ok((OfNodes { volumes, capacities, is_known }, left_out))
     }
 
     fn summaries(&self, held: &OfNodes) -> Vec<BodySummary> {
@@ -359,7 +428,7 @@ impl Body {
                 nodes: part.nodes,
                 elements: part.elements,
                 volume: sum(&held.volumes),
-                capacity: held.capacities.as_deref().map(sum),
+                capacity: held.is_known[number].then(|| sum(&held.capacities)),
             }
         };
         with_terminal.map(summary).collect()
@@ -369,7 +438,17 @@ impl Body {
 /// Volume and capacity of each node.
 struct OfNodes {
     volumes: Vec<f64>,
-    capacities: Option<Vec<f64>>,
+    capacities: Vec<f64>,
+    /// Whether the capacity of each body is known.
+    is_known: Vec<bool>,
+}
+
+/// A tensor whose components are along some axes, in those of the coordinates: k_ij e_i e_j.
+fn along(k: &Conductivity, axes: &[Point; 3]) -> Conductivity {
+    let component = |a: usize, b: usize| {
+        (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| k[i][j] * axes[i][a] * axes[j][b]).sum()
+    };
+    [0, 1, 2].map(|a| [0, 1, 2].map(|b| component(a.min(b), a.max(b))))
 }
 
 fn only(fault: BodyFault) -> BodyError {
@@ -382,11 +461,16 @@ fn heat_of(material: &BodyMaterial, temperature: Option<f64>) -> Result<f64, Bod
     for (property, keyword) in [(&material.density, "DENSITY"), (&material.specific_heat, "SPECIFIC HEAT")] {
         let name = &material.name;
         let Some(property) = property else {
-            return Err(BodyFault::at(material.span, format!("the material `{name}` has no *{keyword}")));
+            return Err(BodyFault::at(
+                &UNUSABLE_PROPERTY,
+                material.span,
+                format!("the material `{name}` has no *{keyword}"),
+            ));
         };
         let value = values_at(property, name, temperature)?[0];
         if !(0.0 < value && value < f64::INFINITY) {
             return Err(BodyFault::at(
+                &UNUSABLE_PROPERTY,
                 property.span,
                 format!("*{keyword} of `{name}` must be above 0: found {value:?}"),
             ));

@@ -1,6 +1,7 @@
 //! The properties of a material at a temperature.
 
 use crate::error::BodyFault;
+use crate::rules::UNUSABLE_PROPERTY;
 use inpact_geometry::Conductivity;
 use inpact_parser::mesh::{BodyMaterial, MaterialProperty, TensorKind};
 use inpact_parser::model::Name;
@@ -49,7 +50,7 @@ pub(crate) fn values_at(
     temperature: Option<f64>,
 ) -> Result<Vec<f64>, BodyFault> {
     let MaterialProperty { keyword, span, rows, dependencies, .. } = property;
-    let fault = |message: String| BodyFault::at(*span, message);
+    let fault = |message: String| BodyFault::at(&UNUSABLE_PROPERTY, *span, message);
     let (first, _) = &rows[0];
     if rows.iter().all(|(values, _)| values == first) {
         return Ok(first.clone());
@@ -105,5 +106,5 @@ pub(crate) fn tensor(property: &MaterialProperty, material: &Name, values: &[f64
     }
     let (keyword, found) = (property.keyword, values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>());
     let message = format!("*{keyword} of `{material}` must be above 0 in every direction: found {}", found.join(", "));
-    Err(BodyFault::at(property.span, message))
+    Err(BodyFault::at(&UNUSABLE_PROPERTY, property.span, message))
 }

@@ -66,10 +66,15 @@ fn compare(type_name: &'static str, shape: ElementShape, material: &str) {
     let terminals = terminals(&mesh);
     let sets: String = terminals.iter().map(|(name, nodes)| set(name, nodes)).collect();
     let deck = mesh.deck(material) + &sets;
-    let names: Vec<&str> = terminals.iter().map(|(name, _)| *name).collect();
+    compare_deck(&deck, &mesh, type_name);
+}
+
+/// The same of a deck of that mesh.
+fn compare_deck(deck: &str, mesh: &common::Meshed, type_name: &str) {
+    let names: Vec<&str> = terminals(mesh).iter().map(|(name, _)| *name).collect();
     let lumped =
-        read_as(Dialect::Calculix, &deck, &names).expect("a body").lumped(BodyField::Thermal, None).expect("lumped");
-    for (hot, (name, _)) in terminals.iter().enumerate() {
+        read_as(Dialect::Calculix, deck, &names).expect("a body").lumped(BodyField::Thermal, None).expect("lumped");
+    for (hot, name) in names.iter().enumerate() {
         let held: String =
             names.iter().enumerate().map(|(at, name)| format!("{name}, 11, 11, {}.\n", u8::from(at == hot))).collect();
         let printed: String =
@@ -118,4 +123,84 @@ fn conductivities_with_directions_to_every_digit() {
     compare("C3D8", ElementShape::Hexahedron8, "*CONDUCTIVITY, TYPE=ORTHO\n12., 37., 5.\n");
     // In the order that CalculiX has: 11, 22, 33, 12, 13, 23.
     compare("C3D20", ElementShape::Hexahedron20, "*CONDUCTIVITY, TYPE=ANISO\n12., 37., 5., 2., -1., 0.5\n");
+}
+
+/// *ORIENTATION by points, and turned about each of its axes.
+#[test]
+fn axes_of_a_section_to_every_digit() {
+    let mesh = Block {
+        type_name: "C3D8",
+        shape: ElementShape::Hexahedron8,
+        cells: [3, 2, 2],
+        edges: Edges::Curved,
+        map: Box::new(map),
+    }
+    .mesh();
+    let sets: String = terminals(&mesh).iter().map(|(name, nodes)| set(name, nodes)).collect();
+    for turn in ["", "1, 20.\n", "2, -35.\n", "3, 50.\n"] {
+        for material in
+            ["*CONDUCTIVITY, TYPE=ORTHO\n12., 37., 5.\n", "*CONDUCTIVITY, TYPE=ANISO\n12., 37., 5., 2., -1., 0.5\n"]
+        {
+            let orientation = format!("*ORIENTATION, NAME=AXES\n1., 2., 0.5, -1., 1., 0.3\n{turn}");
+            let deck = mesh.deck(material).replace(
+                "*SOLID SECTION, ELSET=ALL, MATERIAL=SOLID\n",
+                &format!("{orientation}*SOLID SECTION, ELSET=ALL, MATERIAL=SOLID, ORIENTATION=AXES\n"),
+            ) + &sets;
+            compare_deck(&deck, &mesh, &format!("turned by `{}`", turn.trim()));
+        }
+    }
+}
+
+/// The reduced brick of eight nodes has one point in CalculiX, whose patterns of temperature nothing opposes: a uniform flow is the same, and in distorted elements its
+/// temperatures leave those that are held, which no body does.
+#[test]
+fn the_reduced_brick_of_eight_nodes_has_eight_points_here() {
+    let block = |map: fn(Point) -> Point| {
+        Block {
+            type_name: "C3D8R",
+            shape: ElementShape::Hexahedron8,
+            cells: [4, 2, 2],
+            edges: Edges::Straight,
+            map: Box::new(map),
+        }
+        .mesh()
+    };
+    let job = |mesh: &common::Meshed, sets: &[(&str, Vec<usize>)]| {
+        let deck = mesh.deck(ISOTROPIC) + &sets.iter().map(|(name, nodes)| set(name, nodes)).collect::<String>();
+        let all = set("EVERY", &mesh.nodes.keys().copied().collect::<Vec<_>>());
+        let held: String = sets
+            .iter()
+            .enumerate()
+            .map(|(at, (name, _))| format!("{name}, 11, 11, {}.\n", u8::from(at == 0)))
+            .collect();
+        let printed: String =
+            sets.iter().map(|(name, _)| format!("*NODE PRINT, NSET={name}, TOTALS=ONLY\nRFL\n")).collect();
+        let step = format!(
+            "{all}*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 0.\n*STEP\n*HEAT TRANSFER, STEADY STATE\n1., 1.\n*BOUNDARY\n{held}{printed}*END STEP\n"
+        );
+        (deck.clone(), deck + &step)
+    };
+    let straight = block(|[x, y, z]| [3.0 * x, 1.3 * y, z]);
+    let ends = [
+        ("LOW", straight.nodes_where(|place| place[0] == 0.0)),
+        ("HIGH", straight.nodes_where(|place| place[0] == 1.0)),
+    ];
+    let between = |deck: &str, names: &[&str]| {
+        let body = read_as(Dialect::Calculix, deck, names).expect("a body");
+        let said = body.left_out().iter().any(|note| note.message.contains("integrated over 8 points here, over one"));
+        assert!(said, "{:?}", body.left_out());
+        body.lumped(BodyField::Thermal, None).expect("lumped").isothermal
+    };
+    // Temperatures are linear, and one point integrates them exactly.
+    let (deck, whole) = job(&straight, &ends);
+    let Some(flows) = heat_flows(&whole) else { return };
+    let found = between(&deck, &["LOW", "HIGH"]).between(0, 1);
+    assert_printed(found, &flows["LOW"], found, "uniform");
+    let curved = block(map);
+    let sets = terminals(&curved);
+    let (deck, whole) = job(&curved, &sets);
+    let flows = heat_flows(&whole).expect("ccx ran before");
+    let found = between(&deck, &["LOW", "HIGH", "TOP"]).to_all(0);
+    let of_ccx: f64 = flows["LOW"].parse().expect("a number");
+    assert!(of_ccx < 0.9 * found && 0.7 * found < of_ccx, "{of_ccx} and {found}");
 }

@@ -3,8 +3,12 @@
 mod common;
 
 use common::{Block, Edges, read, set};
-use inpact_body::{BodyError, BodyField, Lumped};
+use inpact_body::{Body, BodyError, BodyFault, BodyField, Lumped};
 use inpact_geometry::ElementShape;
+use inpact_parser::deck::scan;
+use inpact_parser::grammar::Grammar;
+use inpact_parser::mesh::{KeptRows, read_bodies};
+use inpact_parser::model::Name;
 
 fn bar(material: &str) -> String {
     let mesh = Block {
@@ -24,6 +28,14 @@ fn bar(material: &str) -> String {
 
 fn lump(deck: &str, terminals: &[&str], temperature: Option<f64>) -> Result<Lumped, BodyError> {
     read(deck, terminals)?.lumped(BodyField::Thermal, temperature)
+}
+
+/// The bodies without those that have faults, and these.
+fn sound(deck: &str, terminals: &[&str]) -> (Body, Vec<BodyFault>) {
+    let deck = scan("body.inp", deck.as_bytes(), Grammar::builtin());
+    let names: Vec<Name> = terminals.iter().map(|name| Name::new(name)).collect();
+    let mesh = read_bodies(&deck, Grammar::builtin(), &names, &mut KeptRows(&deck)).expect("rows in memory");
+    Body::sound(mesh, &names).expect("some body")
 }
 
 /// The text of the deck that a fault is about, and the fault.
@@ -128,12 +140,25 @@ fn materials_that_do_not_conduct_or_not_in_known_axes() {
     );
     let turned =
         |kind: &str| bar(kind).replace("ELSET=ALL, MATERIAL=SOLID", "ELSET=ALL, MATERIAL=SOLID, ORIENTATION=AXES");
-    assert_refused(
-        &turned("*CONDUCTIVITY, TYPE=ORTHO\n60., 50., 60.\n"),
-        &terminals,
-        "*SOLID SECTION, ELSET=ALL, MATERIAL=SOLID, ORIENTATION=AXES",
-        "*CONDUCTIVITY of `SOLID` has directions, and the section has the *ORIENTATION `AXES`, which is not read",
-    );
+    for (orientation, why) in [
+        ("", "is not defined"),
+        (
+            "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 1.\n",
+            "has SYSTEM=CYLINDRICAL, which is not read",
+        ),
+        ("*ORIENTATION, NAME=AXES, DEFINITION=NODES\n1, 2\n", "has DEFINITION=NODES, which is not read"),
+        (
+            "*ORIENTATION, NAME=AXES\n1., 0., 0., 2., 0., 0.\n",
+            "is not understood: expected 6 numbers, and 3 of the origin, whose points do not lie on a line, then at most an axis 1 to 3 and an angle",
+        ),
+    ] {
+        assert_refused(
+            &(turned("*CONDUCTIVITY, TYPE=ORTHO\n60., 50., 60.\n") + orientation),
+            &terminals,
+            "*SOLID SECTION, ELSET=ALL, MATERIAL=SOLID, ORIENTATION=AXES",
+            &format!("*CONDUCTIVITY of `SOLID` has directions, and the *ORIENTATION `AXES` of its section {why}"),
+        );
+    }
     // What conducts alike in all directions has no axes.
     assert!(lump(&turned(STEEL), &terminals, None).is_ok());
     assert_refused(
@@ -165,6 +190,86 @@ fn elements_that_are_incomplete_inside_out_or_without_a_section() {
     assert_eq!(found[0].1, "*ELGEN is not read, so that nodes or elements would be missing or elsewhere");
 }
 
+/// Plane and axisymmetric models have no solid in space: each option of elements is named, and nothing is lumped.
+#[test]
+fn plane_and_axisymmetric_models_are_refused_with_their_lines() {
+    for name in ["CPE4", "CPE4T", "CPS4", "DC2D4", "CAX4", "DCAX4", "CAX4T"] {
+        let deck = format!(
+            "*NODE, NSET=ALL\n1, 1., 0.\n2, 3., 0.\n3, 3., 2.\n4, 1., 2.\n*ELEMENT, TYPE={name}, ELSET=FLAT\n1, 1, 2, 3, 4\n\
+             *NSET, NSET=IN\n1, 4\n*NSET, NSET=OUT\n2, 3\n*SOLID SECTION, ELSET=FLAT, MATERIAL=SOLID\n*MATERIAL, NAME=SOLID\n{STEEL}"
+        );
+        assert_refused(
+            &deck,
+            &["IN", "OUT"],
+            &format!("*ELEMENT, TYPE={name}, ELSET=FLAT"),
+            &format!(
+                "elements of type `{name}` are plane or axisymmetric, and bodies are solids in space: they conduct nothing here"
+            ),
+        );
+    }
+}
+
+/// Faults of one body leave it out, and the others are what they are.
+#[test]
+fn a_fault_is_of_the_body_that_has_it() {
+    let second = "*NODE\n801, 5., 0., 0.\n802, 6., 0., 0.\n803, 5., 1., 0.\n804, 5., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=MORE\n77, 801, 802, 803, 804\n\
+                  *NSET, NSET=A\n801\n*NSET, NSET=B\n802\n*NSET, NSET=B2\n802, 803\n*SOLID SECTION, ELSET=MORE, MATERIAL=";
+    let alone = lump(&bar(STEEL), &["LOW", "HIGH"], None).expect("lumped").isothermal.between(0, 1);
+    for (material, terminals, said) in [
+        ("NONE\n", ["A", "B"], "the material `NONE` is not defined"),
+        (
+            "DEAD\n*MATERIAL, NAME=DEAD\n*DENSITY\n1.\n",
+            ["A", "B"],
+            "the material `DEAD` has no *CONDUCTIVITY: found `C3D4` in a body with terminals",
+        ),
+        ("SOLID\n", ["B", "B2"], "the terminals `B` and `B2` touch in node 802: no conductance is between them"),
+    ] {
+        let deck = bar(STEEL) + second + material;
+        let names = ["LOW", "HIGH", terminals[0], terminals[1]];
+        assert_eq!(refused(&deck, &names).iter().map(|(_, message)| message.as_str()).collect::<Vec<_>>(), [said]);
+        let (mut body, mut faults) = sound(&deck, &names);
+        if faults.is_empty() {
+            faults = body.lumped(BodyField::Thermal, None).expect_err("a fault").faults().to_vec();
+            for fault in &faults {
+                body.leave_out(&fault.bodies);
+            }
+        }
+        assert_eq!((faults.len(), faults[0].bodies.as_slice(), faults[0].message.as_str()), (1, &[1][..], said));
+        let lumped = body.lumped(BodyField::Thermal, None).expect("the sound body");
+        assert_eq!(lumped.isothermal.between(0, 1).to_bits(), alone.to_bits());
+        assert_eq!(lumped.isothermal.between(2, 3), 0.0);
+        assert_eq!(
+            lumped.terminals.iter().map(|terminal| terminal.body).collect::<Vec<_>>(),
+            [Some(0), Some(0), None, None]
+        );
+    }
+    // A terminal without a solid is of no body.
+    let deck = bar(STEEL) + "*NODE\n901, 0., 0., 9.\n*NSET, NSET=AWAY\n901\n";
+    let (body, faults) = sound(&deck, &["LOW", "AWAY", "HIGH"]);
+    assert_eq!(
+        faults.iter().map(|fault| fault.message.as_str()).collect::<Vec<_>>(),
+        ["no solid element has a node of `AWAY`"]
+    );
+    assert_eq!(
+        body.lumped(BodyField::Thermal, None).expect("lumped").isothermal.between(0, 2).to_bits(),
+        alone.to_bits()
+    );
+}
+
+/// What is not known of one material is not known of its bodies, and of no other.
+#[test]
+fn capacities_are_those_of_each_body() {
+    let second = "*NODE\n801, 5., 0., 0.\n802, 6., 0., 0.\n803, 5., 1., 0.\n804, 5., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=MORE\n77, 801, 802, 803, 804\n\
+                  *NSET, NSET=A\n801\n*SOLID SECTION, ELSET=MORE, MATERIAL=LIGHT\n*MATERIAL, NAME=LIGHT\n*CONDUCTIVITY\n1.\n";
+    let deck = bar("*CONDUCTIVITY\n60.\n*DENSITY\n2.\n*SPECIFIC HEAT\n3.\n") + second;
+    let lumped = lump(&deck, &["LOW", "HIGH", "A"], None).expect("lumped");
+    assert_eq!(lumped.left_out.len(), 1, "{:?}", lumped.left_out);
+    let total = lumped.bodies[0].capacity.expect("known");
+    let of_terminals: Vec<Option<f64>> = lumped.capacities;
+    assert!((of_terminals[0].expect("known") + of_terminals[1].expect("known") - total).abs() < 1e-12 * total);
+    assert_eq!((of_terminals[2], lumped.bodies[1].capacity), (None, None));
+}
+
 #[test]
 fn what_is_no_part_of_a_body_is_named_with_its_place() {
     let deck = bar(STEEL)
@@ -182,11 +287,11 @@ fn what_is_no_part_of_a_body_is_named_with_its_place() {
         ]
     );
     let lumped = body.lumped(BodyField::Thermal, None).expect("lumped");
-    assert_eq!(lumped.capacities, None);
+    assert_eq!(lumped.capacities, [None, None]);
     assert_eq!(lumped.left_out.len(), 1);
     assert_eq!(
         lumped.left_out[0].message,
-        "the material `SOLID` has no *DENSITY, so that bodies have no capacity here"
+        "the material `SOLID` has no *DENSITY, so that its bodies have no capacity here"
     );
 }
 

@@ -1,14 +1,15 @@
-//! All rules there are: those of decks, of their geometry, of node tables and of scenes.
+//! All rules there are: those of decks, of their geometry, of node tables, of scenes and of bodies.
 
+use inpact_body::BODY_RULES;
 use inpact_contact::GEOMETRY_RULES;
 use inpact_diagnostics::{Rule, Severity};
 use inpact_evaluation::nodes::DATA_RULES;
 use inpact_network::scene::SCENE_RULES;
 use inpact_validation::RULES;
 
-/// Every rule, in the order of the codes of decks, of geometry, of node tables, of scenes.
+/// Every rule, in the order of the codes of decks, of geometry, of node tables, of scenes, of bodies.
 pub(crate) fn all() -> impl Iterator<Item = &'static Rule> {
-    RULES.iter().chain(GEOMETRY_RULES).chain(DATA_RULES).chain(SCENE_RULES).copied()
+    RULES.iter().chain(GEOMETRY_RULES).chain(DATA_RULES).chain(SCENE_RULES).chain(BODY_RULES).copied()
 }
 
 /// The rule of a code.
@@ -18,5 +19,6 @@ pub(crate) fn of_code(code: &str) -> Option<&'static Rule> {
 
 /// Whether data in which a rule finds something cannot be evaluated, whatever the configuration says of it.
 pub(crate) fn is_final(rule: &Rule) -> bool {
-    rule.severity == Severity::Error && DATA_RULES.iter().chain(SCENE_RULES).any(|of_data| of_data.code == rule.code)
+    let mut of_data = DATA_RULES.iter().chain(SCENE_RULES).chain(BODY_RULES);
+    rule.severity == Severity::Error && of_data.any(|of_data| of_data.code == rule.code)
 }

@@ -6,6 +6,7 @@ use super::elements::{ElementRows, RawFace};
 use super::layout::{Entry, canonical};
 use super::materials::BodyMaterial;
 use super::nodes::Wanted;
+use super::orientations::MaterialAxes;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use super::selection::{Kind, Selection};
@@ -60,10 +61,12 @@ pub struct ElementBlock {
     pub instance: usize,
     /// The keyword line of *SOLID SECTION.
     pub section: Span,
-    /// The material, a position in [`BodyMesh::materials`]; beyond them where it is not defined, which is a fault.
+    /// The material, a position in [`BodyMesh::materials`]; beyond them where it is not defined.
     pub material: usize,
-    /// ORIENTATION of the section.
-    pub orientation: Option<Name>,
+    /// Its name.
+    pub material_name: Name,
+    /// The directions that ORIENTATION of the section gives its material.
+    pub axes: MaterialAxes,
     /// The numbers of the elements.
     pub labels: Vec<u32>,
     /// The nodes of each element, one after another, as positions in [`BodyMesh::points`].
@@ -103,7 +106,8 @@ struct SolidSection {
     elements: Selection,
     span: Span,
     material: usize,
-    orientation: Option<Name>,
+    material_name: Name,
+    axes: MaterialAxes,
 }
 
 /// What a terminal is made of, before nodes have positions.
@@ -177,12 +181,20 @@ impl<'deck> Reader<'deck, '_> {
             let kind = ElementType::named(name).filter(|kind| kind.space == ElementSpace::Spatial);
             let integration = Integration::of(name);
             let solid = kind.and_then(|kind| SolidElement::new(kind.shape, integration).map(|_| kind.shape));
-            match solid {
-                Some(shape) => self.solid_rows(option, (name, shape, integration), (instance, &sections), mesh)?,
-                None => {
-                    let message = format!("elements of type `{name}` are not solid, and conduct nothing here");
-                    mesh.left_out.push(MeshNote { span: option.span(), message });
+            let mut left_out = |message: String| mesh.left_out.push(MeshNote { span: option.span(), message });
+            if solid == Some(ElementShape::Hexahedron8) && integration == Integration::Reduced {
+                left_out(format!(
+                    "elements of type `{name}` are integrated over 8 points here, over one by a solver: the flows are others where elements are distorted"
+                ));
+            }
+            match (solid, ElementType::named(name).map(|kind| kind.space)) {
+                (Some(shape), _) => self.solid_rows(option, (name, shape, integration), (instance, &sections), mesh)?,
+                (None, Some(ElementSpace::Plane | ElementSpace::Planar | ElementSpace::Axisymmetric)) => {
+                    left_out(format!(
+                        "elements of type `{name}` are plane or axisymmetric, and bodies are solids in space: they conduct nothing here"
+                    ));
                 }
+                (None, _) => left_out(format!("elements of type `{name}` are not solid, and conduct nothing here")),
             }
         }
         Ok(())
@@ -216,7 +228,8 @@ impl<'deck> Reader<'deck, '_> {
                 instance,
                 section: section.span,
                 material: section.material,
-                orientation: section.orientation.clone(),
+                material_name: section.material_name.clone(),
+                axes: section.axes.clone(),
                 labels: Vec::new(),
                 nodes: Vec::new(),
             });
@@ -251,11 +264,9 @@ impl<'deck> Reader<'deck, '_> {
             let selected = self.select(Kind::Elements, Context::Instance(instance), set, span)?;
             let Some(elements) = selected.get(&instance).cloned() else { continue };
             let name = entry.named("MATERIAL").unwrap_or_else(|| Name::new(""));
-            let material = materials.iter().position(|material| material.name == name).unwrap_or_else(|| {
-                self.note(span, format!("the material `{name}` is not defined"));
-                materials.len()
-            });
-            sections.push(SolidSection { elements, span, material, orientation: entry.named("ORIENTATION") });
+            let material = materials.iter().position(|material| material.name == name).unwrap_or(materials.len());
+            let axes = self.material_axes(instance, entry.named("ORIENTATION"))?;
+            sections.push(SolidSection { elements, span, material, material_name: name, axes });
         }
         Ok(sections)
     }
@@ -325,7 +336,9 @@ impl<'deck> Reader<'deck, '_> {
                 format!("node {label} of a solid element has no coordinates in the deck{more}"),
             );
         }
+        let placement = self.instances[instance].placement;
         for block in mesh.elements.iter_mut().filter(|block| block.instance == instance) {
+            block.axes = std::mem::replace(&mut block.axes, MaterialAxes::Unsaid).placed(&placement);
             for node in &mut block.nodes {
                 // Where a node is missing the mesh is refused.
                 *node = positions.of(node.0).unwrap_or_default();
@@ -334,7 +347,7 @@ impl<'deck> Reader<'deck, '_> {
         for (pick, labels) in here.into_iter().zip(selected) {
             of_terminals[pick.surface].extend(labels.into_iter().filter_map(|label| positions.of(label)));
         }
-        if self.instances[instance].placement.is_turned() {
+        if placement.is_turned() {
             mesh.turned.push(instance);
         }
         mesh.instances.push((name, first..mesh.points.len()));

@@ -45,6 +45,7 @@ pub(super) struct Definitions<'deck> {
     pub(super) elsets: Vec<Entry<'deck>>,
     pub(super) surfaces: Vec<Entry<'deck>>,
     pub(super) sections: Vec<Entry<'deck>>,
+    pub(super) orientations: Vec<Entry<'deck>>,
     /// Options that make nodes or elements, or move them, and are not read.
     pub(super) makers: Vec<(String, Span)>,
 }
@@ -167,6 +168,7 @@ impl<'deck> Definitions<'deck> {
             "ELSET" => self.elsets.push(entry),
             "SURFACE" => self.surfaces.push(entry),
             "SOLIDSECTION" | "SHELLSECTION" | "SHELLGENERALSECTION" | "MEMBRANESECTION" => self.sections.push(entry),
+            "ORIENTATION" => self.orientations.push(entry),
             "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "SYSTEM" => {
                 self.makers.push((name.to_owned(), entry.span()));
             }

@@ -6,13 +6,14 @@ mod value;
 
 use super::findings::{Messages, with_messages};
 use super::mesh_rows::counted;
-use super::meshed::{MeshedDeck, NoteSeverity};
+use super::meshed::MeshedDeck;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::render::Format;
-use crate::settings::DeckArguments;
+use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
-use inpact_body::{Body, BodyError, BodyField, Lumped, SolutionMethod};
+use inpact_body::{BESIDE_BODIES, Body, BodyError, BodyField, Lumped, NEGATIVE_CONDUCTANCE, SolutionMethod};
+use inpact_diagnostics::Diagnostic;
 use inpact_diagnostics::visible::{visible, visible_json, visible_line};
 use inpact_parser::mesh::MeshNote;
 use inpact_parser::model::Name;
@@ -99,34 +100,47 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     files::check_targets(&[arguments.output.as_deref()])?;
     let body = match body {
         Ok(body) => body,
-        Err(error) => return refused(&meshed, &error, messages),
+        Err(error) => return refused(&meshed, &error, (messages, &settings)),
     };
-    meshed.say_notes(body.left_out(), messages)?;
-    let fields = match arguments.field {
+    if meshed.say_findings(&BESIDE_BODIES, body.left_out(), (messages, &settings))? {
+        return Ok(Outcome::HasErrors);
+    }
+    let mut fields = match arguments.field {
         Some(Fields::Thermal) => vec![BodyField::Thermal],
         Some(Fields::Electrical) => vec![BodyField::Electrical],
         Some(Fields::Both) => vec![BodyField::Electrical, BodyField::Thermal],
         None => body.fields(),
     };
     if fields.is_empty() {
-        let message = "no material of the bodies has *CONDUCTIVITY or *ELECTRICAL CONDUCTIVITY";
-        return Err(Failure::Data(format!("{message}: nothing is conducted in `{}`", meshed.name)));
+        // Every material says why it conducts no heat either.
+        fields.push(BodyField::Thermal);
     }
     let mut lumped: Vec<Lumped> = Vec::new();
     for field in fields {
         match body.lumped(field, arguments.temperature) {
             Ok(of_field) => lumped.push(of_field),
-            Err(error) => return refused(&meshed, &error, messages),
+            Err(error) => return refused(&meshed, &error, (messages, &settings)),
         }
     }
     let left_out: Vec<MeshNote> = lumped.iter().flat_map(|lumped| lumped.left_out.clone()).collect();
-    meshed.say_notes(&left_out, messages)?;
+    if meshed.say_findings(&BESIDE_BODIES, &left_out, (messages, &settings))? {
+        return Ok(Outcome::HasErrors);
+    }
     let found = Found { deck: &meshed.name, body: &body, temperature: arguments.temperature, lumped };
+    if matches!(arguments.format, BodyFormat::Links | BodyFormat::Scene) {
+        let negative: Vec<Diagnostic> = scene::negative(&found)
+            .iter()
+            .map(|message| meshed.finding(&NEGATIVE_CONDUCTANCE, None, message))
+            .collect::<Result<_, _>>()?;
+        if messages.of_deck(negative, &meshed.read.deck, &settings) {
+            return Ok(Outcome::HasErrors);
+        }
+    }
     let text = match arguments.format {
         BodyFormat::Text => visible(&text::text(&found)).into_owned(),
-        BodyFormat::Json => visible_json(&format!("{:#}\n", value::value(&found))).into_owned(),
+        BodyFormat::Json => visible_json(&value::written(&found)).into_owned(),
         BodyFormat::Links => scene::links(&found)?,
-        BodyFormat::Scene => scene::rows(&found)?,
+        BodyFormat::Scene => scene::rows(&found),
     };
     files::write_result(arguments.output.as_deref(), text.as_bytes())?;
     say_summary(&found, start.elapsed().as_secs_f64(), messages);
@@ -134,18 +148,14 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
 }
 
 /// Says every fault with its place.
-fn refused(meshed: &MeshedDeck, error: &BodyError, messages: Messages<'_>) -> Result<Outcome, Failure> {
-    let mut without_place = Vec::new();
-    for fault in error.faults() {
-        match fault.span {
-            Some(span) => {
-                let note = MeshNote { span, message: fault.message.clone() };
-                meshed.say_at(&note, NoteSeverity::Error, messages)?;
-            }
-            None => without_place.push(fault.message.clone()),
-        }
-    }
-    if without_place.is_empty() { Ok(Outcome::HasErrors) } else { Err(Failure::Data(without_place.join("; "))) }
+fn refused(
+    meshed: &MeshedDeck,
+    error: &BodyError,
+    (messages, settings): (Messages<'_>, &Settings),
+) -> Result<Outcome, Failure> {
+    let found = error.faults().iter().map(|fault| meshed.finding(fault.rule, fault.span, &fault.message));
+    messages.of_deck(found.collect::<Result<_, _>>()?, &meshed.read.deck, settings);
+    Ok(Outcome::HasErrors)
 }
 
 fn say_summary(found: &Found<'_>, seconds: f64, messages: Messages<'_>) {

@@ -23,7 +23,7 @@ use crate::report::Input;
 use crate::settings::{DeckArguments, Settings};
 use crate::terminals::{Stated, StepTime, Taker, procedure};
 use clap::Args;
-use inpact_body::{Body, BodyField, Lumped};
+use inpact_body::{Body, BodyFault, BodyField, Lumped};
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::plan::Choices;
@@ -33,7 +33,7 @@ use inpact_parser::mesh::{self, MeshNote};
 use inpact_parser::model::{Name, Procedure, Regime};
 use inpact_parser::span::Span;
 use serde_json::json;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -217,16 +217,19 @@ fn lumped(
     let read = meshed.with_rows(|rows| mesh::read_bodies(deck, settings.grammar, &names, rows));
     let mut bodies = read.map_err(|error| Failure::read(&arguments.deck, error))?;
     restrict(&mut bodies, &meshed.mesh, terminals);
-    let body = match Body::of(bodies, &names) {
-        Ok(body) => body,
+    let (body, faults) = match Body::sound(bodies, &names) {
+        Ok(sound) => sound,
         Err(error) => {
-            take_faults(&error, "bodies are left out", notes, unplaced);
+            take_faults(error.faults(), "bodies are left out", notes, unplaced);
             return Ok(Vec::new());
         }
     };
+    take_faults(&faults, "its body is left out", notes, unplaced);
     notes.extend(body.left_out().iter().cloned());
-    let alone = body.parts().iter().filter(|part| part.terminals.is_empty());
-    for part in alone {
+    let has_fault: HashSet<u32> = faults.iter().flat_map(|fault| fault.bodies.iter().copied()).collect();
+    let alone =
+        (0_u32..).zip(body.parts()).filter(|(number, part)| part.terminals.is_empty() && !has_fault.contains(number));
+    for (_, part) in alone {
         let node = body.mesh().node(part.first);
         let elements = part.elements;
         unplaced
@@ -235,15 +238,36 @@ fn lumped(
     let mut found = Vec::new();
     let wanted = [(fields.thermal, BodyField::Thermal), (fields.electrical, BodyField::Electrical)];
     for (_, field) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
-        match body.lumped(field, arguments.temperature) {
-            Ok(lumped) => {
-                // What is missing for capacities matters to a transient only.
-                if regime == Regime::Transient {
-                    notes.extend(lumped.left_out.iter().cloned());
+        // Of another field the same body may be sound.
+        let mut reduced: Option<Body> = None;
+        loop {
+            match reduced.as_ref().unwrap_or(&body).lumped(field, arguments.temperature) {
+                Ok(lumped) => {
+                    // What is missing for capacities matters to a transient only.
+                    if regime == Regime::Transient {
+                        notes.extend(lumped.left_out.iter().cloned());
+                    }
+                    found.push(lumped);
+                    break;
                 }
-                found.push(lumped);
+                // The links of the other bodies are what they are.
+                Err(error) if error.faults().iter().all(|fault| !fault.bodies.is_empty()) => {
+                    take_faults(
+                        error.faults(),
+                        &format!("the {field} links of its body are left out"),
+                        notes,
+                        unplaced,
+                    );
+                    let sound = reduced.get_or_insert_with(|| body.clone());
+                    for fault in error.faults() {
+                        sound.leave_out(&fault.bodies);
+                    }
+                }
+                Err(error) => {
+                    take_faults(error.faults(), &format!("the {field} links are left out"), notes, unplaced);
+                    break;
+                }
             }
-            Err(error) => take_faults(&error, "the links of this field are left out", notes, unplaced),
         }
     }
     if !fields.thermal && !fields.electrical {
@@ -252,8 +276,8 @@ fn lumped(
     Ok(found)
 }
 
-fn take_faults(error: &inpact_body::BodyError, ending: &str, notes: &mut Vec<MeshNote>, unplaced: &mut Lines) {
-    for fault in error.faults() {
+fn take_faults(faults: &[BodyFault], ending: &str, notes: &mut Vec<MeshNote>, unplaced: &mut Lines) {
+    for fault in faults {
         let message = format!("{}: {ending}", fault.message);
         match fault.span {
             Some(span) => notes.push(MeshNote { span, message }),

@@ -2,6 +2,7 @@
 
 use super::super::mesh_rows::number_text;
 use super::Found;
+use super::text::short;
 use crate::failure::Failure;
 use inpact_body::{BodyField, Lumped};
 
@@ -11,19 +12,26 @@ struct Link {
     conductances: Vec<f64>,
 }
 
-/// The links, each pair once; a conductance below zero has no place in a network.
-fn conducting(found: &Found<'_>) -> Result<Vec<Link>, Failure> {
+/// The conductances below zero, which have no place in a network.
+pub(super) fn negative(found: &Found<'_>) -> Vec<String> {
     let name = |at: usize| found.body.terminals()[at].name.written();
-    for lumped in &found.lumped {
-        if let Some((a, b, conductance)) = lumped.isothermal.negative().next() {
-            let (field, conductance) = (lumped.field, number_text(conductance));
-            return Err(Failure::Data(format!(
+    let of_field = |lumped: &Lumped| {
+        let field = lumped.field;
+        let message = |(a, b, conductance): (usize, usize, f64)| {
+            let conductance = short(conductance);
+            format!(
                 "the {field} conductance of `{}` and `{}` is {conductance}, below zero, which no link of a scene is: the mesh is too coarse between them",
                 name(a),
                 name(b)
-            )));
-        }
-    }
+            )
+        };
+        lumped.isothermal.negative().map(message).collect::<Vec<_>>()
+    };
+    found.lumped.iter().flat_map(of_field).collect()
+}
+
+/// The links, each pair once.
+fn conducting(found: &Found<'_>) -> Vec<Link> {
     let count = found.body.terminals().len();
     let all = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
     // What is below zero here is rounding.
@@ -31,7 +39,7 @@ fn conducting(found: &Found<'_>) -> Result<Vec<Link>, Failure> {
         nodes: [a, b],
         conductances: found.lumped.iter().map(|lumped| lumped.isothermal.between(a, b).max(0.0)).collect(),
     };
-    Ok(all.map(of).filter(|link| link.conductances.iter().any(|conductance| 0.0 < *conductance)).collect())
+    all.map(of).filter(|link| link.conductances.iter().any(|conductance| 0.0 < *conductance)).collect()
 }
 
 /// A table of links.
@@ -41,7 +49,7 @@ pub(super) fn links(found: &Found<'_>) -> Result<String, Failure> {
     let fields: Vec<String> = found.lumped.iter().map(|lumped| lumped.field.to_string()).collect();
     let header = ["node_1", "node_2"].into_iter().chain(fields.iter().map(String::as_str));
     writer.write_record(header).map_err(failed)?;
-    for link in conducting(found)? {
+    for link in conducting(found) {
         let names = link.nodes.iter().map(|at| found.body.terminals()[*at].name.written().to_owned());
         let numbers = link.conductances.iter().map(|conductance| number_text(*conductance));
         writer.write_record(names.chain(numbers)).map_err(failed)?;
@@ -51,7 +59,7 @@ pub(super) fn links(found: &Found<'_>) -> Result<String, Failure> {
 }
 
 /// Nodes and links of a scene.
-pub(super) fn rows(found: &Found<'_>) -> Result<String, Failure> {
+pub(super) fn rows(found: &Found<'_>) -> String {
     let quoted = |at: usize| toml_text(found.body.terminals()[at].name.written());
     let mut text = String::new();
     for at in 0..found.body.terminals().len() {
@@ -61,7 +69,7 @@ pub(super) fn rows(found: &Found<'_>) -> Result<String, Failure> {
         }
         text.push('\n');
     }
-    for link in conducting(found)? {
+    for link in conducting(found) {
         let [a, b] = link.nodes;
         text += &format!("[[link]]\nnodes = [{}, {}]\n", quoted(a), quoted(b));
         for (lumped, conductance) in found.lumped.iter().zip(&link.conductances) {
@@ -69,15 +77,15 @@ pub(super) fn rows(found: &Found<'_>) -> Result<String, Failure> {
         }
         text.push('\n');
     }
-    Ok(text.trim_end().to_owned() + "\n")
+    text.trim_end().to_owned() + "\n"
 }
 
 fn of_node(lumped: &Lumped, at: usize) -> String {
-    match (lumped.field, &lumped.capacities) {
+    match (lumped.field, lumped.capacities[at]) {
         (BodyField::Electrical, _) => "potential = {}\n".to_owned(),
         (BodyField::Thermal, None) => "temperature = {}\n".to_owned(),
-        (BodyField::Thermal, Some(capacities)) => {
-            format!("temperature = {{ capacity = {} }}\n", toml_number(capacities[at]))
+        (BodyField::Thermal, Some(capacity)) => {
+            format!("temperature = {{ capacity = {} }}\n", toml_number(capacity))
         }
     }
 }

@@ -31,7 +31,7 @@ fn value_of(lumped: &Lumped) -> &'static str {
 }
 
 /// Seven digits, which a person compares with those of a solver; zeros at their end left out.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     format!("{value:.6e}").parse().map_or_else(|_| value.to_string(), number_text)
 }
 
@@ -54,7 +54,7 @@ fn terminals(lumped: &Lumped) -> Vec<Vec<String>> {
     let header = ["terminal", "nodes", "area", &one, "even flow", "apart", "range", "capacity"];
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     for (at, terminal) in lumped.terminals.iter().enumerate() {
-        let capacity = lumped.capacities.as_ref().map_or("-".to_owned(), |capacities| short(capacities[at]));
+        let capacity = lumped.capacities[at].map_or("-".to_owned(), short);
         rows.push(vec![
             terminal.name.written().to_owned(),
             terminal.nodes.to_string(),

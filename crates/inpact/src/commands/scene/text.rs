@@ -73,7 +73,7 @@ impl SceneText {
     /// The nodes, with their conditions and capacities.
     pub(super) fn nodes(&mut self, terminals: &[Terminal], stated: &[Stated], lumped: &[Lumped]) {
         let thermal = lumped.iter().find(|lumped| lumped.field == BodyField::Thermal);
-        let capacities = thermal.and_then(|lumped| lumped.capacities.as_ref());
+        let capacity_of = |at: usize| thermal.and_then(|lumped| lumped.capacities[at]);
         let regime = self.regime;
         for (at, (terminal, stated)) in terminals.iter().zip(stated).enumerate() {
             let name = terminal.name.written();
@@ -87,7 +87,7 @@ impl SceneText {
                     keys.push(format!("source = {}", course(source)));
                 }
                 if regime == Regime::Transient && !is_fixed {
-                    let capacity = capacities.filter(|_| field == Field::Temperature).map(|capacities| capacities[at]);
+                    let capacity = capacity_of(at).filter(|_| field == Field::Temperature);
                     keys.extend(capacity.map(|capacity| format!("capacity = {capacity:?}")));
                     keys.extend(stated.initial[index].map(|initial| format!("initial = {initial:?}")));
                 }

@@ -5,7 +5,7 @@ use inpact_parser::grammar::Grammar;
 use inpact_parser::mesh::MeshNote;
 
 /// Keywords that are taken over, or arrange the deck, or say what is printed.
-const READ: [&str; 62] = [
+const READ: [&str; 63] = [
     "AMPLITUDE",
     "ASSEMBLY",
     "BOUNDARY",
@@ -55,6 +55,7 @@ const READ: [&str; 62] = [
     "NODE OUTPUT",
     "NODE PRINT",
     "NSET",
+    "ORIENTATION",
     "OUTPUT",
     "PARAMETER",
     "PART",
