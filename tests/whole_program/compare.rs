@@ -153,9 +153,145 @@ fn clearances_beside_those_of_calculix() {
         let arguments = ["compare", "job.inp", "--dialect", "calculix", "--results", file, "--tolerance"];
         let run = folder.inpact(&[&arguments[..], &[tolerance]].concat());
         assert_eq!(run.code, 0, "{}", run.shown());
-        assert!(run.output.contains("\nclearance     3 "), "three nodes touch: {}", run.output);
+        assert!(run.output.contains("\nclearance  L        3 "), "three nodes touch: {}", run.output);
         assert_eq!(folder.inpact(&[&arguments[..], &["1e-12"]].concat()).code, 1);
     }
+}
+
+/// Two cubes pressed together, hot above and cold below: 66.667 go through each, through a conductance of 5 between 66.667 and 53.333.
+///
+/// They swell sideways, where nothing holds them.
+fn heated() -> String {
+    let layer = |first: u32, z: f64| {
+        let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].into_iter().zip(first..);
+        corners.map(|((x, y), node)| format!("{node}, {x}., {y}., {z:?}\n")).collect::<String>()
+    };
+    let nodes = [(1, 0.0), (5, 1.0), (11, 1.0), (15, 2.0)].map(|(first, z)| layer(first, z)).concat();
+    format!(
+        "\
+*NODE, NSET=NALL
+{nodes}*ELEMENT, TYPE=C3D8, ELSET=EALL
+1, 1, 2, 3, 4, 5, 6, 7, 8
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=NLOW
+1, 2, 3, 4
+*NSET, NSET=NUP
+15, 16, 17, 18
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*CONDUCTIVITY
+2.
+*EXPANSION
+1.E-5
+*SOLID SECTION, ELSET=EALL, MATERIAL=M
+*SURFACE, NAME=UPPER
+2, S1
+*SURFACE, NAME=LOWER
+1, S2
+*SURFACE INTERACTION, NAME=I
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+10000.
+*GAP CONDUCTANCE
+5., 0.
+5., 1000.
+*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE
+UPPER, LOWER
+*INITIAL CONDITIONS, TYPE=TEMPERATURE
+NALL, 20.
+*STEP
+*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE
+1., 1.
+*BOUNDARY
+NLOW, 1, 3
+NUP, 1, 2
+NUP, 3, 3, -0.01
+NLOW, 11, 11, 20.
+NUP, 11, 11, 100.
+*CONTACT PRINT, SLAVE=UPPER, MASTER=LOWER
+CF
+*SECTION PRINT, SURFACE=UPPER, NAME=ABOVE
+FLUX
+*SECTION PRINT, SURFACE=LOWER, NAME=BELOW
+FLUX
+*NODE FILE
+U, NT
+*EL FILE
+HFL
+*CONTACT FILE
+CDIS, CSTR
+*END STEP
+"
+    )
+}
+
+/// Everything that a `.frd` and a `.dat` of ccx say of an interface: clearances and heat at the nodes, area and heat of the pair.
+#[test]
+fn heat_and_areas_beside_those_of_calculix() {
+    let deck = heated();
+    let Some(folder) = ccx(&deck) else { return };
+    let compare = |more: &[&str]| {
+        let arguments = ["compare", "job.inp", "--dialect", "calculix", "--results", "job.frd", "--results", "job.dat"];
+        folder.inpact(&[&arguments[..], more].concat())
+    };
+    // ccx 2.20 writes the flux at nodes as of the iteration before the last: 66.664.
+    let run = compare(&["--tolerance", "1e-4", "--format", "json"]);
+    assert_eq!(run.code, 0, "{}", run.shown());
+    let found: serde_json::Value = serde_json::from_str(&run.output).expect("JSON");
+    let quantities: Vec<(&str, &str, u64, f64, f64)> = found["quantities"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|quantity| {
+            let text = |name: &str| quantity[name].as_str().expect("a text");
+            let value = |name: &str| quantity["largest"][name].as_f64().expect("a number");
+            (text("name"), text("unit"), quantity["rows"].as_u64().expect("a count"), value("ours"), value("solver"))
+        })
+        .collect();
+    let expected = [
+        ("clearance", "L", 4, -5.75e-4),
+        ("total_heat_s", "M T⁻³", 4, -200.0 / 3.0),
+        ("area in contact", "L²", 1, 1.0),
+        ("heat into slave", "M L² T⁻³", 1, -200.0 / 3.0),
+        ("heat into master", "M L² T⁻³", 1, 200.0 / 3.0),
+    ];
+    assert_eq!(quantities.len(), expected.len(), "{quantities:?}");
+    for ((name, unit, rows, ours, solvers), (expected, of, count, value)) in quantities.into_iter().zip(expected) {
+        assert_eq!((name, unit, rows), (expected, of, count));
+        if name != "clearance" {
+            let digits = if name == "total_heat_s" { 1e-4 } else { 1e-5 };
+            let close = |found: f64| (found - value).abs() <= digits * value.abs();
+            assert!(close(ours) && close(solvers), "{name}: {ours} and {solvers}, expected {value}");
+        }
+    }
+    let run = compare(&[]);
+    assert_eq!(run.code, 0, "{}", run.shown());
+    for line in [
+        "  total_heat_s: HFL of job.frd against the normal of the slave, as taken to its nodes",
+        "  area in contact: CAREA of job.dat",
+        "  heat into slave: SURFACE_FLUX of job.dat",
+    ] {
+        assert!(run.output.lines().any(|found| found == line), "{line}: {}", run.output);
+    }
+    assert!(run.output.contains("pair UPPER on LOWER, time 1"), "{}", run.output);
+    // Pictures have points for nodes only, tables have rows for pairs too.
+    assert_eq!(compare(&["-o", "both.csv"]).code, 0);
+    let table = folder.read("both.csv");
+    assert_eq!(table.lines().filter(|line| line.starts_with("UPPER on LOWER,1,")).count(), 3, "{table}");
+    assert_eq!(compare(&["-o", "both.vtu"]).code, 0);
+    let (grid, _) = read_grid(&std::fs::read(folder.path().join("both.vtu")).expect("drawn"));
+    assert!(grid.point_data.iter().any(|array| array.name == "total_heat_s_solver"));
+    // A deck that means another conductance gives another heat at the temperatures of the job.
+    folder.write("job.inp", &deck.replace("5., 0.\n5., 1000.", "6., 0.\n6., 1000."));
+    let run = compare(&["--tolerance", "0.1"]);
+    assert_eq!(run.code, 1, "{}", run.shown());
+    let beyond: Vec<&str> = run
+        .output
+        .lines()
+        .filter(|line| line.ends_with("beyond the tolerance"))
+        .filter_map(|line| line.split("  ").next())
+        .collect();
+    assert_eq!(beyond, ["total_heat_s", "heat into slave", "heat into master"], "{}", run.output);
 }
 
 #[test]

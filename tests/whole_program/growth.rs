@@ -3,7 +3,9 @@
 //! Nothing is held against a clock. Each input is so large that what grew with its square would take hours, and what grew with a
 //! number in it more memory than the limit that is set; a run that ends at all has not done that.
 
+use crate::nodes_results::PRESSED;
 use crate::program::{Folder, Run, command, run};
+use std::io::{BufWriter, Write};
 
 /// Runs with a limit of memory in bytes, where there is one to set.
 fn within(folder: &Folder, memory: u64, arguments: &[&str]) -> Run {
@@ -109,4 +111,54 @@ fn a_scene_of_nothing_but_slips_costs_no_square() {
     let run = within(&folder, 1 << 30, &["solve", "a.toml"]);
     assert_eq!(run.code, 1, "{}", run.errors.chars().take(500).collect::<String>());
     assert!(run.errors.lines().count() < 100, "{}", run.errors.chars().take(500).collect::<String>());
+}
+
+/// Results of 300 increments, 130 MB: as much as one of them is in memory at a time.
+#[test]
+fn memory_does_not_follow_the_increments_of_a_result_file() {
+    let folder = Folder::with(&[("job.inp", PRESSED)]);
+    let file = std::fs::File::create(folder.path().join("job.frd")).expect("writable");
+    let mut file = BufWriter::new(file);
+    writeln!(file, "    1C\n    1UUSER").expect("written");
+    let (nodes, increments) = (2700, 300);
+    for increment in 1..=increments {
+        let time = f64::from(increment) / f64::from(increments);
+        let head = |count: i32| {
+            format!(
+                "    1PSTEP                {increment:12}{increment:12}           1\n  100CL  101{time:12.5e}{count:12}{:20} 0{increment:5}{:10} 1\n",
+                "", ""
+            )
+        };
+        writeln!(file, "{} -4  DISP        3    1", head(nodes)).expect("written");
+        let names = |names: &[&str]| {
+            names.iter().map(|name| format!(" -5  {name:<8}    1    2    1    0\n")).collect::<String>()
+        };
+        write!(file, "{}", names(&["D1", "D2", "D3"])).expect("written");
+        for node in 1..=nodes {
+            writeln!(file, " -1{node:10} 0.00000E+00 0.00000E+00-1.00000E-03").expect("written");
+        }
+        write!(file, " -3\n{} -4  NDTEMP      1    1\n{}", head(nodes), names(&["T"])).expect("written");
+        for node in 1..=nodes {
+            writeln!(file, " -1{node:10} 2.{increment:05}E+01").expect("written");
+        }
+        write!(
+            file,
+            " -3\n{} -4  STRESS      6    1\n{}",
+            head(nodes),
+            names(&["SXX", "SYY", "SZZ", "SXY", "SYZ", "SZX"])
+        )
+        .expect("written");
+        for node in 1..=nodes {
+            writeln!(file, " -1{node:10}{}", " 1.00000E+00".repeat(6)).expect("written");
+        }
+        writeln!(file, " -3").expect("written");
+    }
+    writeln!(file, " 9999").expect("written");
+    drop(file);
+    let size = folder.path().join("job.frd").metadata().expect("there").len();
+    assert!(100_000_000 < size, "{size}");
+    let run = within(&folder, 256 << 20, &["nodes", "job.inp", "--dialect", "calculix", "--results", "job.frd"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    // Four slave nodes, each in every increment.
+    assert_eq!(run.output.lines().count(), 1 + 4 * 300);
 }

@@ -10,17 +10,52 @@ mod quantities;
 pub use nodes::MatchedBy;
 
 use crate::Error;
-use crate::state::{Source, State};
+use crate::state::{PairTotal, Source, State, TotalQuantity};
 use frames::Building;
 use inpact_geometry::NodeId;
 use inpact_parser::mesh::Mesh;
 use inpact_parser::model::Model;
 use inpact_results::{Field, Format, Frame, Region, Results, Rows};
-use nodes::NodeMap;
-use pairs::{PairNames, PairOf};
+use nodes::{FileSurfaces, NodeMap};
+use pairs::{PairNames, PairOf, Side};
 use quantities::Quantity;
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::sync::Arc;
+
+/// A result file that can be gone through state by state, more than once.
+pub trait ResultFile {
+    /// The reason why it cannot be read.
+    type Error: From<Error>;
+
+    /// Hands every state to `take` in the order of the file, with what the file has said before it that belongs to none, until `take` asks for no more; gives what belongs to no state.
+    ///
+    /// # Errors
+    /// It cannot be read, or not to its end.
+    fn frames(&self, take: &mut dyn FnMut(&Results, &Frame) -> ControlFlow<()>) -> Result<Results, Self::Error>;
+}
+
+/// Results at hand.
+impl ResultFile for Results {
+    type Error = Error;
+
+    fn frames(&self, take: &mut dyn FnMut(&Results, &Frame) -> ControlFlow<()>) -> Result<Results, Error> {
+        let Self { format, coordinates, surfaces, frames, not_read } = self;
+        let head = Results {
+            format: *format,
+            coordinates: coordinates.clone(),
+            surfaces: surfaces.clone(),
+            frames: Vec::new(),
+            not_read: not_read.clone(),
+        };
+        for frame in frames {
+            if take(&head, frame).is_break() {
+                break;
+            }
+        }
+        Ok(head)
+    }
+}
 
 /// Makes states of result files.
 #[derive(Debug)]
@@ -93,48 +128,84 @@ impl<'a> Join<'a> {
         }
     }
 
-    /// Adds a file; what is wrong with it as a whole is an error, what of it cannot be used a note.
+    /// Adds a file, a state of it at a time in memory; what is wrong with it as a whole is an error, what of it cannot be used a note.
     ///
     /// # Errors
-    /// It is of another mesh: its nodes are elsewhere.
-    pub fn add(&mut self, file: &str, results: &Results) -> Result<(), Error> {
+    /// It cannot be read to its end, or is of another mesh: its nodes are elsewhere.
+    pub fn add<F: ResultFile>(&mut self, file: &str, results: &F) -> Result<(), F::Error> {
         let file: Arc<str> = file.into();
-        let (map, notes) =
-            NodeMap::new(self.mesh, results).map_err(|message| Error::result_files(format!("{file}: {message}")))?;
-        let mut of_file = OfFile {
-            file: Arc::clone(&file),
-            format: results.format,
-            map,
-            used: BTreeSet::new(),
-            not_needed: BTreeSet::new(),
-            notes: notes.into_iter().collect(),
-        };
-        let mut used_frames = 0;
-        for frame in &results.frames {
-            used_frames += usize::from(self.frame(frame, &mut of_file));
+        let mut of_file = None;
+        let mut failed = None;
+        let (mut frames, mut used_frames) = (0, 0);
+        let head = results.frames(&mut |head, frame| {
+            let of_file = match &mut of_file {
+                Some(of_file) => of_file,
+                None => match self.begin(&file, head, results) {
+                    Ok(begun) => of_file.insert(begun),
+                    Err(error) => {
+                        failed = Some(error);
+                        return ControlFlow::Break(());
+                    }
+                },
+            };
+            frames += 1;
+            used_frames += usize::from(self.frame(frame, of_file));
+            ControlFlow::Continue(())
+        })?;
+        if let Some(error) = failed {
+            return Err(error);
         }
+        let of_file = match of_file {
+            Some(of_file) => of_file,
+            None => self.begin(&file, &head, results)?,
+        };
         let OfFile { map, used, not_needed, notes, .. } = of_file;
         let mut messages: Vec<String> = notes.into_iter().collect();
         if !not_needed.is_empty() {
             let names: Vec<&str> = not_needed.iter().map(String::as_str).collect();
             messages.push(format!("no node table has a place for {}: not used", names.join(", ")));
         }
-        if !results.not_read.is_empty() {
+        if !head.not_read.is_empty() {
             let listed: Vec<String> =
-                results.not_read.iter().map(|what| format!("{} ({})", what.what, what.count)).collect();
+                head.not_read.iter().map(|what| format!("{} ({})", what.what, what.count)).collect();
             messages.push(format!("not read: {}", listed.join(", ")));
         }
         messages.extend(map.without(self.mesh, &used));
         self.notes.extend(messages.into_iter().map(|message| ResultNote { file: Arc::clone(&file), message }));
         self.files.push(FileSummary {
             file,
-            format: results.format,
-            frames: results.frames.len(),
+            format: head.format,
+            frames,
             used_frames,
             nodes: used.len(),
             matched_by: map.matched_by(),
         });
         Ok(())
+    }
+
+    /// Finds out which nodes of the mesh the labels of a file are, from what it says before its first state.
+    fn begin<F: ResultFile>(&self, file: &Arc<str>, head: &Results, results: &F) -> Result<OfFile, F::Error> {
+        let surfaces = || -> Result<FileSurfaces, F::Error> {
+            let mut surfaces = FileSurfaces::of(head);
+            // Without surfaces by their faces, the regions of contact say which nodes are on one.
+            if head.surfaces.is_empty() {
+                results.frames(&mut |_, frame| {
+                    surfaces.take(frame);
+                    ControlFlow::Continue(())
+                })?;
+            }
+            Ok(surfaces)
+        };
+        let (map, notes) =
+            NodeMap::new(self.mesh, head, surfaces, |message| Error::result_files(format!("{file}: {message}")))?;
+        Ok(OfFile {
+            file: Arc::clone(file),
+            format: head.format,
+            map,
+            used: BTreeSet::new(),
+            not_needed: BTreeSet::new(),
+            notes: notes.into_iter().collect(),
+        })
     }
 
     /// Takes what a frame says; whether that is anything.
@@ -170,6 +241,9 @@ impl<'a> Join<'a> {
     }
 
     fn field(&self, field: &Field, of_file: &mut OfFile, building: &mut Building) {
+        if matches!(field.rows, Rows::Whole) && self.total(field, of_file, building) {
+            return;
+        }
         let quantities: Vec<Option<Quantity>> =
             field.columns.iter().map(|column| quantities::of_column(&column.name, of_file.format)).collect();
         if quantities.iter().all(Option::is_none) {
@@ -182,7 +256,7 @@ impl<'a> Join<'a> {
                 Rows::Elements(_) => "is of elements",
                 _ => "is of the pair as a whole",
             };
-            // The file says the area or the force of a pair, which nobody takes for one of nodes.
+            // The file says the force of a pair, which nobody takes for one of nodes.
             if !matches!(field.rows, Rows::Whole) {
                 of_file.note(format!("{} {what}, not of nodes: not used", field.name));
             }
@@ -221,6 +295,36 @@ impl<'a> Join<'a> {
             });
             building.take(quantity, pair.filter(|_| quantity.is_of_contact()), source, values);
         }
+    }
+
+    /// Takes what a field says of a pair as a whole: its area in contact, or the heat through one of its surfaces; whether it says that.
+    fn total(&self, field: &Field, of_file: &mut OfFile, building: &mut Building) -> bool {
+        let value = |name: &str| field.column(name).and_then(|column| column.values.first()).copied();
+        let of_pair = value("CAREA").map(|area| (TotalQuantity::ContactArea, "CAREA", area));
+        // Heat that leaves the body does not go into it.
+        let of_surface = value("SURFACE_FLUX").map(|flux| (TotalQuantity::HeatIntoSlave, "SURFACE_FLUX", -flux));
+        let Some((quantity, name, value)) = of_pair.or(of_surface) else { return false };
+        let found = match quantity {
+            TotalQuantity::ContactArea => match self.pairs.of_region(&field.region) {
+                PairOf::Pair(pair) => Some((quantity, pair)),
+                PairOf::Unsaid | PairOf::Unknown => None,
+            },
+            _ => self.pairs.of_surface(&field.region).map(|(pair, side)| match side {
+                Side::Slave => (TotalQuantity::HeatIntoSlave, pair),
+                Side::Master => (TotalQuantity::HeatIntoMaster, pair),
+            }),
+        };
+        match found {
+            None => of_file.note(format!(
+                "{name} is of a surface that is not the slave or the master of one pair alone: not used"
+            )),
+            Some(_) if value.is_nan() => {}
+            Some((quantity, pair)) => {
+                let source = Source::File { quantity: name.into(), file: Arc::clone(&of_file.file) };
+                building.take_total(PairTotal { quantity, pair, value, source });
+            }
+        }
+        true
     }
 
     /// The states, completed from *INITIAL CONDITIONS.

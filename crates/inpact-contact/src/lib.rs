@@ -56,10 +56,11 @@ pub use check::{
 };
 pub use error::Error;
 pub use interfaces::{InterfaceRow, Interfaces, LumpedPair, PairInterfaces, ProjectionRow, WeightedMean};
-pub use join::{FileSummary, Join, Joined, MatchedBy, ResultNote};
+pub use join::{FileSummary, Join, Joined, MatchedBy, ResultFile, ResultNote};
 pub use picture::SlaveFaces;
 pub use rows::NodeRows;
 pub use state::{
-    ContactField, ContactQuantity, Displacements, Moment, NodeField, NodeQuantity, OutputField, Source, State,
+    ContactField, ContactQuantity, Displacements, HeatFlux, Moment, NodeField, NodeQuantity, OutputField, PairTotal,
+    Source, State, TotalQuantity,
 };
 pub use summary::{AreaSource, ColumnSummary, PairSummary};

@@ -4,7 +4,7 @@ use crate::Error;
 use crate::state::State;
 use crate::summary::PairSummary;
 use inpact_geometry::{ContactNode, GeometryError, NodeId, Point, Projection, Vector};
-use inpact_parser::mesh::{Mesh, MeshPair, Sliding, SurfaceKind};
+use inpact_parser::mesh::{AreasOf, Mesh, MeshPair, Sliding, SurfaceKind};
 use std::borrow::Cow;
 
 /// A pair with what the solver starts from.
@@ -39,6 +39,11 @@ impl<'a> Pair<'a> {
         Ok(Self { of, index, start, names, summary, thickness, adjusted })
     }
 
+    /// Whether the areas of its nodes are those of the start in every state.
+    pub(crate) fn keeps_areas(&self) -> bool {
+        self.of.sliding == Sliding::Small || self.of.areas_of == AreasOf::Start
+    }
+
     /// The geometry in a state.
     pub(crate) fn contact(&self, mesh: &Mesh, state: &State) -> Result<Cow<'_, [ContactNode]>, Error> {
         let Some(moved) = &state.displacements else { return Ok(Cow::Borrowed(&self.start)) };
@@ -51,9 +56,14 @@ impl<'a> Pair<'a> {
             points[node.index()] = add(points[node.index()], *offset);
         }
         let contact = mesh.contact_at(&points, &without_start(self.of), self.thickness);
-        let contact = contact.map_err(|error| {
+        let mut contact = contact.map_err(|error| {
             Error::geometry(&self.summary.slave, &self.summary.master, state.moment.time, reason(mesh, &error))
         })?;
+        if self.of.areas_of == AreasOf::Start {
+            for (node, start) in contact.iter_mut().zip(&self.start) {
+                node.area = start.area;
+            }
+        }
         Ok(Cow::Owned(contact))
     }
 

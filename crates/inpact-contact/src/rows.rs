@@ -9,6 +9,7 @@ use crate::summary::{ColumnSummary, PairSummary};
 use crate::values::{Origin, columns, number};
 use inpact_evaluation::nodes::{Batch, Column};
 use inpact_evaluation::results::push_number;
+use inpact_geometry::Vector;
 use inpact_parser::mesh::{Mesh, MeshNote, SurfaceKind};
 use inpact_parser::model::Model;
 use std::sync::Arc;
@@ -156,6 +157,18 @@ impl<'a> NodeRows<'a> {
         let pairs = self.pairs.len();
         let each = states.iter().flat_map(move |state| (0..pairs).map(move |pair| (pair, state)));
         each.map(|(pair, state)| self.batch(pair, state))
+    }
+
+    /// The averaged unit normals of the slave surfaces in a state, a row each, in the order of its rows; `None` where there is none.
+    ///
+    /// # Errors
+    /// The nodes have moved to places that have no geometry.
+    pub fn normals(&self, state: &State) -> Result<Vec<Option<Vector>>, Error> {
+        let mut normals = Vec::with_capacity(self.nodes());
+        for pair in &self.pairs {
+            normals.extend(pair.contact(self.mesh, state)?.iter().map(|node| node.normal));
+        }
+        Ok(normals)
     }
 
     /// Hands the rows of a state to `take`, a batch a pair, in the order of the deck.

@@ -19,6 +19,43 @@ pub struct State {
     pub fields: Vec<NodeField>,
     /// Values of a solver at the interface itself: the outputs that are computed here too.
     pub outputs: Vec<OutputField>,
+    /// The flux of heat inside the bodies, at their nodes.
+    pub heat_flux: Option<HeatFlux>,
+    /// What a solver says of a pair as a whole.
+    pub totals: Vec<PairTotal>,
+}
+
+/// The flux of heat inside the bodies, as a solver takes it to the nodes from the points at which it is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatFlux {
+    /// A vector a node (M T⁻³); `None` where it is not known.
+    pub vectors: Vec<Option<Vector>>,
+    /// Its source.
+    pub source: Source,
+}
+
+/// A quantity of a pair as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairTotal {
+    /// Which.
+    pub quantity: TotalQuantity,
+    /// The pair, a position in [`Mesh::pairs`].
+    pub pair: usize,
+    /// Its value.
+    pub value: f64,
+    /// Its source.
+    pub source: Source,
+}
+
+/// Quantities of a pair as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum TotalQuantity {
+    /// The area in contact (L²).
+    ContactArea,
+    /// All heat into the slave surface in a unit of time (M L² T⁻³).
+    HeatIntoSlave,
+    /// All heat into the master surface in a unit of time (M L² T⁻³).
+    HeatIntoMaster,
 }
 
 /// The time of a state.

@@ -64,7 +64,8 @@ pub(crate) fn number<'a>(
             ContactQuantity::Area => node.area,
             ContactQuantity::Pressure | ContactQuantity::Shear | ContactQuantity::SlipRate => return None,
         };
-        let moved = state.displacements.as_ref();
+        let keeps = quantity == ContactQuantity::Area && pair.keeps_areas();
+        let moved = state.displacements.as_ref().filter(|_| !keeps);
         return Some((value, Some(moved.map_or(Origin::Mesh, |moved| Origin::Moved(&moved.source)))));
     }
     let (quantity, part) = NodeQuantity::of(column)?;

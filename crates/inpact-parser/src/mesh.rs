@@ -37,7 +37,7 @@ pub use conditions::{Condition, ConditionField, ConditionKind, DeckConditions, T
 pub use initial::{InitialField, InitialQuantity};
 pub use materials::{BodyMaterial, MaterialProperty, TensorKind};
 pub use orientations::MaterialAxes;
-pub use pairs::{MeshPair, Sliding};
+pub use pairs::{AreasOf, MeshPair, Sliding};
 pub use place::position;
 pub use rows::{KeptRows, RowBytes, SeekableRows};
 

@@ -1,15 +1,17 @@
-//! Printed output of CalculiX, `.dat` (`*CONTACT PRINT`, `*NODE PRINT`).
+//! Printed output of CalculiX, `.dat` (`*CONTACT PRINT`, `*NODE PRINT`, `*SECTION PRINT` with FLUX).
 //!
 //! Source: CalculiX CrunchiX manual, *CONTACT PRINT and *NODE PRINT, and what ccx 2.20 prints.
 //! A table has a title with its time, which is that from the beginning of the analysis, a blank line and rows.
 //! Contact of faces is printed by integration points, `slave element+face`, contact of nodes by `slave node`.
 //! The clearance is negative where surfaces overlap, as CalculiX prints it; the normal force is positive in tension.
 //! CalculiX titles the totals of CF, CFN and CFS alike in some releases: they keep the order of the file.
+//! The total flux of heat through a surface (SURFACE_FLUX) is positive where heat leaves the body that the surface is of.
 
 use crate::collect::{self, PassedOver, Row};
-use crate::lines::{Line, LineEnd, Lines};
+use crate::frames::{TakeFrame, Taker, read_whole};
+use crate::lines::{Line, LineEnd, LineStream};
 use crate::number;
-use crate::problem::{Problem, Read, ended, shown};
+use crate::problem::{Problem, Read, shown};
 use crate::recognise::Format;
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 
@@ -17,22 +19,29 @@ const CUT: &str = "the file is cut short, or the job has not ended yet; the part
 const DAMAGED: &str = "the file is damaged here, or is no .dat of CalculiX; the part before is read";
 
 /// Reads printed output of CalculiX: relative contact displacements (CDIS), contact stresses (CSTR), contact energy (CELS),
-/// statistics of contact pairs (CF) with their area, displacements, reaction forces, temperatures and heat of nodes.
+/// statistics of contact pairs (CF) with their area, displacements, reaction forces, temperatures and heat of nodes, and the
+/// flux of heat through surfaces.
 ///
 /// # Errors
 /// A row of a table that is read is malformed, or the last line has no end.
 pub fn read_dat(bytes: &[u8]) -> Read {
+    read_whole(bytes, frames)
+}
+
+/// The same state by state.
+pub(crate) fn frames(lines: &mut LineStream<'_>, take: &mut TakeFrame<'_>) -> (Results, Result<(), Problem>) {
     let mut reader = Reader {
         results: Results::new(Format::Dat),
+        taker: Taker::new(take),
         step: None,
         frame: None,
         table: Table::NotRead,
         passed_over: PassedOver::default(),
     };
-    let outcome = reader.lines(Lines::new(bytes));
-    reader.results.frames.extend(reader.frame.take());
+    let outcome = reader.lines(lines);
+    reader.end_frame();
     reader.results.not_read = reader.passed_over.list();
-    ended(reader.results, outcome)
+    (reader.results, outcome)
 }
 
 /// Whether a line is the title of a table.
@@ -67,17 +76,21 @@ enum Labels {
     ElementAndFace,
 }
 
-struct Reader {
+struct Reader<'a, 'b> {
     results: Results,
+    taker: Taker<'a, 'b>,
     step: Option<i64>,
     frame: Option<Frame>,
     table: Table,
     passed_over: PassedOver,
 }
 
-impl Reader {
-    fn lines(&mut self, lines: Lines<'_>) -> Result<(), Problem> {
-        for line in lines {
+impl Reader<'_, '_> {
+    fn lines(&mut self, lines: &mut LineStream<'_>) -> Result<(), Problem> {
+        while let Some(line) = lines.next() {
+            if self.taker.is_over {
+                break;
+            }
             if line.end == LineEnd::File {
                 return Err(Problem::new(line.place, "the last line has no end", CUT));
             }
@@ -96,12 +109,16 @@ impl Reader {
         Ok(())
     }
 
+    fn end_frame(&mut self) {
+        self.taker.take(&self.results, self.frame.take());
+    }
+
     /// A line of text that is no title: the number of a step, or what the next totals are.
     fn text(&mut self, line: &Line<'_>) {
         let text = line.text.trim_ascii();
         if let Some(number) = text.strip_prefix(b"S T E P").and_then(|number| number::integer(number.trim_ascii())) {
             self.step = Some(number);
-            self.results.frames.extend(self.frame.take());
+            self.end_frame();
             self.table = Table::NotRead;
         }
         if !matches!(self.table, Table::Totals(_)) {
@@ -135,7 +152,7 @@ impl Reader {
     /// The title of a table.
     fn begin(&mut self, what: &str, time: f64) {
         if self.frame.as_ref().is_none_or(|frame| frame.total_time.map(f64::to_bits) != Some(time.to_bits())) {
-            self.results.frames.extend(self.frame.take());
+            self.end_frame();
             self.frame = Some(Frame { step: self.step, total_time: Some(time), ..Frame::default() });
         }
         let components =
@@ -163,6 +180,10 @@ impl Reader {
             let region = Region { slave: Some(slave.trim().into()), master, set: None };
             self.push(Field { name: "CF".into(), region, rows: Rows::Whole, columns: Vec::new() });
             self.table = Table::Totals(&[]);
+            return;
+        } else if what.starts_with("total surface flux ") {
+            self.push(Field { name: "SURFACE_FLUX".into(), region: of_set, rows: Rows::Whole, columns: Vec::new() });
+            self.table = Table::Totals(&["SURFACE_FLUX"]);
             return;
         } else {
             self.passed_over.count(what);

@@ -7,7 +7,9 @@ mod quantities;
 mod records;
 
 use crate::collect::{self, PassedOver, Row};
-use crate::problem::{Place, Problem, Read, ended};
+use crate::frames::{TakeFrame, Taker, read_whole};
+use crate::lines::LineStream;
+use crate::problem::{Place, Problem, Read};
 use crate::recognise::Format;
 use crate::results::{Field, Frame, Name, Region, Results, Surface, SurfaceFace};
 use quantities::{Kind, Quantity, quantity};
@@ -23,17 +25,26 @@ use std::collections::HashMap;
 /// The stream of words breaks off or is malformed; the part before is given with the error.
 /// An increment without its end, record 2001, is such a break, and so is a file without increments.
 pub fn read_fil(bytes: &[u8]) -> Read {
-    let mut reader = Reader::new();
-    let mut records = Records::new(bytes);
-    let outcome = reader.records(&mut records);
-    reader.finish(outcome)
+    read_whole(bytes, frames)
+}
+
+/// The same state by state.
+pub(crate) fn frames(lines: &mut LineStream<'_>, take: &mut TakeFrame<'_>) -> (Results, Result<(), Problem>) {
+    let mut reader = Reader::new(take);
+    let outcome = reader.records(&mut Records::new(lines));
+    reader.end_increment();
+    reader.results.not_read = reader.passed_over.list();
+    (reader.results, outcome)
 }
 
 /// A field that rows are added to: what it is of, and how many components it has.
 type FieldKey = (i64, usize, usize);
 
-struct Reader {
+struct Reader<'a, 'b> {
     results: Results,
+    taker: Taker<'a, 'b>,
+    /// The number of increments so far.
+    frames: usize,
     frame: Option<Frame>,
     /// The fields of the frame, by record key, region and number of components.
     fields: HashMap<FieldKey, usize>,
@@ -51,10 +62,12 @@ struct Reader {
     values: Vec<f64>,
 }
 
-impl Reader {
-    fn new() -> Self {
+impl<'a, 'b> Reader<'a, 'b> {
+    fn new(take: &'a mut TakeFrame<'b>) -> Self {
         Self {
             results: Results::new(Format::Fil),
+            taker: Taker::new(take),
+            frames: 0,
             frame: None,
             fields: HashMap::new(),
             regions: vec![Region::default()],
@@ -69,9 +82,12 @@ impl Reader {
         }
     }
 
-    fn records(&mut self, records: &mut Records<'_>) -> Result<(), Problem> {
+    fn records(&mut self, records: &mut Records<'_, '_>) -> Result<(), Problem> {
         while let Some(record) = records.next()? {
             self.record(&record)?;
+            if self.taker.is_over {
+                return Ok(());
+            }
         }
         match &self.frame {
             Some(frame) => {
@@ -80,28 +96,12 @@ impl Reader {
                 let message = format!("increment {increment} of step {step} has no end, record 2001");
                 Err(Problem::new(records.place(), message, CUT))
             }
-            None if self.results.frames.is_empty() => {
+            None if self.frames == 0 => {
                 let help = "ask for `*CONTACT FILE` or `*NODE FILE` in a step, or let the job run on";
                 Err(Problem::new(records.place(), "the file has no increment", help))
             }
             None => Ok(()),
         }
-    }
-
-    fn finish(mut self, outcome: Result<(), Problem>) -> Read {
-        self.end_increment();
-        for surface in &mut self.results.surfaces {
-            surface.name = resolved(&surface.name, &self.labels);
-        }
-        // The labels of names may occur after what uses them.
-        for field in self.results.frames.iter_mut().flat_map(|frame| &mut frame.fields) {
-            for name in [&mut field.region.slave, &mut field.region.master, &mut field.region.set].into_iter().flatten()
-            {
-                *name = resolved(name, &self.labels);
-            }
-        }
-        self.results.not_read = self.passed_over.list();
-        ended(self.results, outcome)
     }
 
     fn record(&mut self, record: &Record<'_>) -> Result<(), Problem> {
@@ -170,9 +170,21 @@ impl Reader {
         Ok(())
     }
 
+    /// Hands the increment over, with the names that records 1940 before its end give to numbers.
     fn end_increment(&mut self) {
         self.fields.clear();
-        self.results.frames.extend(self.frame.take());
+        let Some(mut frame) = self.frame.take() else { return };
+        for surface in &mut self.results.surfaces {
+            surface.name = resolved(&surface.name, &self.labels);
+        }
+        for field in &mut frame.fields {
+            for name in [&mut field.region.slave, &mut field.region.master, &mut field.region.set].into_iter().flatten()
+            {
+                *name = resolved(name, &self.labels);
+            }
+        }
+        self.frames += 1;
+        self.taker.take(&self.results, Some(frame));
     }
 
     fn coordinates(&mut self, record: &Record<'_>) -> Result<(), Problem> {

@@ -2,13 +2,14 @@
 //!
 //! Source: CalculiX GraphiX manual, "Result Format": columns are fixed, and numbers may touch each other.
 //! Times are those from the beginning of the analysis.
-//! `DISP` becomes `U`, `NDTEMP` `NT` and `FORC` `RF`, these and `RFL` with Abaqus' names of components; the rest keep their names.
+//! `DISP` becomes `U`, `NDTEMP` `NT`, `FORC` `RF` and `FLUX` `HFL`, these and `RFL` with Abaqus' names of components; the rest keep their names.
 //! COPEN is negative where surfaces overlap; some releases write contact for all nodes, 0 where a node is none of a slave surface.
 
 use crate::collect::{self, PassedOver, Row};
-use crate::lines::{Line, LineEnd, Lines};
+use crate::frames::{TakeFrame, Taker, read_whole};
+use crate::lines::{Line, LineEnd, LineStream};
 use crate::number;
-use crate::problem::{Place, Problem, Read, ended, shown};
+use crate::problem::{Place, Problem, Read, shown};
 use crate::recognise::Format;
 use crate::results::{Field, Frame, Region, Results};
 
@@ -29,19 +30,30 @@ const VALUES: usize = 6;
 /// # Errors
 /// A line is malformed, numbers are binary, or the file ends before its last line, `9999`.
 pub fn read_frd(bytes: &[u8]) -> Read {
-    let mut reader =
-        Reader { results: Results::new(Format::Frd), step: None, frame: None, passed_over: PassedOver::default() };
-    let outcome = reader.blocks(&mut Lines::new(bytes));
-    reader.results.frames.extend(reader.frame.take().map(|(_, frame)| frame));
+    read_whole(bytes, frames)
+}
+
+/// The same state by state.
+pub(crate) fn frames(lines: &mut LineStream<'_>, take: &mut TakeFrame<'_>) -> (Results, Result<(), Problem>) {
+    let mut reader = Reader {
+        results: Results::new(Format::Frd),
+        taker: Taker::new(take),
+        step: None,
+        frame: None,
+        passed_over: PassedOver::default(),
+    };
+    let outcome = reader.blocks(lines);
+    reader.end_frame();
     reader.results.not_read = reader.passed_over.list();
-    ended(reader.results, outcome)
+    (reader.results, outcome)
 }
 
 /// Increment and step, from the line `1PSTEP`, and the bits of the time.
 type FrameKey = (Option<(i64, i64)>, u64);
 
-struct Reader {
+struct Reader<'a, 'b> {
     results: Results,
+    taker: Taker<'a, 'b>,
     step: Option<(i64, i64)>,
     frame: Option<(FrameKey, Frame)>,
     passed_over: PassedOver,
@@ -63,9 +75,16 @@ impl Width {
     }
 }
 
-impl Reader {
-    fn blocks(&mut self, lines: &mut Lines<'_>) -> Result<(), Problem> {
+impl Reader<'_, '_> {
+    fn end_frame(&mut self) {
+        self.taker.take(&self.results, self.frame.take().map(|(_, frame)| frame));
+    }
+
+    fn blocks(&mut self, lines: &mut LineStream<'_>) -> Result<(), Problem> {
         while let Some(line) = lines.next() {
+            if self.taker.is_over {
+                return Ok(());
+            }
             let text = line.text.trim_ascii_start();
             if line.end == LineEnd::File && !text.starts_with(b"9999") {
                 return Err(cut(line.place));
@@ -79,12 +98,14 @@ impl Reader {
             } else if text.starts_with(b"1P") {
                 self.passed_over.count(&shown(&text[..text.iter().position(|b| *b == b' ').unwrap_or(text.len())]));
             } else if text.starts_with(b"2C") {
-                self.coordinates(lines, &line)?;
+                let width = width_of_coordinates(&line)?;
+                self.coordinates(lines, width)?;
             } else if text.starts_with(b"3C") {
                 self.passed_over.count("elements");
                 while line_of_block(lines)?.is_some() {}
             } else if text.starts_with(b"100C") {
-                self.values(lines, &line)?;
+                let head = HeadOfValues::of(&line)?;
+                self.values(lines, &head)?;
             } else if text.starts_with(b"9999") {
                 return Ok(());
             } else {
@@ -95,32 +116,23 @@ impl Reader {
         Err(cut(lines.place()))
     }
 
-    fn coordinates(&mut self, lines: &mut Lines<'_>, head: &Line<'_>) -> Result<(), Problem> {
-        let flag = head.cells().nth(2).map_or(b"1".as_slice(), |(_, cell)| cell);
-        let width = width(head, flag)?;
+    fn coordinates(&mut self, lines: &mut LineStream<'_>, width: Width) -> Result<(), Problem> {
         let field = self.results.coordinates.get_or_insert_with(|| {
             collect::field("COORD", Region::default(), Row::Node(0), ["COOR1", "COOR2", "COOR3"])
         });
         rows(lines, width, field)
     }
 
-    fn values(&mut self, lines: &mut Lines<'_>, head: &Line<'_>) -> Result<(), Problem> {
-        let text = head.text;
-        let time = number::real(columns(text, 12, 24)).ok_or_else(|| {
-            let message = format!("expected the time of a block, found `{}`", shown(columns(text, 12, 24)));
-            Problem::new(head.at(12), message, DAMAGED)
-        })?;
-        let flag = columns(text, 73, 75);
-        let width = width(head, if flag.is_empty() { b"1" } else { flag })?;
+    fn values(&mut self, lines: &mut LineStream<'_>, head: &HeadOfValues) -> Result<(), Problem> {
+        let HeadOfValues { time, is_eigenvalue, width } = *head;
         let key = (self.step, time.to_bits());
         if self.frame.as_ref().is_none_or(|(of, _)| *of != key) {
-            self.results.frames.extend(self.frame.take().map(|(_, frame)| frame));
-            // An eigenvalue is no time.
-            let total_time = (columns(text, 56, 58) != b"2").then_some(time);
+            self.end_frame();
+            let total_time = (!is_eigenvalue).then_some(time);
             let (increment, step) = self.step.unzip();
             self.frame = Some((key, Frame { step, increment, total_time, ..Frame::default() }));
         }
-        let mut field = head_of_values(lines)?;
+        let mut field = names_of_values(lines)?;
         let outcome = rows(lines, width, &mut field);
         if let Some((_, frame)) = &mut self.frame {
             frame.fields.push(field);
@@ -129,8 +141,33 @@ impl Reader {
     }
 }
 
+fn width_of_coordinates(head: &Line<'_>) -> Result<Width, Problem> {
+    width(head, head.cells().nth(2).map_or(b"1".as_slice(), |(_, cell)| cell))
+}
+
+/// What the line `100C` says of a block of values.
+struct HeadOfValues {
+    time: f64,
+    /// An eigenvalue is no time.
+    is_eigenvalue: bool,
+    width: Width,
+}
+
+impl HeadOfValues {
+    fn of(line: &Line<'_>) -> Result<Self, Problem> {
+        let text = line.text;
+        let time = number::real(columns(text, 12, 24)).ok_or_else(|| {
+            let message = format!("expected the time of a block, found `{}`", shown(columns(text, 12, 24)));
+            Problem::new(line.at(12), message, DAMAGED)
+        })?;
+        let flag = columns(text, 73, 75);
+        let width = width(line, if flag.is_empty() { b"1" } else { flag })?;
+        Ok(Self { time, is_eigenvalue: columns(text, 56, 58) == b"2", width })
+    }
+}
+
 /// The lines `-4` and `-5`: the name of a field and those of its components.
-fn head_of_values(lines: &mut Lines<'_>) -> Result<Field, Problem> {
+fn names_of_values(lines: &mut LineStream<'_>) -> Result<Field, Problem> {
     let expected = |what: &str, line: &Line<'_>| {
         let message = format!("expected {what}, found `{}`", shown(line.text));
         Problem::new(line.place, message, DAMAGED)
@@ -165,12 +202,13 @@ fn as_abaqus(name: &str, columns: Vec<String>) -> (String, Vec<String>) {
         "FORC" => ("RF".to_owned(), numbered("RF", 1)),
         "NDTEMP" => ("NT".to_owned(), numbered("NT", 11)),
         "RFL" => ("RFL".to_owned(), numbered("RFL", 11)),
+        "FLUX" => ("HFL".to_owned(), numbered("HFL", 1)),
         _ => (name.to_owned(), columns),
     }
 }
 
 /// The lines `-1` and `-2` up to `-3`.
-fn rows(lines: &mut Lines<'_>, width: Width, field: &mut Field) -> Result<(), Problem> {
+fn rows(lines: &mut LineStream<'_>, width: Width, field: &mut Field) -> Result<(), Problem> {
     let count = field.columns.len();
     let mut values = vec![0.0; count];
     while let Some(line) = line_of_block(lines)? {
@@ -186,10 +224,13 @@ fn rows(lines: &mut Lines<'_>, width: Width, field: &mut Field) -> Result<(), Pr
         let (mut line, mut within) = (line, 0);
         for (at, value) in values.iter_mut().enumerate() {
             if within == VALUES {
-                line = line_of_block(lines)?.filter(|line| line.text.starts_with(b" -2")).ok_or_else(|| {
-                    let message = format!("node {node} has {at} values of {count}");
-                    Problem::new(lines.place(), message, DAMAGED)
-                })?;
+                line = match line_of_block(lines)? {
+                    Some(line) if line.text.starts_with(b" -2") => line,
+                    _ => {
+                        let message = format!("node {node} has {at} values of {count}");
+                        return Err(Problem::new(lines.place(), message, DAMAGED));
+                    }
+                };
                 within = 0;
             }
             let from = begin + within * VALUE;
@@ -206,17 +247,18 @@ fn rows(lines: &mut Lines<'_>, width: Width, field: &mut Field) -> Result<(), Pr
 }
 
 /// The next line of a block; none where it ends, with `-3`.
-fn line_of_block<'a>(lines: &mut Lines<'a>) -> Result<Option<Line<'a>>, Problem> {
+fn line_of_block<'a>(lines: &'a mut LineStream<'_>) -> Result<Option<Line<'a>>, Problem> {
     let line = whole_line(lines)?;
     Ok((!line.text.starts_with(b" -3")).then_some(line))
 }
 
 /// The next line, which has an end: more may have stood on a line that has none.
-fn whole_line<'a>(lines: &mut Lines<'a>) -> Result<Line<'a>, Problem> {
+fn whole_line<'a>(lines: &'a mut LineStream<'_>) -> Result<Line<'a>, Problem> {
+    let place = lines.place();
     match lines.next() {
         Some(line) if line.end == LineEnd::Line => Ok(line),
-        Some(line) => Err(cut(line.place)),
-        None => Err(cut(lines.place())),
+        // Where the file ends, or where the line begins that has no end.
+        _ => Err(cut(place)),
     }
 }
 

@@ -11,7 +11,7 @@
 //! | `.dat` | CalculiX | `*NODE PRINT`, `*CONTACT PRINT` | [`read_dat`] |
 //! | `.vtu` | inpact, ParaView | | [`read_vtu`], [`vtu::read_grid`] |
 //!
-//! [`read`] finds out which of them bytes are.
+//! [`read`] finds out which of them bytes are, [`read_frames`] reads a source of any length state by state.
 //! A file that is cut short or damaged is an [`Incomplete`]: the problem with its place and what to do, and the part before it.
 //!
 //! ```
@@ -27,6 +27,7 @@
 //! ```
 
 mod collect;
+mod frames;
 mod lines;
 mod number;
 
@@ -42,6 +43,7 @@ pub mod vtu;
 
 pub use dat::read_dat;
 pub use fil::read_fil;
+pub use frames::{Broken, TakeFrame, read_frames};
 pub use frd::read_frd;
 pub use problem::{Incomplete, Place, Problem, Read};
 pub use recognise::{Format, recognise};

@@ -32,7 +32,7 @@ impl fmt::Display for Format {
 }
 
 /// The number of bytes examined.
-const HEAD: usize = 1 << 16;
+pub(crate) const HEAD: usize = 1 << 16;
 
 /// The kinds that are read, for a message.
 const READ: &str = "expected .fil in ASCII or .rpt of Abaqus, .frd in ASCII or .dat of CalculiX, or .vtu of ParaView";

@@ -2,7 +2,9 @@
 
 use super::nodes::nodes_of;
 use super::quantities::Quantity;
-use crate::state::{ContactField, ContactQuantity, Displacements, Moment, NodeField, OutputField, Source, State};
+use crate::state::{
+    ContactField, ContactQuantity, Displacements, HeatFlux, Moment, NodeField, OutputField, PairTotal, Source, State,
+};
 use inpact_geometry::{ElementSpace, NodeId, Vector};
 use inpact_parser::mesh::{Mesh, SurfaceKind};
 use inpact_parser::model::Name;
@@ -22,6 +24,7 @@ pub(super) struct Building {
     files: Vec<Arc<str>>,
     nodes: usize,
     said: Vec<Said>,
+    totals: Vec<PairTotal>,
 }
 
 /// Values of a quantity from one file, or from several that say the same of different nodes.
@@ -71,12 +74,27 @@ impl Building {
             Format::Rpt if !of_total => 1e-3,
             Format::Rpt | Format::Frd | Format::Dat => 1e-6,
         };
-        Self { moment, digits, files: vec![Arc::clone(file)], nodes: mesh.nodes.len(), said: Vec::new() }
+        Self {
+            moment,
+            digits,
+            files: vec![Arc::clone(file)],
+            nodes: mesh.nodes.len(),
+            said: Vec::new(),
+            totals: Vec::new(),
+        }
     }
 
     /// Whether nothing was said.
     pub(super) fn is_empty(&self) -> bool {
-        self.said.is_empty()
+        self.said.is_empty() && self.totals.is_empty()
+    }
+
+    /// Takes a value of a pair as a whole; the first counts.
+    pub(super) fn take_total(&mut self, total: PairTotal) {
+        let is_same = |known: &PairTotal| (known.quantity, known.pair) == (total.quantity, total.pair);
+        if !self.totals.iter().any(is_same) {
+            self.totals.push(total);
+        }
     }
 
     /// Takes values of a quantity; the first value of a node counts.
@@ -168,6 +186,9 @@ impl Building {
                 self.files.push(file);
             }
         }
+        for total in other.totals {
+            self.take_total(total);
+        }
         for said in other.said {
             let same = self.said.iter().find(|known| {
                 known.quantity == said.quantity && known.pair == said.pair && known.source != said.source
@@ -234,6 +255,16 @@ impl Building {
                 }
             }
         }
+        let fluxes = self.vectors(|quantity| match quantity {
+            Quantity::HeatFlux(at) => Some(at),
+            _ => None,
+        });
+        if let (Some((_, vectors)), Some(source)) =
+            (fluxes.into_iter().next(), self.source_of(|quantity| matches!(quantity, Quantity::HeatFlux(_))))
+        {
+            state.heat_flux = Some(HeatFlux { vectors, source });
+        }
+        state.totals.extend_from_slice(&self.totals);
         let slides = !state.contact.is_empty();
         for Said { quantity, pair, source, values } in self.said {
             if values.iter().all(Option::is_none) {
@@ -246,7 +277,7 @@ impl Building {
                     state.contact.push(ContactField { quantity, pair, values, source });
                 }
                 Quantity::Output(output) => state.outputs.push(OutputField { output, pair, values, source }),
-                Quantity::Displacement(_) | Quantity::Shear(_) | Quantity::Slip(_) => {}
+                Quantity::Displacement(_) | Quantity::Shear(_) | Quantity::Slip(_) | Quantity::HeatFlux(_) => {}
             }
         }
         (state, missing)

@@ -5,9 +5,10 @@
 //! slave surface of the pair that a value is of.
 //! Nodes at one place, which touching surfaces that share a mesh have many of, are distinguished by the surfaces of the file.
 
+use crate::Error;
 use inpact_geometry::{NodeId, Point};
 use inpact_parser::mesh::{Mesh, SurfaceKind};
-use inpact_results::{Field, Format, Region, Results, Rows};
+use inpact_results::{Field, Format, Frame, Region, Results, Rows};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
 
@@ -48,7 +49,14 @@ pub(super) enum NodeMap {
 
 impl NodeMap {
     /// The reading of the labels of a file, with notes on it; an error where its nodes are not those of the mesh.
-    pub(super) fn new(mesh: &Mesh, results: &Results) -> Result<(Self, Vec<String>), String> {
+    ///
+    /// `surfaces` is asked where nodes at one place must be distinguished.
+    pub(super) fn new<E: From<Error>>(
+        mesh: &Mesh,
+        results: &Results,
+        surfaces: impl FnOnce() -> Result<FileSurfaces, E>,
+        failed: impl Fn(String) -> Error,
+    ) -> Result<(Self, Vec<String>), E> {
         let instances = mesh.nodes.iter().any(|node| node.instance.is_some());
         let coordinates = results.coordinates.as_ref().and_then(|field| Places::of(field, results.format, mesh));
         let by_label = || by_labels(mesh.nodes.iter().map(|node| i64::from(node.label)));
@@ -56,9 +64,10 @@ impl NodeMap {
             None if instances => Ok((Self::of_instances(mesh), Vec::new())),
             None => Ok((Self::Labels(by_label(), MatchedBy::Labels), Vec::new())),
             Some(places) if instances => {
-                let (nodes, notes) = places.nodes(results);
+                let (nodes, notes) = places.nodes(surfaces)?;
                 if nodes.is_empty() {
-                    return Err("none of its nodes is at the place of a node of a contact surface: it is of another mesh, or of a deformed one".to_owned());
+                    let message = "none of its nodes is at the place of a node of a contact surface: it is of another mesh, or of a deformed one";
+                    return Err(failed(message.to_owned()).into());
                 }
                 Ok((Self::Labels(nodes, MatchedBy::Coordinates), notes))
             }
@@ -67,13 +76,14 @@ impl NodeMap {
                 let Some(contradiction) = places.contradiction(&labels) else {
                     return Ok((Self::Labels(labels, MatchedBy::Labels), Vec::new()));
                 };
-                let (nodes, mut notes) = places.nodes(results);
+                let (nodes, mut notes) = places.nodes(surfaces)?;
                 // Some nodes of another mesh may well be where one of this has some.
                 if 2 * nodes.len() < mesh.nodes.len() {
                     let (found, all) = (nodes.len(), mesh.nodes.len());
-                    return Err(format!(
+                    let message = format!(
                         "{contradiction}, and only {found} of {all} nodes of contact surfaces are at the place of one of its nodes: it is of another mesh"
-                    ));
+                    );
+                    return Err(failed(message).into());
                 }
                 notes.insert(0, format!("{contradiction}: nodes are found by their coordinates"));
                 Ok((Self::Labels(nodes, MatchedBy::Coordinates), notes))
@@ -227,9 +237,13 @@ impl<'a> Places<'a> {
     }
 
     /// The nodes of the mesh by label, and those that could not be distinguished.
-    fn nodes(&self, results: &Results) -> (HashMap<i64, NodeId>, Vec<String>) {
+    fn nodes<E>(
+        &self,
+        surfaces: impl FnOnce() -> Result<FileSurfaces, E>,
+    ) -> Result<(HashMap<i64, NodeId>, Vec<String>), E> {
         let mut candidates = self.candidates();
-        let surfaces = FileSurfaces::of(results);
+        let are_several = candidates.iter().any(|labels| 1 < labels.len());
+        let surfaces = if are_several { surfaces()? } else { FileSurfaces::default() };
         let of_mesh = surfaces_of_nodes(self.mesh);
         for (node, labels) in candidates.iter_mut().enumerate().filter(|(_, labels)| 1 < labels.len()) {
             let on_surface: Vec<i64> =
@@ -271,7 +285,7 @@ impl<'a> Places<'a> {
                 "nodes at one place could not be distinguished, the first of them {first}: their values are not used (surfaces in the file distinguish them: *CONTACT FILE)"
             ));
         }
-        (nodes.into_iter().filter_map(|(label, node)| Some((label, node?))).collect(), notes)
+        Ok((nodes.into_iter().filter_map(|(label, node)| Some((label, node?))).collect(), notes))
     }
 
     /// For each node of the mesh the labels of the file at its place.
@@ -326,21 +340,27 @@ fn surfaces_of_nodes(mesh: &Mesh) -> Vec<Vec<String>> {
 }
 
 /// The surfaces of a file by the labels of their nodes.
-struct FileSurfaces(Vec<(String, HashSet<i64>)>);
+#[derive(Debug, Default)]
+pub(super) struct FileSurfaces(HashMap<String, HashSet<i64>>);
 
 impl FileSurfaces {
-    fn of(results: &Results) -> Self {
-        let mut surfaces: HashMap<String, HashSet<i64>> = HashMap::new();
+    /// The surfaces that a file gives by their faces.
+    pub(super) fn of(results: &Results) -> Self {
+        let mut surfaces = Self::default();
         for surface in &results.surfaces {
             let labels = surface.faces.iter().flat_map(|face| face.nodes.iter().copied());
-            surfaces.entry(plain(&surface.name)).or_default().extend(labels);
+            surfaces.0.entry(plain(&surface.name)).or_default().extend(labels);
         }
-        for field in results.frames.iter().flat_map(|frame| &frame.fields) {
+        surfaces
+    }
+
+    /// Takes the nodes that a state has values of contact at.
+    pub(super) fn take(&mut self, frame: &Frame) {
+        for field in &frame.fields {
             if let (Some(slave), Rows::Nodes(labels)) = (&field.region.slave, &field.rows) {
-                surfaces.entry(plain(slave)).or_default().extend(labels);
+                self.0.entry(plain(slave)).or_default().extend(labels);
             }
         }
-        Self(surfaces.into_iter().collect())
     }
 
     /// Whether a label is on a surface of one of these names.

@@ -21,6 +21,13 @@ pub(super) enum PairOf {
     Unknown,
 }
 
+/// The sides of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Slave,
+    Master,
+}
+
 impl PairNames {
     pub(super) fn new(mesh: &Mesh) -> Self {
         let name = |surface: usize| plain(&mesh.surfaces[surface].name);
@@ -29,10 +36,6 @@ impl PairNames {
 
     pub(super) fn of_region(&self, region: &Region) -> PairOf {
         let Some(slave) = &region.slave else { return PairOf::Unsaid };
-        let is = |deck: &str, file: &str| {
-            let file = plain(&Name::new(file));
-            file == deck || file.strip_suffix(deck).is_some_and(|before| before.ends_with('_'))
-        };
         let fits = |[of_slave, of_master]: &[String; 2]| {
             is(of_slave, slave) && region.master.as_ref().is_none_or(|master| is(of_master, master))
         };
@@ -42,6 +45,22 @@ impl PairNames {
             _ => PairOf::Unknown,
         }
     }
+
+    /// The pair that a surface, by its name, is one side of; `None` where it is none of any, or of several.
+    pub(super) fn of_surface(&self, region: &Region) -> Option<(usize, Side)> {
+        let name = region.set.as_ref()?;
+        let sides = self.0.iter().enumerate().flat_map(|(pair, [slave, master])| {
+            [(slave, Side::Slave), (master, Side::Master)].map(|(deck, side)| (deck, (pair, side)))
+        });
+        let mut found = sides.filter(|(deck, _)| is(deck, name)).map(|(_, found)| found);
+        found.next().filter(|_| found.next().is_none())
+    }
+}
+
+/// Whether a name in a result file is that of a surface of the deck.
+fn is(deck: &str, file: &str) -> bool {
+    let file = plain(&Name::new(file));
+    file == deck || file.strip_suffix(deck).is_some_and(|before| before.ends_with('_'))
 }
 
 /// A name as result files write it.

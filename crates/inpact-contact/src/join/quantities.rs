@@ -18,6 +18,8 @@ pub(super) enum Quantity {
     Shear(usize),
     /// A component of the accumulated slip, from 0.
     Slip(usize),
+    /// A component of the flux of heat in a body, from 0.
+    HeatFlux(usize),
     /// An output that is computed here too.
     Output(Output),
 }
@@ -25,7 +27,7 @@ pub(super) enum Quantity {
 impl Quantity {
     /// Whether it is of slave nodes as such.
     pub(super) fn is_of_contact(self) -> bool {
-        !matches!(self, Self::Displacement(_) | Self::Node(..))
+        !matches!(self, Self::Displacement(_) | Self::HeatFlux(_) | Self::Node(..))
     }
 
     /// The name in the file.
@@ -36,6 +38,7 @@ impl Quantity {
             Self::Node(_, name) | Self::Contact(_, name) => name.into(),
             Self::Shear(_) => "CSHEAR".into(),
             Self::Slip(_) => "CSLIP".into(),
+            Self::HeatFlux(_) => "HFL".into(),
             Self::Output(output) => output.to_string().into(),
         }
     }
@@ -48,6 +51,9 @@ pub(super) fn of_column(name: &str, format: Format) -> Option<Quantity> {
         "U1" => Quantity::Displacement(0),
         "U2" => Quantity::Displacement(1),
         "U3" => Quantity::Displacement(2),
+        "HFL1" => Quantity::HeatFlux(0),
+        "HFL2" => Quantity::HeatFlux(1),
+        "HFL3" => Quantity::HeatFlux(2),
         // Shells have several; the first is that of the reference surface.
         "NT11" | "NT" => Quantity::Node(NodeQuantity::Temperature, "NT11"),
         "EPOT" => Quantity::Node(NodeQuantity::Potential, "EPOT"),

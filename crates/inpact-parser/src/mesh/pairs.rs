@@ -3,6 +3,7 @@
 use super::layout::Entry;
 use super::reader::Reader;
 use super::{FaceSurface, Mesh, SurfaceKind};
+use crate::grammar::Dialect;
 use crate::model::{ContactPair, Model, Name, Reference};
 use crate::number::read_float;
 use crate::span::Span;
@@ -20,6 +21,15 @@ pub enum Sliding {
     Small,
 }
 
+/// The state of the mesh that the areas of slave nodes are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AreasOf {
+    /// That in which they are needed.
+    Now,
+    /// The one at the start: surface-to-surface contact of CalculiX, which integrates over the undeformed faces, with NLGEOM too.
+    Start,
+}
+
 /// A contact pair of the deck.
 #[derive(Debug, Clone)]
 pub struct MeshPair {
@@ -33,6 +43,8 @@ pub struct MeshPair {
     pub interaction: Option<Name>,
     /// TYPE: equal shares for NODE TO SURFACE, shape functions for SURFACE TO SURFACE.
     pub shares: Shares,
+    /// The state that areas are of; with SMALL SLIDING they are those of the start in any case.
+    pub areas_of: AreasOf,
     /// SMALL SLIDING.
     pub sliding: Sliding,
     /// ADJUST: slave nodes whose clearance is no more than this are moved onto the master (L).
@@ -191,6 +203,9 @@ impl Reader<'_, '_> {
                 pair.shares = Shares::ShapeFunctions;
             }
         }
+        if self.dialect == Dialect::Calculix && pair.shares == Shares::ShapeFunctions {
+            pair.areas_of = AreasOf::Start;
+        }
         if given("SMALL SLIDING").is_some() {
             pair.sliding = Sliding::Small;
         }
@@ -256,6 +271,7 @@ impl MeshPair {
             master,
             interaction,
             shares: Shares::Equal,
+            areas_of: AreasOf::Now,
             sliding: Sliding::Finite,
             adjust: None,
             extension: DEFAULT_EXTENSION,

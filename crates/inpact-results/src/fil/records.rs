@@ -1,6 +1,6 @@
 //! The stream of words that an ASCII `.fil` is: cut into lines of 80 characters without regard to words.
 
-use crate::lines::{Line, LineEnd, Lines};
+use crate::lines::{LineEnd, LineStream};
 use crate::number;
 use crate::problem::{Place, Problem, shown};
 
@@ -55,23 +55,21 @@ pub(super) struct Record<'a> {
 }
 
 /// Reads records one after the other.
-pub(super) struct Records<'a> {
-    lines: Lines<'a>,
-    line: Option<Line<'a>>,
+pub(super) struct Records<'a, 'b> {
+    lines: &'a mut LineStream<'b>,
     column: usize,
     record: Vec<Word>,
 }
 
-impl<'a> Records<'a> {
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
-        let mut lines = Lines::new(bytes);
-        let line = lines.next();
-        Self { lines, line, column: 0, record: Vec::new() }
+impl<'a, 'b> Records<'a, 'b> {
+    pub(super) fn new(lines: &'a mut LineStream<'b>) -> Self {
+        lines.next();
+        Self { lines, column: 0, record: Vec::new() }
     }
 
     /// The current place.
     pub(super) fn place(&self) -> Place {
-        self.line.map_or(self.lines.place(), |line| line.at(self.column.min(line.text.len())))
+        self.lines.line().map_or(self.lines.place(), |line| line.at(self.column.min(line.text.len())))
     }
 
     /// The next record; none at the end of the file.
@@ -161,7 +159,7 @@ impl<'a> Records<'a> {
 
     fn take<const N: usize>(&mut self, place: Place) -> Result<[u8; N], Problem> {
         let mut taken = [0; N];
-        if let Some(text) = self.line.and_then(|line| line.text.get(self.column..self.column + N)) {
+        if let Some(text) = self.lines.line().and_then(|line| line.text.get(self.column..self.column + N)) {
             taken.copy_from_slice(text);
             self.column += N;
             return Ok(taken);
@@ -178,7 +176,7 @@ impl<'a> Records<'a> {
 
     fn byte(&mut self) -> Option<u8> {
         loop {
-            let line = self.line?;
+            let line = self.lines.line()?;
             let column = self.column;
             self.column += 1;
             if let Some(byte) = line.text.get(column) {
@@ -187,7 +185,7 @@ impl<'a> Records<'a> {
             if column < LINE && line.end == LineEnd::Line {
                 return Some(b' ');
             }
-            self.line = self.lines.next();
+            self.lines.next();
             self.column = 0;
         }
     }

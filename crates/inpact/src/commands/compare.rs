@@ -1,20 +1,20 @@
 //! `inpact compare`: what is computed of a deck's interfaces, beside what its solver says of them, node by node.
 
+mod geometry;
 mod measure;
 mod report;
 
-use self::measure::{Comparison, Quantity};
+use self::geometry::Geometry;
+use self::measure::{Comparison, Quantity, RowsOf};
 use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice, tolerance};
 use super::findings::Messages;
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
-use super::meshed::MeshedDeck;
 use super::picture::{PictureWriter, is_picture};
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
-use inpact_contact::{ContactQuantity, NodeRows, State};
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::{visible, visible_json};
 use inpact_evaluation::results::Output;
@@ -69,13 +69,23 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
     };
     // The included files are known now.
     files::check_targets(&[output.as_deref()])?;
-    let mut comparison = of_geometry(arguments, &prepared)?;
-    comparison.extend(evaluable.with_threads(|| of_outputs(deck, &mut prepared, messages))?);
-    if comparison.iter().all(|quantity| quantity.compared() == 0) {
-        let message = "the results say nothing that is computed here: expected COPEN or CNAREA, or outputs of the interface such as HFL, ECD, SJD, PFL";
+    let (geometry, mut quantities) = Geometry::of(arguments, &prepared)?;
+    let outputs = outputs_said(&prepared, &geometry);
+    let wanted: Vec<Output> =
+        outputs.iter().map(|(output, _)| *output).chain([Output::TotalHeatSlave, Output::TotalHeatMaster]).collect();
+    let mut ours = evaluable.with_threads(|| evaluated(deck, &mut prepared, &wanted, messages))?;
+    if let Some(made) = &prepared.made {
+        let [into_slave, into_master] = [ours.len() - 2, ours.len() - 1];
+        let totals = geometry.totals(&made.drawn, [&ours[into_slave], &ours[into_master]]);
+        let of_outputs = outputs.into_iter().zip(ours.drain(..into_slave));
+        quantities.extend(of_outputs.map(|((_, quantity), ours)| Quantity { ours, ..quantity }));
+        quantities.extend(totals);
+    }
+    if quantities.iter().all(|quantity| quantity.compared() == 0) {
+        let message = "the results say nothing that is computed here: expected COPEN or CNAREA, outputs of the interface such as HFL, ECD, SJD, PFL, the flux of heat in bodies, or area or heat of a pair";
         return Err(Failure::Data(message.to_owned()));
     }
-    let comparison = Comparison::new(comparison, &prepared, arguments.tolerance);
+    let comparison = Comparison::new(quantities, &prepared, &geometry, arguments.tolerance);
     if let Some(target) = output.as_deref() {
         if is_picture(target) {
             draw(&comparison, &prepared, target)?;
@@ -91,70 +101,46 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
     Ok(if comparison.is_beyond() { Outcome::HasErrors } else { Outcome::Clean })
 }
 
-/// Clearances and areas of the moved mesh beside those that the solver says.
-fn of_geometry(arguments: &CompareArguments, prepared: &Evaluable) -> Result<Vec<Quantity>, Failure> {
-    let Some(made) = &prepared.made else { return Ok(Vec::new()) };
-    let said = |state: &State, quantity| state.contact.iter().any(|field| field.quantity == quantity);
-    let kinds = [ContactQuantity::Clearance, ContactQuantity::Area];
-    let kinds: Vec<ContactQuantity> =
-        kinds.into_iter().filter(|kind| made.drawn.states.iter().any(|state| said(state, *kind))).collect();
-    if kinds.is_empty() {
-        return Ok(Vec::new());
-    }
-    let settings = arguments.reading.settings(&arguments.deck)?;
-    let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
-    // Without what the solver says the rows have what the mesh says.
-    let states: Vec<State> =
-        made.drawn.states.iter().cloned().map(|state| State { contact: Vec::new(), ..state }).collect();
-    let failed = |error: inpact_contact::Error| Failure::Data(error.to_string());
-    let mut rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &states).map_err(failed)?;
-    let places: Vec<Option<usize>> =
-        kinds.iter().map(|kind| rows.numbers().iter().position(|column| *column == kind.column())).collect();
-    let mut quantities: Vec<Quantity> = kinds.iter().map(|kind| Quantity::new(kind.column().to_string())).collect();
-    for batch in rows.batches(&states) {
-        let batch = batch.map_err(failed)?;
-        for row in 0..batch.rows {
-            for (quantity, place) in quantities.iter_mut().zip(&places) {
-                quantity.ours.push(place.and_then(|place| batch.numbers[place].get(row)));
-            }
-        }
-    }
-    for (quantity, kind) in quantities.iter_mut().zip(kinds) {
-        quantity.solvers = made.drawn.rows(|state, pair, node| state.contact(kind, pair, node).map(|(value, _)| value));
-    }
-    Ok(quantities)
-}
-
-/// Outputs of the interface beside those that the solver says.
-fn of_outputs(deck: &Path, prepared: &mut Evaluable, messages: Messages<'_>) -> Result<Vec<Quantity>, Failure> {
-    let Evaluable { settings, model, plan, choices, nodes_name, rows, made, .. } = prepared;
-    let Some(made) = made else { return Ok(Vec::new()) };
-    let mut said: Vec<Output> =
-        made.drawn.states.iter().flat_map(|state| &state.outputs).map(|field| field.output).collect();
+/// The outputs that the solver says something of, each with its values a row.
+fn outputs_said(prepared: &Evaluable, geometry: &Geometry) -> Vec<(Output, Quantity)> {
+    let Some(made) = &prepared.made else { return Vec::new() };
+    let fields = || made.drawn.states.iter().flat_map(|state| &state.outputs);
+    let mut said: Vec<Output> = fields().map(|field| field.output).collect();
     said.sort_unstable();
     said.dedup();
-    let mut quantities: Vec<Quantity> = said.iter().map(|output| Quantity::new(output.to_string())).collect();
-    for (quantity, output) in quantities.iter_mut().zip(&said) {
-        quantity.solvers =
-            made.drawn.rows(|state, pair, node| state.output(*output, pair, node).map(|(value, _)| value));
-    }
+    let quantity = |output: Output| {
+        let solvers = made.drawn.rows(|state, pair, node| state.output(output, pair, node).map(|(value, _)| value));
+        let source = fields().find(|field| field.output == output).map(|field| field.source.to_string());
+        (output, Quantity { solvers, source: source.unwrap_or_default(), ..Quantity::of_output(output) })
+    };
+    let heat = geometry.heat_into_slave(&made.drawn).map(|quantity| (Output::TotalHeatSlave, quantity));
+    said.into_iter().map(quantity).chain(heat).collect()
+}
+
+/// Some outputs as the deck's laws give them, a value a row each; none of one that is not planned.
+fn evaluated(
+    deck: &Path,
+    prepared: &mut Evaluable,
+    outputs: &[Output],
+    messages: Messages<'_>,
+) -> Result<Vec<Vec<Option<f64>>>, Failure> {
+    let Evaluable { settings, model, plan, choices, nodes_name, rows, made, .. } = prepared;
+    let Some(made) = made else { return Ok(vec![Vec::new(); outputs.len()]) };
     // Statuses are no columns of numbers.
     let numbers = plan.outputs.iter().filter(|output| output.is_number());
     let places: Vec<Option<usize>> =
-        said.iter().map(|output| numbers.clone().position(|planned| planned == output)).collect();
+        outputs.iter().map(|output| numbers.clone().position(|planned| planned == output)).collect();
     if places.iter().all(Option::is_none) {
-        for quantity in &mut quantities {
-            quantity.ours = vec![None; quantity.solvers.len()];
-        }
-        return Ok(quantities);
+        return Ok(vec![vec![None; made.drawn.rows_in_all()]; outputs.len()]);
     }
+    let mut columns = vec![Vec::new(); outputs.len()];
     let unreadable = |error| Failure::read(deck, error);
     let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     let mut evaluation = Evaluation::on_all_threads(model, plan, choices);
     let ran = evaluation.run::<Failure>(&mut rows, plan, |batch, results| {
         for row in 0..batch.rows {
-            for (quantity, place) in quantities.iter_mut().zip(&places) {
-                quantity.ours.push(place.and_then(|place| results.numbers[place].get(row)));
+            for (column, place) in columns.iter_mut().zip(&places) {
+                column.push(place.and_then(|place| results.numbers[place].get(row)));
             }
         }
         Ok(())
@@ -171,19 +157,18 @@ fn of_outputs(deck: &Path, prepared: &mut Evaluable, messages: Messages<'_>) -> 
     if failed {
         return Err(Failure::Data("the user subroutine fails, and nothing is compared".to_owned()));
     }
-    Ok(quantities)
+    Ok(columns)
 }
 
-/// Draws both values of every quantity and their difference.
+/// Draws both values of every quantity of nodes and their difference.
 fn draw(comparison: &Comparison, prepared: &Evaluable, target: &Path) -> Result<(), Failure> {
     let Some(made) = &prepared.made else { return Ok(()) };
-    let names = comparison
-        .quantities
-        .iter()
+    let quantities = || comparison.quantities.iter().filter(|quantity| quantity.rows_of == RowsOf::Nodes);
+    let names = quantities()
         .flat_map(|quantity| ["", "_solver", "_difference"].map(|ending| format!("{}{ending}", quantity.name)));
     let mut writer = PictureWriter::new(&made.drawn, target, names.collect())?;
     for row in 0..comparison.rows() {
-        let values = comparison.quantities.iter().flat_map(|quantity| {
+        let values = quantities().flat_map(|quantity| {
             let (ours, solvers) = (quantity.ours[row], quantity.solvers[row]);
             [ours, solvers, ours.zip(solvers).map(|(ours, solvers)| ours - solvers)]
         });

@@ -3,12 +3,13 @@
 use super::findings::Messages;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
-use crate::files;
-use inpact_contact::{FileSummary, Join, Joined, ResultNote, State};
+use crate::files::{self, STANDARD_STREAM};
+use inpact_contact::{FileSummary, Join, Joined, ResultFile, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
-use inpact_results::{Incomplete, Results};
+use inpact_results::{Broken, Frame, Problem, Results, read_frames};
 use serde_json::json;
 use std::io::Read;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// More notes than these of one run nobody reads.
@@ -36,37 +37,92 @@ pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, 
         return Ok((States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() }, Vec::new()));
     }
     let mut join = Join::new(&meshed.mesh, &meshed.read.model);
-    let failed = |error: inpact_contact::Error| Failure::Data(error.to_string());
     for path in results {
-        join.add(&path.display().to_string(), &read(path)?).map_err(failed)?;
+        join.add(&path.display().to_string(), &FileOnDisk::open(path)?)?;
     }
-    let joined = join.finish();
-    let Joined { states, files, notes } = joined.map_err(failed)?;
+    let joined = join.finish().map_err(|error| Failure::Data(error.to_string()));
+    let Joined { states, files, notes } = joined?;
     Ok((States { states, files }, notes))
 }
 
-fn read(path: &Path) -> Result<Results, Failure> {
-    let mut bytes = Vec::new();
-    files::open(path)?.read_to_end(&mut bytes).map_err(|error| Failure::read(path, error))?;
-    inpact_results::read(&bytes).map_err(|incomplete| unsound(path, &incomplete))
+/// A result file on disk.
+struct FileOnDisk<'a> {
+    path: &'a Path,
+    /// What a stream gave, which gives nothing a second time.
+    spooled: Option<Vec<u8>>,
+}
+
+impl<'a> FileOnDisk<'a> {
+    fn open(path: &'a Path) -> Result<Self, Failure> {
+        let is_stream = path.as_os_str() == STANDARD_STREAM
+            || path.metadata().is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
+        let mut spooled = None;
+        if is_stream {
+            let bytes = spooled.insert(Vec::new());
+            files::open(path)?.read_to_end(bytes).map_err(|error| Failure::read(path, error))?;
+        }
+        Ok(Self { path, spooled })
+    }
+}
+
+/// Why a result file cannot be used.
+enum Unusable {
+    Read(Failure),
+    Join(inpact_contact::Error),
+}
+
+impl From<inpact_contact::Error> for Unusable {
+    fn from(error: inpact_contact::Error) -> Self {
+        Self::Join(error)
+    }
+}
+
+impl From<Unusable> for Failure {
+    fn from(unusable: Unusable) -> Self {
+        match unusable {
+            Unusable::Read(failure) => failure,
+            Unusable::Join(error) => Self::Data(error.to_string()),
+        }
+    }
+}
+
+impl ResultFile for FileOnDisk<'_> {
+    type Error = Unusable;
+
+    fn frames(&self, take: &mut dyn FnMut(&Results, &Frame) -> ControlFlow<()>) -> Result<Results, Unusable> {
+        let mut source: Box<dyn Read + '_> = match &self.spooled {
+            Some(bytes) => Box::new(bytes.as_slice()),
+            None => files::open(self.path).map_err(Unusable::Read)?,
+        };
+        let (mut states, mut time) = (0, None);
+        let read = read_frames(&mut source, &mut |head, frame| {
+            states += 1;
+            time = frame.total_time.or(frame.step_time).or(time);
+            take(head, &frame)
+        });
+        read.map_err(|broken| {
+            Unusable::Read(match broken {
+                Broken::Source(error) => Failure::read(self.path, error),
+                Broken::Foreign(problem) => unsound(self.path, &problem, ""),
+                Broken::Unsound(problem) => unsound(self.path, &problem, &before(states, time)),
+            })
+        })
+    }
 }
 
 /// Reports where a file breaks off, and the part before.
-fn unsound(path: &Path, incomplete: &Incomplete) -> Failure {
-    let Incomplete { problem, read } = incomplete;
-    let before = match read.as_deref() {
-        None => String::new(),
-        Some(results) => {
-            let time = results.frames.iter().rev().find_map(|frame| frame.total_time.or(frame.step_time));
-            let to = time.map_or_else(String::new, |time| format!(" up to time {time:?}"));
-            match results.frames.len() {
-                0 => "; no state is before it".to_owned(),
-                1 => format!("; 1 state{to} is before it, which may not be whole"),
-                frames => format!("; {frames} states{to} are before it, the last of which may not be whole"),
-            }
-        }
-    };
+fn unsound(path: &Path, problem: &Problem, before: &str) -> Failure {
     Failure::Data(format!("{}:{}: {} ({}){before}", path.display(), problem.place.line, problem.message, problem.help))
+}
+
+/// The states before the place where a file breaks off.
+fn before(states: usize, time: Option<f64>) -> String {
+    let to = time.map_or_else(String::new, |time| format!(" up to time {time:?}"));
+    match states {
+        0 => "; no state is before it".to_owned(),
+        1 => format!("; 1 state{to} is before it, which may not be whole"),
+        states => format!("; {states} states{to} are before it, the last of which may not be whole"),
+    }
 }
 
 fn say_notes(notes: &[ResultNote], messages: Messages<'_>) {

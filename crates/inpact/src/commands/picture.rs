@@ -26,6 +26,11 @@ impl Drawn {
         rows.map(|(state, pair, node)| value(state, pair, node)).collect()
     }
 
+    /// The number of rows of all states.
+    pub(crate) fn rows_in_all(&self) -> usize {
+        self.states.len() * self.faces.points()
+    }
+
     /// The names of the rows, and their times.
     pub(crate) fn names_and_times(&self) -> (Vec<String>, Vec<Option<f64>>) {
         let rows =

@@ -1,13 +1,38 @@
 //! Differences of both values of each quantity.
 
+use super::geometry::Geometry;
 use crate::commands::evaluable::Evaluable;
+use inpact_evaluation::results::Output;
 
 /// A quantity: a value a row on both sides, `None` where one is not known.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Quantity {
     pub(super) name: String,
+    /// Its unit by dimension; `1` for a pure number.
+    pub(super) dimension: &'static str,
+    /// Where the solver says it.
+    pub(super) source: String,
+    pub(super) rows_of: RowsOf,
     pub(super) ours: Vec<Option<f64>>,
     pub(super) solvers: Vec<Option<f64>>,
+}
+
+/// What a quantity has a row of in each state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum RowsOf {
+    /// Each slave node.
+    Nodes,
+    /// Each pair.
+    Pairs,
+}
+
+impl RowsOf {
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Nodes => "node",
+            Self::Pairs => "pair",
+        }
+    }
 }
 
 /// The place of the largest difference.
@@ -28,13 +53,20 @@ pub(super) struct Comparison {
     pub(super) made_of: String,
     pub(super) quantities: Vec<Quantity>,
     pub(super) tolerance: Option<f64>,
-    names: Vec<String>,
-    times: Vec<Option<f64>>,
+    /// The names of the rows of nodes, and their times; then those of pairs.
+    of_nodes: (Vec<String>, Vec<Option<f64>>),
+    of_pairs: (Vec<String>, Vec<Option<f64>>),
 }
 
 impl Quantity {
-    pub(super) fn new(name: String) -> Self {
-        Self { name, ours: Vec::new(), solvers: Vec::new() }
+    /// A quantity of nodes.
+    pub(super) fn new(name: String, dimension: &'static str, source: String) -> Self {
+        Self { name, dimension, source, rows_of: RowsOf::Nodes, ours: Vec::new(), solvers: Vec::new() }
+    }
+
+    /// An output of the interface.
+    pub(super) fn of_output(output: Output) -> Self {
+        Self::new(output.to_string(), output.page().map_or("", |page| page.unit), String::new())
     }
 
     fn both(&self) -> impl Iterator<Item = (usize, f64, f64)> {
@@ -70,18 +102,30 @@ impl Quantity {
 }
 
 impl Comparison {
-    pub(super) fn new(quantities: Vec<Quantity>, prepared: &Evaluable, tolerance: Option<f64>) -> Self {
-        let (names, times) = prepared.made.as_ref().map_or_else(Default::default, |made| made.drawn.names_and_times());
-        Self { made_of: prepared.nodes_name.clone(), quantities, tolerance, names, times }
+    pub(super) fn new(
+        quantities: Vec<Quantity>,
+        prepared: &Evaluable,
+        geometry: &Geometry,
+        tolerance: Option<f64>,
+    ) -> Self {
+        let (of_nodes, of_pairs) = prepared.made.as_ref().map_or_else(Default::default, |made| {
+            (made.drawn.names_and_times(), geometry.names_and_times(&made.drawn))
+        });
+        Self { made_of: prepared.nodes_name.clone(), quantities, tolerance, of_nodes, of_pairs }
     }
 
+    /// The number of rows of nodes.
     pub(super) fn rows(&self) -> usize {
-        self.names.len()
+        self.of_nodes.0.len()
     }
 
-    /// The name of a row, and its time.
-    pub(super) fn name(&self, row: usize) -> (&str, Option<f64>) {
-        (&self.names[row], self.times[row])
+    /// The name of a row of a quantity, and its time.
+    pub(super) fn name(&self, quantity: &Quantity, row: usize) -> (&str, Option<f64>) {
+        let (names, times) = match quantity.rows_of {
+            RowsOf::Nodes => &self.of_nodes,
+            RowsOf::Pairs => &self.of_pairs,
+        };
+        (&names[row], times[row])
     }
 
     /// Whether a quantity is beyond the tolerance.

@@ -9,35 +9,41 @@ use std::fmt::Write;
 pub(super) fn text(comparison: &Comparison) -> String {
     let mut text = format!("{}, {} rows: ours beside the solver's\n\n", comparison.made_of, comparison.rows());
     let mut lines = vec![
-        ["quantity", "rows", "largest difference", "of largest value", "ours", "solver's", "where"]
+        ["quantity", "unit", "rows", "largest difference", "of largest value", "ours", "solver's", "where"]
             .map(str::to_owned)
             .to_vec(),
     ];
     for quantity in &comparison.quantities {
         let Some(largest) = quantity.largest() else { continue };
-        let (name, time) = comparison.name(largest.row);
+        let (name, time) = comparison.name(quantity, largest.row);
+        let what = quantity.rows_of.word();
         let time = time.map_or_else(String::new, |time| format!(", time {}", number(Some(time))));
         let beyond = if comparison.is_quantity_beyond(quantity) { "  beyond the tolerance" } else { "" };
         lines.push(vec![
             quantity.name.clone(),
+            quantity.dimension.to_owned(),
             quantity.compared().to_string(),
             short(largest.difference),
             short(largest.relative),
             number(quantity.ours[largest.row]),
             number(quantity.solvers[largest.row]),
-            format!("node {name}{time}{beyond}"),
+            format!("{what} {name}{time}{beyond}"),
         ]);
     }
     let widths: Vec<usize> =
         (0..lines[0].len()).map(|at| lines.iter().map(|line| line[at].chars().count()).max().unwrap_or(0)).collect();
     for line in &lines {
         let cells = line.iter().zip(&widths).enumerate().map(|(at, (cell, width))| match at {
-            0 => format!("{cell:<width$}"),
-            6 => cell.clone(),
+            0 | 1 => format!("{cell:<width$}"),
+            7 => cell.clone(),
             _ => format!("{cell:>width$}"),
         });
         // Writing into a string cannot fail.
         let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+    text.push_str("\nthe solver's values:\n");
+    for quantity in comparison.quantities.iter().filter(|quantity| 0 < quantity.compared()) {
+        let _ = writeln!(text, "  {}: {}", quantity.name, quantity.source);
     }
     let missing: Vec<String> = comparison
         .quantities
@@ -52,17 +58,17 @@ pub(super) fn text(comparison: &Comparison) -> String {
     text
 }
 
-/// A row a node, state and quantity.
+/// A row a node, or a pair, a state and a quantity.
 pub(super) fn table(comparison: &Comparison) -> String {
     let mut text = String::from("node,time,quantity,ours,solver,difference,relative_to_largest\n");
     for quantity in &comparison.quantities {
         let scale = quantity.solvers.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
-        for row in 0..comparison.rows() {
+        for row in 0..quantity.solvers.len() {
             let (ours, solvers) = (quantity.ours[row], quantity.solvers[row]);
             if solvers.is_none() {
                 continue;
             }
-            let (name, time) = comparison.name(row);
+            let (name, time) = comparison.name(quantity, row);
             let difference = ours.zip(solvers).map(|(ours, solvers)| ours - solvers);
             let relative = difference.map(|difference| if difference == 0.0 { 0.0 } else { difference.abs() / scale });
             let numbers = [ours, solvers, difference, relative].map(number).join(",");
@@ -75,12 +81,13 @@ pub(super) fn table(comparison: &Comparison) -> String {
 /// The same as [`text`] as a document.
 pub(super) fn json(comparison: &Comparison) -> String {
     let of = |quantity: &Quantity| -> Value {
+        let what = quantity.rows_of.word();
         let largest = quantity.largest().map(|largest| {
-            let (node, time) = comparison.name(largest.row);
+            let (name, time) = comparison.name(quantity, largest.row);
             json!({
                 "difference": largest.difference,
                 "relative_to_largest": largest.relative,
-                "node": node,
+                (what): name,
                 "time": time,
                 "ours": quantity.ours[largest.row],
                 "solver": quantity.solvers[largest.row],
@@ -88,6 +95,8 @@ pub(super) fn json(comparison: &Comparison) -> String {
         });
         json!({
             "name": quantity.name,
+            "unit": quantity.dimension,
+            "source": quantity.source,
             "rows": quantity.compared(),
             "not_computed": quantity.not_computed(),
             "largest": largest,

@@ -1,0 +1,122 @@
+//! Reading state by state: what of a file is in memory is what belongs to no state, and the state that is being read.
+
+use crate::lines::LineStream;
+use crate::problem::{Problem, Read, ended};
+use crate::recognise::{Format, HEAD, recognise};
+use crate::results::{Frame, Results};
+use crate::{dat, fil, frd, rpt, vtu};
+use std::io::{self, Read as _};
+use std::ops::ControlFlow;
+
+/// Takes states one after the other, each with what the file has said before that belongs to none; may ask for no more.
+pub type TakeFrame<'a> = dyn FnMut(&Results, Frame) -> ControlFlow<()> + 'a;
+
+/// Why a file was not read to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum Broken {
+    /// The source failed.
+    #[error(transparent)]
+    Source(#[from] io::Error),
+    /// The file is of no kind that is read.
+    #[error("{0}")]
+    Foreign(Problem),
+    /// The file is cut short, or damaged; the states before were handed over, the last of which may not be whole.
+    #[error("{0}")]
+    Unsound(Problem),
+}
+
+/// Reads a result file of any kind that is known, state by state.
+///
+/// Each state is handed to `take` as soon as it has ended, with the coordinates and surfaces that the file has said before it.
+/// Gives what belongs to no state, as [`Results`] without frames; where `take` asked for no more, what was read until then.
+/// Memory does not grow with the number of states, but for `.rpt` and `.vtu`, which are read as a whole.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// let text = " relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time 0.5\n\n    \
+///             65 -1.0E-04  0.0E+00  0.0E+00\n";
+/// let mut times = Vec::new();
+/// inpact_results::read_frames(&mut text.as_bytes(), &mut |_, frame| {
+///     times.push(frame.total_time);
+///     ControlFlow::Continue(())
+/// })?;
+/// assert_eq!(times, [Some(0.5)]);
+/// # Ok::<(), inpact_results::Broken>(())
+/// ```
+///
+/// # Errors
+/// The source fails, or holds a file of unknown kind, binary or in another encoding, or one that cannot be read to its end.
+pub fn read_frames(source: &mut dyn io::Read, take: &mut TakeFrame<'_>) -> Result<Results, Broken> {
+    let mut head = Vec::new();
+    io::Read::take(&mut *source, HEAD as u64).read_to_end(&mut head)?;
+    let format = recognise(&head).map_err(Broken::Foreign)?;
+    let mut source = io::Read::chain(head.as_slice(), source);
+    let read: ReadFrames = match format {
+        Format::Fil => fil::frames,
+        Format::Frd => frd::frames,
+        Format::Dat => dat::frames,
+        Format::Rpt => return of_whole(&mut source, rpt::read_rpt, take),
+        Format::Vtu => return of_whole(&mut source, vtu::read_vtu, take),
+    };
+    let mut lines = LineStream::new(&mut source);
+    let (results, outcome) = read(&mut lines, take);
+    // A source that failed looks like a file that is cut short.
+    if let Some(failure) = lines.take_failure() {
+        return Err(failure.into());
+    }
+    outcome.map(|()| results).map_err(Broken::Unsound)
+}
+
+/// Reads a source to its end, then hands over the states.
+fn of_whole(source: &mut dyn io::Read, read: fn(&[u8]) -> Read, take: &mut TakeFrame<'_>) -> Result<Results, Broken> {
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes)?;
+    let (results, problem) = match read(&bytes) {
+        Ok(results) => (Some(results), None),
+        Err(incomplete) => (incomplete.read.map(|read| *read), Some(incomplete.problem)),
+    };
+    drop(bytes);
+    let mut results = results.unwrap_or_else(|| Results::new(Format::Rpt));
+    for frame in std::mem::take(&mut results.frames) {
+        if take(&results, frame).is_break() {
+            return Ok(results);
+        }
+    }
+    problem.map_or(Ok(results), |problem| Err(Broken::Unsound(problem)))
+}
+
+/// How a format is read state by state.
+pub(crate) type ReadFrames = fn(&mut LineStream<'_>, &mut TakeFrame<'_>) -> (Results, Result<(), Problem>);
+
+/// Reads bytes that are at hand, all states of them.
+pub(crate) fn read_whole(mut bytes: &[u8], read: ReadFrames) -> Read {
+    let mut frames = Vec::new();
+    let mut take = |_: &Results, frame| {
+        frames.push(frame);
+        ControlFlow::Continue(())
+    };
+    let (mut results, outcome) = read(&mut LineStream::new(&mut bytes), &mut take);
+    results.frames = frames;
+    ended(results, outcome)
+}
+
+/// Hands states over until nobody wants more.
+pub(crate) struct Taker<'a, 'b> {
+    take: &'a mut TakeFrame<'b>,
+    /// Whether nobody wants more.
+    pub(crate) is_over: bool,
+}
+
+impl<'a, 'b> Taker<'a, 'b> {
+    pub(crate) fn new(take: &'a mut TakeFrame<'b>) -> Self {
+        Self { take, is_over: false }
+    }
+
+    /// Hands a state over, if there is one.
+    pub(crate) fn take(&mut self, results: &Results, frame: Option<Frame>) {
+        if let Some(frame) = frame.filter(|_| !self.is_over) {
+            self.is_over = (self.take)(results, frame).is_break();
+        }
+    }
+}
