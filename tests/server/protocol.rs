@@ -2,6 +2,7 @@
 
 use crate::client::Client;
 use serde_json::{Value, json};
+use std::time::Instant;
 
 #[test]
 fn what_the_server_offers() {
@@ -104,6 +105,48 @@ fn cancelled_requests_are_answered_as_such() {
     client.notify("$/cancelRequest", &json!({"id": 9999}));
     let third = client.ask("textDocument/documentSymbol", &document);
     assert!(client.answer(&json!(third)).is_ok());
+}
+
+/// A name is looked for in many files before it may be renamed, which takes long; cancelled in the midst of it, the request is answered at once.
+#[test]
+fn work_on_a_cancelled_request_is_given_up() {
+    let mut client = Client::start();
+    let rows = "SIDE-1, SIDE-2, SIDE-3, SIDE-4, SIDE-5, SIDE-6\n".repeat(20_000);
+    let sets: String = (1..=6).map(|number| format!("*ELSET, ELSET=SIDE-{number}\n{number}\n")).collect();
+    let mut deck = sets;
+    for number in 0..4 {
+        client.write(&format!("part-{number}.inc"), &format!("*ELSET, ELSET=ALL-{number}\n{rows}"));
+        deck += &format!("*INCLUDE, INPUT=part-{number}.inc\n");
+    }
+    client.write_and_open("a.inp", &deck);
+    client.findings("a.inp", 1);
+    // The answer is short, so that the time is that of the work.
+    let method = "textDocument/prepareRename";
+    let at = (0, 17);
+    let start = Instant::now();
+    let found = client.at(method, "a.inp", at).expect("answered");
+    let whole = start.elapsed();
+    assert_eq!(found["placeholder"], "SIDE-1");
+    let params = json!({
+        "textDocument": {"uri": client.uri("a.inp")},
+        "position": {"line": at.0, "character": at.1},
+    });
+    // A machine that does other work may be late once, and never always.
+    let mut times = Vec::new();
+    let is_soon = (0..5).any(|_| {
+        let id = client.ask(method, &params);
+        std::thread::sleep(whole / 10);
+        let start = Instant::now();
+        client.notify("$/cancelRequest", &json!({"id": id}));
+        // It may have been answered before the cancellation came.
+        let Err(error) = client.answer(&json!(id)) else { return false };
+        assert_eq!(error["code"], -32800);
+        times.push(start.elapsed());
+        start.elapsed() < whole / 4
+    });
+    assert!(is_soon, "cancelled after {times:?}, whole after {whole:?}");
+    // What was given up is answered when it is asked for again.
+    assert_eq!(client.at(method, "a.inp", at).expect("answered"), found);
 }
 
 #[test]

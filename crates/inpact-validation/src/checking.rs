@@ -28,9 +28,29 @@ pub fn check_with(
     problems: &[Problem],
     others: Vec<Diagnostic>,
 ) -> Vec<Diagnostic> {
+    check_all((deck, grammar, model, problems), others, &|| ())
+}
+
+/// [`check`] with a call of `watch` before each rule, which may unwind where nobody wants the findings any more.
+pub fn check_watched(
+    deck: &Deck,
+    grammar: &Grammar,
+    model: &Model,
+    problems: &[Problem],
+    watch: &dyn Fn(),
+) -> Vec<Diagnostic> {
+    check_all((deck, grammar, model, problems), Vec::new(), watch)
+}
+
+fn check_all(
+    (deck, grammar, model, problems): (&Deck, &Grammar, &Model, &[Problem]),
+    others: Vec<Diagnostic>,
+    watch: &dyn Fn(),
+) -> Vec<Diagnostic> {
     let mut diagnostics = others;
     with_context((deck, grammar, model, problems), |context| {
         for (rule, check) in CHECKS {
+            watch();
             let mut report = Report::new(rule, &mut diagnostics);
             check(context, &mut report);
             report.finish();

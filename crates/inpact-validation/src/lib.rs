@@ -48,6 +48,6 @@ mod suggestion;
 
 mod directives;
 
-pub use checking::{check, check_with, fixable, time_rules};
+pub use checking::{check, check_watched, check_with, fixable, time_rules};
 pub use inpact_diagnostics::{Diagnostic, Edit, Fix, FixKind, FixSafety, Label, Rule, Severity, apply};
 pub use rules::RULES;

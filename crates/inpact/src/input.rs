@@ -66,7 +66,7 @@ fn push(
 ) -> Result<(), Failure> {
     match (held, settings.known_content(path)) {
         (Some(held), _) => scanner.push(&held.content(path, name)?),
-        (None, Some(content)) => content.push_into(scanner),
+        (None, Some(content)) => content.push_watched(scanner, &|| settings.stop.look()),
         (None, None) => files::push_all(path, scanner)?,
     }
     Ok(())

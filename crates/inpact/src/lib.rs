@@ -60,6 +60,7 @@ mod scene;
 #[cfg(feature = "server")]
 mod server;
 mod settings;
+mod stop;
 mod terminals;
 mod threads;
 mod user_library;

@@ -2,7 +2,8 @@
 //!
 //! Everything that it says comes from the crates that `check`, `fmt` and `explain` stand on: there is no second parser and no rule here.
 //! Messages are taken in order, one at a time. A change of a text costs the change; decks are read when somebody asks for them, or
-//! when nothing else is waiting. A request that fails, even by a fault of ours, is answered with an error and changes nothing.
+//! when nothing else is waiting. A request that fails, even by a fault of ours, is answered with an error and changes nothing, and so is one that
+//! is cancelled while it is answered: its work looks for that (`stop`) between pieces of a text, blocks, rules and lines.
 
 mod actions;
 mod analysis;
@@ -31,15 +32,17 @@ use self::requests::Refusal;
 use self::session::Session;
 use self::transport::{Cancelled, Client, Incoming};
 use crate::failure::{Failure, Outcome};
+use crate::stop::Stop;
 use lsp_server::{ErrorCode, Message, Request, Response};
 use std::io::{self, Write};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 /// Serves until the client says that it is done, or goes away.
 pub(crate) fn run() -> Result<Outcome, Failure> {
-    let cancelled = Cancelled::default();
+    let stop = Stop::new();
+    let cancelled = Cancelled::new(stop.clone());
     let incoming = transport::listen(cancelled.clone());
-    let served = serve(&incoming, &cancelled, &mut Client::new(io::stdout()));
+    let served = serve(&incoming, (&cancelled, &stop), &mut Client::new(io::stdout()));
     match served {
         Ok(outcome) => Ok(outcome),
         // A client that is gone needs no answer.
@@ -59,7 +62,7 @@ enum State {
 
 fn serve<W: Write>(
     incoming: &Receiver<Incoming>,
-    cancelled: &Cancelled,
+    (cancelled, stop): (&Cancelled, &Stop),
     client: &mut Client<W>,
 ) -> io::Result<Outcome> {
     let mut state = State::Waiting;
@@ -99,24 +102,25 @@ fn serve<W: Write>(
             }
             Incoming::Message(Message::Request(request)) => {
                 let id = request.id.clone();
+                cancelled.begin(&id);
                 let answer = if cancelled.has(&id) {
                     Refusal::cancelled().answer(id.clone())
                 } else {
-                    answer(&mut state, request)
+                    answer(&mut state, request, stop)
                 };
                 // It may have been cancelled meanwhile: then nobody wants the answer.
                 let answer = if cancelled.has(&id) { Refusal::cancelled().answer(id.clone()) } else { answer };
-                cancelled.forget(&id);
+                cancelled.end(&id);
                 client.send(answer)?;
             }
         }
     }
 }
 
-fn answer(state: &mut State, request: Request) -> Response {
+fn answer(state: &mut State, request: Request, stop: &Stop) -> Response {
     let refuse = |id, code: ErrorCode, message: &str| Refusal::new(code, message).answer(id);
     match (&mut *state, request.method.as_str()) {
-        (State::Waiting, "initialize") => match Session::begin(request.params) {
+        (State::Waiting, "initialize") => match Session::begin(request.params, stop.clone()) {
             Ok((session, result)) => {
                 *state = State::Running(Box::new(session));
                 Response::new_ok(request.id, result)

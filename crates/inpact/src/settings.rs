@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::reach::irregular;
 use crate::rules;
+use crate::stop::Stop;
 use clap::ValueEnum;
 use globset::{Glob, GlobMatcher};
 use inpact_diagnostics::{Diagnostic, Severity};
@@ -41,6 +42,8 @@ pub struct ReadOptions {
     pub(crate) configuration: Configuration,
     pub(crate) keep: Keep,
     pub(crate) overlay: Overlay,
+    /// Whether somebody has asked for the end of reading.
+    pub(crate) stop: Stop,
 }
 
 /// Sources of the configuration.
@@ -229,6 +232,8 @@ pub(crate) struct Settings {
     root: PathBuf,
     /// Files whose content is known.
     pub(crate) overlay: Overlay,
+    /// Whether somebody has asked for the end of reading.
+    pub(crate) stop: Stop,
 }
 
 impl Settings {
@@ -271,6 +276,7 @@ impl Settings {
             exclude: globs(&file.exclude, &found, "exclude")?,
             root: found.canonicalize().ok().and_then(|found| Some(found.parent()?.to_owned())).unwrap_or_default(),
             overlay: options.overlay.clone(),
+            stop: options.stop.clone(),
         })
     }
 }
@@ -293,6 +299,7 @@ impl Settings {
             exclude: Vec::new(),
             root: PathBuf::new(),
             overlay,
+            stop: Stop::default(),
         }
     }
 }

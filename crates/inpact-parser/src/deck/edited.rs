@@ -187,7 +187,13 @@ impl EditedText {
 
     /// Pushes the text into a scanner; pieces of rows that nobody keeps are passed over.
     pub fn push_into(&self, scanner: &mut Scanner<'_>) {
+        self.push_watched(scanner, &|| ());
+    }
+
+    /// The same, with a call of `watch` before each piece, which may unwind where nobody wants the deck any more.
+    pub fn push_watched(&self, scanner: &mut Scanner<'_>, watch: &dyn Fn()) {
         for piece in &self.pieces {
+            watch();
             scanner.push_surveyed(&piece.bytes, piece.survey);
         }
     }

@@ -25,6 +25,11 @@ pub const MOST_FIELD_VARIABLES: usize = 1000;
 
 /// Reads the model of a deck, and says what did not fit.
 pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
+    read_watched(deck, grammar, &|| ())
+}
+
+/// The same, with a call of `watch` before each block, which may unwind where nobody wants the model any more.
+pub fn read_watched(deck: &Deck, grammar: &Grammar, watch: &dyn Fn()) -> (Model, Vec<Problem>) {
     let mut reader = Reader {
         deck,
         grammar,
@@ -45,6 +50,7 @@ pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
         reader.define_parameters(block);
     }
     for block in deck.blocks() {
+        watch();
         reader.read_block(block);
     }
     reader.close_interaction(None);

@@ -8,7 +8,7 @@ use inpact_parser::Problem;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::model::{self, Model};
 use inpact_parser::span::SourceId;
-use inpact_validation::check;
+use inpact_validation::check_watched;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
@@ -38,7 +38,7 @@ pub(super) struct Fault {
 }
 
 impl Analysis {
-    /// Reads the deck at `root`, which need not be on disk, and checks it.
+    /// Reads the deck at `root`, which need not be on disk, and checks it; unwinds where the options say that nobody wants it any more.
     pub(super) fn of(root: &Path, options: &ReadOptions) -> Self {
         let (settings, fault) = Self::settings_of(root, options);
         let (deck, places) = match input::read_located_deck(root, Keep::Interpreted, &settings, None) {
@@ -52,8 +52,9 @@ impl Analysis {
                 return Self::nothing(root, settings, fault);
             }
         };
-        let (model, problems) = model::read(&deck, settings.grammar);
-        let findings = settings.apply(check(&deck, settings.grammar, &model, &problems));
+        let look = || settings.stop.look();
+        let (model, problems) = model::read_watched(&deck, settings.grammar, &look);
+        let findings = settings.apply(check_watched(&deck, settings.grammar, &model, &problems, &look));
         Self { settings, deck, model, problems, findings, fault, places, other: OnceCell::new() }
     }
 

@@ -58,7 +58,10 @@ pub(super) fn is_same(written: &[u8], name: &str) -> bool {
 
 /// All blocks of the deck whose keyword is known, in reading order.
 pub(super) fn entries(analysis: &Analysis) -> impl Iterator<Item = Entry<'_>> {
-    analysis.deck.blocks().iter().filter_map(|block| Entry::of(analysis, block))
+    analysis.deck.blocks().iter().filter_map(|block| {
+        analysis.settings.stop.look();
+        Entry::of(analysis, block)
+    })
 }
 
 /// The block that a byte of a document lies in; at the border of two the one that begins there.

@@ -31,7 +31,7 @@ fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
     let grammar = view.analysis.settings.grammar;
     // By itself, as `fmt` takes it: what the document includes, or is included by, does not count.
     let mut scanner = Scanner::new("", ScanOptions { grammar, keep: Keep::Interpreted });
-    text.push_into(&mut scanner);
+    text.push_watched(&mut scanner, &|| view.workspace.stop.look());
     let deck = scanner.finish();
     let touches = |edit: &Edit| edit.span.start <= selected.end && selected.start <= edit.span.end;
     let edits = format_edits(&deck, SourceId::ROOT, grammar).into_iter().filter(touches);

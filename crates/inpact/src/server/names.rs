@@ -161,6 +161,7 @@ fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'
         }
         for rows in entry.rows() {
             for (line, text) in view.lines(rows) {
+                view.workspace.stop.look();
                 for (index, range) in items(&text).enumerate() {
                     let item = &text[range.clone()];
                     // Most items are numbers, which are no names.

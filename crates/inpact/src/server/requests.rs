@@ -2,6 +2,7 @@
 
 use super::workspace::{View, Workspace};
 use super::{actions, completion, formatting, hints, hover, navigation, outline, tokens};
+use crate::stop::Stopped;
 use gen_lsp_types as lsp;
 use lsp_server::{ErrorCode, Request, RequestId, Response, ResponseError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -65,7 +66,7 @@ pub(super) fn answer(workspace: &mut Workspace, request: Request) -> Response {
     }
 }
 
-/// Answers a request by a function; a panic in it is an answer too.
+/// Answers a request by a function; a panic in it is an answer too, and so is work that is given up.
 fn by<R: lsp::Request>(
     workspace: &mut Workspace,
     Request { id, method, params }: Request,
@@ -82,6 +83,7 @@ fn by<R: lsp::Request>(
     match catch_unwind(AssertUnwindSafe(|| function(workspace, &params))) {
         Ok(Ok(result)) => Response::new_ok(id, result),
         Ok(Err(refusal)) => refusal.answer(id),
+        Err(cause) if cause.is::<Stopped>() => Refusal::cancelled().answer(id),
         Err(_) => {
             let message = format!("`{method}` failed by a fault of inpact; what is open is not affected");
             Refusal::new(ErrorCode::InternalError, message).answer(id)
@@ -104,6 +106,9 @@ pub(super) fn view<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::server::workspace::Traits;
+    use crate::stop::Stop;
+    use inpact_diagnostics::ColumnUnit;
     use inpact_parser::deck::EditedText;
     use serde_json::json;
 
@@ -118,6 +123,28 @@ mod tests {
         assert_eq!(failed.response_result.unwrap_err().code, ErrorCode::InternalError as i32);
         let answered = answer(&mut workspace, request(2));
         assert!(answered.response_result.unwrap()["contents"]["value"].as_str().unwrap().contains("# *HEADING"));
+    }
+
+    #[test]
+    fn a_deck_that_nobody_waited_for_is_read_for_the_next() {
+        let stop = Stop::new();
+        let mut workspace = Workspace::new(ColumnUnit::Utf16, Traits::default(), stop.clone());
+        let uri = lsp::Uri("untitled:deck".to_owned());
+        workspace.open(uri.clone(), 1, EditedText::new(b"*SURFACE INTERACTION, NAME=A\n"));
+        let symbols = |workspace: &mut Workspace, id: i32| {
+            let params = json!({"textDocument": {"uri": uri.0}});
+            let request = Request::new(id.into(), "textDocument/documentSymbol".to_owned(), params);
+            answer(workspace, request).response_result
+        };
+        stop.request();
+        assert_eq!(symbols(&mut workspace, 1).unwrap_err().code, ErrorCode::RequestCanceled as i32);
+        stop.clear();
+        assert_eq!(symbols(&mut workspace, 2).unwrap()[0]["name"], "*SURFACE INTERACTION A");
+        // What is cancelled when the deck has been read changes nothing either.
+        stop.request();
+        assert_eq!(symbols(&mut workspace, 3).unwrap_err().code, ErrorCode::RequestCanceled as i32);
+        stop.clear();
+        assert_eq!(symbols(&mut workspace, 4).unwrap()[0]["name"], "*SURFACE INTERACTION A");
     }
 
     #[test]

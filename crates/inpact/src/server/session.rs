@@ -6,6 +6,7 @@ use super::requests::{self, Refusal};
 use super::transport::Client;
 use super::workspace::Workspace;
 use crate::settings::{ReadOptions, RelativeTo};
+use crate::stop::Stop;
 use gen_lsp_types::{
     Diagnostic, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, FileSystemWatcher,
     GlobPattern, InitializeParams, InitializeResult, LogMessageParams, MessageType, PublishDiagnosticsParams,
@@ -55,12 +56,14 @@ enum DialectName {
 
 impl Session {
     /// Begins with the parameters of `initialize`.
-    pub(super) fn begin(params: Value) -> Result<(Self, InitializeResult), Refusal> {
+    ///
+    /// `stop` is requested while a request is answered that is cancelled.
+    pub(super) fn begin(params: Value, stop: Stop) -> Result<(Self, InitializeResult), Refusal> {
         let params: InitializeParams = serde_json::from_value(params)
             .map_err(|error| Refusal::new(ErrorCode::InvalidParams, format!("`initialize`: {error}")))?;
         let unit = capabilities::column_unit(&params);
         let traits = capabilities::traits(&params);
-        let mut workspace = Workspace::new(unit, traits);
+        let mut workspace = Workspace::new(unit, traits, stop);
         // What is wrong with the settings is said when they come again; nothing may be sent before the answer.
         if let Some(Ok(options)) = params.initialization_options.as_ref().map(options_of) {
             workspace.set_options(options);

@@ -4,13 +4,14 @@
 //! What is no message is answered, and the next one is read: a client that sends nonsense ends nothing.
 
 use super::long::{self, LongMessage};
+use crate::stop::Stop;
 use inpact_parser::deck::EditedText;
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::{self, BufRead, Read, Write};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The most bytes of a message: more than any editor opens.
 const LONGEST_MESSAGE: u64 = 4 << 30;
@@ -36,21 +37,53 @@ pub(super) enum Incoming {
 }
 
 /// The requests that the client does not want answered any more.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Cancelled(Arc<Mutex<BTreeSet<RequestId>>>);
+#[derive(Debug, Clone)]
+pub(super) struct Cancelled {
+    requests: Arc<Mutex<Requests>>,
+    /// Requested while a request is answered that is cancelled.
+    stop: Stop,
+}
+
+#[derive(Debug, Default)]
+struct Requests {
+    cancelled: BTreeSet<RequestId>,
+    /// The one that is being answered.
+    current: Option<RequestId>,
+}
 
 impl Cancelled {
+    pub(super) fn new(stop: Stop) -> Self {
+        Self { requests: Arc::default(), stop }
+    }
+
+    fn requests(&self) -> MutexGuard<'_, Requests> {
+        self.requests.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The client does not want it; if it is being answered, that work is given up.
     pub(super) fn add(&self, id: RequestId) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(id);
+        let mut requests = self.requests();
+        if requests.current.as_ref() == Some(&id) {
+            self.stop.request();
+        }
+        requests.cancelled.insert(id);
     }
 
     pub(super) fn has(&self, id: &RequestId) -> bool {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).contains(id)
+        self.requests().cancelled.contains(id)
     }
 
-    /// Forgets a request that has been answered.
-    pub(super) fn forget(&self, id: &RequestId) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).remove(id);
+    /// A request is being answered from now on.
+    pub(super) fn begin(&self, id: &RequestId) {
+        self.requests().current = Some(id.clone());
+    }
+
+    /// The request has been answered: it is forgotten, and the next may begin.
+    pub(super) fn end(&self, id: &RequestId) {
+        let mut requests = self.requests();
+        requests.current = None;
+        requests.cancelled.remove(id);
+        self.stop.clear();
     }
 }
 
@@ -232,7 +265,7 @@ mod tests {
     /// The messages of an input, as few words.
     fn check(input: &[u8], expected: &[&str]) {
         let (sender, receiver) = channel();
-        read_all(&mut &*input, &sender, &Cancelled::default());
+        read_all(&mut &*input, &sender, &Cancelled::new(Stop::new()));
         drop(sender);
         let found: Vec<String> = receiver
             .iter()
@@ -290,7 +323,7 @@ mod tests {
         let other = format!(r#"{{"method":"a{long}","params":{{"x":"{long}"}}}}"#);
         let name = format!("opening of {} bytes", 6 * (LONG_STRING / 4));
         let (sender, receiver) = channel();
-        read_all(&mut &*[framed(&opening), framed(&other)].concat(), &sender, &Cancelled::default());
+        read_all(&mut &*[framed(&opening), framed(&other)].concat(), &sender, &Cancelled::new(Stop::new()));
         drop(sender);
         let found: Vec<Incoming> = receiver.iter().collect();
         let [Incoming::Opening(_, text), Incoming::Nonsense { .. } | Incoming::Message(_)] = &found[..] else {
@@ -299,7 +332,7 @@ mod tests {
         assert_eq!(format!("opening of {} bytes", text.length()), name);
         let parameter = format!(r#"{{"method":"a","params":{{"x":["{long}"]}}}}"#);
         let (sender, receiver) = channel();
-        read_all(&mut &*framed(&parameter), &sender, &Cancelled::default());
+        read_all(&mut &*framed(&parameter), &sender, &Cancelled::new(Stop::new()));
         drop(sender);
         let Ok(Incoming::Message(Message::Notification(notification))) = receiver.recv() else { panic!("no message") };
         assert_eq!(notification.params["x"][0].as_str(), Some(&*long.replace("\\n", "\n")));

@@ -8,6 +8,7 @@ use super::analysis::{Analysis, Fault};
 use super::uri;
 use crate::files;
 use crate::settings::ReadOptions;
+use crate::stop::Stop;
 use gen_lsp_types::{Location, Position, Range, TextDocumentContentChangeEvent, Uri};
 use indexmap::IndexMap;
 use inpact_diagnostics::ColumnUnit;
@@ -26,6 +27,8 @@ pub(super) struct Workspace {
     /// The unit of columns of the editor.
     pub(super) unit: ColumnUnit,
     pub(super) traits: Traits,
+    /// Whether the request that is answered is cancelled.
+    pub(super) stop: Stop,
     /// How decks are read, by the settings of the editor.
     options: ReadOptions,
     /// By their places, in the order in which they were opened.
@@ -79,8 +82,8 @@ pub(super) struct View<'a> {
 
 impl Workspace {
     /// Nothing is open yet.
-    pub(super) fn new(unit: ColumnUnit, traits: Traits) -> Self {
-        Self { unit, traits, ..Self::default() }
+    pub(super) fn new(unit: ColumnUnit, traits: Traits, stop: Stop) -> Self {
+        Self { unit, traits, stop, ..Self::default() }
     }
 
     /// Decks are read in this way from now on.
@@ -141,6 +144,8 @@ impl Workspace {
     }
 
     /// Reads the decks again that have changed, and settles which documents are decks.
+    ///
+    /// A deck whose reading is given up stays to be read.
     pub(super) fn refresh(&mut self) {
         if self.stale.is_empty() {
             return;
@@ -150,16 +155,15 @@ impl Workspace {
         // Those that were decks first: what they include need not be read by itself.
         let (known, new): (Vec<_>, Vec<_>) = roots.into_iter().partition(|root| self.analyses.contains_key(root));
         for root in known.into_iter().chain(new) {
-            if !self.stale.remove(&root) {
+            if !self.stale.contains(&root) {
                 continue;
             }
             if self.includer_of(&root).is_some() {
                 self.analyses.remove(&root);
-                continue;
+            } else {
+                self.read_deck(&root);
             }
-            let analysis = self.analyse(&root);
-            self.load_files(&analysis);
-            self.analyses.insert(root, analysis);
+            self.stale.remove(&root);
         }
         let covered: Vec<PathBuf> =
             self.analyses.keys().filter(|root| self.includer_of(root).is_some()).cloned().collect();
@@ -172,12 +176,18 @@ impl Workspace {
         // A document that was included and is no more has become a deck.
         let uncovered = self.documents.keys().filter(|root| !self.analyses.contains_key(*root));
         let uncovered: Vec<PathBuf> = uncovered.filter(|root| self.includer_of(root).is_none()).cloned().collect();
+        self.stale.extend(uncovered.iter().cloned());
         for root in uncovered {
-            let analysis = self.analyse(&root);
-            self.load_files(&analysis);
-            self.analyses.insert(root, analysis);
+            self.read_deck(&root);
         }
         self.stale.clear();
+    }
+
+    /// Reads a deck, and keeps it.
+    fn read_deck(&mut self, root: &Path) {
+        let analysis = Analysis::of(root, &self.options_with_texts());
+        self.load_files(&analysis);
+        self.analyses.insert(root.to_owned(), analysis);
     }
 
     /// The deck that includes a document.
@@ -185,10 +195,6 @@ impl Workspace {
         let is_current = |root: &PathBuf| !self.stale.contains(root) && root != place;
         let mut others = self.analyses.iter().filter(|(root, _)| is_current(root));
         others.find(|(_, analysis)| analysis.places().any(|part| part == place)).map(|(root, _)| root.as_path())
-    }
-
-    fn analyse(&self, root: &Path) -> Analysis {
-        Analysis::of(root, &self.options_with_texts())
     }
 
     /// How decks are read, with what is open and what is known of files that are not.
@@ -199,6 +205,7 @@ impl Workspace {
         for (place, text) in on_disk.chain(open) {
             options.overlay.insert(place.clone(), text.clone());
         }
+        options.stop = self.stop.clone();
         options
     }
 
@@ -301,12 +308,14 @@ impl<'a> View<'a> {
 
     /// A span as the editor counts it.
     pub(super) fn range(&self, span: Span) -> Range {
+        self.workspace.stop.look();
         let text = self.text_of(span.source);
         text.map(|text| self.workspace.range_in(text, span.start, span.end)).unwrap_or_default()
     }
 
     /// The bytes of a span, kept by the deck or not.
     pub(super) fn text(&self, span: Span) -> Cow<'a, [u8]> {
+        self.workspace.stop.look();
         self.text_of(span.source).map_or(Cow::Borrowed(&[]), |text| text.bytes(span.start..span.end))
     }
 
@@ -321,6 +330,7 @@ impl<'a> View<'a> {
         let found = lines(&bytes)
             .filter(|range| !matches!(line_kind(&bytes[range.clone()]), LineKind::Comment | LineKind::IndentedComment));
         let of = |range: std::ops::Range<usize>| {
+            self.workspace.stop.look();
             let line = without_line_end(&bytes[range.clone()]);
             let start = rows.start + range.start as u64;
             (Span::new(rows.source, start, start + line.len() as u64), line.to_vec())

@@ -1,0 +1,51 @@
+//! Work that is given up because nobody wants what comes of it.
+//!
+//! Long work looks at a [`Stop`] again and again.
+//! Where it has been requested, the work unwinds to whoever began it, who catches [`Stopped`]: no function on the way need know of it, and none may leave anything half done.
+//! The language server does so with requests that are cancelled; everything else has a `Stop` that nobody can request.
+
+use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether somebody has asked for the end of work.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stop(Option<Arc<AtomicBool>>);
+
+/// What unwinding work carries.
+#[derive(Debug)]
+pub(crate) struct Stopped;
+
+impl Stop {
+    /// Goes on, or gives the work up.
+    pub(crate) fn look(&self) {
+        if self.0.as_ref().is_some_and(|requested| requested.load(Ordering::Relaxed)) {
+            // It is no fault: no message is printed of it, as of a panic.
+            resume_unwind(Box::new(Stopped));
+        }
+    }
+}
+
+#[cfg(feature = "server")]
+impl Stop {
+    /// One that can be requested, by any of its clones.
+    pub(crate) fn new() -> Self {
+        Self(Some(Arc::default()))
+    }
+
+    /// Asks for the end of the work.
+    pub(crate) fn request(&self) {
+        self.set(true);
+    }
+
+    /// Lets the next work begin.
+    pub(crate) fn clear(&self) {
+        self.set(false);
+    }
+
+    fn set(&self, is_requested: bool) {
+        if let Some(requested) = &self.0 {
+            requested.store(is_requested, Ordering::Relaxed);
+        }
+    }
+}
