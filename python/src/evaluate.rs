@@ -230,8 +230,7 @@ impl Result {
     /// A column of numbers as a NumPy array, NaN where there is none; of texts as a list.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         use inpact::arrow::array::AsArray;
-        use inpact::arrow::compute::cast;
-        use inpact::arrow::datatypes::{DataType, Float64Type};
+        use inpact::arrow::datatypes::Float64Type;
         let Ok(index) = self.schema.index_of(name) else {
             let names = self.column_names().join(", ");
             return Err(pyo3::exceptions::PyKeyError::new_err(format!(
@@ -242,7 +241,7 @@ impl Result {
         if self.schema.field(index).data_type().is_numeric() {
             let mut values = Vec::with_capacity(self.num_rows());
             for batch in &self.batches {
-                let column = cast(batch.column(index), &DataType::Float64).map_err(failed)?;
+                let column = inpact::arrow::numbers(batch.column(index)).map_err(failed)?;
                 let column = column.as_primitive::<Float64Type>();
                 if column.null_count() == 0 {
                     values.extend_from_slice(column.values());
@@ -254,7 +253,7 @@ impl Result {
         }
         let texts = PyList::empty(py);
         for batch in &self.batches {
-            let column = cast(batch.column(index), &DataType::Utf8).map_err(failed)?;
+            let column = inpact::arrow::texts(batch.column(index)).map_err(failed)?;
             for text in column.as_string::<i32>() {
                 texts.append(text)?;
             }

@@ -37,6 +37,9 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
+#[cfg(feature = "columnar")]
+pub mod arrow;
+
 // The inner ones first.
 pub mod numbers;
 

@@ -7,6 +7,8 @@
 //!
 //! Knows no law and no deck: what a column is needed for is the plan's business.
 
+#[cfg(feature = "columnar")]
+pub(crate) mod arrays;
 mod batch;
 mod cells;
 mod column;
@@ -30,6 +32,8 @@ mod soundness;
 mod spill;
 mod wait;
 
+#[cfg(feature = "columnar")]
+pub(crate) use arrays::without_dictionary;
 pub use batch::{Batch, LabelColumn, NumberColumn};
 pub(crate) use cells::Cells;
 pub(crate) use column::coordinates;

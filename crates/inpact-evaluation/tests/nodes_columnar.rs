@@ -2,13 +2,13 @@
 
 #![cfg(feature = "columnar")]
 
-use arrow::array::{
+use inpact_evaluation::arrow::array::{
     Array, ArrayRef, AsArray, BooleanArray, DictionaryArray, Float32Array, Float64Array, Int64Array, RecordBatch,
     StringArray,
 };
-use arrow::datatypes::{DataType, Float64Type, Int32Type};
-use arrow::ipc::reader::FileReader;
-use arrow::ipc::writer::{FileWriter, StreamWriter};
+use inpact_evaluation::arrow::datatypes::{DataType, Float64Type, Int32Type};
+use inpact_evaluation::arrow::ipc::reader::FileReader;
+use inpact_evaluation::arrow::ipc::writer::{FileWriter, StreamWriter};
 use inpact_evaluation::nodes::{Batch, Column, Findings, NodeReader, Part, Selection};
 use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, Status, TableFormat};
 use parquet::arrow::ArrowWriter;

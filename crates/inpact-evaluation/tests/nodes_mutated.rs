@@ -6,13 +6,13 @@
 
 #![cfg(feature = "columnar")]
 
-use arrow::array::{
+use inpact_evaluation::arrow::array::{
     ArrayRef, BooleanArray, DictionaryArray, Float32Array, Float64Array, Int64Array, PrimitiveArray, RecordBatch,
     StringArray, StringViewArray,
 };
-use arrow::datatypes::{Float64Type, Int16Type, Int32Type};
-use arrow::ipc::CompressionType;
-use arrow::ipc::writer::{FileWriter, IpcWriteOptions, StreamWriter};
+use inpact_evaluation::arrow::datatypes::{Float64Type, Int16Type, Int32Type};
+use inpact_evaluation::arrow::ipc::CompressionType;
+use inpact_evaluation::arrow::ipc::writer::{FileWriter, IpcWriteOptions, StreamWriter};
 use inpact_evaluation::nodes::{Batch, Column, Findings, NodeReader, Part, Selection};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;

@@ -65,8 +65,6 @@ mod terminals;
 mod threads;
 mod user_library;
 
-#[cfg(feature = "columnar")]
-pub use arrow;
 pub use deck::Deck;
 pub use error::Error;
 #[cfg(feature = "columnar")]
@@ -74,6 +72,8 @@ pub use evaluation::{EvaluateOptions, Evaluated, EvaluatedTo};
 pub use fixes::{Fixed, FixedFile, Fixes};
 pub use inpact_diagnostics::{Diagnostic, Edit, Extent, Fix, FixKind, FixSafety, Label, Rule, Severity, span};
 pub use inpact_evaluation::HistoryStart;
+#[cfg(feature = "columnar")]
+pub use inpact_evaluation::arrow;
 pub use inpact_evaluation::{Accuracy, Tolerance};
 pub use inpact_network::linear::Method;
 pub use inpact_network::scene::Field;

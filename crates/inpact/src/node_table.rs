@@ -6,7 +6,7 @@ use crate::commands::meshed::MeshedDeck;
 use crate::deck::Deck;
 use crate::error::Error;
 use crate::failure::Failure;
-use arrow::array::RecordBatch;
+use inpact_evaluation::arrow::array::RecordBatch;
 use inpact_evaluation::results::node_record_batch;
 use inpact_parser::mesh::MeshNote;
 use std::path::{Path, PathBuf};

@@ -23,7 +23,7 @@ pub struct LabelColumn {
     texts: Texts,
     /// The column as it was stored, where it was stored as a column; its texts are made when they are asked for.
     #[cfg(feature = "columnar")]
-    array: Option<(arrow::array::ArrayRef, std::sync::OnceLock<Texts>)>,
+    array: Option<(crate::arrow::array::ArrayRef, std::sync::OnceLock<Texts>)>,
 }
 
 /// Texts one after the other.
@@ -101,12 +101,12 @@ impl LabelColumn {
 #[cfg(feature = "columnar")]
 impl LabelColumn {
     /// The column of an array of texts or numbers.
-    pub(super) fn from_array(array: arrow::array::ArrayRef) -> Self {
+    pub(super) fn from_array(array: crate::arrow::array::ArrayRef) -> Self {
         Self { texts: Texts::default(), array: Some((array, std::sync::OnceLock::new())) }
     }
 
     /// The array it was made from.
-    pub(crate) fn array(&self) -> Option<&arrow::array::ArrayRef> {
+    pub(crate) fn array(&self) -> Option<&crate::arrow::array::ArrayRef> {
         self.array.as_ref().map(|(array, _)| array)
     }
 }
@@ -126,16 +126,17 @@ impl Texts {
 
     /// The texts of an array: floats as a result table prints them, nulls as empty texts.
     #[cfg(feature = "columnar")]
-    fn of_array(array: &arrow::array::ArrayRef) -> Self {
-        use arrow::array::{Array, AsArray, StringArray};
-        use arrow::datatypes::{DataType, Float64Type, Int64Type, UInt64Type};
+    fn of_array(array: &crate::arrow::array::ArrayRef) -> Self {
+        use super::arrays;
+        use crate::arrow::array::{Array, AsArray, StringArray};
+        use crate::arrow::datatypes::{DataType, Float64Type, Int64Type, UInt64Type};
         let mut texts = Self::default();
         let values = match array.data_type() {
             DataType::Dictionary(_, values) => values.as_ref(),
             kind => kind,
         };
         if values.is_floating() {
-            let numbers = arrow::compute::cast(array, &DataType::Float64).unwrap_or_else(|_| array.slice(0, 0));
+            let numbers = arrays::numbers(array).unwrap_or_else(|_| array.slice(0, 0));
             for value in numbers.as_primitive::<Float64Type>() {
                 if let Some(value) = value {
                     crate::results::push_number(&mut texts.bytes, value);
@@ -143,7 +144,7 @@ impl Texts {
                 texts.ends.push(texts.bytes.len());
             }
         } else if values.is_unsigned_integer() {
-            let numbers = arrow::compute::cast(array, &DataType::UInt64).unwrap_or_else(|_| array.slice(0, 0));
+            let numbers = arrays::unsigned(array).unwrap_or_else(|_| array.slice(0, 0));
             for value in numbers.as_primitive::<UInt64Type>() {
                 if let Some(value) = value {
                     push_digits(&mut texts.bytes, value);
@@ -151,7 +152,7 @@ impl Texts {
                 texts.ends.push(texts.bytes.len());
             }
         } else if values.is_integer() {
-            let numbers = arrow::compute::cast(array, &DataType::Int64).unwrap_or_else(|_| array.slice(0, 0));
+            let numbers = arrays::signed(array).unwrap_or_else(|_| array.slice(0, 0));
             for value in numbers.as_primitive::<Int64Type>() {
                 if let Some(value) = value {
                     if value < 0 {
@@ -162,7 +163,7 @@ impl Texts {
                 texts.ends.push(texts.bytes.len());
             }
         } else {
-            let strings = arrow::compute::cast(array, &DataType::Utf8);
+            let strings = arrays::texts(array);
             // The reader lets no type through that has no text.
             let strings = strings.unwrap_or_else(|_| std::sync::Arc::new(StringArray::new_null(array.len())));
             strings.as_string::<i32>().iter().for_each(|text| texts.push(text.unwrap_or_default().as_bytes()));
@@ -395,7 +396,7 @@ impl Batch {
 #[cfg(all(test, feature = "columnar"))]
 mod tests {
     use super::*;
-    use arrow::array::{ArrayRef, Int64Array, UInt8Array, UInt64Array};
+    use crate::arrow::array::{ArrayRef, Int64Array, UInt8Array, UInt64Array};
     use std::sync::Arc;
 
     #[test]
@@ -407,7 +408,7 @@ mod tests {
             Arc::new(UInt8Array::from(vec![255, 9])),
         ];
         let texts = arrays.map(|array| {
-            let count = arrow::array::Array::len(&array);
+            let count = crate::arrow::array::Array::len(&array);
             let column = LabelColumn::from_array(array);
             (0..count).map(|row| String::from_utf8_lossy(column.get(row)).into_owned()).collect::<Vec<_>>().join(" ")
         });

@@ -3,17 +3,17 @@
 //! Numbers may be floats, integers, booleans, or dictionaries of these; a null is a missing number, NaN is NaN.
 //! Key columns keep their array, so that a result table has them as they are; their text is made when somebody asks for it.
 
+use super::arrays;
 use super::batch::{Batch, LabelColumn, NumberColumn};
 use super::header::Header;
 use super::reader::{ColumnStatistics, ReadSeek};
 use super::rules::MALFORMED_CELL;
 use super::soundness::{self, caught, unsound};
 use super::wait::{begin, wait_for};
-use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
-use arrow::compute::cast;
-use arrow::datatypes::{DataType, Float64Type, SchemaRef};
-use arrow::error::ArrowError;
-use arrow::ipc::reader::{FileReader, StreamReader};
+use crate::arrow::array::{ArrayRef, AsArray, RecordBatch};
+use crate::arrow::datatypes::{DataType, Float64Type, SchemaRef};
+use crate::arrow::error::ArrowError;
+use crate::arrow::ipc::reader::{FileReader, StreamReader};
 use bytes::Bytes;
 use inpact_diagnostics::{Findings, Place};
 use parquet::arrow::ProjectionMask;
@@ -294,7 +294,7 @@ impl Source {
             }
             let columns = whole.slice(0, rows);
             let labels = self.labels.iter().map(|place| place.map(|place| Arc::clone(columns.column(place)))).collect();
-            let number = |place: &Option<usize>| place.map(|place| as_numbers(columns.column(place))).transpose();
+            let number = |place: &Option<usize>| place.map(|place| arrays::numbers(columns.column(place))).transpose();
             let numbers = self.numbers.iter().map(number).collect::<Result<_, _>>()?;
             return Ok(Some(Columns { rows, labels, numbers }));
         }
@@ -327,13 +327,6 @@ fn number_column(array: ArrayRef) -> NumberColumn {
     let values = values.into_inner().into_vec().unwrap_or_else(|shared| shared.typed_data().to_vec());
     let nulls = nulls.filter(|nulls| nulls.null_count() > 0);
     NumberColumn::from_parts(values, nulls.map_or_else(Vec::new, |nulls| nulls.iter().collect()))
-}
-
-fn as_numbers(array: &ArrayRef) -> Result<ArrayRef, ArrowError> {
-    if let DataType::Dictionary(_, values) = array.data_type() {
-        return cast(&cast(array, values)?, &DataType::Float64);
-    }
-    cast(array, &DataType::Float64)
 }
 
 /// Whether arrays of a type hold numbers.

@@ -124,7 +124,7 @@ impl<'a> NodeReader<'a> {
     /// Opens a node table that comes as record batches of one schema; they are asked for one by one.
     #[cfg(feature = "columnar")]
     pub fn of_batches(
-        schema: arrow::datatypes::SchemaRef,
+        schema: crate::arrow::datatypes::SchemaRef,
         batches: super::RecordBatches,
         findings: &mut Findings,
     ) -> NodeReader<'static> {

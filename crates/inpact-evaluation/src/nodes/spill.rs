@@ -73,17 +73,18 @@ fn read_label(input: &mut dyn Read) -> io::Result<LabelColumn> {
 
 /// An array as an Arrow stream of one column.
 #[cfg(feature = "columnar")]
-fn array_bytes(array: &arrow::array::ArrayRef) -> Result<Vec<u8>, arrow::error::ArrowError> {
-    let rows = arrow::array::RecordBatch::try_from_iter_with_nullable([("", std::sync::Arc::clone(array), true)])?;
-    let mut writer = arrow::ipc::writer::StreamWriter::try_new(Vec::new(), &rows.schema())?;
+fn array_bytes(array: &crate::arrow::array::ArrayRef) -> Result<Vec<u8>, crate::arrow::error::ArrowError> {
+    let rows =
+        crate::arrow::array::RecordBatch::try_from_iter_with_nullable([("", std::sync::Arc::clone(array), true)])?;
+    let mut writer = crate::arrow::ipc::writer::StreamWriter::try_new(Vec::new(), &rows.schema())?;
     writer.write(&rows)?;
     writer.into_inner()
 }
 
 #[cfg(feature = "columnar")]
-fn array_of(bytes: &[u8]) -> Result<arrow::array::ArrayRef, arrow::error::ArrowError> {
-    let mut reader = arrow::ipc::reader::StreamReader::try_new(bytes, None)?;
-    let rows = reader.next().ok_or_else(|| arrow::error::ArrowError::IpcError("no rows".to_owned()))??;
+fn array_of(bytes: &[u8]) -> Result<crate::arrow::array::ArrayRef, crate::arrow::error::ArrowError> {
+    let mut reader = crate::arrow::ipc::reader::StreamReader::try_new(bytes, None)?;
+    let rows = reader.next().ok_or_else(|| crate::arrow::error::ArrowError::IpcError("no rows".to_owned()))??;
     Ok(std::sync::Arc::clone(rows.column(0)))
 }
 

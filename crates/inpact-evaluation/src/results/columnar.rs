@@ -8,14 +8,13 @@
 use super::format::TableFormat;
 use super::parquet::ParquetTable;
 use super::writer::{Heading, Values};
-use crate::nodes::{Batch, Column, LabelColumn, NumberColumn};
+use crate::arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
+use crate::arrow::buffer::{NullBuffer, OffsetBuffer, ScalarBuffer};
+use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
+use crate::arrow::error::ArrowError;
+use crate::arrow::ipc::writer::FileWriter;
+use crate::nodes::{Batch, Column, LabelColumn, NumberColumn, without_dictionary};
 use crate::spread;
-use arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
-use arrow::buffer::{NullBuffer, OffsetBuffer, ScalarBuffer};
-use arrow::compute::cast;
-use arrow::datatypes::{DataType, Field, Schema, SchemaRef};
-use arrow::error::ArrowError;
-use arrow::ipc::writer::FileWriter;
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -129,10 +128,7 @@ impl Source<'_> {
 /// The array of a key column.
 pub(super) fn key_array(key: Column, label: &LabelColumn, batch: &Batch) -> io::Result<ArrayRef> {
     if let Some(array) = label.array() {
-        return match array.data_type() {
-            DataType::Dictionary(_, values) => cast(array, values).map_err(of_arrow),
-            _ => Ok(Arc::clone(array)),
-        };
+        return without_dictionary(array).map_err(of_arrow);
     }
     if key == Column::Time {
         let times = (0..batch.rows).map(|row| time(label.get(row)).map_err(|text| no_key(batch, row, key, &text)));

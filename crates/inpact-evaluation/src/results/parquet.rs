@@ -4,10 +4,10 @@
 //! A row group is written once its rows are complete, column after column: the file does not depend on the number of threads that encoded them.
 
 use super::columnar::of_arrow;
+use crate::arrow::array::{Array, ArrayRef};
+use crate::arrow::datatypes::{DataType, Schema, SchemaRef};
+use crate::arrow::error::ArrowError;
 use crate::spread;
-use arrow::array::{Array, ArrayRef};
-use arrow::datatypes::{DataType, Schema, SchemaRef};
-use arrow::error::ArrowError;
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_writer::{ArrowColumnWriter, ArrowRowGroupWriterFactory, compute_leaves};
 use parquet::errors::ParquetError;

@@ -3,10 +3,10 @@
 use super::batch::ResultBatch;
 use super::columnar::{key_array, number_array, of_arrow, status_array};
 use super::output::Output;
+use crate::arrow::array::{ArrayRef, Float64Array, RecordBatch};
+use crate::arrow::buffer::{NullBuffer, ScalarBuffer};
+use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use crate::nodes::{Batch, Column};
-use arrow::array::{ArrayRef, Float64Array, RecordBatch};
-use arrow::buffer::{NullBuffer, ScalarBuffer};
-use arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use std::io;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! Soundness of Arrow files and streams: messages as they are stated, compared with the bytes that are there.
 
 use super::{most_unpacked, unsound};
+use crate::arrow::ipc::{FieldNode, Message, MessageHeader, RecordBatch, root_as_footer, root_as_message};
 use crate::nodes::reader::ReadSeek;
-use arrow::ipc::{FieldNode, Message, MessageHeader, RecordBatch, root_as_footer, root_as_message};
 use std::io::{self, SeekFrom};
 
 const KIND: &str = "Arrow";
