@@ -163,14 +163,18 @@ impl InteractionLaws {
             }
             return;
         }
+        let mut thermal = self.thermal.as_ref().map(|law| law.rows(part, &found.thermal, &heats, results, tally));
+        let mut pore = self.pore.as_ref().map(|law| law.rows(part, &found.permeabilities, results, tally));
+        let taken =
+            |outcomes: &mut [Outcome], index: usize| std::mem::replace(&mut outcomes[index], Outcome::Incomplete);
         for index in 0..part.rows() {
             let Some(row) = part.row(index, index) else { continue };
-            let of_current = electrical.get_mut(index).map(|outcome| std::mem::replace(outcome, Outcome::Incomplete));
-            let heat = heats.get(index).copied().flatten();
-            let thermal = self.thermal.as_ref().map(|law| law.row(row, &found.thermal, heat, None, results, tally));
-            let pore = self.pore.as_ref().map(|law| law.row(row, &found.permeabilities, None, results, tally));
+            let of_current = self.electrical.is_some().then(|| taken(&mut electrical, index));
+            let thermal = thermal.as_mut().map(|outcomes| taken(outcomes, index));
+            let pore = pore.as_mut().map(|outcomes| taken(outcomes, index));
             tally.finish_row([of_current, thermal, pore], row.to, results, faults);
         }
+        results.settle();
     }
 }
 

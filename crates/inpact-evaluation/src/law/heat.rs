@@ -64,6 +64,12 @@ impl HeatAmounts {
         }
     }
 
+    /// Heat into slave and master surface, where plain arithmetic has found it.
+    #[inline]
+    pub(crate) fn plain_shares(&self) -> Option<[f64; 2]> {
+        Some([self.slave.plain()?, self.master.plain()?])
+    }
+
     /// Each rounded once.
     pub fn rounded(&self) -> GeneratedHeat {
         GeneratedHeat { total: self.total.value(), slave: self.slave.value(), master: self.master.value() }

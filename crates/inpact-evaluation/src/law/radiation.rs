@@ -128,7 +128,6 @@ pub fn radiated_heat(
 ) -> f64 {
     let Temperatures { slave, master, jump } = temperatures;
     let (a, b, difference) = (slave - absolute_zero, master - absolute_zero, jump.unwrap_or(slave - master));
-    let is_mild = |value: f64| value == 0.0 || MODERATE.contains(&value.abs());
     let is_harmless = is_mild(a)
         && is_mild(b)
         && is_mild(difference)
@@ -138,6 +137,18 @@ pub fn radiated_heat(
     if !is_harmless && inputs.iter().all(|input| input.is_finite()) {
         return exact_radiated_heat(coefficient, view_factor, absolute_zero, temperatures).to_f64() + 0.0;
     }
+    plain_heat(coefficient, view_factor, [a, b], difference)
+}
+
+/// Whether the powers of a temperature stay within the range of f64 ([`MODERATE`]).
+#[inline]
+fn is_mild(value: f64) -> bool {
+    value == 0.0 || MODERATE.contains(&value.abs())
+}
+
+/// q_r for temperatures from absolute zero and their difference, none of them extreme.
+#[inline]
+fn plain_heat(coefficient: RadiationCoefficient, view_factor: f64, [a, b]: [f64; 2], difference: f64) -> f64 {
     // No heat is 0, not −0.
     coefficient.0 * view_factor * ((a * a + b * b) * (a + b)) * difference + 0.0
 }

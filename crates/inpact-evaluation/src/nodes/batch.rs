@@ -1,6 +1,7 @@
 //! Some rows of a node table as columns.
 
 use inpact_diagnostics::Place;
+use std::ops::Range;
 
 /// Some consecutive rows of a node table: the columns that were asked for, in the order they were asked for.
 #[derive(Debug, Clone, Default)]
@@ -263,6 +264,22 @@ impl NumberColumn {
         self.values[row] = value;
         if let Some(present) = self.present.get_mut(row) {
             *present = true;
+        }
+    }
+
+    /// Sets the numbers of some rows; `of` counts them from 0.
+    #[inline]
+    pub(crate) fn set_rows(&mut self, rows: Range<usize>, of: impl Fn(usize) -> f64) {
+        if let Some(present) = self.present.get_mut(rows.clone()) {
+            present.fill(true);
+        }
+        self.values[rows].iter_mut().enumerate().for_each(|(row, value)| *value = of(row));
+    }
+
+    /// Drops the flags of a column that lacks no number.
+    pub(crate) fn settle(&mut self) {
+        if !self.present.contains(&false) {
+            self.present.clear();
         }
     }
 

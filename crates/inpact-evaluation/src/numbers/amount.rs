@@ -2,7 +2,7 @@
 
 use super::float::is_moderate;
 use super::scaled::Scaled;
-use super::sum::CompensatedSum;
+use super::sum::compensated_sum;
 use std::ops::Neg;
 
 /// A rounded number and, where plain arithmetic could over- or underflow on its way, the number itself.
@@ -47,6 +47,12 @@ impl Amount {
         }
     }
 
+    /// The number, where plain arithmetic has found it.
+    #[inline]
+    pub(crate) fn plain(self) -> Option<f64> {
+        if self.exact.is_none() { Some(self.value) } else { None }
+    }
+
     /// Whether plain arithmetic with a few moderate numbers keeps what it is.
     pub(crate) fn is_moderate(self) -> bool {
         self.exact.is_none() && is_moderate(self.value)
@@ -56,7 +62,7 @@ impl Amount {
     #[inline]
     pub fn sum<const N: usize>(parts: [Self; N]) -> Self {
         if parts.iter().all(|part| part.exact.is_none()) {
-            let total = parts.iter().map(|part| part.value).collect::<CompensatedSum>().total();
+            let total = compensated_sum(parts.map(|part| part.value));
             if total.is_finite() {
                 return Self::new(total + 0.0);
             }

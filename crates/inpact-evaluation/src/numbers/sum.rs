@@ -55,6 +55,7 @@ impl CompensatedSum {
 }
 
 impl Extend<f64> for CompensatedSum {
+    #[inline]
     fn extend<T: IntoIterator<Item = f64>>(&mut self, terms: T) {
         for term in terms {
             self.add(term);
@@ -63,11 +64,18 @@ impl Extend<f64> for CompensatedSum {
 }
 
 impl FromIterator<f64> for CompensatedSum {
+    #[inline]
     fn from_iter<T: IntoIterator<Item = f64>>(terms: T) -> Self {
         let mut sum = Self::default();
         sum.extend(terms);
         sum
     }
+}
+
+/// The sum of a few terms, rounded about once.
+#[inline]
+pub(crate) fn compensated_sum<const N: usize>(terms: [f64; N]) -> f64 {
+    terms.into_iter().collect::<CompensatedSum>().total()
 }
 
 /// A [`CompensatedSum`] whose terms and partial sums may leave the range of f64: it is finite wherever the exact sum is.

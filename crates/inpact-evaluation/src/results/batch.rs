@@ -3,6 +3,7 @@
 use super::output::Output;
 use crate::nodes::NumberColumn;
 use std::fmt;
+use std::ops::Range;
 
 /// Remarks on a row (column `status`).
 ///
@@ -76,6 +77,19 @@ impl ResultBatch {
             Output::PoreStatus => Some(&self.status_by_law.pore),
             _ => None,
         }
+    }
+
+    /// Sets the numbers of some rows, where the plan has their column; `of` counts the rows from 0.
+    #[inline]
+    pub(crate) fn set_rows(&mut self, column: Option<usize>, rows: &Range<usize>, of: impl Fn(usize) -> f64) {
+        if let Some(column) = column {
+            self.numbers[column].set_rows(rows.clone(), of);
+        }
+    }
+
+    /// Finds out which columns lack no number, so that nobody asks row by row.
+    pub(crate) fn settle(&mut self) {
+        self.numbers.iter_mut().for_each(NumberColumn::settle);
     }
 
     /// Sets a number, where the plan has its column and the number is known.

@@ -12,7 +12,7 @@ use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
 use crate::law::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
 use crate::law::user::columns::UserColumns;
 use crate::nodes::Cells;
-use crate::numbers::{Amount, is_moderate};
+use crate::numbers::{Amount, are_moderate, is_moderate};
 use crate::plan::{Choices, ElectricalPlan, History, InteractionTables, Source};
 use crate::results::{Along, Output, ResultBatch, Status};
 use crate::table::Sides;
@@ -477,11 +477,6 @@ impl Slots {
     fn of_flow(&self) -> [Option<usize>; 6] {
         [self.ecd, self.ecda, self.sjd, self.sjda, self.heat_slave, self.heat_master]
     }
-}
-
-/// Whether all numbers are.
-fn are_moderate(values: &[f64]) -> bool {
-    values.iter().fold(true, |all, value| all & is_moderate(*value))
 }
 
 /// How many of some rows, each with its jump, have lost the digits of it ([`has_lost_digits`]).

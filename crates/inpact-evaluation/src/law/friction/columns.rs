@@ -1,12 +1,14 @@
-//! Friction row by row.
+//! Friction over the rows of a part: in columns where no number is missing or extreme, row by row where one is.
 
 use super::{ShearStress, SlipRate, frictional_heat_amounts};
-use crate::evaluate::{Binder, InteractionTally, Row};
+use crate::evaluate::{Binder, InteractionTally, Part, Row};
 use crate::law::contact::ContactState;
 use crate::law::heat::{HeatAmounts, HeatGeneration};
 use crate::nodes::Column;
+use crate::numbers::{is_moderate, is_zero_or_ordinary};
 use crate::plan::{FrictionPlan, SlipRateSource};
 use inpact_parser::grammar::Dialect;
+use std::ops::Range;
 
 /// Friction with its columns.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +34,38 @@ impl FrictionColumns {
             SlipRateSource::Given(speed) => Speed::Given(SlipRate(speed)),
         };
         Some(Self { shear: binder.place(plan.shear)?, slip_rate, generation, dialect: plan.dialect })
+    }
+
+    /// The heat of friction of some rows by plain arithmetic, in all, into slave and into master; false where a number is extreme, infinite or NaN.
+    pub(crate) fn plain_heats(
+        self,
+        part: &Part<'_>,
+        rows: Range<usize>,
+        [totals, slave, master]: [&mut [f64]; 3],
+    ) -> bool {
+        let column = |place: usize| &part.batch().numbers[place].values()[rows.clone()];
+        let shears = column(self.shear);
+        let (speeds, given) = match self.slip_rate {
+            Speed::Place(place) => (Some(column(place)), 0.0),
+            Speed::Given(speed) => (None, speed.0),
+        };
+        let HeatGeneration { fraction, slave_weight } = self.generation;
+        let mut is_plain = is_moderate(fraction) && is_moderate(slave_weight);
+        for (row, state) in part.states[rows.clone()].iter().enumerate() {
+            let (shear, speed) = (shears[row], speeds.map_or(given, |speeds| speeds[row]));
+            let (shear, speed) = match self.dialect {
+                Dialect::Abaqus => (shear, speed),
+                Dialect::Calculix => (shear.abs(), speed.abs()),
+            };
+            // As `frictional_heat` has it of such numbers.
+            let total = fraction * shear * speed;
+            let is_open = *state == Some(ContactState::Open);
+            is_plain &= is_open | (is_moderate(shear) & is_moderate(speed) & is_zero_or_ordinary(total));
+            // No heat is 0, not −0.
+            let share = |weight: f64| if is_open { 0.0 } else { weight * total + 0.0 };
+            (totals[row], slave[row], master[row]) = (share(1.0), share(slave_weight), share(1.0 - slave_weight));
+        }
+        is_plain
     }
 
     /// The heat of friction; an open row has none, whatever it says of it.

@@ -1,4 +1,6 @@
-//! The pore fluid law over the rows of a part: permeabilities in columns, flow row by row.
+//! The pore fluid law over the rows of a part: permeabilities in columns, and steady flow in columns too where no extreme number is in the way.
+
+mod plain;
 
 use super::{BulkPermeabilities, Flow, Gap, Permeability, PoreFlow, PoreLaw, PorePoint};
 use crate::evaluate::{Binder, InteractionTally, Outcome, PERMEABILITY, Part, Row, contact_status};

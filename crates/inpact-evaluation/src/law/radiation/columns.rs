@@ -1,10 +1,10 @@
-//! Radiation over the rows of a part: view factors in columns, heat row by row.
+//! Radiation over the rows of a part: view factors in columns, and heat in columns too where no number is missing or extreme.
 
-use super::RadiationLaw;
+use super::{RadiationLaw, is_mild, plain_heat};
 use crate::evaluate::{InteractionTally, Part, Row, VIEW_FACTOR};
 use crate::kernel::TableKernel;
 use crate::law::thermal::Temperatures;
-use crate::numbers::Amount;
+use crate::numbers::{Amount, is_moderate};
 use crate::table::Sides;
 
 /// Radiation; it needs the clearance of open rows.
@@ -35,6 +35,35 @@ impl RadiationColumns {
         let found = values.into_iter().zip(sides).zip(&clearances);
         // A table of one value does not depend on the clearance, but on whether it can be told.
         found.map(|(found, clearance)| if clearance.is_nan() { (f64::NAN, Sides::default()) } else { found }).collect()
+    }
+
+    /// The radiated heat of some rows by plain arithmetic; false where a number is extreme, infinite or NaN.
+    pub(crate) fn plain_heats(
+        &self,
+        view_factors: &[(f64, Sides)],
+        [slave, master]: [&[f64]; 2],
+        jump: Option<&[f64]>,
+        heats: &mut [f64],
+    ) -> bool {
+        let RadiationLaw { coefficient, absolute_zero, .. } = self.law;
+        let mut is_plain = is_moderate(coefficient.0) && is_moderate(absolute_zero);
+        for (row, heat) in heats.iter_mut().enumerate() {
+            let (view_factor, _) = view_factors[row];
+            let (slave, master) = (slave[row], master[row]);
+            let from_zero = [slave - absolute_zero, master - absolute_zero];
+            let difference = jump.map_or(slave - master, |jump| jump[row]);
+            let numbers = [view_factor, slave, master, difference];
+            is_plain &= numbers.into_iter().fold(true, |all, number| all & is_moderate(number));
+            is_plain &= is_mild(from_zero[0]) & is_mild(from_zero[1]) & is_mild(difference);
+            *heat = plain_heat(coefficient, view_factor, from_zero, difference);
+        }
+        is_plain
+    }
+
+    /// How many rows have a temperature below absolute zero.
+    pub(crate) fn rows_below_absolute_zero(&self, slave: &[f64], master: &[f64]) -> u64 {
+        let zero = self.law.absolute_zero;
+        slave.iter().zip(master).map(|(slave, master)| u64::from(*slave < zero || *master < zero)).sum()
     }
 
     /// The radiated heat, and whether the clearance lies beyond the view factors; `None` for an open row without a clearance.

@@ -1,4 +1,6 @@
-//! The thermal law over the rows of a part: conductances and view factors in columns, heat row by row.
+//! The thermal law over the rows of a part: conductances and view factors in columns, and heat in columns too where no history and no extreme number is in the way.
+
+mod plain;
 
 use super::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat_amount};
 use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, contact_status};
@@ -206,13 +208,7 @@ impl ThermalColumns {
         results.set(self.slots.conductance, row.to, Some(value));
         part.set_slopes(row, results);
         if !sides.is_within() {
-            match &part.source {
-                ConductionSource::Calculix { .. } => tally.beyond_curves += 1,
-                ConductionSource::Tables(columns) => {
-                    let branch = columns.tables.branch_of(row.state);
-                    tally.count_sides(THERMAL_CONDUCTANCE + usize::from(branch == Branch::Pressure), sides);
-                }
-            }
+            part.count_sides(row.state, sides, tally);
         }
         Some((value, found.rest(row.index), sides))
     }
@@ -304,6 +300,22 @@ impl Conduction {
             let found = curves.conductance(&point(row, &variables));
             Some((found.value, found.sides))
         }))
+    }
+
+    /// Counts a row that lies outside its table on these sides.
+    fn count_sides(&self, state: ContactState, sides: Sides, tally: &mut InteractionTally) {
+        match &self.source {
+            ConductionSource::Calculix { .. } => tally.beyond_curves += 1,
+            ConductionSource::Tables(columns) => {
+                let branch = columns.tables.branch_of(state);
+                tally.count_sides(THERMAL_CONDUCTANCE + usize::from(branch == Branch::Pressure), sides);
+            }
+        }
+    }
+
+    /// Whether slopes of the conductance are wanted.
+    fn has_slopes(&self) -> bool {
+        !self.slopes.is_empty()
     }
 
     /// Whether a row has no number for a variable.

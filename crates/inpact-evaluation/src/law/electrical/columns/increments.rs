@@ -1,7 +1,7 @@
 //! The electrical law over rows that end increments of histories, in three steps: each row learns from the row before how its increment began,
 //! current and heat are found in columns, and each row adds to the integrals of its node.
 
-use super::{CHUNK, ElectricalColumns, FlowInputs, PlainFlow, are_moderate, lost_digits};
+use super::{CHUNK, ElectricalColumns, FlowInputs, PlainFlow, lost_digits};
 use crate::evaluate::{InteractionTally, Outcome, Part, contact_status};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::law::conductance::columns::ConductanceColumn;
@@ -9,7 +9,7 @@ use crate::law::contact::PotentialJump;
 use crate::law::electrical::ElectricalFlow;
 use crate::law::heat::HeatAmounts;
 use crate::nodes::Cells;
-use crate::numbers::is_moderate;
+use crate::numbers::{are_moderate, is_moderate};
 use crate::results::ResultBatch;
 
 /// Rows of a part, none of which lacks a number, with the increments that they end.
