@@ -38,9 +38,71 @@ struct Texts {
 #[derive(Debug, Clone, Default)]
 pub struct NumberColumn {
     /// NaN where the number is missing.
-    values: Vec<f64>,
+    values: Values,
     /// Which of them are there; empty where all of them are.
     present: Vec<bool>,
+}
+
+/// Numbers of its own, or those of an array that others hold too, which are copied when they change.
+#[derive(Debug, Clone)]
+enum Values {
+    Owned(Vec<f64>),
+    #[cfg(feature = "columnar")]
+    Shared(arrow::buffer::ScalarBuffer<f64>),
+}
+
+impl Values {
+    /// The numbers as a vector, which may change.
+    #[inline]
+    fn owned(&mut self) -> &mut Vec<f64> {
+        #[cfg(feature = "columnar")]
+        if let Self::Shared(buffer) = self {
+            *self = Self::Owned(buffer.to_vec());
+        }
+        match self {
+            Self::Owned(values) => values,
+            #[cfg(feature = "columnar")]
+            Self::Shared(_) => unreachable!("shared numbers have just been copied"),
+        }
+    }
+
+    /// An empty vector; what it had allocated stays, where it is its own.
+    fn clear(&mut self) {
+        match self {
+            Self::Owned(values) => values.clear(),
+            #[cfg(feature = "columnar")]
+            Self::Shared(_) => *self = Self::default(),
+        }
+    }
+
+    /// How many bytes of memory they take.
+    fn size(&self) -> usize {
+        let count = match self {
+            Self::Owned(values) => values.capacity(),
+            #[cfg(feature = "columnar")]
+            Self::Shared(buffer) => buffer.len(),
+        };
+        size_of::<f64>() * count
+    }
+}
+
+impl Default for Values {
+    fn default() -> Self {
+        Self::Owned(Vec::new())
+    }
+}
+
+impl std::ops::Deref for Values {
+    type Target = [f64];
+
+    #[inline]
+    fn deref(&self) -> &[f64] {
+        match self {
+            Self::Owned(values) => values,
+            #[cfg(feature = "columnar")]
+            Self::Shared(buffer) => buffer,
+        }
+    }
 }
 
 impl LabelColumn {
@@ -196,7 +258,17 @@ impl NumberColumn {
         for (value, present) in values.iter_mut().zip(&present) {
             *value = if *present { *value } else { f64::NAN };
         }
-        Self { values, present }
+        Self { values: Values::Owned(values), present }
+    }
+
+    /// The column of an array of which no number is missing; its memory becomes the column's where nobody else has it, and is shared otherwise.
+    #[cfg(feature = "columnar")]
+    pub(super) fn of_buffer(buffer: arrow::buffer::ScalarBuffer<f64>) -> Self {
+        let values = match buffer.into_inner().into_vec() {
+            Ok(values) => Values::Owned(values),
+            Err(shared) => Values::Shared(shared.into()),
+        };
+        Self { values, present: Vec::new() }
     }
 
     /// The number in row `row` of the batch; `None` where it is missing.
@@ -213,7 +285,7 @@ impl NumberColumn {
 
     /// The numbers, to be replaced; which of them are missing stays as it is.
     pub fn values_mut(&mut self) -> &mut [f64] {
-        &mut self.values
+        self.values.owned()
     }
 
     /// Which numbers are there, one flag a row; `None` where it is known that none is missing.
@@ -230,7 +302,7 @@ impl NumberColumn {
         } else if !self.present.is_empty() {
             self.present.push(value.is_some());
         }
-        self.values.push(value.unwrap_or(f64::NAN));
+        self.values.owned().push(value.unwrap_or(f64::NAN));
     }
 
     /// Adds rows: their numbers, and which of them are there, as many flags as numbers; `None` where all of them are.
@@ -241,7 +313,7 @@ impl NumberColumn {
     /// When there are not as many flags as numbers.
     pub fn extend_from_slices(&mut self, values: &[f64], present: Option<&[bool]>) {
         let before = self.values.len();
-        self.values.extend_from_slice(values);
+        self.values.owned().extend_from_slice(values);
         let Some(present) = present else {
             if !self.present.is_empty() {
                 self.present.resize(self.values.len(), true);
@@ -253,7 +325,7 @@ impl NumberColumn {
             self.present.resize(before, true);
         }
         self.present.extend_from_slice(present);
-        for (value, present) in self.values[before..].iter_mut().zip(present) {
+        for (value, present) in self.values.owned()[before..].iter_mut().zip(present) {
             *value = if *present { *value } else { f64::NAN };
         }
     }
@@ -261,7 +333,7 @@ impl NumberColumn {
     /// Sets the number of a row that is there.
     #[inline]
     pub fn set(&mut self, row: usize, value: f64) {
-        self.values[row] = value;
+        self.values.owned()[row] = value;
         if let Some(present) = self.present.get_mut(row) {
             *present = true;
         }
@@ -291,7 +363,7 @@ impl NumberColumn {
     /// The numbers of some rows.
     pub(crate) fn gather(&self, rows: &[u32]) -> Self {
         Self {
-            values: rows.iter().map(|row| self.values[*row as usize]).collect(),
+            values: Values::Owned(rows.iter().map(|row| self.values[*row as usize]).collect()),
             present: match self.present.as_slice() {
                 [] => Vec::new(),
                 present => rows.iter().map(|row| present[*row as usize]).collect(),
@@ -311,14 +383,14 @@ impl NumberColumn {
     /// Makes it a column of so many missing numbers.
     pub fn reset(&mut self, rows: usize) {
         self.values.clear();
-        self.values.resize(rows, f64::NAN);
+        self.values.owned().resize(rows, f64::NAN);
         self.present.clear();
         self.present.resize(rows, false);
     }
 
     /// How many bytes of memory it takes.
     fn size(&self) -> usize {
-        size_of::<f64>() * self.values.capacity() + self.present.capacity()
+        self.values.size() + self.present.capacity()
     }
 
     pub(super) fn clear(&mut self) {
@@ -330,7 +402,7 @@ impl NumberColumn {
     #[cfg(feature = "columnar")]
     pub(crate) fn take(&mut self) -> (Vec<f64>, Option<Vec<bool>>) {
         let present = std::mem::take(&mut self.present);
-        (std::mem::take(&mut self.values), Some(present).filter(|present| !present.is_empty()))
+        (std::mem::take(self.values.owned()), Some(present).filter(|present| !present.is_empty()))
     }
 }
 
@@ -395,7 +467,7 @@ impl Batch {
     /// Makes room for the numbers of so many rows.
     pub(super) fn reserve(&mut self, rows: usize) {
         self.lines.reserve(rows);
-        self.numbers.iter_mut().for_each(|column| column.values.reserve(rows));
+        self.numbers.iter_mut().for_each(|column| column.values.owned().reserve(rows));
     }
 
     /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.

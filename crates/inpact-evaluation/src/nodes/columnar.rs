@@ -319,14 +319,18 @@ impl Columns {
     }
 }
 
-/// The column of an array of f64; its memory becomes the column's where nobody else has it.
+/// The column of an array of f64, whose memory it takes over or shares where no number is missing.
 fn number_column(array: ArrayRef) -> NumberColumn {
     let numbers = array.as_primitive::<Float64Type>().clone();
     drop(array);
     let (_, values, nulls) = numbers.into_parts();
-    let values = values.into_inner().into_vec().unwrap_or_else(|shared| shared.typed_data().to_vec());
-    let nulls = nulls.filter(|nulls| nulls.null_count() > 0);
-    NumberColumn::from_parts(values, nulls.map_or_else(Vec::new, |nulls| nulls.iter().collect()))
+    match nulls.filter(|nulls| nulls.null_count() > 0) {
+        None => NumberColumn::of_buffer(values),
+        Some(nulls) => {
+            let values = values.into_inner().into_vec().unwrap_or_else(|shared| shared.typed_data().to_vec());
+            NumberColumn::from_parts(values, nulls.iter().collect())
+        }
+    }
 }
 
 /// Whether arrays of a type hold numbers.
