@@ -21,7 +21,7 @@ struct Measured {
     bytes: usize,
     lines: usize,
     opened: Duration,
-    /// What was measured, and its times in ascending order.
+    /// The request measured, and its times in ascending order.
     times: Vec<(&'static str, Vec<Duration>)>,
     /// Resident memory in bytes: now, and at most; where the system says so.
     memory: Option<(u64, u64)>,

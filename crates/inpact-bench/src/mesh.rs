@@ -25,7 +25,7 @@ pub enum Surfaces {
     Free,
 }
 
-/// What one reading took.
+/// Time and memory of one reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// Bytes of the deck.
@@ -93,7 +93,7 @@ pub fn write_mesh(side: u32, out: impl Write) -> io::Result<u64> {
     Ok(out.bytes)
 }
 
-/// What stands behind the mesh: surfaces, an interaction and the pair.
+/// The rows behind the mesh: surfaces, an interaction and the pair.
 pub fn tail(surfaces: Surfaces) -> String {
     let (lower, upper) = match surfaces {
         Surfaces::Named => ("UPMOST, S2", "LAYER, S1"),
@@ -152,7 +152,7 @@ impl Measured {
         format!("{bytes} {scan} {mesh} {contact} {faces} {peak}")
     }
 
-    /// What [`line`](Self::line) wrote; `None` for anything else.
+    /// Reads a line of [`line`](Self::line); `None` for anything else.
     pub fn of_line(line: &str) -> Option<Self> {
         let mut cells = line.split_whitespace();
         let mut number = || cells.next()?.parse::<f64>().ok();

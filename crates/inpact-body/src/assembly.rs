@@ -15,7 +15,7 @@ pub(crate) struct Matrix {
     pub(crate) diagonal: Vec<f64>,
 }
 
-/// What the elements hold at each node.
+/// The capacities of the elements at each node.
 #[derive(Debug)]
 pub(crate) struct Held {
     /// ∫ N dV (L³).
@@ -179,7 +179,7 @@ impl Sum {
 }
 
 impl Held {
-    /// What nodes hold of the elements of some blocks, each with its heat per volume and temperature.
+    /// Capacities at nodes of the elements of some blocks, each with its heat per volume and temperature.
     ///
     /// # Errors
     ///

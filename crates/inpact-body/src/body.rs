@@ -148,7 +148,7 @@ impl Body {
         &self.mesh.left_out
     }
 
-    /// What a material of the bodies with terminals has a conductivity for.
+    /// The fields that a material of the bodies with terminals has a conductivity for.
     pub fn fields(&self) -> Vec<BodyField> {
         let blocks = self.blocks();
         let materials = || blocks.iter().filter_map(|block| self.mesh.materials.get(block.material));

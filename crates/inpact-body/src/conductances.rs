@@ -40,7 +40,7 @@ impl Conductances {
         self.between[a * self.count + b]
     }
 
-    /// What a terminal conducts to all others together: the entry on the diagonal.
+    /// The conductance of a terminal to all others together: the entry on the diagonal.
     ///
     /// # Panics
     ///
@@ -66,5 +66,5 @@ impl Conductances {
     }
 }
 
-/// What is below this share of the largest conductance may be rounding.
+/// Conductances below this share of the largest may be rounding.
 pub(crate) const ROUNDING: f64 = 1e-12;

@@ -19,7 +19,7 @@ pub struct BodyFault {
     pub rule: &'static Rule,
     /// Its place in the deck; `None` for names that were asked for, and for what cannot be solved.
     pub span: Option<Span>,
-    /// What is wrong.
+    /// The fault.
     pub message: String,
     /// The bodies that it keeps from being lumped, as positions in [`Body::parts`](crate::Body::parts); empty where it is all of them.
     pub bodies: Vec<u32>,

@@ -16,10 +16,10 @@ use inpact_parser::span::Span;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// What bodies conduct and hold between their terminals.
+/// Conductances and capacities of bodies between their terminals.
 #[derive(Debug, Clone)]
 pub struct Lumped {
-    /// What they conduct.
+    /// The field.
     pub field: BodyField,
     /// Conductances where each terminal has one temperature (or potential).
     pub isothermal: Conductances,
@@ -29,7 +29,7 @@ pub struct Lumped {
     pub terminals: Vec<TerminalSummary>,
     /// The bodies that have a terminal.
     pub bodies: Vec<BodySummary>,
-    /// What each terminal holds (M L² T⁻² θ⁻¹); `None` of a current, where a material of its body has no density or specific heat, and where its body was left out.
+    /// The capacity of each terminal (M L² T⁻² θ⁻¹); `None` of a current, where a material of its body has no density or specific heat, and where its body was left out.
     pub capacities: Vec<Option<f64>>,
     /// The lowest and the highest value of a potential that is 1 at one terminal and 0 at the others: from 0 to 1 by the maximum principle, which a mesh may break.
     pub potentials: [f64; 2],
@@ -50,16 +50,16 @@ pub struct TerminalSummary {
     pub area: Option<f64>,
     /// The body it is of, a position in [`Lumped::bodies`]; `None` where that was left out.
     pub body: Option<usize>,
-    /// What it conducts to all others with even flows: no joint with an even flow has less.
+    /// Its conductance to all others with even flows: no joint with an even flow has less.
     pub lower: f64,
-    /// What it conducts to all others with one temperature: no joint has more.
+    /// Its conductance to all others with one temperature: no joint has more.
     pub upper: f64,
     /// Where its flow is even and the means of all others are 0 while its own is 1: the difference of its highest and lowest temperature. 0 where it is at one.
     pub range: f64,
 }
 
 impl TerminalSummary {
-    /// What lumping may cost: the difference of both conductances, relative to the larger. 0 where it conducts nothing.
+    /// The cost of lumping: the difference of both conductances, relative to the larger. 0 where it conducts nothing.
     pub fn relative(&self) -> f64 {
         if 0.0 < self.upper { ((self.upper - self.lower) / self.upper).max(0.0) } else { 0.0 }
     }
@@ -76,7 +76,7 @@ pub struct BodySummary {
     pub elements: usize,
     /// Its volume (L³).
     pub volume: f64,
-    /// What it holds (M L² T⁻² θ⁻¹); `None` as of [`Lumped::capacities`].
+    /// Its capacity (M L² T⁻² θ⁻¹); `None` as of [`Lumped::capacities`].
     pub capacity: Option<f64>,
 }
 
@@ -380,7 +380,7 @@ impl Body {
         fields.iter().map(one).collect()
     }
 
-    /// What the elements of some blocks hold, and what is missing for that.
+    /// The capacities of the elements of some blocks, and what is missing for them.
     fn held(
         &self,
         blocks: &[&ElementBlock],

@@ -79,7 +79,7 @@ impl Equations<'_> {
         Ok(Solution { method, unknowns, entries, imbalance })
     }
 
-    /// What flows out of each node beside what comes from outside; 0 for held nodes.
+    /// The flow out of each node beside that from outside; 0 for held nodes.
     fn residual(&self, field: &[f64], sources: &[f64]) -> Vec<f64> {
         let mut residual = self.matrix.flows(field);
         for ((residual, source), is_held) in residual.iter_mut().zip(sources).zip(self.is_held) {

@@ -2,9 +2,9 @@
 
 mod rules;
 
-pub use rules::{
-    BEYOND_CUTOFF, DEEP_OVERCLOSURE, GEOMETRY_RULES, NODE_BASED_SURFACE, TABLE_NOT_REACHED, WITHOUT_MASTER, WRONG_SIDE,
-};
+pub use rules::GEOMETRY_RULES;
+
+use rules::{BEYOND_CUTOFF, DEEP_OVERCLOSURE, NODE_BASED_SURFACE, TABLE_NOT_REACHED, WITHOUT_MASTER, WRONG_SIDE};
 
 use crate::pair::across;
 use inpact_diagnostics::{Diagnostic, Label, Rule};

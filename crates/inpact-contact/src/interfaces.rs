@@ -38,7 +38,7 @@ pub struct PairInterfaces {
     pub rows: Vec<InterfaceRow>,
     /// The names of the slave nodes that have neither: nothing is conducted there.
     pub beside: Vec<String>,
-    /// What is across from each slave node that is nearest to some face of the master.
+    /// The projection of each slave node that is nearest to some face of the master.
     pub projections: Vec<ProjectionRow>,
 }
 

@@ -50,10 +50,7 @@ mod state;
 mod summary;
 mod values;
 
-pub use check::{
-    BEYOND_CUTOFF, DEEP_OVERCLOSURE, GEOMETRY_RULES, NODE_BASED_SURFACE, TABLE_NOT_REACHED, WITHOUT_MASTER, WRONG_SIDE,
-    check_geometry,
-};
+pub use check::{GEOMETRY_RULES, check_geometry};
 pub use error::Error;
 pub use interfaces::{InterfaceRow, Interfaces, LumpedPair, PairInterfaces, ProjectionRow, WeightedMean};
 pub use join::{FileSummary, Join, Joined, MatchedBy, ResultFile, ResultNote};

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 #[derive(Debug, Clone)]
 pub struct SlaveFaces {
     nodes: Vec<NodeId>,
-    /// What the rows of the points are called.
+    /// The names of the rows of the points.
     names: Vec<String>,
     /// The pairs of the points, by their positions among those of the mesh.
     of_mesh: Vec<usize>,

@@ -18,7 +18,8 @@ mod work;
 pub use choose::{Candidate, Choice, Method, choose};
 pub use grid::{Grid, commensurate_cells};
 pub use refusal::Refusal;
-pub use wanted::{FAST_TOLERANCE, Tolerance, Wanted};
+pub(crate) use wanted::FAST_TOLERANCE;
+pub use wanted::{Tolerance, Wanted};
 pub use work::Shape;
 
 use crate::table::{AxisSummary, PiecewiseTable};

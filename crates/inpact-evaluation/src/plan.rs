@@ -37,7 +37,7 @@ pub use crate::law::thermal::plan::{CurrentHeat, ThermalPlan};
 pub use crate::law::user::plan::UserPlan;
 pub use choices::{Choices, Currents, Derivatives};
 pub use concern::concerning;
-pub use governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
+pub use governing::{GovernedBy, NameFault, RowInteractions};
 pub use make::make;
 pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};

@@ -18,8 +18,8 @@ pub use fold::FoldRefusal;
 pub use sides::Sides;
 
 pub use crate::accuracy::{
-    Candidate, Choice, ErrorBound, FAST_TOLERANCE, Grid, Method, Refusal, Shape, choose, commensurate_cells,
-    full_bound, reference_bound,
+    Candidate, Choice, ErrorBound, Grid, Method, Refusal, Shape, choose, commensurate_cells, full_bound,
+    reference_bound,
 };
 pub use crate::evaluator::{Evaluator, FoundValue, SeenError, TableValues};
 pub use crate::kernel::{InstructionSet, Search, TableKernel};

@@ -1,4 +1,4 @@
-//! What a solid element conducts and holds: ∫ ∇N·k·∇N dV and ∫ N dV.
+//! Conductance and capacity of a solid element: ∫ ∇N·k·∇N dV and ∫ N dV.
 
 use crate::solid::{MAX_SOLID_NODES, SolidPoint, rule};
 use crate::vector::{cross, dot, sub};
@@ -27,7 +27,7 @@ pub struct SolidElement {
     nodes: usize,
 }
 
-/// What an element conducts and holds.
+/// Conductance and capacity of an element.
 #[derive(Clone, Debug)]
 pub struct SolidIntegrals {
     nodes: usize,

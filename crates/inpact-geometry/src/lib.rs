@@ -73,7 +73,7 @@ pub use error::GeometryError;
 pub use face_shape::{FaceShape, MAX_NODES};
 pub use free_faces::FreeFaces;
 pub use ids::{FaceId, NodeId};
-pub use normal::{node_normal, node_normals};
+pub use normal::node_normals;
 pub use pair::{ContactNode, PairOptions, contact_nodes};
 pub use patch::Patch;
 pub use projection::{DEFAULT_EXTENSION, Projection};

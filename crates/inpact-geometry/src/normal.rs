@@ -16,7 +16,7 @@ pub fn node_normals(placed: &Placed<'_>) -> Vec<Option<Vector>> {
 }
 
 /// The averaged unit normal at one node.
-pub fn node_normal(placed: &Placed<'_>, node: NodeId) -> Option<Vector> {
+pub(crate) fn node_normal(placed: &Placed<'_>, node: NodeId) -> Option<Vector> {
     let surface = placed.surface();
     let mut sum = [0.0; 3];
     for id in surface.faces_at(node) {

@@ -60,7 +60,7 @@ pub const MAX_TEXT: usize = 1024;
 pub const MAX_TEXT_IN_ALL: usize = 16 << 20;
 
 /// The most arguments of a call; Python 2 has the same limit.
-pub const MAX_ARGUMENTS: usize = 255;
+pub(crate) const MAX_ARGUMENTS: usize = 255;
 
 /// A problem without its place.
 #[derive(Debug)]

@@ -242,7 +242,7 @@ pub enum Regime {
 pub struct SetAside {
     /// Why.
     pub reason: SetAsideReason,
-    /// What.
+    /// The item.
     pub item: SetAsideItem,
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Report<'a> {
     /// The findings of a check of it.
     pub(crate) findings: &'a [Diagnostic],
     pub(crate) figure: &'a Figure,
-    /// What an evaluation of a node table would do and leave out, and what it gave.
+    /// The plan of an evaluation of a node table, and its results.
     pub(crate) evaluation: Option<Evaluation>,
     /// The files that it was made from.
     pub(crate) inputs: Vec<Input>,

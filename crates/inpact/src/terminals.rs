@@ -24,7 +24,7 @@ pub(crate) struct StepTime {
     pub(crate) start: Option<f64>,
 }
 
-/// What the deck says of a terminal.
+/// The conditions of the deck at a terminal.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stated {
     /// By field: the value it is held at.
@@ -34,7 +34,7 @@ pub(crate) struct Stated {
     /// By field: its value at the beginning.
     pub(crate) initial: [Option<f64>; 3],
     pub(crate) films: Vec<Film>,
-    /// What is said and cannot be a condition of one node: the field, the row, and why.
+    /// Conditions that cannot be those of one node: the field, the row, and why.
     pub(crate) faults: Vec<(Field, Span, String)>,
 }
 
@@ -155,7 +155,7 @@ impl<'a> Taker<'a> {
         }
     }
 
-    /// What the deck says of a terminal with these nodes; what is said is taken then.
+    /// The conditions of the deck at a terminal with these nodes; each is taken once.
     pub(crate) fn take(&mut self, nodes: &BTreeSet<NodeId>) -> Stated {
         let mut stated = Stated::default();
         for field in Field::ALL {

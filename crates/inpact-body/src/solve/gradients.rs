@@ -8,7 +8,7 @@
 
 use super::Equations;
 
-/// What is left of the residual, in the norm of the preconditioner, where an iteration ends. Conductances are products of two errors, far below this.
+/// The share of the residual, in the norm of the preconditioner, at which an iteration ends. Conductances are products of two errors, far below this.
 const REDUCTION: f64 = 1e-12;
 
 /// More iterations are not tried: the factor is cheaper then.

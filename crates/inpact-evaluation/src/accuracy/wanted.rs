@@ -36,7 +36,7 @@ impl Tolerance {
 /// The requested accuracy: a mode or a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wanted {
-    /// A mode. [`Accuracy::Fast`] takes a grid where it is faster than [`Accuracy::Full`] and its bound is within [`FAST_TOLERANCE`].
+    /// A mode. [`Accuracy::Fast`] takes a grid where it is faster than [`Accuracy::Full`] and its bound is within 1e-4 of the largest value.
     Mode(Accuracy),
     /// The cheapest mode within a tolerance; the reference where nothing is.
     Within(Tolerance),
@@ -73,4 +73,4 @@ impl Wanted {
 }
 
 /// The tolerance of [`Accuracy::Fast`] where none is given: 1e-4 of the largest value of the table.
-pub const FAST_TOLERANCE: Tolerance = Tolerance::RelativeToLargest(1e-4);
+pub(crate) const FAST_TOLERANCE: Tolerance = Tolerance::RelativeToLargest(1e-4);

@@ -20,7 +20,7 @@ use inpact_parser::model::Model;
 pub struct TableReads {
     /// The place of its interaction in the model.
     pub interaction: usize,
-    /// What it gives.
+    /// The quantity it gives.
     pub quantity: TabulatedQuantity,
     /// The first of its variables.
     pub against: Along,
@@ -30,7 +30,7 @@ pub struct TableReads {
     pub columns: Vec<Vec<f64>>,
 }
 
-/// What a table gives.
+/// Quantities that tables give.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TabulatedQuantity {
     /// Electrical conductance, C T⁻¹ L⁻² φ⁻¹.

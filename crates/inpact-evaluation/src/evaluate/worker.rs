@@ -1,4 +1,4 @@
-//! What one thread does for a batch: its rows by their interaction, all tables in columns, and every law in the rows that stand alone.
+//! The work of one thread on a batch: its rows by their interaction, all tables in columns, and every law in the rows that stand alone.
 
 use super::laws::{InteractionLaws, Laws};
 use super::shard::{Shard, Waiting};

@@ -12,7 +12,7 @@ use crate::numbers::is_zero_or_ordinary;
 /// Rows that are gone through together, so that what one step writes is still in the first cache for the next.
 const CHUNK: usize = 512;
 
-/// What the electrical law reads of a block of rows, a column each.
+/// The inputs of the electrical law in a block of rows, a column each.
 #[derive(Clone, Copy, Debug)]
 pub struct ElectricalInputs<'a> {
     /// Δφ, the jump of potential at the end of the increment.

@@ -15,7 +15,7 @@ use std::arch::x86_64::{__m256d, _CMP_EQ_OQ};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {
-    /// What every processor of the architecture has.
+    /// The instructions that every processor of the architecture has.
     Scalar,
     /// x86-64 with AVX2 and fused multiply-add.
     Avx2,
@@ -65,14 +65,14 @@ impl InstructionSet {
 
 /// Something that is compiled for each set of instructions.
 pub(crate) trait Operation {
-    /// What comes of it.
+    /// Its result.
     type Output;
 
     /// Does it; all that it calls must be inlined.
     fn call<L: Lanes>(self, lanes: L) -> Self::Output;
 }
 
-/// What a kernel wants of a set of instructions beside what the compiler makes of plain loops.
+/// The operations of a set of instructions that kernels use beside those the compiler makes of plain loops.
 pub(crate) trait Lanes: Copy {
     /// The values at `x` on the pieces of `places`, row by row: [`Piece::value`].
     fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]);

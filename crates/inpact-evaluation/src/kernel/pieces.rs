@@ -8,7 +8,7 @@ use std::hint::select_unpredictable;
 
 use crate::numbers::KernelSlope;
 
-/// What interpolation needs on one half segment: the abscissa of the end it starts from and the value there,
+/// The numbers that interpolation needs on one half segment: the abscissa of the end it starts from and the value there,
 /// the slope and what its rounding took away; the slope is NaN where the segment has no kernel slope.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]

@@ -29,7 +29,7 @@ pub(super) struct RegisterKernel {
     tail: Tail,
     /// How many halvings find the segment, 0 to 4.
     halvings: u32,
-    /// What each halving compares with, at the index found so far.
+    /// The abscissae that each halving compares with, at the index found so far.
     halving_knots: [[Lanes; 2]; 4],
     /// Where the right half of each segment begins.
     right_halves: [Lanes; 2],

@@ -95,7 +95,7 @@ pub enum UserFault {
     NotFinite {
         /// Which: SIGMA(1), the conductance, or a slope, SIGMA(2) or SIGMA(3).
         item: usize,
-        /// What it is.
+        /// The number.
         value: f64,
     },
     /// The conductance is below zero, which would create energy (K-13).

@@ -12,7 +12,7 @@ pub struct ColumnPage {
     pub column: Column,
     /// Its names, the canonical one first.
     pub names: &'static [&'static str],
-    /// What it means.
+    /// Its meaning.
     pub meaning: &'static str,
     /// Its unit by dimension; `1` for a pure number, empty for a text.
     pub unit: &'static str,

@@ -7,7 +7,7 @@ use std::ops::Neg;
 
 /// A rounded number and, where plain arithmetic could over- or underflow on its way, the number itself.
 ///
-/// What is made of an amount with moderate numbers alone is plain arithmetic; all else goes through [`Scaled`] and is rounded once, at its end.
+/// Sums and products of an amount with moderate numbers are plain arithmetic; all else goes through [`Scaled`] and is rounded once, at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
     value: f64,

@@ -1,4 +1,4 @@
-//! What becomes of each column of the node table.
+//! The use of each column of the node table.
 
 use super::choices::Choices;
 use super::reason::Reason;
@@ -80,7 +80,7 @@ impl InteractionPlan {
     }
 }
 
-/// What becomes of each column, in the order of the header.
+/// The use of each column, in the order of the header.
 pub(crate) fn column_plans(
     survey: &Survey,
     choices: &Choices,
@@ -97,7 +97,7 @@ pub(crate) fn column_plans(
     plans.collect()
 }
 
-/// What all interactions together do with columns, gathered once: a table may have as many columns as a deck has interactions.
+/// The columns that all interactions together use, gathered once: a table may have as many columns as a deck has interactions.
 struct Uses<'a> {
     survey: &'a Survey,
     choices: &'a Choices,

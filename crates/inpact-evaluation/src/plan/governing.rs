@@ -130,7 +130,7 @@ pub enum NameFault {
 ///
 /// # Errors
 /// None of that name, or more than one that it may be.
-pub fn find_interaction(model: &Model, text: &str) -> Result<usize, NameFault> {
+pub(crate) fn find_interaction(model: &Model, text: &str) -> Result<usize, NameFault> {
     // In a deck of CalculiX quotes are letters of the name (CX-02); no name of Abaqus has any, so that one look serves both.
     if let Some(index) = model.interactions.get_index_of(&Name::in_dialect(text, Dialect::Calculix)) {
         return Ok(index);

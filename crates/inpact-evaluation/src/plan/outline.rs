@@ -20,7 +20,7 @@ pub struct Outline {
 /// A part of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    /// What it is.
+    /// Its name.
     pub name: String,
     /// Its own cost, in nanoseconds for each row of the node table.
     pub cost: f64,
@@ -33,7 +33,7 @@ pub struct Node {
 pub struct Cut {
     /// The interaction it is of; `None` for a column of the node table.
     pub interaction: Option<String>,
-    /// What it is.
+    /// Its name.
     pub what: String,
     /// Why it was cut.
     pub reason: String,
@@ -44,7 +44,7 @@ pub struct Cut {
 /// A part of a law that was cut while the plan was made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dropped {
-    /// What it is.
+    /// Its name.
     pub what: String,
     /// The cost saved, in nanoseconds for each row of the interaction.
     pub cost: f64,

@@ -8,7 +8,7 @@ use std::fmt;
 /// Something an evaluation leaves out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
-    /// What, in words: a law, a table, outputs.
+    /// Its name: a law, a table, outputs.
     pub what: String,
     /// The outputs that go with it, where it is outputs.
     pub outputs: Vec<Output>,

@@ -102,7 +102,7 @@ impl<'a> ColumnarWriter<'a> {
     }
 }
 
-/// What a column of the table is made of.
+/// Sources of a column of the table.
 enum Source<'b> {
     Key(Column, &'b LabelColumn),
     Numbers(&'b NumberColumn),

@@ -33,7 +33,7 @@ pub enum AmplitudeTime {
     Total,
 }
 
-/// What the values of an amplitude are.
+/// The kind of the values of an amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AmplitudeValue {
     /// Factors of the magnitude.

@@ -110,7 +110,7 @@ struct SolidSection {
     axes: MaterialAxes,
 }
 
-/// What a terminal is made of, before nodes have positions.
+/// The parts of a terminal, before nodes have positions.
 struct Picked {
     span: Span,
     is_of_faces: bool,

@@ -40,11 +40,11 @@ pub struct Condition {
     pub span: Span,
     /// Its keyword, without the asterisk.
     pub keyword: &'static str,
-    /// What the row names: a set, a surface, a number; with the face where it names one.
+    /// The target of the row: a set, a surface, a number; with the face where it names one.
     pub target: String,
     /// The nodes or faces it is on: a position in [`Mesh::surfaces`](super::Mesh::surfaces); `None` where nothing of it was found.
     pub on: Option<usize>,
-    /// What it does.
+    /// Its kind.
     pub kind: ConditionKind,
     /// The value, flow, flow per area or, of a film, sink temperature; before its amplitude.
     pub magnitude: f64,
@@ -54,7 +54,7 @@ pub struct Condition {
     pub step: usize,
 }
 
-/// What a condition does.
+/// Kinds of conditions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ConditionKind {
     /// Holds the field at a value.
@@ -175,7 +175,7 @@ impl Cells {
     }
 }
 
-/// What a row says.
+/// A row, read.
 struct Said {
     kind: ConditionKind,
     magnitude: f64,
@@ -324,7 +324,7 @@ fn fields_held(row: &Cells, dialect: Dialect) -> Vec<ConditionField> {
     (first..=last.min(first + 30)).filter_map(|freedom| ConditionField::of(freedom, dialect)).collect()
 }
 
-/// What a row of a keyword says; nothing where it is of other fields.
+/// Reads a row of a keyword; nothing where it is of other fields.
 fn said(keyword: &str, row: &Cells, dialect: Dialect) -> Result<Vec<Said>, String> {
     let nodal = |field| {
         let magnitude = row.number(2)?;

@@ -83,7 +83,7 @@ pub(super) struct Layout<'deck> {
     pub(super) beside_elements: Vec<(&'static str, Entry<'deck>)>,
     /// The *STEP options.
     pub(super) steps: Vec<Entry<'deck>>,
-    /// What may be conditions, in the order of the deck.
+    /// Blocks that may hold conditions, in the order of the deck.
     pub(super) conditions: Vec<StepEntry<'deck>>,
     pub(super) amplitudes: Vec<Entry<'deck>>,
 }

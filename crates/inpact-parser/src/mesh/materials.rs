@@ -1,4 +1,4 @@
-//! What materials conduct and hold: *CONDUCTIVITY, *ELECTRICAL CONDUCTIVITY, *DENSITY and *SPECIFIC HEAT.
+//! Properties of materials: *CONDUCTIVITY, *ELECTRICAL CONDUCTIVITY, *DENSITY and *SPECIFIC HEAT.
 
 use super::layout::{Entry, MaterialEntries, canonical};
 use super::reader::Reader;

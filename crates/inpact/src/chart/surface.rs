@@ -46,7 +46,7 @@ impl Surface {
         }
     }
 
-    /// What the drawing shows, in words.
+    /// The drawing, described in words.
     pub(crate) fn description(&self) -> String {
         let time = self.time.map_or_else(String::new, |time| format!(" at time {}", crate::curves::number(time)));
         let [least, greatest] = self.range().map(crate::curves::number);

@@ -70,7 +70,7 @@ enum BodyFormat {
     Scene,
 }
 
-/// What was found of a deck's bodies.
+/// The bodies found in a deck.
 struct Found<'a> {
     deck: &'a str,
     body: &'a Body,

@@ -167,7 +167,7 @@ fn written(header: &[String], rows: impl Iterator<Item = Vec<String>>) -> Made {
     Ok((table, made))
 }
 
-/// What there is to say of a pair: which nodes hang over the edge, and what lumping averages.
+/// Remarks on a pair: which nodes hang over the edge, and what lumping averages.
 fn lines(interfaces: &Interfaces, pair: &PairInterfaces, lumped: bool) -> Vec<String> {
     let mut lines = Vec::new();
     let lumped = if lumped { interfaces.lumped(pair) } else { None };

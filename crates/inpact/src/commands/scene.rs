@@ -314,7 +314,7 @@ impl SceneFiles for NoFiles {
     }
 }
 
-/// What `solve` would report as missing: the scene is read back and posed.
+/// The findings of `solve` on what is missing: the scene is read back and posed.
 fn missing(text: &str, meshed: &MeshedDeck, settings: &Settings) -> Lines {
     let (scene, found) = scene::read_as_far_as_it_goes(text, "scene", &mut NoFiles);
     let mut messages: Lines = found.iter().map(said).collect();

@@ -116,7 +116,7 @@ fn silence(view: View<'_>, finding: &found::Diagnostic) -> Option<CodeAction> {
     Some(quick_fix(title, Some(vec![findings::diagnostic(view, finding)]), false, edit_of(view, &fix)))
 }
 
-/// What `check` would mend if the deck were for the other solver, and does not mend for this one.
+/// The fixes that `check` would make if the deck were for the other solver, and does not make for this one.
 fn for_other_dialect(view: View<'_>, selected: Span, here: &[&found::Diagnostic]) -> Vec<CodeAction> {
     let (other, name) = match view.analysis.settings.grammar.dialect() {
         Dialect::Abaqus => (Dialect::Calculix, "CalculiX"),

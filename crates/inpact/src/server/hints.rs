@@ -117,7 +117,7 @@ pub(super) fn lenses(workspace: &mut Workspace, params: &CodeLensParams) -> Resu
     Ok(Some(lenses))
 }
 
-/// What `inpact plot` is to draw for a table, and the lines of the table: `None` for one that governs nothing or has no curve.
+/// The drawing that `inpact plot` makes for a table, and the lines of the table: `None` for one that governs nothing or has no curve.
 fn drawing(view: View<'_>, of: &TableOf<'_>) -> Option<Value> {
     let interaction = of.interaction?;
     let governing = view.analysis.model.interactions.get(&interaction.name)?;

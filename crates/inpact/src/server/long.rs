@@ -7,7 +7,7 @@ use inpact_parser::deck::{EditedText, TextInParts};
 use serde_json::Value;
 use std::io::{self, BufRead};
 
-/// What the mark of a long string begins with; its number follows. Nobody writes a NUL.
+/// The beginning of the mark of a long string; its number follows. Nobody writes a NUL.
 const MARK: &str = "\u{0}long string ";
 
 /// A message as it is decoded.
@@ -202,7 +202,7 @@ struct Decoder {
     cut: Vec<u8>,
 }
 
-/// What of some bytes belongs to a string.
+/// The part of some bytes that belongs to a string.
 struct Used {
     bytes: usize,
     is_end: bool,

@@ -390,14 +390,14 @@ pub(super) fn defined_names(view: View<'_>, kind: Kind) -> Vec<Name> {
     found
 }
 
-/// What the value of a parameter may name.
+/// The kinds of things that the value of a parameter may name.
 pub(super) fn kinds_of_value(keyword: &str, parameter: &[u8]) -> &'static [Kind] {
     let meaning = meaning_of_value(keyword, parameter);
     // A name that is defined here is a new one.
     meaning.filter(|meaning| !meaning.is_definition).map_or(&[], |meaning| meaning.kinds)
 }
 
-/// What an item of a row may name.
+/// The kinds of things that an item of a row may name.
 pub(super) fn kinds_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> &'static [Kind] {
     meaning_of_item(entry, view, item).map_or(&[], |meaning| meaning.kinds)
 }

@@ -23,7 +23,7 @@ pub(crate) struct BranchColumns {
     pub(crate) variables: Vec<Option<Variable>>,
 }
 
-/// What a table needs of a row.
+/// The numbers of a row that a table needs.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Needs {
     /// Its first variable, clearance or contact pressure.
@@ -45,7 +45,7 @@ pub(crate) enum Variable {
 #[derive(Debug, Default)]
 pub(crate) struct ConductanceColumn {
     pub(crate) values: Vec<f64>,
-    /// What rounding took away; empty or NaN where that is not known.
+    /// The rests that rounding took away; empty or NaN where that is not known.
     pub(crate) rests: Vec<f64>,
     /// Where each row lies outside its table.
     pub(crate) sides: Vec<Sides>,
@@ -170,7 +170,7 @@ impl BranchColumns {
         self.forms[place(branch)].as_ref()
     }
 
-    /// What the rows of a part read: for each branch the rows and their coordinates.
+    /// The reads of a part: for each branch the rows and their coordinates.
     fn gather<'a>(&self, part: &'a Part<'_>) -> (Vec<Reads>, [Gathered<'a>; 2]) {
         let is_needed = |variable: usize| self.needs.iter().any(|needs| needs.variables.contains(&variable));
         let variables = self.variables.iter().enumerate();
@@ -305,7 +305,7 @@ impl ConductanceColumn {
         self.known.iter().all(|known| *known)
     }
 
-    /// What rounding took away in a row, where that is known.
+    /// The rest that rounding took away in a row, where that is known.
     #[inline]
     pub(crate) fn rest(&self, row: usize) -> Option<f64> {
         self.rests.get(row).copied().filter(|rest| !rest.is_nan())

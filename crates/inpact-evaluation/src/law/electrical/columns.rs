@@ -42,7 +42,7 @@ pub(crate) struct ElectricalColumns {
     set: InstructionSet,
 }
 
-/// What gives the electrical conductance.
+/// Sources of the electrical conductance.
 #[derive(Debug, Clone)]
 enum ConductanceSource {
     /// Tables of the deck.

@@ -22,7 +22,7 @@ pub(crate) struct PoreColumns {
     /// The table of permeabilities as it is evaluated.
     form: Option<Evaluator>,
     regime: Regime,
-    /// What the permeability needs; variable 0 is the mean pore pressure, which is always there.
+    /// The variables that the permeability needs; variable 0 is the mean pore pressure, which is always there.
     needs: Needs,
     /// The mean temperature, then the field variables.
     variables: Vec<Option<Source<usize>>>,

@@ -44,7 +44,7 @@ struct Conduction {
     slopes: Vec<(usize, Along)>,
 }
 
-/// What gives the conductance.
+/// Sources of the conductance.
 #[derive(Debug, Clone)]
 enum ConductionSource {
     Tables(BranchColumns),
@@ -70,7 +70,7 @@ struct Slots {
     into_master: Option<usize>,
 }
 
-/// What is found of the rows of a part before the law goes through them.
+/// Conductances and view factors of a part, found before the law goes through its rows.
 #[derive(Debug, Default)]
 pub(crate) struct ThermalFound {
     conductances: ConductanceColumn,

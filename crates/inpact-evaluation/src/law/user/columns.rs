@@ -69,7 +69,7 @@ impl UserColumns {
         }))
     }
 
-    /// What there is to say of a row whose conductance is none.
+    /// The fault of a row whose conductance is none, for users.
     #[cold]
     pub(crate) fn fault_in_row(&self, row: Row<'_, '_>, fault: &UserFault) -> UserFaultInRow {
         let place = row.part.place(row.index);

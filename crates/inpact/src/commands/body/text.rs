@@ -84,7 +84,7 @@ fn bodies(names: &[&str], lumped: &Lumped) -> Vec<Vec<String>> {
     rows
 }
 
-/// What the mesh does to the maximum principle.
+/// The effect of the mesh on the maximum principle.
 fn remarks(names: &[&str], lumped: &Lumped) -> String {
     let mut text = String::new();
     for (a, b, conductance) in lumped.isothermal.negative() {

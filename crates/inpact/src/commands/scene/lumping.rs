@@ -1,4 +1,4 @@
-//! What it costs that terminals have one temperature each, and joints one pressure.
+//! The cost of one temperature a terminal, and of one pressure a joint.
 //!
 //! A body conducts most where each terminal has one temperature, and least where its flow is spread evenly; a joint conducts most where both sides have one
 //! temperature (the mean of its conductances by area), and least where its flow is spread evenly (their harmonic mean). Between held nodes a network of such parts

@@ -12,10 +12,10 @@ use inpact_parser::model::{Procedure, Regime};
 use inpact_parser::number::read_float;
 use std::fmt::Write;
 
-/// What is below this share of the largest conductance may be rounding.
+/// Conductances below this share of the largest may be rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// What a scene stands on.
+/// The sources of a scene.
 pub(super) struct Head {
     pub(super) inputs: Vec<Input>,
     pub(super) command: String,
