@@ -44,9 +44,7 @@ pub use factor::NoSolution;
 pub(crate) use factor::{Factor, Solves};
 pub(crate) use iterative::Incomplete;
 pub(crate) use largest::largest_or_nan;
-#[cfg(test)]
-pub(crate) use matrix::Matrix;
-pub(crate) use matrix::{Pattern, each_part};
+pub(crate) use matrix::{Matrix, Pattern, each_part};
 pub use network::{LinearNetwork, Link, Store, Unsolvable};
 pub(crate) use ordering::Analysis;
 pub use ordering::Ordering;

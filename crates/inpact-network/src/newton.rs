@@ -297,7 +297,7 @@ impl<'a> Newton<'a> {
         let equations = self.equations(knowledge, states, slopes, pseudo_capacity);
         let scale = equations.scale;
         let mut direction = if LARGE <= equations.right.len() {
-            // The entries are let go as soon as the matrix is made; where it cannot be made they are put together anew.
+            // The entries become the matrix; where it comes to nothing they are put together anew.
             let found = self.without_factor(equations);
             found.or_else(|| self.by_factor(self.equations(knowledge, states, slopes, pseudo_capacity)))?
         } else {
@@ -313,8 +313,7 @@ impl<'a> Newton<'a> {
     /// The step by blocks of single fields.
     fn without_factor(&mut self, equations: StepEquations) -> Option<Vec<f64>> {
         let StepEquations { entries, right, pseudo_capacity, .. } = equations;
-        let matrix = krylov::Columns::of(right.len(), &entries);
-        drop(entries);
+        let matrix = krylov::Columns::of(right.len(), entries);
         let blocks = self.fields.iter().zip(&mut self.orders).map(|(system, order)| {
             let range = system.start as usize..system.start as usize + system.edges.form.count();
             krylov::Block::of(system, pseudo_capacity.get(range).unwrap_or_default(), self.method, order)

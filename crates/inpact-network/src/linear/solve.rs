@@ -203,8 +203,9 @@ impl Solver {
         std::mem::replace(&mut self.tolerance, tolerance)
     }
 
-    /// Lets the factor of the last network go, and keeps its order.
+    /// Lets the factor of the last network go, and keeps its order, if it has one.
     pub(crate) fn release_factor(&mut self) {
+        self.kept = self.kept.take().filter(|kept| kept.analysis.is_some());
         if let Some(kept) = &mut self.kept {
             kept.factor = KeptFactor::default();
         }

@@ -3,13 +3,14 @@
 //! The coupling of two fields, or of a conductance to its own field, is small beside the symmetric blocks of the single fields, which have the pattern of their networks:
 //! minimum degree or nested dissection order them, and one Cholesky factor each, in f32 as it need not be exact, makes a preconditioner;
 //! with `iterative` an incomplete factor does. Between the fields it is block-triangular: what the first field gives is taken from the second.
-//! GMRES then solves for the step, restarted so that its memory is that of a few vectors. A step that is solved to a few digits is a step all the same: the line search judges it.
+//! GMRES then solves for the step, restarted so that its memory is that of a few vectors, which it keeps in f32: what that costs in digits a restart brings back,
+//! since it begins with what is missing in f64. A step that is solved to a few digits is a step all the same: the line search judges it.
 //!
 //! An unsymmetric factor that may choose its pivots needs room for the pattern of AᵀA, 50 KiB for each contact of a plate; it is left to small scenes, and to those where GMRES comes to nothing.
-//! Source: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., sections 6.5 and 9.3.
+//! Source: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., sections 6.5 and 9.3; a basis of fewer digits: Aliaga and others, Compressed basis GMRES on high-performance graphics processing units, Int. J. High Perform. Comput. Appl. 37 (2023) 82–100.
 
 use super::system::System;
-use crate::linear::{Analysis, Factor, Incomplete, Method, NoSolution, Pattern, Solves, largest_or_nan};
+use crate::linear::{Analysis, Factor, Incomplete, Matrix, Method, NoSolution, Pattern, Solves, largest_or_nan};
 use faer::sparse::Triplet;
 use std::sync::Arc;
 
@@ -42,7 +43,7 @@ pub(super) struct Order {
     analysis: Option<Arc<Analysis>>,
 }
 
-/// A matrix by its columns, whose entries may be in parts: it is only multiplied by.
+/// A matrix by its columns: it is only multiplied by.
 pub(super) struct Columns {
     starts: Vec<u32>,
     rows: Vec<u32>,
@@ -50,22 +51,27 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// The square matrix of these parts.
-    pub(super) fn of(count: usize, entries: &[Triplet<u32, u32, f64>]) -> Self {
+    /// The square matrix of entries that are in parts, in any order.
+    ///
+    /// The parts are put together where they are: of a large scene there are three for each entry, and no room for both.
+    pub(super) fn of(count: usize, mut parts: Vec<Triplet<u32, u32, f64>>) -> Self {
+        parts.sort_unstable_by_key(|part| (part.col, part.row));
+        parts.dedup_by(|part, entry| {
+            let is_same = (part.col, part.row) == (entry.col, entry.row);
+            if is_same {
+                entry.val += part.val;
+            }
+            is_same
+        });
         let mut starts = vec![0_u32; count + 1];
-        for entry in entries {
+        for entry in &parts {
             starts[entry.col as usize + 1] += 1;
         }
         for column in 0..count {
             starts[column + 1] += starts[column];
         }
-        let (mut rows, mut values, mut next) = (vec![0; entries.len()], vec![0.0; entries.len()], starts.clone());
-        for entry in entries {
-            let place = &mut next[entry.col as usize];
-            rows[*place as usize] = entry.row;
-            values[*place as usize] = entry.val;
-            *place += 1;
-        }
+        let rows = parts.iter().map(|entry| entry.row).collect();
+        let values = parts.iter().map(|entry| entry.val).collect();
         Self { starts, rows, values }
     }
 
@@ -98,21 +104,18 @@ impl Block {
     ) -> Option<Self> {
         let (start, count) = (system.start as usize, system.edges.form.count());
         let pattern = Pattern::of(&system.core, &system.edges);
+        if method == Method::Iterative {
+            // Without an order there is nothing to keep.
+            let inverse = Inverse::Incomplete(Incomplete::of(&matrix(&pattern, system, pseudo_capacity)));
+            return Some(Self { start, count, inverse });
+        }
         let order = match kept.take() {
             Some(order) if order.pattern.has_entries_of(pattern.symbolic()) => {
                 kept.insert(Order { pattern, analysis: order.analysis })
             }
             _ => kept.insert(Order { pattern, analysis: None }),
         };
-        let mut matrix = order.pattern.matrix(&system.core, &system.edges);
-        for (column, more) in pseudo_capacity.iter().enumerate() {
-            // A column begins with its diagonal.
-            let diagonal = matrix.pattern.col_ptr()[column] as usize;
-            matrix.values[diagonal] += more;
-        }
-        if method == Method::Iterative {
-            return Some(Self { start, count, inverse: Inverse::Incomplete(Incomplete::of(&matrix)) });
-        }
+        let matrix = matrix(&order.pattern, system, pseudo_capacity);
         let analysis = match &order.analysis {
             Some(analysis) => Arc::clone(analysis),
             None => Arc::clone(order.analysis.insert(Arc::new(Analysis::of(matrix.pattern)?))),
@@ -127,6 +130,17 @@ impl Block {
     fn range(&self) -> std::ops::Range<usize> {
         self.start..self.start + self.count
     }
+}
+
+/// The matrix of a field, whose diagonal includes the pseudo-capacities.
+fn matrix<'a>(pattern: &'a Pattern, system: &System<'_>, pseudo_capacity: &[f64]) -> Matrix<'a> {
+    let mut matrix = pattern.matrix(&system.core, &system.edges);
+    for (column, more) in pseudo_capacity.iter().enumerate() {
+        // A column begins with its diagonal.
+        let diagonal = matrix.pattern.col_ptr()[column] as usize;
+        matrix.values[diagonal] += more;
+    }
+    matrix
 }
 
 impl Inverse {
@@ -178,15 +192,15 @@ fn extend(
     (enough, restart): (f64, usize),
 ) -> Option<()> {
     let size = norm(residual);
-    let mut basis = vec![residual.iter().map(|entry| entry / size).collect::<Vec<f64>>()];
+    let mut basis = vec![narrowed(residual, size)];
     // The columns of the triangle, the rotations that made it, and the right-hand side.
     let (mut triangle, mut rotations, mut rest) = (Vec::<Vec<f64>>::new(), Vec::<(f64, f64)>::new(), vec![size]);
     for step in 0..restart {
-        let mut next = product(matrix, &preconditioned(matrix, blocks, &basis[step])?);
+        let mut next = product(matrix, &preconditioned(matrix, blocks, widened(&basis[step]))?);
         let mut column: Vec<f64> = Vec::with_capacity(step + 2);
         for direction in &basis {
             let part = dot(&next, direction);
-            next.iter_mut().zip(direction).for_each(|(entry, of)| *entry -= part * of);
+            next.iter_mut().zip(direction).for_each(|(entry, of)| *entry -= part * f64::from(*of));
             column.push(part);
         }
         let height = norm(&next);
@@ -212,10 +226,7 @@ fn extend(
         if rest[step + 1].abs() <= enough || height == 0.0 {
             break;
         }
-        for entry in &mut next {
-            *entry /= height;
-        }
-        basis.push(next);
+        basis.push(narrowed(&next, height));
     }
     let mut weights = vec![0.0; triangle.len()];
     for row in (0..weights.len()).rev() {
@@ -224,16 +235,17 @@ fn extend(
     }
     let mut sum = vec![0.0; residual.len()];
     for (direction, weight) in basis.iter().zip(&weights) {
-        sum.iter_mut().zip(direction).for_each(|(entry, of)| *entry += weight * of);
+        sum.iter_mut().zip(direction).for_each(|(entry, of)| *entry += weight * f64::from(*of));
     }
-    let step = preconditioned(matrix, blocks, &sum)?;
+    drop(basis);
+    let step = preconditioned(matrix, blocks, sum)?;
     solution.iter_mut().zip(&step).for_each(|(entry, of)| *entry += of);
     Some(())
 }
 
 /// Solves with the blocks, each with what the ones before have left of its part.
-fn preconditioned(matrix: &Columns, blocks: &mut [Block], vector: &[f64]) -> Option<Vec<f64>> {
-    let mut rest = vector.to_vec();
+fn preconditioned(matrix: &Columns, blocks: &mut [Block], vector: Vec<f64>) -> Option<Vec<f64>> {
+    let mut rest = vector;
     let last = blocks.len();
     for (place, block) in blocks.iter_mut().enumerate() {
         let range = block.range();
@@ -263,8 +275,21 @@ fn product(matrix: &Columns, vector: &[f64]) -> Vec<f64> {
     product
 }
 
-fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
+fn dot(one: &[f64], other: &[f32]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * f64::from(*other)).sum()
+}
+
+/// A vector in parts of its length, as it is kept.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "no entry is larger than the whole, and what is lost of it is found again"
+)]
+fn narrowed(vector: &[f64], length: f64) -> Vec<f32> {
+    vector.iter().map(|entry| (entry / length) as f32).collect()
+}
+
+fn widened(vector: &[f32]) -> Vec<f64> {
+    vector.iter().map(|entry| f64::from(*entry)).collect()
 }
 
 fn norm(vector: &[f64]) -> f64 {
@@ -302,7 +327,7 @@ mod tests {
             entries.push(Triplet::new(count + unknown, unknown, -1.25));
         }
         let size = 2 * count as usize;
-        let whole = Columns::of(size, &entries);
+        let whole = Columns::of(size, entries);
         let lower: Vec<_> = chain(0, true).collect();
         let lower = SparseColMat::<u32, f64>::try_new_from_triplets(count as usize, count as usize, &lower)
             .expect("entries within the block");
@@ -331,7 +356,7 @@ mod tests {
     fn slow_progress_is_waited_for_with_incomplete_factors() {
         const COUNT: u32 = 40;
         let cycle: Vec<_> = (0..COUNT).map(|row| Triplet::new(row, (row + 1) % COUNT, 1.0)).collect();
-        let matrix = Columns::of(COUNT as usize, &cycle);
+        let matrix = Columns::of(COUNT as usize, cycle);
         let diagonal: Vec<_> = (0..COUNT).map(|row| Triplet::new(row, row, 1.0)).collect();
         let identity = SparseColMat::<u32, f64>::try_new_from_triplets(COUNT as usize, COUNT as usize, &diagonal)
             .expect("entries within the block");
