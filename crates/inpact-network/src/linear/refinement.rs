@@ -179,3 +179,97 @@ fn inverse_norm(solution: &[f64], solver: &mut dyn Solves) -> Result<f64, NoSolu
     solver.solve_roughly(&mut stretched)?;
     Ok(length(&stretched))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{AT_ROUNDING, GaveUp, PATIENCE, Quality, refine};
+    use crate::linear::dead_ends::DeadEnds;
+    use crate::linear::factor::{NoSolution, Solves};
+    use crate::linear::iterative::ConjugateGradients;
+    use crate::linear::matrix::Pattern;
+    use crate::linear::{Core, Edges, Form, LAST_DIGIT, LinearNetwork, Link, Series};
+
+    /// Conjugate gradients that find nothing more after some corrections, of which the last falls short by a part.
+    ///
+    /// So it is on large plates, where rounding hides the last digits of small flows.
+    struct Exhausted {
+        solver: ConjugateGradients,
+        corrections: usize,
+        short_by: f64,
+    }
+
+    impl Solves for Exhausted {
+        fn solve(&mut self, right: &mut [f64]) -> Result<(), NoSolution> {
+            let factor = match self.corrections {
+                0 => 0.0,
+                1 => 1.0 - self.short_by,
+                _ => 1.0,
+            };
+            self.corrections = self.corrections.saturating_sub(1);
+            self.solver.solve(right)?;
+            right.iter_mut().for_each(|change| *change *= factor);
+            Ok(())
+        }
+
+        fn solve_roughly(&mut self, right: &mut [f64]) -> Result<(), NoSolution> {
+            self.solver.solve_roughly(right)
+        }
+
+        fn is_even(&self) -> bool {
+            false
+        }
+
+        fn norm(&self) -> f64 {
+            self.solver.norm()
+        }
+    }
+
+    /// A grid between two held edges, whose conductances differ by so little that next to nothing flows across.
+    fn grid(side: u32, difference: f64) -> LinearNetwork {
+        let node = |i: u32, j: u32| i * side + j;
+        let mut network = LinearNetwork::of_nodes((side * side) as usize);
+        for i in 0..side {
+            network.held[node(0, i) as usize] = Some(1.0);
+            network.held[node(side - 1, i) as usize] = Some(0.0);
+            for j in 0..side {
+                let more = 1.0 + difference * f64::from((i * 7 + j * 13) % 11);
+                let mut link = |other: u32, conductance: f64| {
+                    network.links.push(Link { nodes: [node(i, j), other], conductance });
+                };
+                if i + 1 < side {
+                    link(node(i + 1, j), more);
+                }
+                if j + 1 < side {
+                    link(node(i, j + 1), more);
+                }
+            }
+        }
+        network
+    }
+
+    fn refined(network: &LinearNetwork, corrections: usize, short_by: f64) -> Result<Quality, GaveUp> {
+        let (mut core, _) = Core::merged(network, &|_| false).expect("conductances are finite");
+        let series = Series::take_out(&mut core, &DeadEnds::default(), &|_| false);
+        let form = Form::choose(&core, &series.is_there, &series.is_free);
+        let edges = Edges::new(&core, form, &series.is_there);
+        let pattern = Pattern::of(&core, &edges);
+        let matrix = pattern.matrix(&core, &edges);
+        let mut solver = Exhausted { solver: ConjugateGradients::new(&matrix, LAST_DIGIT), corrections, short_by };
+        refine(&core, &edges, &mut solver, LAST_DIGIT).map(|refined| refined.quality)
+    }
+
+    /// What is missing when the corrections end is more than the rounding of any balance, and less than rounding may have done to the flows.
+    #[test]
+    fn a_solution_at_rounding_is_taken() {
+        let network = grid(12, 1e-12);
+        let taken = refined(&network, 4, 1e-4).expect("rounding accounts for what is missing");
+        assert_eq!(taken.solves, 4 + AT_ROUNDING + 1);
+        assert!(LAST_DIGIT < taken.error && taken.error < 1e-11, "{taken:?}");
+        assert!(0.0 < taken.residual && taken.residual < LAST_DIGIT, "{taken:?}");
+        // Ten times as much is not for rounding to account for.
+        let refused = refined(&network, 4, 1e-3);
+        assert!(matches!(refused, Err(GaveUp::Stalled(quality)) if PATIENCE < quality.solves), "{refused:?}");
+        // Nothing falls short.
+        assert_eq!(refined(&network, 5, 0.0).map(|quality| (quality.solves, quality.residual)), Ok((4, 0.0)));
+    }
+}
