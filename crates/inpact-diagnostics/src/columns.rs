@@ -3,6 +3,22 @@
 //! Editors name a place by its line and a number of units from the start of that line; which units is agreed on with each editor.
 //! Text that is no UTF-8 is counted as [`Position`](crate::span::Position) counts it: a byte that goes on with a character counts nothing.
 
+/// The widest column of a table in text.
+const WIDEST: usize = 200;
+
+/// The width in characters of a column of a table in text: that of its longest cell, up to 200. A cell that is longer stands out.
+///
+/// Names may have any length, and formatting has a limit: whoever pads to the longest of them may pad to nothing.
+///
+/// ```
+/// use inpact_diagnostics::column_width;
+/// assert_eq!(column_width(["pressure", "temp_s"]), 8);
+/// assert_eq!(column_width([&*"x".repeat(1 << 20)]), 200);
+/// ```
+pub fn column_width<'a>(cells: impl IntoIterator<Item = &'a str>) -> usize {
+    cells.into_iter().map(|cell| cell.chars().take(WIDEST).count()).max().unwrap_or(0)
+}
+
 /// Units of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ColumnUnit {

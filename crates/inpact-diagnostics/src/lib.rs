@@ -24,7 +24,7 @@ mod severity;
 pub mod span;
 pub mod visible;
 
-pub use columns::ColumnUnit;
+pub use columns::{ColumnUnit, column_width};
 pub use diagnostic::{Cell, Diagnostic, Extent, Label};
 pub use findings::{Findings, Place};
 pub use fix::{Edit, Fix, FixSafety, apply};

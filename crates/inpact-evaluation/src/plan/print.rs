@@ -8,6 +8,7 @@ use crate::accuracy::{Tolerance, Wanted};
 use crate::nodes::Column;
 use crate::results::{number_text as number, rounded_up};
 use crate::table::Tail;
+use inpact_diagnostics::column_width;
 use inpact_parser::grammar::Dialect;
 use std::fmt::{self, Formatter};
 
@@ -28,7 +29,7 @@ impl fmt::Display for Plan {
             writeln!(formatter, "\nnot used, no row names them: {}", names.join(", "))?;
         }
         writeln!(formatter, "\ncolumns of the node table")?;
-        let width = self.columns.iter().map(|column| column.header.chars().count()).max().unwrap_or(0);
+        let width = column_width(self.columns.iter().map(|column| column.header.as_str()));
         for column in &self.columns {
             write_column(column, width, formatter)?;
         }

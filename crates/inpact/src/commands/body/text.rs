@@ -3,6 +3,7 @@
 use super::super::mesh_rows::number_text;
 use super::Found;
 use inpact_body::{Conductances, Lumped};
+use inpact_diagnostics::column_width;
 
 /// The text of everything that was found.
 pub(super) fn text(found: &Found<'_>) -> String {
@@ -112,7 +113,7 @@ fn remarks(names: &[&str], lumped: &Lumped) -> String {
 /// Columns as wide as their widest cell: the first to the left, all others to the right, the last of words as it is.
 fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let width = |column: usize| column_width(rows.iter().map(|row| row[column].as_str()));
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut text = String::new();
     for row in rows {

@@ -1,6 +1,7 @@
 //! A comparison for a person, for a spreadsheet and for a program.
 
 use super::measure::{Comparison, Quantity};
+use inpact_diagnostics::column_width;
 use inpact_evaluation::results::push_number;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -30,8 +31,8 @@ pub(super) fn text(comparison: &Comparison) -> String {
             format!("{what} {name}{time}{beyond}"),
         ]);
     }
-    let widths: Vec<usize> =
-        (0..lines[0].len()).map(|at| lines.iter().map(|line| line[at].chars().count()).max().unwrap_or(0)).collect();
+    let width = |at: usize| column_width(lines.iter().map(|line| line[at].as_str()));
+    let widths: Vec<usize> = (0..lines[0].len()).map(width).collect();
     for line in &lines {
         let cells = line.iter().zip(&widths).enumerate().map(|(at, (cell, width))| match at {
             0 | 1 => format!("{cell:<width$}"),

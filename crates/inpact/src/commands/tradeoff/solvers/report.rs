@@ -4,6 +4,7 @@ use super::measure::{Entry, Measured};
 use super::subjects::Subject;
 use crate::commands::solvable::SolvableScene;
 use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
+use inpact_diagnostics::column_width;
 use inpact_network::linear::Phases;
 use serde_json::{Value, json};
 
@@ -18,7 +19,7 @@ pub(super) fn text(measured: &Measured, prepared: &SolvableScene) -> String {
     let rows: Vec<[String; 16]> =
         std::iter::once(HEADER.map(str::to_owned)).chain(measured.entries.iter().map(cells)).collect();
     let mut widths = WIDTHS;
-    widths[1] = rows.iter().map(|row| row[1].chars().count()).fold(widths[1], usize::max);
+    widths[1] = column_width(rows.iter().map(|row| row[1].as_str())).max(widths[1]);
     text.extend(rows.iter().map(|row| line(row, widths, TEXTS)));
     if measured.unknowns == 0 {
         text += "  no unknowns: nodes that only pass on what flows through them are taken out, and nothing is left to any solver\n";
