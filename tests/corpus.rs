@@ -55,7 +55,7 @@ fn every_file_is_checked() {
         let (model, problems) = model::read(&deck, grammar);
         for found in inpact_validation::check(&deck, grammar, &model, &problems) {
             let length = bytes.len() as u64;
-            assert!(found.primary.span.end <= length, "{}: {}", path.display(), found.message);
+            assert!(found.primary.span.end() <= length, "{}: {}", path.display(), found.message);
             let lines = bytes.iter().filter(|byte| matches!(byte, b'\n' | b'\r')).count() as u64 + 1;
             assert!(found.primary.position.line <= lines, "{}: {}", path.display(), found.message);
         }

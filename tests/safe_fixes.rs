@@ -284,7 +284,7 @@ fn check_says_the_same(bytes: &[u8], grammar: &Grammar) {
     let mut scanner = Scanner::new("deck", ScanOptions { grammar, keep: Keep::Interpreted });
     bytes.chunks(7).for_each(|piece| scanner.push(piece));
     for found in findings(&scanner.finish(), grammar) {
-        assert!(found.primary.span.end <= bytes.len() as u64, "{} lies outside of the deck", found.code);
+        assert!(found.primary.span.end() <= bytes.len() as u64, "{} lies outside of the deck", found.code);
     }
 }
 

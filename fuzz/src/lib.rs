@@ -123,7 +123,7 @@ pub fn expressions(bytes: &[u8]) {
     let (parameters, problems) = run();
     let length = bytes.len() as u64;
     for span in problems.iter().map(|problem| problem.span).chain(parameters.definitions().iter().map(|d| d.span)) {
-        assert!(span.start <= span.end && span.end <= length, "{span:?} lies outside of {length} bytes");
+        assert!(span.start() <= span.end() && span.end() <= length, "{span:?} lies outside of {length} bytes");
     }
     let (again, problems_again) = run();
     assert_eq!(format!("{:?}", parameters.definitions()), format!("{:?}", again.definitions()));
@@ -215,7 +215,7 @@ fn statement_lines(bytes: &[u8]) -> impl Iterator<Item = StatementLine<'_>> {
     let mut start = 0;
     bytes.split(|byte| *byte == b'\n').map(move |text| {
         let span = Span::new(SourceId::ROOT, start, start + text.len() as u64);
-        start = span.end + 1;
+        start = span.end() + 1;
         StatementLine { span, text }
     })
 }
@@ -235,12 +235,12 @@ fn assert_in_its_file(deck: &Deck, found: &Diagnostic) {
     let labels = std::iter::once(&found.primary).chain(&found.secondary).map(|label| label.span);
     let edits = found.fix.iter().flat_map(|fix| fix.edits.iter().map(|edit| edit.span));
     for span in labels.chain(edits) {
-        let length = deck.source(span.source).length();
-        assert!(span.start <= span.end && span.end <= length, "{}: {span:?} of {length} bytes", found.code);
+        let length = deck.source(span.source()).length();
+        assert!(span.start() <= span.end() && span.end() <= length, "{}: {span:?} of {length} bytes", found.code);
     }
     let mut edits: Vec<Span> = found.fix.iter().flat_map(|fix| fix.edits.iter().map(|edit| edit.span)).collect();
     edits.sort();
-    let overlap = edits.windows(2).any(|pair| pair[0].source == pair[1].source && pair[0].end > pair[1].start);
+    let overlap = edits.windows(2).any(|pair| pair[0].source() == pair[1].source() && pair[0].end() > pair[1].start());
     assert!(!overlap, "{}: the edits of a fix overlap", found.code);
 }
 

@@ -84,8 +84,8 @@ impl Deck {
 
     /// The name as the deck writes it, of one that may be written in another case; `None` where there is none.
     fn interaction_named(&self, name: &str) -> Option<&str> {
-        let found = self.0.model().interactions.get_key_value(&inpact::Name::new(name))?;
-        Some(found.0.written())
+        let found = self.0.model().interactions.get(&inpact::Name::new(name))?;
+        Some(found.name.written())
     }
 
     fn check(&self, py: Python<'_>) -> Vec<Finding> {

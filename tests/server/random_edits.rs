@@ -137,7 +137,7 @@ fn described(found: &[Diagnostic], client: &Client, texts: &[String; 2]) -> Vec<
     let describe = |found: &Diagnostic| {
         let name = Path::new(&*found.primary.file).file_name().expect("a name").to_string_lossy().into_owned();
         let text = &texts[usize::from(name == "b.inp")];
-        let start = usize::try_from(found.primary.span.start).expect("an offset").min(text.len());
+        let start = usize::try_from(found.primary.span.start()).expect("an offset").min(text.len());
         let message = found.message.lines().next().unwrap_or_default();
         assert!(client.path(&name).exists());
         (format!("{name} {} {message}", found.code), position(text, start))

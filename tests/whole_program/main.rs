@@ -34,6 +34,7 @@ mod hooks;
 mod includes;
 mod interfaces;
 mod json;
+mod limits;
 mod nodes;
 mod nodes_results;
 mod pictures;

@@ -43,7 +43,7 @@ fn refused(deck: &str, terminals: &[&str]) -> Vec<(String, String)> {
     let error = lump(deck, terminals, None).expect_err("a fault");
     let of = |fault: &inpact_body::BodyFault| {
         let place = fault.span.map_or(String::new(), |span| {
-            let range = usize::try_from(span.start).expect("a place")..usize::try_from(span.end).expect("a place");
+            let range = usize::try_from(span.start()).expect("a place")..usize::try_from(span.end()).expect("a place");
             deck[range].trim().to_owned()
         });
         (place, fault.message.clone())

@@ -158,6 +158,6 @@ impl Label {
 
     /// The bytes from start to end, where they are known.
     pub fn bytes(&self) -> Option<[u64; 2]> {
-        (self.extent == Extent::Span).then_some([self.span.start, self.span.end])
+        (self.extent == Extent::Span).then_some([self.span.start(), self.span.end()])
     }
 }

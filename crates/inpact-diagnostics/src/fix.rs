@@ -48,7 +48,7 @@ impl Edit {
 /// Of two edits that overlap the later one is left out.
 pub fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
     let mut sorted: Vec<&Edit> = edits.iter().collect();
-    sorted.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    sorted.sort_by_key(|edit| (edit.span.start(), edit.span.end()));
     let mut result = Vec::with_capacity(bytes.len());
     let mut copied: u64 = 0;
     let slice = |from: u64, to: u64| {
@@ -56,12 +56,12 @@ pub fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
         &bytes[index(from)..index(to)]
     };
     for edit in sorted {
-        if edit.span.start < copied {
+        if edit.span.start() < copied {
             continue;
         }
-        result.extend_from_slice(slice(copied, edit.span.start));
+        result.extend_from_slice(slice(copied, edit.span.start()));
         result.extend_from_slice(&edit.replacement);
-        copied = edit.span.end;
+        copied = edit.span.end();
     }
     result.extend_from_slice(slice(copied, u64::MAX));
     result

@@ -94,7 +94,7 @@ impl<'a> Problem<'a> {
             };
             problem.interactions.push(interaction);
             if problem.laws[interaction].is_none()
-                && let Some((_, of)) = model.interactions.get_index(interaction)
+                && let Some(of) = model.interactions.get_index(interaction)
             {
                 let laws = InterfaceLaws::of(model, of, choices);
                 let unsolved = laws.left_out.iter().filter(|(flow, _)| !scene.mentions(field_of(*flow)));

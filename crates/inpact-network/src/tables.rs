@@ -182,7 +182,7 @@ impl<'a> InterfaceTable<'a> {
         push_number(&mut time, state.time);
         for ((number, row), label) in (0..).zip(&self.problem.scene.interfaces).zip(&self.labels) {
             let interaction = self.model.interactions.get_index(self.problem.interactions[number as usize]);
-            let name = interaction.map_or("", |(name, _)| name.written());
+            let name = interaction.map_or("", |of| of.name.written());
             let texts = [label.as_bytes(), name.as_bytes(), &time];
             for (column, text) in batch.labels.iter_mut().zip(texts) {
                 column.push(text);

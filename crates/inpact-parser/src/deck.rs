@@ -9,6 +9,7 @@ mod edited;
 mod include;
 mod keyword_line;
 pub mod lines;
+mod parameter;
 mod scan;
 mod survey;
 mod text;
@@ -16,12 +17,14 @@ mod text;
 pub use data_line::items;
 pub use edited::{EditedText, TextInParts};
 pub use include::{Excerpts, FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
+pub use parameter::{Parameter, Resolved};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::Source;
 
-use crate::grammar::{KeywordId, Lookup};
+use crate::grammar::KeywordId;
 use crate::span::{Position, SourceId, Span};
 use lines::{LineKind, line_kind, without_line_end};
+use parameter::PlacedParameter;
 use std::num::NonZeroU32;
 
 /// A deck: its source files, cut into blocks in reading order.
@@ -43,10 +46,13 @@ pub struct Block {
     pub rows: Span,
     /// The text of `rows` is in the deck; mesh rows are not kept when a deck is only checked.
     pub rows_kept: bool,
-    /// Rows of this block in another file: in a file that begins with rows, or after the *INCLUDE of one (S-51).
-    ///
-    /// They are blocks without a keyword as well.
-    pub continued_in: Vec<Span>,
+    continued_in: Option<Box<ContinuedIn>>,
+}
+
+/// Rows of a block in other files.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct ContinuedIn {
+    rows: Vec<Span>,
 }
 
 /// `*KEYWORD, PARAMETER=VALUE, …`, with the lines that continue it.
@@ -54,27 +60,15 @@ pub struct Block {
 pub struct KeywordLine {
     /// All of it, line ends included.
     pub span: Span,
-    /// the name after the asterisk.
+    /// The name after the asterisk.
     pub name: Span,
     /// The keyword that the name resolves to (S-13).
-    pub resolved: Lookup<KeywordId>,
-    /// The parameters in the order of the line.
-    pub parameters: Vec<Parameter>,
+    pub resolved: Resolved<KeywordId>,
+    parameters: Box<[PlacedParameter]>,
     /// The offset in the line of the quote that does not close on it (S-41).
     open_quote: Option<NonZeroU32>,
     /// The offset in the line of the comma at its end, when the next line is not its continuation (S-19).
     last_comma: Option<NonZeroU32>,
-}
-
-/// `NAME` or `NAME=VALUE` on a keyword line (S-17).
-#[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
-    /// The name, without blanks around it.
-    pub name: Span,
-    /// The value; `None` when there is no `=`.
-    pub value: Option<Span>,
-    /// The parameter that the name resolves to, as an index into the keyword's list; unknown where the grammar has no definition.
-    pub resolved: Lookup<usize>,
 }
 
 /// Something seen while lines were cut, in rows whose text may not be kept.
@@ -98,6 +92,10 @@ pub enum LineNoteKind {
     NonAscii,
     /// `**` after blanks (S-04).
     IndentedComment,
+    /// A row whose text is not kept, and that begins with the full name of a keyword (S-05).
+    ///
+    /// Each has a note of its own, up to a hundred of a block.
+    LikeKeyword,
 }
 
 /// One line of rows: data or blank; comments are passed over (S-04).
@@ -155,7 +153,7 @@ impl Deck {
 
     /// The *INCLUDE lines that led to a source file, the nearest first; none for the deck itself.
     pub fn include_chain(&self, source: SourceId) -> Vec<Span> {
-        std::iter::successors(self.source(source).included_by(), |span| self.source(span.source).included_by())
+        std::iter::successors(self.source(source).included_by(), |span| self.source(span.source()).included_by())
             .collect()
     }
 
@@ -166,14 +164,14 @@ impl Deck {
 
     /// The bytes of a span; empty where the scan did not keep them.
     pub fn text(&self, span: Span) -> &[u8] {
-        self.source(span.source).text(span.start..span.end)
+        self.source(span.source()).text(span.start()..span.end())
     }
 
     /// The kept bytes around the start of a span without a gap, and the offset in its file where they begin.
     ///
     /// They begin at the start of a line.
     pub fn surroundings(&self, span: Span) -> (u64, &[u8]) {
-        self.source(span.source).surroundings(span.start)
+        self.source(span.source()).surroundings(span.start())
     }
 
     /// The text of a span for a person to read; bytes that are not UTF-8 are replaced.
@@ -183,20 +181,19 @@ impl Deck {
 
     /// The data and blank lines of a block, comments passed over; nothing when its rows were not kept.
     pub fn data_lines<'a>(&'a self, block: &'a Block) -> impl Iterator<Item = DataLine<'a>> {
-        let elsewhere = block.continued_in.iter().flat_map(|rows| self.data_lines_in(*rows));
-        self.data_lines_in(block.rows).chain(elsewhere)
+        block.all_rows().flat_map(|rows| self.data_lines_in(rows))
     }
 
     /// The data and blank lines of a span of rows.
     pub fn data_lines_in(&self, rows: Span) -> impl Iterator<Item = DataLine<'_>> {
         let text = self.text(rows);
-        let skipped = if rows.start == 0 { byte_order_mark(text) } else { 0 };
+        let skipped = if rows.start() == 0 { byte_order_mark(text) } else { 0 };
         lines::lines(&text[skipped..]).filter_map(move |range| {
             let range = range.start + skipped..range.end + skipped;
             let line = &text[range.clone()];
             let content = without_line_end(line);
-            let start = rows.start + range.start as u64;
-            let span = Span::new(rows.source, start, start + content.len() as u64);
+            let start = rows.start() + range.start as u64;
+            let span = Span::new(rows.source(), start, start + content.len() as u64);
             match line_kind(line) {
                 LineKind::Comment | LineKind::IndentedComment => None,
                 _ => Some(DataLine { span, text: content }),
@@ -207,11 +204,11 @@ impl Deck {
     /// Line and column of the start of every span, in the order given; one sweep a file.
     pub fn positions(&self, spans: &[Span]) -> Vec<Position> {
         let mut order: Vec<usize> = (0..spans.len()).collect();
-        order.sort_by_key(|index| (spans[*index].source, spans[*index].start));
+        order.sort_by_key(|index| (spans[*index].source(), spans[*index].start()));
         let mut positions = vec![Position { line: 1, column: 1 }; spans.len()];
-        for group in order.chunk_by(|a, b| spans[*a].source == spans[*b].source) {
-            let offsets: Vec<u64> = group.iter().map(|index| spans[*index].start).collect();
-            let found = self.source(spans[group[0]].source).positions(&offsets);
+        for group in order.chunk_by(|a, b| spans[*a].source() == spans[*b].source()) {
+            let offsets: Vec<u64> = group.iter().map(|index| spans[*index].start()).collect();
+            let found = self.source(spans[group[0]].source()).positions(&offsets);
             for (index, position) in group.iter().zip(found) {
                 positions[*index] = position;
             }
@@ -225,7 +222,7 @@ impl Deck {
     /// otherwise rows that were not kept are missing (see [`Source::is_complete`]).
     pub fn print(&self, source: SourceId) -> Vec<u8> {
         let mut printed = Vec::new();
-        for block in self.blocks.iter().filter(|block| block.rows.source == source) {
+        for block in self.blocks.iter().filter(|block| block.rows.source() == source) {
             if let Some(keyword) = &block.keyword {
                 printed.extend_from_slice(self.text(keyword.span));
             }
@@ -236,6 +233,23 @@ impl Deck {
 }
 
 impl Block {
+    /// A block without a keyword, or with one whose rows are all in its file.
+    fn new(keyword: Option<KeywordLine>, rows: Span, rows_kept: bool) -> Self {
+        Self { keyword, rows, rows_kept, continued_in: None }
+    }
+
+    /// Rows of this block in another file: in a file that begins with rows, or after the *INCLUDE of one (S-51).
+    ///
+    /// They are blocks without a keyword as well.
+    pub fn continued_in(&self) -> &[Span] {
+        self.continued_in.as_ref().map_or(&[], |continued| &continued.rows)
+    }
+
+    /// All its rows, in whatever files.
+    pub fn all_rows(&self) -> impl Iterator<Item = Span> + Clone {
+        std::iter::once(self.rows).chain(self.continued_in().iter().copied())
+    }
+
     /// The keyword, when its name is unambiguous.
     pub fn keyword_id(&self) -> Option<KeywordId> {
         self.keyword.as_ref()?.id()
@@ -243,7 +257,7 @@ impl Block {
 
     /// The keyword line; for rows before the first keyword an empty span at their start.
     pub fn span_of_keyword(&self) -> Span {
-        let start = Span::new(self.rows.source, self.rows.start, self.rows.start);
+        let start = Span::new(self.rows.source(), self.rows.start(), self.rows.start());
         self.keyword.as_ref().map_or(start, |keyword| keyword.span)
     }
 
@@ -256,10 +270,7 @@ impl Block {
 impl KeywordLine {
     /// The keyword, when its name is unambiguous.
     pub fn id(&self) -> Option<KeywordId> {
-        match self.resolved {
-            Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),
-            Lookup::Ambiguous(_) | Lookup::Unknown => None,
-        }
+        self.resolved.found()
     }
 
     /// Where a quote opens that does not close on its line (S-41).
@@ -273,35 +284,20 @@ impl KeywordLine {
     }
 
     fn byte(&self, at: NonZeroU32) -> Span {
-        let at = self.span.start + u64::from(at.get());
-        Span::new(self.span.source, at, at + 1)
+        let at = self.span.start() + u64::from(at.get());
+        Span::new(self.span.source(), at, at + 1)
     }
 
     /// The line without its line end: what a label underlines.
     pub fn visible_span(&self, deck: &Deck) -> Span {
         let length = deck.text(self.span).trim_ascii_end().len() as u64;
-        Span::new(self.span.source, self.span.start, self.span.start + length)
-    }
-}
-
-impl Parameter {
-    /// The parameter's index in the keyword's definition, when the name means exactly one.
-    pub fn index(&self) -> Option<usize> {
-        match self.resolved {
-            Lookup::Exact(index) | Lookup::Abbreviated(index) => Some(index),
-            Lookup::Ambiguous(_) | Lookup::Unknown => None,
-        }
-    }
-
-    /// Name and value.
-    pub fn span(&self) -> Span {
-        self.value.map_or(self.name, |value| self.name.to(value))
+        Span::new(self.span.source(), self.span.start(), self.span.start() + length)
     }
 }
 
 /// The span of some bytes of a line.
 fn part_of(line: Span, range: std::ops::Range<usize>) -> Span {
-    Span::new(line.source, line.start + range.start as u64, line.start + range.end as u64)
+    Span::new(line.source(), line.start() + range.start as u64, line.start() + range.end as u64)
 }
 
 /// The length of the UTF-8 byte order mark that `text` begins with, or 0.

@@ -48,7 +48,7 @@ pub fn format_edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edi
         // Blocks of other files count too: they may open or close the interaction.
         let definition = place.enter(block);
         let (Some(definition), Some(keyword)) = (definition, &block.keyword) else { continue };
-        if block.rows.source != source {
+        if block.rows.source() != source {
             continue;
         }
         let line = keyword_line::format(deck, keyword, definition, grammar.dialect()).map(|line| (keyword.span, line));

@@ -4,6 +4,7 @@
 //! and judges nothing: a table that does not ascend is a table all the same.
 //! Options that cannot be placed, or are replaced by a later definition, are in [`Model::set_aside`], so that they can be judged too.
 
+mod interactions;
 mod name;
 mod options;
 mod places;
@@ -13,6 +14,7 @@ mod row_places;
 mod rows;
 mod table;
 
+pub use interactions::Interactions;
 pub use name::Name;
 pub use options::{Friction, GapConductance, GapRadiation, OptionKind};
 pub(crate) use print::named_in;
@@ -23,7 +25,6 @@ pub use table::{CellText, Table};
 
 use crate::expression::Parameters;
 use crate::span::Span;
-use indexmap::IndexMap;
 
 /// The contact interfaces of a deck and what uses them.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,7 +32,7 @@ pub struct Model {
     /// The definitions of *PARAMETER and their values (S-61).
     pub parameters: Parameters,
     /// The interactions by name, in the order of the deck.
-    pub interactions: IndexMap<Name, Interaction>,
+    pub interactions: Interactions,
     /// The *CONTACT PAIR options (C-02).
     pub contact_pairs: Vec<ContactPair>,
     /// The lines of *CONTACT PROPERTY ASSIGNMENT (C-05); the last that fits wins.
@@ -65,9 +66,9 @@ pub struct Interaction {
     /// Out-of-plane thickness, or area per node of a node-based surface; 1 unless given (K-01).
     pub thickness: f64,
     /// The parameters besides NAME: USER, DEPVAR, PROPERTIES, UNSYMM, PAD THICKNESS, TRACKING THICKNESS.
-    pub parameters: Vec<GivenParameter>,
+    pub parameters: Box<[GivenParameter]>,
     /// The constants of USER, PROPERTIES=n (K-02).
-    pub properties: Vec<f64>,
+    pub properties: Box<[f64]>,
     /// *GAP ELECTRICAL CONDUCTANCE (2.2).
     pub gap_electrical_conductance: Option<Box<ElectricalConductance>>,
     /// *CONTACT PERMEABILITY (2.3).
@@ -88,7 +89,7 @@ pub struct ElectricalConductance {
     /// Conductance against contact pressure: with PRESSURE.
     pub pressure: Option<Box<Table>>,
     /// TYPE, kept as it is written and not interpreted.
-    pub kind: Option<String>,
+    pub kind: Option<Box<str>>,
 }
 
 /// *CONTACT PERMEABILITY (2.3).
@@ -380,8 +381,8 @@ impl Interaction {
             name,
             span,
             thickness: 1.0,
-            parameters: Vec::new(),
-            properties: Vec::new(),
+            parameters: Box::default(),
+            properties: Box::default(),
             gap_electrical_conductance: None,
             contact_permeability: None,
             gap_heat_generation: None,

@@ -97,6 +97,13 @@ pub enum ProblemKind {
         /// A name that is defined and differs in upper and lower case only (S-60).
         similar: Option<String>,
     },
+    /// A text that becomes out of all proportion when the parameters in it are substituted.
+    SubstitutionTooLong {
+        /// The number of its bytes.
+        bytes: usize,
+        /// The most that it may become.
+        most: usize,
+    },
     /// A statement of *PARAMETER that cannot be executed (S-60).
     InvalidExpression {
         /// The problem.

@@ -5,10 +5,10 @@
 //! grows with the square, these sizes take minutes.
 
 use inpact_parser::deck::{
-    Deck, FoundFile, IncludeOutcome, IncludedFiles, Keep, LineNoteKind, ScanOptions, Scanner, lines, scan,
+    Deck, FoundFile, IncludeOutcome, IncludedFiles, Keep, LineNoteKind, Resolved, ScanOptions, Scanner, lines, scan,
 };
 use inpact_parser::expression::MAX_TEXT;
-use inpact_parser::grammar::{Grammar, Lookup};
+use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{self, Model};
 use inpact_parser::span::SourceId;
 use inpact_parser::{Problem, ProblemKind};
@@ -48,7 +48,7 @@ fn a_line_of_data_without_end() {
         };
         assert!(given.abs_diff(size) <= 1, "{given}");
         let law = model.interactions[0].gap_electrical_conductance.as_ref().expect("a law");
-        assert_eq!(law.clearance.as_ref().expect("a table").values, [1.; 3]);
+        assert_eq!(*law.clearance.as_ref().expect("a table").values, [1.; 3]);
         let (_, _, problems) = read(&[TABLE.as_bytes(), &bytes("0", size), b"., 0.\n"].concat());
         assert!(
             matches!(&problems[..], [Problem { kind: ProblemKind::NumberTooLong { characters, .. }, .. }] if *characters == size + 1)
@@ -61,7 +61,7 @@ fn a_keyword_line_and_a_comment_without_end() {
     for size in SIZES {
         let (deck, _, _) = read(&[&b"*"[..], &bytes("A", size), b"\n"].concat());
         assert_eq!((deck.blocks().len(), long_lines(&deck)), (1, 1));
-        assert_eq!(deck.blocks()[0].keyword.as_ref().expect("a keyword").resolved, Lookup::Unknown);
+        assert_eq!(deck.blocks()[0].keyword.as_ref().expect("a keyword").resolved, Resolved::Unknown);
         let (deck, _, problems) = read(&[&b"**"[..], &bytes("A", size), b"\n*NODE\n"].concat());
         assert_eq!((deck.blocks().len(), long_lines(&deck), problems.len()), (2, 0, 0));
     }
@@ -94,12 +94,12 @@ fn keywords_without_end() {
 fn parameters_without_end() {
     for size in SIZES {
         let (deck, _, _) = read(&[&b"*SURFACE INTERACTION"[..], &bytes(", A", size), b"\n"].concat());
-        let parameters = &deck.blocks()[0].keyword.as_ref().expect("a keyword").parameters;
+        let parameters = &deck.blocks()[0].keyword.as_ref().expect("a keyword").parameters();
         assert_eq!((parameters.len(), long_lines(&deck)), (size, 1));
-        assert!(parameters.iter().all(|parameter| parameter.resolved == Lookup::Unknown));
+        assert!(parameters.clone().all(|parameter| parameter.resolved == Resolved::Unknown));
         // One a line, each line the continuation of the one before.
         let (deck, _, _) = read(&[&b"*SURFACE INTERACTION"[..], &bytes(",\nNAME=A", size), b"\n"].concat());
-        let parameters = &deck.blocks()[0].keyword.as_ref().expect("a keyword").parameters;
+        let parameters = &deck.blocks()[0].keyword.as_ref().expect("a keyword").parameters();
         assert_eq!((deck.blocks().len(), parameters.len(), long_lines(&deck)), (1, size, 0));
     }
 }
@@ -218,7 +218,7 @@ fn includes_without_end() {
         assert_eq!(count(&missing, |outcome| matches!(outcome, IncludeOutcome::Unreadable(_))), size);
         let names: String = (0..size).map(|number| format!("*INCLUDE, INPUT={number}\n")).collect();
         let deck = with_includes(&format!("{TABLE}{names}"), "1., 0.\n");
-        assert_eq!((deck.sources().len(), deck.blocks()[1].continued_in.len()), (size + 1, size));
+        assert_eq!((deck.sources().len(), deck.blocks()[1].continued_in().len()), (size + 1, size));
         let (model, _) = model::read(&deck, Grammar::builtin());
         let law = model.interactions[0].gap_electrical_conductance.as_ref().expect("a law");
         assert_eq!(law.clearance.as_ref().expect("a table").row_count(), size);

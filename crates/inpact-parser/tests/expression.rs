@@ -15,7 +15,7 @@ fn lines_of(text: &str, source: SourceId) -> Vec<StatementLine<'_>> {
     let mut start = 0;
     let line = |line: &'_ str| {
         let span = Span::new(source, start, start + line.len() as u64);
-        start = span.end + 1;
+        start = span.end() + 1;
         span
     };
     let spans: Vec<Span> = text.split('\n').map(line).collect();
@@ -48,7 +48,7 @@ fn only_problem(text: &str) -> (String, String, String) {
     let (_, problems) = run(text);
     assert_eq!(problems.len(), 1, "{text}: {problems:?}");
     let problem = problems[0].clone();
-    let place = usize::try_from(problem.span.start).unwrap()..usize::try_from(problem.span.end).unwrap();
+    let place = usize::try_from(problem.span.start()).unwrap()..usize::try_from(problem.span.end()).unwrap();
     (text[place].to_owned(), problem.message, problem.help.unwrap_or_default())
 }
 

@@ -158,7 +158,10 @@ fn substitution_does_not_explode() {
     let (parameters, _) = run(&[text.as_bytes(), b"n = -1./3"]);
     assert_eq!(substitute(&"<a>".repeat(64), &parameters).unwrap().len(), 64 * MAX_TEXT);
     let row = "<a>".repeat(MANY / 4);
-    assert_eq!(substitute(&row, &parameters), Err(SubstitutionError::TooLong(row.len())));
+    assert_eq!(
+        substitute(&row, &parameters),
+        Err(SubstitutionError::TooLong { bytes: row.len(), most: 16 * row.len() + 65_536 })
+    );
     // A quarter of a million numbers on a line are long, but no explosion.
     assert_eq!(substitute(&"<n>,".repeat(MANY), &parameters).unwrap(), "-0.3333333333333333,".repeat(MANY));
     assert_eq!(references("<<a>".repeat(MANY / 4).as_bytes()).count(), MANY / 4);

@@ -239,7 +239,7 @@ proptest! {
             .split(|byte| *byte == b'\n')
             .map(|text| {
                 let span = Span::new(SourceId::ROOT, start, start + text.len() as u64);
-                start = span.end + 1;
+                start = span.end() + 1;
                 StatementLine { span, text }
             })
             .collect();
@@ -248,7 +248,7 @@ proptest! {
         let of_problems = problems.iter().map(|problem| problem.span);
         let of_definitions = parameters.definitions().iter().map(|definition| definition.span);
         for span in of_problems.chain(of_definitions) {
-            prop_assert!(span.start <= span.end && span.end <= bytes.len() as u64, "{:?}", span);
+            prop_assert!(span.start() <= span.end() && span.end() <= bytes.len() as u64, "{:?}", span);
         }
         for definition in parameters.definitions() {
             let is_finite = definition.value.as_ref().and_then(Value::as_number).is_none_or(f64::is_finite);

@@ -77,7 +77,8 @@ fn one_parameter(example: &[u8]) -> Option<(Vec<u8>, Option<Vec<u8>>)> {
     }
     let deck = deck(&line);
     let keyword = deck.blocks()[0].keyword.as_ref()?;
-    let [parameter] = &keyword.parameters[..] else { return None };
+    let mut parameters = keyword.parameters();
+    let (Some(parameter), None) = (parameters.next(), parameters.next()) else { return None };
     Some((deck.text(parameter.name).to_vec(), parameter.value.map(|value| deck.text(value).to_vec())))
 }
 
@@ -92,7 +93,7 @@ fn is_word(example: &[u8]) -> bool {
     let line = [b"*", example].concat();
     let deck = deck(&line);
     let keyword = deck.blocks().first().and_then(|block| block.keyword.as_ref());
-    keyword.is_some_and(|keyword| deck.text(keyword.name) == example && keyword.parameters.is_empty())
+    keyword.is_some_and(|keyword| deck.text(keyword.name) == example && keyword.parameters().len() == 0)
         && one_parameter(example).is_some_and(|(name, value)| name == example && value.is_none())
 }
 
@@ -101,7 +102,7 @@ fn is_continuation(example: &[u8]) -> bool {
     let line = [b"*CONTACT PERMEABILITY, CUTOFF FLOW ACROSS=1.,", example, b"CUTOFF GAP FILL=2."].concat();
     let deck = deck(&line);
     let keyword = deck.blocks()[0].keyword.as_ref().unwrap();
-    is_keyword_line(&line) && keyword.parameters.len() == 2
+    is_keyword_line(&line) && keyword.parameters().len() == 2
 }
 
 /// Whether the example, as an item of a table, is a symbol for a parameter's value.

@@ -54,8 +54,8 @@ fn s_51_rows_go_on_across_files() {
         assert_eq!(problems, []);
         let law = model.interactions[0].gap_electrical_conductance.as_ref().expect("a law");
         let table = law.clearance.as_ref().expect("a table");
-        assert_eq!(table.values, [3., 0., 0., 2., 1., 0., 1., 2., 0.]);
-        assert_eq!(table.row_spans().map(|row| row.source.0).collect::<Vec<_>>(), [0, 1, 0]);
+        assert_eq!(*table.values, [3., 0., 0., 2., 1., 0., 1., 2., 0.]);
+        assert_eq!(table.row_spans().map(|row| row.source().0).collect::<Vec<_>>(), [0, 1, 0]);
         assert_eq!(model.interactions[0].other.len(), 1, "the block goes on after the included rows");
         for (index, (_, text)) in files.iter().enumerate() {
             assert_eq!(deck.print(SourceId(u32::try_from(index).expect("few files"))), text.as_bytes());
@@ -72,7 +72,7 @@ fn a_block_may_begin_in_an_included_file() {
     let deck = read_with(&files, Keep::Interpreted);
     let (model, _) = model::read(&deck, Grammar::builtin());
     let law = model.interactions[0].gap_electrical_conductance.as_ref().expect("a law");
-    assert_eq!(law.clearance.as_ref().expect("a table").values, [1., 0., 0.]);
+    assert_eq!(*law.clearance.as_ref().expect("a table").values, [1., 0., 0.]);
     assert_eq!(deck.include_chain(SourceId(1)).len(), 1);
 }
 

@@ -62,7 +62,9 @@ fn model() -> impl Strategy<Value = Model> {
         let mut model = Model { parameters: parameters(), ..Model::default() };
         for interaction in interactions {
             // Of two equal names the later definition would replace the earlier.
-            model.interactions.entry(interaction.name.clone()).or_insert(interaction);
+            if !model.interactions.contains_key(&interaction.name) {
+                model.interactions.insert(interaction);
+            }
         }
         model.contact_pairs = pairs;
         model.property_assignments = assignments;
@@ -93,12 +95,13 @@ fn interaction() -> impl Strategy<Value = Interaction> {
     (name, number(), constants, given, laws, other).prop_map(|(name, thickness, constants, given, laws, other)| {
         let mut interaction = Interaction::new(name, Span::default());
         interaction.thickness = thickness;
-        interaction.parameters = given;
+        let mut parameters = given;
         if let Some(constants) = constants {
-            interaction.parameters.push(parameter("USER", None));
-            interaction.parameters.push(parameter("PROPERTIES", Some(&constants.len().to_string())));
-            interaction.properties = constants;
+            parameters.push(parameter("USER", None));
+            parameters.push(parameter("PROPERTIES", Some(&constants.len().to_string())));
+            interaction.properties = constants.into();
         }
+        interaction.parameters = parameters.into();
         (interaction.gap_electrical_conductance, interaction.contact_permeability) =
             (laws.0.map(Box::new), laws.1.map(Box::new));
         interaction.gap_heat_generation = laws.2.map(|(fraction, slave_weight)| {
@@ -124,7 +127,7 @@ fn electrical() -> impl Strategy<Value = ElectricalConductance> {
         user: user.then(Span::default),
         clearance: clearance.map(Box::new),
         pressure: pressure.map(Box::new),
-        kind: kind.map(str::to_owned),
+        kind: kind.map(Into::into),
     })
 }
 
@@ -177,10 +180,12 @@ fn table(lead: &[&str]) -> impl Strategy<Value = Table> + use<> {
         let cells = prop::collection::vec(cell(), columns.len() * rows);
         cells.prop_map(move |cells| {
             let mut table = Table { columns: columns.clone().into(), ..Table::default() };
-            for (cell, (value, text)) in cells.into_iter().enumerate() {
-                table.values.push(value);
-                table.texts.extend(text.map(|text| CellText { cell, text }));
-            }
+            let written = cells.iter().enumerate().filter_map(|(cell, (_, text))| {
+                let text = text.clone()?;
+                Some(CellText { cell, text })
+            });
+            table.texts = written.collect();
+            table.values = cells.iter().map(|(value, _)| *value).collect();
             table
         })
     })

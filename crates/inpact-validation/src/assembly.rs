@@ -103,7 +103,7 @@ pub(crate) fn has_mesh(context: &Context<'_>) -> bool {
 pub(crate) fn is_whole(context: &Context<'_>) -> bool {
     keywords(context).all(|(name, line)| {
         let is_given = |name: &[u8]| {
-            line.parameters.iter().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(name))
+            line.parameters().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(name))
         };
         match name {
             "IMPORT" => false,

@@ -57,7 +57,8 @@ fn check_all(
         }
     });
     silence(deck, &mut diagnostics);
-    diagnostics.sort_by_key(|found| (found.primary.span.source, found.primary.span.start, found.severity, found.code));
+    diagnostics
+        .sort_by_key(|found| (found.primary.span.source(), found.primary.span.start(), found.severity, found.code));
     locate(deck, &mut diagnostics);
     diagnostics
 }
@@ -76,7 +77,8 @@ pub fn fixable(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Proble
             diagnostics.append(&mut found);
         }
     });
-    diagnostics.sort_by_key(|found| (found.primary.span.source, found.primary.span.start, found.severity, found.code));
+    diagnostics
+        .sort_by_key(|found| (found.primary.span.source(), found.primary.span.start(), found.severity, found.code));
     name_files(deck, &mut diagnostics);
     diagnostics
 }
@@ -147,7 +149,7 @@ fn locate(deck: &Deck, diagnostics: &mut [Diagnostic]) {
 fn name_files(deck: &Deck, diagnostics: &mut [Diagnostic]) {
     let mut names: HashMap<SourceId, Arc<str>> = HashMap::new();
     for label in diagnostics.iter_mut().flat_map(Diagnostic::labels_mut) {
-        let source = label.span.source;
+        let source = label.span.source();
         label.file = Arc::clone(names.entry(source).or_insert_with(|| Arc::from(deck.source(source).name())));
     }
 }

@@ -41,12 +41,13 @@ pub(crate) fn read(deck: &Deck) -> Vec<Directive> {
     }
     let with_keyword = |block: &&Block| block.keyword.is_some();
     let mut blocks: Vec<&Block> = deck.blocks().iter().filter(with_keyword).collect();
-    blocks.sort_by_key(|block| (block.rows.source, block.span_of_keyword().start));
+    blocks.sort_by_key(|block| (block.rows.source(), block.span_of_keyword().start()));
     let next_block = |span: Span| {
-        let next = blocks
-            .partition_point(|block| (block.rows.source, block.span_of_keyword().start) < (span.source, span.start));
-        let block = blocks.get(next).filter(|block| block.rows.source == span.source)?;
-        Some(std::iter::once(block.span()).chain(block.continued_in.iter().copied()).collect())
+        let next = blocks.partition_point(|block| {
+            (block.rows.source(), block.span_of_keyword().start()) < (span.source(), span.start())
+        });
+        let block = blocks.get(next).filter(|block| block.rows.source() == span.source())?;
+        Some(std::iter::once(block.span()).chain(block.continued_in().iter().copied()).collect())
     };
     deck.directives().iter().map(|span| read_one(deck, *span, next_block)).collect()
 }
@@ -61,10 +62,10 @@ fn read_one(deck: &Deck, span: Span, next_block: impl Fn(Span) -> Option<Vec<Spa
     let mut from = 0;
     for word in list.split([' ', '\t', ',']) {
         if !word.is_empty() {
-            let start = span.start + (list_start + from) as u64;
+            let start = span.start() + (list_start + from) as u64;
             let code = IgnoredCode {
                 code: word.to_owned(),
-                span: Span::new(span.source, start, start + word.len() as u64),
+                span: Span::new(span.source(), start, start + word.len() as u64),
                 is_used: false,
             };
             codes.push(code);

@@ -4,7 +4,7 @@
 
 use crate::invisible;
 use inpact_parser::Problem;
-use inpact_parser::deck::{DataLine, Deck, items};
+use inpact_parser::deck::{DataLine, Deck, LineNoteKind, items};
 use inpact_parser::grammar::{Grammar, Lookup, RowShape};
 use inpact_parser::span::Span;
 
@@ -19,8 +19,11 @@ pub(crate) struct LostLine<'a> {
     pub(crate) meant: &'a str,
 }
 
-/// The rows that read as keyword lines, as far as the deck holds their text.
+/// The rows that read as keyword lines; of a block whose rows are not kept those that the scan has noted.
 pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<'a>> {
+    let notes = deck.notes().iter().filter(|note| note.kind == LineNoteKind::LikeKeyword);
+    let mut noted: Vec<Span> = notes.map(|note| note.span).collect();
+    noted.sort_unstable();
     let mut lost = Vec::new();
     for block in deck.blocks() {
         let definition = block.keyword_id().and_then(|id| grammar.keyword(id).definition());
@@ -28,10 +31,16 @@ pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<
             continue;
         }
         let keyword = block.span_of_keyword();
-        let lines = deck.data_lines_in(block.rows);
+        let first = noted.partition_point(|span| *span < block.rows);
+        let of_block = noted[first..].iter().take_while(|span| block.rows.contains(**span));
+        let lines = deck.data_lines_in(block.rows).chain(of_block.flat_map(|span| deck.data_lines_in(*span)));
+        let found = lost.len();
         lost.extend(
             lines.filter_map(|line| Some(LostLine { span: line.span, keyword, meant: meant_by(grammar, line)? })),
         );
+        // The first rows of a block may be kept and noted.
+        lost[found..].sort_unstable_by_key(|line| line.span);
+        lost.dedup_by_key(|line| line.span);
     }
     lost
 }
@@ -42,7 +51,7 @@ pub(crate) fn without_consequences(problems: &[Problem], lost: &[LostLine<'_>]) 
         let of_block = lost.iter().filter(|line| line.keyword == problem.keyword);
         of_block
             .map(|line| line.span)
-            .any(|line| line.source == problem.span.source && line.start <= problem.span.start)
+            .any(|line| line.source() == problem.span.source() && line.start() <= problem.span.start())
     };
     problems.iter().filter(|problem| !follows(problem)).cloned().collect()
 }

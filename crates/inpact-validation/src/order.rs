@@ -147,8 +147,8 @@ pub(crate) fn sort_edits(context: &Context<'_>, table: &Table) -> Option<Vec<Edi
     let mut order: Vec<usize> = (0..table.row_count()).collect();
     order.sort_by(|a, b| step(table.row(*b), table.row(*a)).0);
     let repeats = order.windows(2).any(|pair| step(table.row(pair[0]), table.row(pair[1])).0.is_eq());
-    let source = table.keyword.source;
-    if repeats || table.row_spans().len() != order.len() || table.row_spans().any(|row| row.source != source) {
+    let source = table.keyword.source();
+    if repeats || table.row_spans().len() != order.len() || table.row_spans().any(|row| row.source() != source) {
         return None;
     }
     let moved = order.iter().enumerate().filter(|(place, row)| place != *row);
@@ -161,7 +161,7 @@ mod tests {
 
     fn table(rows: &[[f64; 3]]) -> Table {
         let columns = ["conductance", "clearance", "temp"].map(str::to_owned).to_vec();
-        Table { columns: columns.into(), values: rows.concat(), ..Table::default() }
+        Table { columns: columns.into(), values: rows.concat().into(), ..Table::default() }
     }
 
     /// The groups as `first..end`, with `~` after those that are no curve and `?` before those with an unknown start.

@@ -4,7 +4,7 @@
 //! answer there, so that one fault gives one finding.
 
 use crate::rule::{Context, DefinedBlock};
-use inpact_parser::deck::Parameter;
+use inpact_parser::deck::{Parameter, Resolved};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Dialect, Lookup, ParameterDefinition, ParameterKind};
 use inpact_parser::model::MOST_FIELD_VARIABLES;
@@ -18,7 +18,7 @@ pub(crate) struct GivenParameter<'a> {
     /// The block of its keyword line.
     pub(crate) block: DefinedBlock<'a>,
     /// The parameter as given.
-    pub(crate) parameter: &'a Parameter,
+    pub(crate) parameter: Parameter,
     /// Its definition in the grammar.
     pub(crate) definition: &'a ParameterDefinition,
 }
@@ -30,7 +30,7 @@ pub(crate) fn all_given<'a>(context: &Context<'a>) -> impl Iterator<Item = Given
 
 /// The parameters of a keyword line that the keyword has, in the order of the line.
 pub(crate) fn given(block: DefinedBlock<'_>) -> impl Iterator<Item = GivenParameter<'_>> {
-    block.keyword.parameters.iter().filter_map(move |parameter| {
+    block.keyword.parameters().filter_map(move |parameter| {
         let definition = &block.definition.parameters[parameter.index()?];
         Some(GivenParameter { block, parameter, definition })
     })
@@ -60,18 +60,29 @@ pub(crate) fn may_be_given(context: &Context<'_>, block: DefinedBlock<'_>, name:
     // CalculiX passes over a misspelt parameter (CX-04): then the one that is meant is not given.
     given_as(block, name).is_some()
         || !context.is_for_calculix()
-            && block.keyword.parameters.iter().any(|parameter| match &parameter.resolved {
-                Lookup::Exact(_) | Lookup::Abbreviated(_) => false,
-                Lookup::Ambiguous(indices) => {
-                    indices.iter().any(|index| block.definition.parameters[*index].name == name)
-                }
+            && block.keyword.parameters().any(|parameter| match parameter.resolved {
+                Resolved::Exact(_) | Resolved::Abbreviated(_) => false,
+                Resolved::Ambiguous => candidates(context, block, parameter)
+                    .into_iter()
+                    .any(|index| block.definition.parameters[index].name == name),
                 // A value without a name may be that of any parameter.
-                Lookup::Unknown if parameter.name.is_empty() => true,
-                Lookup::Unknown => {
+                Resolved::Unknown if parameter.name.is_empty() => true,
+                Resolved::Unknown => {
                     let written = context.deck.shown(parameter.name);
                     block.definition.nearest_parameters(&written, 3).contains(&name)
                 }
             })
+}
+
+/// The parameters that an ambiguous name may mean, as indices into the keyword's list; none for any other.
+pub(crate) fn candidates(context: &Context<'_>, block: DefinedBlock<'_>, parameter: Parameter) -> Vec<usize> {
+    if parameter.resolved != Resolved::Ambiguous {
+        return Vec::new();
+    }
+    match context.grammar.parameter_named(block.definition, context.deck.text(parameter.name)) {
+        Lookup::Ambiguous(candidates) => candidates,
+        _ => Vec::new(),
+    }
 }
 
 impl GivenParameter<'_> {

@@ -52,5 +52,5 @@ pub(crate) fn runs<'a>(context: &Context<'a>, is_meant: impl Fn(&ProblemKind) ->
 /// A keyword line without its line end: what a label underlines.
 pub(crate) fn visible(context: &Context<'_>, line: Span) -> Span {
     let length = context.deck.text(line).trim_ascii_end().len() as u64;
-    Span::new(line.source, line.start, line.start + length)
+    Span::new(line.source(), line.start(), line.start() + length)
 }

@@ -50,7 +50,7 @@ pub(crate) fn columns_are_unclear(context: &Context<'_>, block: DefinedBlock<'_>
 
 /// Whether a parameter of the line is unknown or ambiguous: K004 and K005 report it.
 pub(crate) fn has_unclear_parameters(keyword: &KeywordLine) -> bool {
-    keyword.parameters.iter().any(|parameter| parameter.index().is_none())
+    keyword.parameters().any(|parameter| parameter.index().is_none())
 }
 
 /// Whether a group may start at that clearance or pressure (T-24, Q-11).
@@ -89,13 +89,16 @@ pub(crate) fn radiation_tables(deck: &Deck, grammar: &Grammar, model: &Model) ->
         let columns: Vec<String> = definition.data.columns.iter().map(|column| column.name.clone()).collect();
         let mut table = Table { keyword: keyword.span, ..Table::default() };
         // The first line holds the emissivities.
+        let (mut values, mut spans) = (Vec::new(), Vec::new());
         for line in deck.data_lines(block).filter(|line| !line.is_blank()).skip(1) {
             let mut items = line.items();
-            table.push_row_span(trimmed(deck, line.span));
-            table.values.extend(
+            spans.push(trimmed(deck, line.span));
+            values.extend(
                 columns.iter().map(|_| items.next().map_or(0.0, |item| number_in(deck, &model.parameters, item))),
             );
         }
+        table.values = values.into();
+        table.set_row_spans(spans);
         table.columns = columns.into();
         table
     });
@@ -114,6 +117,6 @@ pub(crate) fn number_in(deck: &Deck, parameters: &Parameters, item: Span) -> f64
 /// The span without blanks and line ends around it.
 pub(crate) fn trimmed(deck: &Deck, span: Span) -> Span {
     let text = deck.text(span);
-    let start = span.start + (text.len() - text.trim_ascii_start().len()) as u64;
-    Span::new(span.source, start, start + text.trim_ascii().len() as u64)
+    let start = span.start() + (text.len() - text.trim_ascii_start().len()) as u64;
+    Span::new(span.source(), start, start + text.trim_ascii().len() as u64)
 }

@@ -275,3 +275,38 @@ fn findings_beyond_a_thousand_are_counted() {
     assert_eq!(found.len(), 1000);
     assert!(found[999].note.as_ref().is_some_and(|note| note.starts_with("2000 more")));
 }
+
+/// Rows of a mesh are not kept when a deck is checked.
+#[test]
+fn s_21_a_lost_asterisk_is_found_in_rows_that_are_not_kept() {
+    let nodes = "1, 0.5, -1.E-3, 0.\n".repeat(3);
+    for (deck, expected) in [
+        (format!("*NODE\n{nodes}SURFACE INTERACTION, NAME=A\n1.,\n"), 1),
+        (format!("*NODE\nsurface interaction, name=A\n{nodes}"), 1),
+        (
+            format!(
+                "*NODE\nSurface Interaction, name=A\nContact Pair, interaction=A\n{nodes}Friction\nGap Conductance\n"
+            ),
+            3,
+        ),
+        (format!("*NODE\n{nodes}\u{feff}*SURFACE INTERACTION, NAME=A\n"), 1),
+        // The name of a set, and no parameter of the keyword.
+        ("*BOUNDARY\nELASTIC, 1, 3\nSURFACE INTERACTION, 1\nSTEP\n".to_owned(), 0),
+    ] {
+        let found = |keep| {
+            let found = findings_in(deck.as_bytes(), Grammar::builtin(), keep);
+            let found = found.into_iter().filter(|found| found.code == "S021");
+            found.map(|found| (found.primary.span, found.message)).collect::<Vec<_>>()
+        };
+        assert_eq!(found(Keep::Interpreted).len(), expected, "{deck}");
+        assert_eq!(found(Keep::Interpreted), found(Keep::Everything), "{deck}");
+    }
+}
+
+/// A block of nothing else does not fill memory.
+#[test]
+fn rows_like_keywords_are_noted_up_to_a_limit() {
+    let deck = format!("*NSET, NSET=A\n{}", "SURFACE INTERACTION, NAME=A\n".repeat(500));
+    let deck = scanned(deck.as_bytes(), Grammar::builtin(), Keep::Interpreted);
+    assert_eq!(deck.notes().len(), 100);
+}

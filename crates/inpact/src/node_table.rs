@@ -54,7 +54,7 @@ impl Deck {
         let (States { states, .. }, notes) = join(&results, &meshed)?;
         let mut rows = rows_of_pairs(&meshed, &states)?;
         let of_mesh =
-            |note: &MeshNote| format!("{}: {}", meshed.read.deck.source(note.span.source).name(), note.message);
+            |note: &MeshNote| format!("{}: {}", meshed.read.deck.source(note.span.source()).name(), note.message);
         let mut notes: Vec<String> = notes.iter().map(|note| format!("{}: {}", note.file, note.message)).collect();
         notes.extend(meshed.mesh.notes.iter().chain(rows.notes()).map(of_mesh));
         refuse_none(&meshed, &rows)?;

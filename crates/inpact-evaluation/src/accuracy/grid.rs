@@ -37,7 +37,7 @@ struct GridAxis {
 }
 
 /// The most axes of a grid. Each doubles the number of nodes that take part in a value.
-const MOST_AXES: usize = 4;
+pub(super) const MOST_AXES: usize = 4;
 
 /// Half an ulp, as a part of a number of the normal range; and the smallest subnormal, which bounds a rounding below it.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -47,10 +47,10 @@ const UNDERFLOW: f64 = f64::from_bits(1);
 const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
 
 /// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
-const MOST_NODES: usize = 1 << 15;
+pub(super) const MOST_NODES: usize = 1 << 15;
 
 /// The most vertices of the refinement of table and grid.
-const MOST_VERTICES: usize = 1 << 20;
+pub(super) const MOST_VERTICES: usize = 1 << 20;
 
 /// How many rows are done at a time: places first, then values.
 const BLOCK: usize = 64;

@@ -1,5 +1,6 @@
 //! Why a method is not taken for a table.
 
+use super::grid::{MOST_AXES, MOST_NODES, MOST_VERTICES};
 use std::fmt;
 
 /// Why a method cannot be had for a table, or was not chosen.
@@ -37,14 +38,16 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Constant => write!(f, "the value depends on no axis"),
-            Self::TooManyAxes(count) => write!(f, "the value depends on {count} axes, more than 4"),
+            Self::TooManyAxes(count) => write!(f, "the value depends on {count} axes, more than {MOST_AXES}"),
             Self::TooLarge(value) => write!(f, "{value:e} is too large to be added up"),
             Self::Slope(slope) => write!(f, "{slope:e} cells for a unit of an axis are outside the range of f64"),
             Self::OneAxis => write!(f, "a table of one axis gains nothing by resampling"),
             Self::Cells => write!(f, "the grid needs cells along each axis the value depends on"),
-            Self::TooManyNodes(count) => write!(f, "a grid of {count} nodes would not stay in cache"),
+            Self::TooManyNodes(count) => {
+                write!(f, "a grid of {count} nodes would not stay in cache, as {MOST_NODES} do")
+            }
             Self::TooManyVertices(count) => {
-                write!(f, "its error would have to be computed at {count} vertices, which is too many")
+                write!(f, "its error would have to be computed at {count} vertices, more than {MOST_VERTICES}")
             }
             Self::Bound { bound, tolerance } => write!(f, "its bound, {bound:.1e}, is above {tolerance:.1e}"),
             Self::Slower => write!(f, "another method within the tolerance is cheaper"),

@@ -3,7 +3,7 @@
 use super::batch::Batch;
 use super::decode::{Decoded, Layout, Problem, ProblemKind};
 use super::header::Header;
-use super::lines::{Cells, Piece, Pieces, end_of_row, is_blank};
+use super::lines::{Cells, LONGEST_ROW, Piece, Pieces, end_of_row, is_blank};
 use super::rules::{MALFORMED_CELL, MISSING_COLUMN};
 use super::wait::{begin, wait_for};
 use inpact_diagnostics::{Findings, Place};
@@ -179,7 +179,9 @@ impl<'a> CsvReader<'a> {
     fn report_end(&mut self, findings: &mut Findings) {
         if self.pieces.gave_up() {
             let row = self.rows_before + 1;
-            let message = format!("row {row} is longer than any row: a quote in it is not closed");
+            let message = format!(
+                "row {row} is longer than {LONGEST_ROW} bytes, the most that a row may have: a quote in it is not closed"
+            );
             let place = Place { row: Some(row), ..Place::of_line(self.lines_before + 1) };
             findings.report(&MALFORMED_CELL, place, message, "close the quote, or write two quotes for one in a text");
         }

@@ -12,7 +12,7 @@ use std::io::{self, Read};
 const PIECE: usize = 512 * 1024;
 
 /// The longest row: a quote that is never closed must not take the whole table for a cell.
-const LONGEST_ROW: usize = 64 * 1024 * 1024;
+pub(super) const LONGEST_ROW: usize = 64 * 1024 * 1024;
 
 /// The mark that some programs begin a text with.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";

@@ -53,7 +53,7 @@ pub fn locate(mut table: impl BufRead, found: &mut [Diagnostic]) -> io::Result<(
             let before = row[..cell.start].iter().filter(|byte| **byte & 0xC0 != 0x80).count() as u64;
             let start = offset + (mark + cell.start) as u64;
             found.primary.position = Position { line, column: before + 1 };
-            found.primary.span = Span::new(found.primary.span.source, start, start + cell.len() as u64);
+            found.primary.span = Span::new(found.primary.span.source(), start, start + cell.len() as u64);
             found.primary.extent = Extent::Span;
         }
         offset += length as u64;

@@ -36,13 +36,14 @@ pub fn concerning<'a>(
         regions.extend(deciding(deck, model, names));
     }
     // Blocks do not overlap: the one that begins last before a place is the only one that may hold it.
-    regions.sort_unstable_by_key(|region| (region.span.source, region.span.start));
+    regions.sort_unstable_by_key(|region| (region.span.source(), region.span.start()));
     let concerns = |found: &&Diagnostic| {
         let span = found.primary.span;
-        let starts_before = |region: &Region| (region.span.source, region.span.start) <= (span.source, span.start);
+        let starts_before =
+            |region: &Region| (region.span.source(), region.span.start()) <= (span.source(), span.start());
         let region = regions.partition_point(starts_before).checked_sub(1).map(|before| regions[before]);
         region.is_some_and(|region| {
-            let is_inside = region.span.source == span.source && span.start < region.span.end;
+            let is_inside = region.span.source() == span.source() && span.start() < region.span.end();
             is_inside && (region.part == Part::Feeds || matches!(found.code, "K012" | "K013"))
         })
     };
@@ -69,8 +70,8 @@ enum Part {
 fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Vec<Region> {
     let names: HashSet<&Name> = names.iter().copied().collect();
     let wanted = || model.all_interactions().filter(|interaction| names.contains(&interaction.name));
-    let starts: HashSet<(SourceId, u64)> = wanted().map(|of| (of.span.source, of.span.start)).collect();
-    let begins = |span: Span| starts.contains(&(span.source, span.start));
+    let starts: HashSet<(SourceId, u64)> = wanted().map(|of| (of.span.source(), of.span.start())).collect();
+    let begins = |span: Span| starts.contains(&(span.source(), span.start()));
     let radiates = wanted().any(|interaction| interaction.gap_radiation().is_some());
     let (mut is_within, mut was_last, mut has_symbols) = (false, false, false);
     let mut regions = Vec::new();
@@ -109,7 +110,7 @@ fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Ve
 
 /// The procedures that decide whether the interactions of these names are steady or transient.
 fn deciding(deck: &Deck, model: &Model, names: &[&Name]) -> Vec<Region> {
-    let mut wanted = names.iter().filter_map(|name| model.interactions.get(*name));
+    let mut wanted = names.iter().filter_map(|name| model.interactions.get(name));
     let has_current = wanted.any(|interaction| interaction.gap_electrical_conductance.is_some());
     let last = |solves: fn(&Procedure) -> bool| {
         model.procedures.iter().rfind(|procedure| solves(procedure) && procedure.regime().is_some())
@@ -118,10 +119,10 @@ fn deciding(deck: &Deck, model: &Model, names: &[&Name]) -> Vec<Region> {
     // Pore fluid crosses an interface that says nothing of it (P-03).
     let fluid = last(Procedure::solves_pore_pressure);
     let starts = [current, fluid].into_iter().flatten().map(|procedure| procedure.option.span);
-    let starts: HashSet<(SourceId, u64)> = starts.map(|span| (span.source, span.start)).collect();
+    let starts: HashSet<(SourceId, u64)> = starts.map(|span| (span.source(), span.start())).collect();
     let decides = |block: &&Block| {
         let keyword = block.span_of_keyword();
-        starts.contains(&(keyword.source, keyword.start))
+        starts.contains(&(keyword.source(), keyword.start()))
     };
     deck.blocks()
         .iter()

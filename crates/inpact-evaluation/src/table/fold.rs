@@ -35,7 +35,7 @@ impl fmt::Display for FoldRefusal {
         match self {
             Self::RangesDiffer { .. } => formatter.write_str("its groups have different ranges"),
             Self::DropsDiffer => formatter.write_str("its groups drop to zero at different abscissae"),
-            Self::TooManyRows => formatter.write_str("the folded table would have more than a million rows"),
+            Self::TooManyRows => write!(formatter, "the folded table would have more than {MOST_ROWS} rows"),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Names of methods and reasons of failure as users read them.
 
+use super::elimination::MOST_FILLED;
 use super::factor::NoSolution;
 use super::network::Unsolvable;
 use super::refinement::Quality;
@@ -36,7 +37,10 @@ impl fmt::Display for Shortcoming {
                 write!(formatter, "it came no nearer than a residual of {residual:.1e} and an error of {error:.1e}")
             }
             Self::Overflow => formatter.write_str("a value or a flow is beyond the range of f64"),
-            Self::TooLarge => formatter.write_str("it would need too much memory"),
+            Self::TooLarge => write!(
+                formatter,
+                "it would need room for more than {MOST_FILLED} conductances between nodes that are not neighbours"
+            ),
         }
     }
 }

@@ -19,7 +19,7 @@ use std::collections::HashMap;
 const MOST_KNOWN: usize = 256;
 
 /// Above so many conductances of the filled network elimination is given up.
-const MOST_FILLED: usize = 20_000_000;
+pub(super) const MOST_FILLED: usize = 20_000_000;
 
 /// Result of an elimination: the values of the free nodes, and the flow through each element that is there.
 #[derive(Debug)]

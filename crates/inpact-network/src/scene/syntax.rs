@@ -29,6 +29,9 @@ const MOST_PASSES: usize = 4;
 /// Of so many places is said what is wrong there; more of a kind are counted.
 const MOST_SAID: usize = 100;
 
+/// So deep may lists and tables lie in one another; the parser of TOML goes no deeper.
+const DEEPEST: usize = 80;
+
 /// Finds what is no TOML.
 pub(super) fn sound(text: &str) -> Sound<'_> {
     let mut sound = Sound { text: None, without: Vec::new(), problems: Vec::new() };
@@ -98,7 +101,14 @@ fn said(text: &str, line: &Range<usize>, place: &Range<usize>) -> (String, Strin
         return heading(written, &text[..line.start], at, place);
     }
     let Some(equals) = equals_before(written, at) else { return key(written, at, place) };
-    let open = open_bracket(&written[..at]);
+    let open = open_brackets(&written[..at]);
+    if DEEPEST <= open.len() {
+        return (
+            format!("lists and tables lie more than {DEEPEST} deep in one another, the most that is read"),
+            "no value of a scene lies deeper than three lists: close each where it ends".to_owned(),
+        );
+    }
+    let open = open.last().copied();
     if open == Some('{') && written[..at].trim_end().ends_with(['{', ',']) {
         return key(written, at, place);
     }
@@ -190,8 +200,8 @@ fn equals_before(written: &str, at: usize) -> Option<usize> {
     found
 }
 
-/// The last bracket of a part of a line that is open.
-fn open_bracket(before: &str) -> Option<char> {
+/// The brackets of a part of a line that are open, the last one last.
+fn open_brackets(before: &str) -> Vec<char> {
     let mut open = Vec::new();
     let mut quote = None;
     for character in before.chars() {
@@ -203,7 +213,7 @@ fn open_bracket(before: &str) -> Option<char> {
             _ => {}
         }
     }
-    open.pop()
+    open
 }
 
 /// The quote that is opened and not closed.
@@ -310,6 +320,19 @@ mod tests {
         check("area = 1\narea = 2\n", &["9: `area` is given twice"]);
         check("[time]\nend = 1\n[time]\n", &["16: `[time]` is given twice"]);
         check("[[node]\nname = \"a\"\n", &["7: expected a heading such as `[time]` or `[[node]]`, found `[[node]`"]);
+    }
+
+    #[test]
+    fn values_that_lie_too_deep() {
+        for (open, close) in [("[", "]"), ("{ a = ", "}")] {
+            let text = |deep: usize| format!("x = {}1{}\n", open.repeat(deep), close.repeat(deep));
+            let found = said(&text(super::DEEPEST + 1));
+            assert!(
+                found[0].ends_with("lists and tables lie more than 80 deep in one another, the most that is read"),
+                "{found:?}"
+            );
+            check(&text(super::DEEPEST - 1), &[]);
+        }
     }
 
     /// Every place in one pass, and the rest is still there.

@@ -165,7 +165,7 @@ impl Assembly<'_> {
                 continue;
             }
             let rows = block.rows;
-            block.rows.end = rows.start;
+            block.rows = Span::new(rows.source(), rows.start(), rows.start());
             let keyword = block.keyword.clone();
             // Not `push`: the block that was open before stays open.
             self.deck.blocks.push(block);
@@ -174,7 +174,7 @@ impl Assembly<'_> {
                 self.deck.includes.push(include);
             }
             if !rows.is_empty() {
-                self.push(Block { keyword: None, rows, rows_kept: true, continued_in: Vec::new() });
+                self.push(Block::new(None, rows, true));
             }
         }
     }
@@ -183,7 +183,7 @@ impl Assembly<'_> {
         let index = self.deck.blocks.len();
         match (&block.keyword, self.open) {
             (Some(_), _) => self.open = Some(index),
-            (None, Some(open)) => self.deck.blocks[open].continued_in.push(block.rows),
+            (None, Some(open)) => self.deck.blocks[open].continued_in.get_or_insert_default().rows.push(block.rows),
             (None, None) => {}
         }
         self.deck.blocks.push(block);
@@ -195,9 +195,9 @@ impl Assembly<'_> {
             Dialect::Abaqus => self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE")),
             // For CalculiX all that follows the first `=` is the name, commas included, unless it is quoted (CX-06).
             Dialect::Calculix => {
-                let end = keyword.visible_span(&self.deck).end;
-                let value = keyword.parameters.iter().find_map(|parameter| parameter.value);
-                value.map(|value| Span::new(value.source, value.start, end))
+                let end = keyword.visible_span(&self.deck).end();
+                let value = keyword.parameters().find_map(|parameter| parameter.value);
+                value.map(|value| Span::new(value.source(), value.start(), end))
             }
         };
         let name = name.filter(|name| !name.is_empty());
@@ -225,7 +225,7 @@ impl Assembly<'_> {
             (Dialect::Abaqus, Some(rest)) if rest.ends_with('"') => rest[..rest.len() - 1].to_owned(),
             _ => without_blanks(&written),
         };
-        let from = self.deck.source(name.source).name();
+        let from = self.deck.source(name.source()).name();
         if let Some(folder) = self.files.outside(&written, from) {
             return IncludeOutcome::Outside(folder);
         }
@@ -241,7 +241,7 @@ impl Assembly<'_> {
         if length_before.is_some_and(|length| self.bytes_again.saturating_add(length) > allowed) {
             let again = self.bytes_again;
             return IncludeOutcome::Unreadable(format!(
-                "files that are included more than once come to {again} bytes already, as much as is allowed"
+                "files that are included more than once come to {again} bytes already, and {allowed} are the most that is read again: include it once"
             ));
         }
         let id = SourceId(u32::try_from(self.deck.sources.len()).unwrap_or(u32::MAX));
@@ -282,12 +282,12 @@ impl Assembly<'_> {
         self.given(keyword, parameter).is_some()
     }
 
-    fn given<'line>(&self, keyword: &'line KeywordLine, parameter: &str) -> Option<&'line super::Parameter> {
+    fn given(&self, keyword: &KeywordLine, parameter: &str) -> Option<super::Parameter> {
         let definition = self.options.grammar.keyword(keyword.id()?).definition()?;
-        let is_meant = |given: &&super::Parameter| {
+        let is_meant = |given: &super::Parameter| {
             given.index().is_some_and(|index| definition.parameters[index].name == parameter)
         };
-        keyword.parameters.iter().rev().find(is_meant)
+        keyword.parameters().rev().find(is_meant)
     }
 }
 

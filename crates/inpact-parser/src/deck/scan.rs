@@ -9,9 +9,10 @@ mod keyword;
 use super::lines::{
     LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
 };
+use super::parameter::LONGEST_KEYWORD_LINE;
 use super::survey::Survey;
-use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, Source, byte_order_mark, keyword_line};
-use crate::grammar::{Definition, Dialect, Grammar, KeywordId, RowShape};
+use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, Source, byte_order_mark, items, keyword_line};
+use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape};
 use crate::span::{SourceId, Span};
 use keyword::{NextLine, after_comma, id_of, resolve};
 use std::ops::Range;
@@ -21,6 +22,9 @@ const LINE_CHARACTERS: usize = 256;
 
 /// The number of bytes kept of the rows before the first keyword when only interpreted blocks are: enough to distinguish a fragment from a file that is no deck.
 const LEADING_ROWS_KEPT: u64 = 64 * 1024;
+
+/// The most rows of one block that are noted because they begin with the name of a keyword.
+const MOST_LIKE_KEYWORDS: usize = 100;
 
 /// The rows that keep their text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -106,6 +110,8 @@ struct OpenBlock {
     keyword: Option<KeywordLine>,
     rows_start: u64,
     keeps_rows: KeepsRows,
+    /// The number of rows noted because they begin with the name of a keyword.
+    likes_of_keywords: usize,
     /// The rows are free text, in which any byte may occur (S-70).
     free_text: bool,
 }
@@ -148,7 +154,7 @@ impl<'grammar> Scanner<'grammar> {
             offset: 0,
             line: 1,
             open_keyword: None,
-            block: OpenBlock { keyword: None, rows_start: 0, keeps_rows, free_text: false },
+            block: OpenBlock { keyword: None, rows_start: 0, keeps_rows, likes_of_keywords: 0, free_text: false },
         }
     }
 
@@ -251,6 +257,9 @@ impl<'grammar> Scanner<'grammar> {
         }
         let mut lines = if self.block.free_text { Vec::new() } else { noteworthy_lines(bytes, self.offset, survey) };
         lines.extend(marked.iter().map(|(start, mark)| (*start..next_line(bytes, *start), *mark)));
+        if survey.may_have_letters && self.block.keeps_rows == KeepsRows::None && !self.block.free_text {
+            self.find_likes_of_keywords(bytes, &mut lines);
+        }
         self.mark(lines, bytes);
         match self.block.keeps_rows {
             KeepsRows::All => self.source.keep(self.offset, self.line, bytes),
@@ -260,6 +269,28 @@ impl<'grammar> Scanner<'grammar> {
         }
         self.offset += bytes.len() as u64;
         self.line += if survey.has_carriage_return { count_line_ends(bytes) } else { survey.line_feeds };
+    }
+
+    /// Finds the rows that begin with the full name of a keyword: nobody sees them later.
+    fn find_likes_of_keywords(&mut self, bytes: &[u8], found: &mut Vec<(Range<usize>, Mark)>) {
+        for line in lines(bytes) {
+            if MOST_LIKE_KEYWORDS <= self.block.likes_of_keywords {
+                return;
+            }
+            if self.begins_with_keyword(bytes[line.clone()].trim_ascii_start()) {
+                self.block.likes_of_keywords += 1;
+                found.push((line, Mark::Note(LineNoteKind::LikeKeyword)));
+            }
+        }
+    }
+
+    /// Whether a row begins with the name of a keyword, or with a character that is not ASCII and a keyword.
+    fn begins_with_keyword(&self, row: &[u8]) -> bool {
+        let hidden = row.iter().take_while(|byte| !byte.is_ascii()).count();
+        let row = if hidden == 0 { Some(row) } else { row[hidden..].strip_prefix(b"*") };
+        let Some(row) = row.filter(|row| row.first().is_some_and(u8::is_ascii_alphabetic)) else { return false };
+        let name = items(row).next().map_or(&[][..], |name| &row[name]);
+        matches!(self.options.grammar.keyword_named(name), Lookup::Exact(_))
     }
 
     /// Takes down lines of `bytes`, which begin at the current offset.
@@ -283,11 +314,13 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Notes a line; a second one of a kind in one block is only counted. Gives whether it is the first.
+    /// Notes a line; a second one of most kinds in one block is only counted. Gives whether it has a note of its own.
     fn note(&mut self, kind: LineNoteKind, span: Span) -> bool {
-        let block_start = self.block.keyword.as_ref().map_or(self.block.rows_start, |keyword| keyword.span.start);
-        let of_this_block = |note: &&mut LineNote| note.span.start >= block_start;
-        if let Some(note) = self.notes.iter_mut().rev().take_while(of_this_block).find(|note| note.kind == kind) {
+        let block_start = self.block.keyword.as_ref().map_or(self.block.rows_start, |keyword| keyword.span.start());
+        let of_this_block = |note: &&mut LineNote| note.span.start() >= block_start;
+        if kind != LineNoteKind::LikeKeyword
+            && let Some(note) = self.notes.iter_mut().rev().take_while(of_this_block).find(|note| note.kind == kind)
+        {
             note.lines += 1;
             return false;
         }
@@ -323,7 +356,14 @@ impl<'grammar> Scanner<'grammar> {
         let line = &bytes[at..end];
         let Some(open) = &mut self.open_keyword else { return at };
         let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
-        let next = if is_comment { None } else { Some(after_comma(open.id, line, self.options.grammar)) };
+        let is_too_long = LONGEST_KEYWORD_LINE < open.text.len() + line.len();
+        let next = if is_too_long {
+            Some(NextLine::NoParameters)
+        } else if is_comment {
+            None
+        } else {
+            Some(after_comma(open.id, line, self.options.grammar))
+        };
         if let Some(NextLine::PerhapsFlags | NextLine::NoParameters) = next {
             open.is_answered = next == Some(NextLine::PerhapsFlags);
             self.close_keyword();
@@ -352,8 +392,9 @@ impl<'grammar> Scanner<'grammar> {
         }
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
         self.block = OpenBlock {
-            rows_start: keyword.span.end,
+            rows_start: keyword.span.end(),
             keeps_rows: keeps_rows(definition, self.options.keep),
+            likes_of_keywords: 0,
             free_text: definition.is_some_and(|definition| definition.rows() == RowShape::Text),
             keyword: Some(keyword),
         };
@@ -364,7 +405,7 @@ impl<'grammar> Scanner<'grammar> {
         let keyword = self.block.keyword.take();
         if keyword.is_some() || !rows.is_empty() {
             let rows_kept = self.block.keeps_rows != KeepsRows::None;
-            self.blocks.push(Block { keyword, rows, rows_kept, continued_in: Vec::new() });
+            self.blocks.push(Block::new(keyword, rows, rows_kept));
         }
     }
 

@@ -21,6 +21,8 @@ pub(super) struct Survey {
     pub(super) is_ascii: bool,
     pub(super) has_carriage_return: bool,
     pub(super) has_asterisk: bool,
+    /// `false` is certain; `true` means that there may be letters, those of exponents among them.
+    pub(super) may_have_letters: bool,
     /// `false` is certain; `true` means that a line may be longer than 256 bytes.
     pub(super) may_have_long_line: bool,
 }
@@ -72,6 +74,7 @@ fn survey(bytes: &[u8]) -> Survey {
         is_ascii: any.iter().all(u8::is_ascii) && rest.is_ascii(),
         has_carriage_return: holds(&carriage_returns) || rest.contains(&b'\r'),
         has_asterisk: holds(&asterisks) || rest.contains(&b'*'),
+        may_have_letters: any.iter().chain(rest).any(|byte| byte & 0x40 != 0),
         may_have_long_line,
     }
 }
@@ -84,7 +87,7 @@ mod tests {
     proptest! {
         #[test]
         fn says_what_a_plain_search_says(bytes in prop::collection::vec(prop_oneof![
-            20 => Just(b'1'), 2 => Just(b'\n'), 1 => Just(b'\r'), 1 => Just(b'*'), 1 => any::<u8>(),
+            20 => Just(b'1'), 2 => Just(b'\n'), 1 => Just(b'\r'), 1 => Just(b'*'), 1 => Just(b'-'), 1 => any::<u8>(),
         ], 0..2000)) {
             let found = Survey::of(&bytes);
             prop_assert_eq!(found.line_feeds, bytes.split(|byte| *byte == b'\n').count() as u64 - 1);
@@ -92,6 +95,7 @@ mod tests {
             prop_assert_eq!(found.has_carriage_return, bytes.contains(&b'\r'));
             prop_assert_eq!(found.has_asterisk, bytes.contains(&b'*'));
             let longest = bytes.split(|byte| *byte == b'\n').map(<[u8]>::len).max().unwrap_or(0);
+            prop_assert!(found.may_have_letters || !bytes.iter().any(u8::is_ascii_alphabetic));
             prop_assert!(found.may_have_long_line || longest <= 254);
         }
     }

@@ -95,6 +95,7 @@ pub(super) fn text(text: String) -> Result<Value, Complaint> {
 /// The complaint about a text of that many bytes.
 pub(super) fn text_too_long(bytes: usize) -> Complaint {
     Complaint::new(format!("a text of {bytes} bytes is longer than the {MAX_TEXT} allowed"))
+        .help("write it in several parameters, each with a part of it")
 }
 
 fn concatenate(mut left: String, right: &str) -> Result<Value, Complaint> {

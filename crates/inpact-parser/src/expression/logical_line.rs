@@ -110,11 +110,11 @@ impl LogicalLine<'_> {
     pub(super) fn place(&self, range: &Range<usize>) -> Span {
         let start = self.offset(range.start);
         let end = self.offset(range.end);
-        if start.source == end.source && start.start <= end.start {
-            return Span::new(start.source, start.start, end.start);
+        if start.source() == end.source() && start.start() <= end.start() {
+            return Span::new(start.source(), start.start(), end.start());
         }
         let (_, line) = self.piece(range.start);
-        Span::new(line.source, start.start, line.end.max(start.start))
+        Span::new(line.source(), start.start(), line.end().max(start.start()))
     }
 
     /// The physical line that holds an offset of the text.
@@ -125,7 +125,7 @@ impl LogicalLine<'_> {
 
     fn offset(&self, offset: usize) -> Span {
         let (start, line) = self.piece(offset);
-        let at = (line.start + (offset - start) as u64).min(line.end);
-        Span::new(line.source, at, at)
+        let at = (line.start() + (offset - start) as u64).min(line.end());
+        Span::new(line.source(), at, at)
     }
 }

@@ -196,9 +196,10 @@ fn record(
 /// The value, unless the texts of the deck have grown too long with it.
 fn within_budget(value: Value, parameters: &Parameters) -> Result<Value, Complaint> {
     match &value {
-        Value::Text(text) if parameters.text_bytes + text.len() > MAX_TEXT_IN_ALL => Err(Complaint::new(format!(
-            "the texts of all parameters are longer than the {MAX_TEXT_IN_ALL} bytes allowed"
-        ))),
+        Value::Text(text) if parameters.text_bytes + text.len() > MAX_TEXT_IN_ALL => {
+            let complaint = format!("the texts of all parameters are longer than the {MAX_TEXT_IN_ALL} bytes allowed");
+            Err(Complaint::new(complaint).help("leave out texts that nothing uses, or write them where they are used"))
+        }
         _ => Ok(value),
     }
 }

@@ -26,8 +26,13 @@ pub enum SubstitutionError {
     #[error("the definition of the parameter `{0}` has no value")]
     WithoutValue(String),
     /// The result would be longer than sixteen times the text and 64 KiB, which only a hostile deck can want.
-    #[error("a line of {0} bytes becomes too long when its parameters are substituted")]
-    TooLong(usize),
+    #[error("{bytes} bytes become more than {most} when their parameters are substituted")]
+    TooLong {
+        /// The length of the text.
+        bytes: usize,
+        /// The most that it may become.
+        most: usize,
+    },
 }
 
 /// The references in a text, from left to right: a name between `<` and `>`, with or without blanks around it.
@@ -62,6 +67,7 @@ pub fn references(text: &[u8]) -> impl Iterator<Item = Reference<'_>> {
 pub fn substitute<'text>(text: &'text str, parameters: &Parameters) -> Result<Cow<'text, str>, SubstitutionError> {
     let mut replaced = String::new();
     let mut copied = 0;
+    let most = 16 * text.len() + (64 << 10);
     for reference in references(text.as_bytes()) {
         let Some(definition) = parameters.definition(reference.name) else {
             return Err(SubstitutionError::Undefined(reference.name.to_owned()));
@@ -72,8 +78,8 @@ pub fn substitute<'text>(text: &'text str, parameters: &Parameters) -> Result<Co
         replaced.push_str(&text[copied..reference.range.start]);
         copied = reference.range.end;
         write!(replaced, "{value}").expect("writing to a string does not fail");
-        if replaced.len() > 16 * text.len() + (64 << 10) {
-            return Err(SubstitutionError::TooLong(text.len()));
+        if most < replaced.len() {
+            return Err(SubstitutionError::TooLong { bytes: text.len(), most });
         }
     }
     if copied == 0 {

@@ -5,7 +5,7 @@
 use super::LINE_CHARACTERS;
 use crate::deck::lines::{LineKind, line_kind, lines, without_line_end};
 use crate::deck::{Deck, KeywordLine, Parameter};
-use crate::grammar::{Definition, Dialect, Lookup};
+use crate::grammar::{Definition, Dialect};
 use crate::span::Span;
 
 /// The indent of a line that continues another.
@@ -19,13 +19,13 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
     if keyword.unterminated_quote().is_some() {
         return None;
     }
-    let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start, formatted: b"*".to_vec() };
+    let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start(), formatted: b"*".to_vec() };
     let name = line.piece(keyword.name)?;
     line.formatted.extend_from_slice(definition.name.as_bytes());
-    let mut after = keyword.name.start + name.len() as u64;
-    for parameter in &keyword.parameters {
+    let mut after = keyword.name.start() + name.len() as u64;
+    for parameter in keyword.parameters() {
         let piece = line.piece(parameter.span())?;
-        line.take_comma(line.at(after, parameter.name.start))?;
+        line.take_comma(line.at(after, parameter.name.start()))?;
         match known_name(parameter, definition, dialect) {
             None => line.formatted.extend_from_slice(piece),
             Some(known) => {
@@ -36,9 +36,9 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
                 }
             }
         }
-        after = parameter.name.start + piece.len() as u64;
+        after = parameter.name.start() + piece.len() as u64;
     }
-    line.take_end(line.at(after, keyword.span.end))?;
+    line.take_end(line.at(after, keyword.span.end()))?;
     let formatted = line.formatted;
     let fits = lines(&formatted).all(|range| {
         let physical = &formatted[range];
@@ -48,14 +48,9 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
 }
 
 /// The name of a parameter in full.
-///
-/// CalculiX knows no abbreviations: what is one for Abaqus is another parameter there, or none.
-fn known_name<'a>(parameter: &Parameter, definition: &'a Definition, dialect: Dialect) -> Option<&'a str> {
-    let index = match (&parameter.resolved, dialect) {
-        (Lookup::Exact(index), _) | (Lookup::Abbreviated(index), Dialect::Abaqus) => *index,
-        _ => return None,
-    };
-    Some(&definition.parameters[index].name)
+fn known_name(parameter: Parameter, definition: &Definition, dialect: Dialect) -> Option<&str> {
+    let index = parameter.resolved.found_in(dialect)?;
+    Some(&definition.parameters[usize::from(index)].name)
 }
 
 /// A keyword line in the making.
@@ -76,7 +71,7 @@ impl<'deck> Line<'deck> {
 
     /// A piece without the blanks at its end, which an empty value leaves; `None` for one that goes over a line end.
     fn piece(&self, span: Span) -> Option<&'deck [u8]> {
-        let piece = self.at(span.start, span.end).trim_ascii_end();
+        let piece = self.at(span.start(), span.end()).trim_ascii_end();
         (!piece.iter().any(|byte| matches!(byte, b'\n' | b'\r'))).then_some(piece)
     }
 

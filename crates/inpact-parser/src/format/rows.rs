@@ -56,7 +56,7 @@ impl Order {
         let keyword = block.keyword.as_ref()?;
         let parameter = |name: &str| {
             let is_meant = |index: usize| definition.parameters[index].name == name;
-            keyword.parameters.iter().rev().find(|parameter| parameter.index().is_some_and(is_meant))
+            keyword.parameters().rev().find(|parameter| parameter.index().is_some_and(is_meant))
         };
         let counted = definition.data.counted.as_ref().and_then(|counted| parameter(&counted.count)?.value);
         // The value of a symbol is not known here, and nothing but the look depends on it.

@@ -104,7 +104,7 @@ struct ByteLine {
 pub fn write(deck: &Deck, grammar: &Grammar) -> String {
     let mut blocks_of: Vec<Vec<&Block>> = vec![Vec::new(); deck.sources().len()];
     for block in deck.blocks() {
-        blocks_of[block.rows.source.0 as usize].push(block);
+        blocks_of[block.rows.source().0 as usize].push(block);
     }
     let files = deck.sources().iter().zip(blocks_of).map(|(source, blocks)| {
         let line_end = usual_line_end(deck, &blocks);
@@ -171,7 +171,7 @@ fn compare(file: &File, deck: &Deck, grammar: &Grammar, number: usize) -> Result
 
 fn block_document(deck: &Deck, grammar: &Grammar, block: &Block, line_end: &str) -> BlockDocument {
     let keyword = block.keyword.as_ref();
-    let parameters = keyword.iter().flat_map(|keyword| &keyword.parameters).map(|parameter| ParameterDocument {
+    let parameters = keyword.iter().flat_map(|keyword| keyword.parameters()).map(|parameter| ParameterDocument {
         name: deck.shown(parameter.name),
         value: parameter.value.map(|value| deck.shown(value)),
     });

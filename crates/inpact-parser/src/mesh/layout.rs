@@ -17,7 +17,7 @@ pub(super) struct Entry<'deck> {
 impl<'deck> Entry<'deck> {
     /// The value of a parameter; a parameter without a value has an empty one. Names may be shortened to three letters.
     pub(super) fn parameter(&self, name: &str) -> Option<&'deck str> {
-        self.keyword.parameters.iter().find_map(|parameter| {
+        self.keyword.parameters().find_map(|parameter| {
             let written = canonical(self.deck.text(parameter.name));
             let matches = written == name || (3 <= written.len() && name.starts_with(&written));
             let text = || parameter.value.map_or(&b""[..], |value| self.deck.text(value));

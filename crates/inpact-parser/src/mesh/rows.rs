@@ -51,8 +51,8 @@ impl<R: Read + Seek> SeekableRows<R> {
 impl<R: Read + Seek> RowBytes for SeekableRows<R> {
     fn read(&mut self, span: Span, take: &mut dyn FnMut(&[u8])) -> io::Result<()> {
         let file =
-            self.files.get_mut(&span.source).ok_or_else(|| io::Error::other("a file of the deck is not open"))?;
-        file.seek(SeekFrom::Start(span.start))?;
+            self.files.get_mut(&span.source()).ok_or_else(|| io::Error::other("a file of the deck is not open"))?;
+        file.seek(SeekFrom::Start(span.start()))?;
         self.buffer.resize(PIECE, 0);
         let mut left = span.len();
         while 0 < left {
@@ -67,20 +67,20 @@ impl<R: Read + Seek> RowBytes for SeekableRows<R> {
 
 /// Hands every data line of a block to `take`, without its line end and with its place.
 pub(super) fn data_lines(bytes: &mut dyn RowBytes, block: &Block, take: &mut dyn FnMut(&[u8], Span)) -> io::Result<()> {
-    for rows in std::iter::once(&block.rows).chain(&block.continued_in) {
-        let mut offset = rows.start;
+    for rows in block.all_rows() {
+        let mut offset = rows.start();
         let mut unfinished: Vec<u8> = Vec::new();
         let mut whole = |text: &[u8]| {
             for line in lines(text) {
                 let line = &text[line];
                 let content = without_line_end(line);
                 if line_kind(content) == LineKind::Data {
-                    take(content, Span::new(rows.source, offset, offset + content.len() as u64));
+                    take(content, Span::new(rows.source(), offset, offset + content.len() as u64));
                 }
                 offset += line.len() as u64;
             }
         };
-        bytes.read(*rows, &mut |mut piece| {
+        bytes.read(rows, &mut |mut piece| {
             if !unfinished.is_empty() {
                 let end = next_line(piece, 0);
                 unfinished.extend_from_slice(&piece[..end]);

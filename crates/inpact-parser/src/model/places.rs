@@ -13,7 +13,7 @@ impl Model {
         model.set_aside.clear();
         model.surfaces.clear();
         model.parameters.forget_places();
-        model.interactions.values_mut().for_each(Interaction::forget_places);
+        model.interactions.for_each_mut(Interaction::forget_places);
         for pair in &mut model.contact_pairs {
             pair.span = Span::default();
             pair.parameters.iter_mut().for_each(GivenParameter::forget_place);

@@ -57,7 +57,7 @@ pub(crate) fn named_in(dialect: Dialect, mut model: Model) -> Model {
     model.interactions = interactions
         .map(|mut interaction| {
             rename(&mut interaction.name);
-            (interaction.name.clone(), interaction)
+            interaction
         })
         .collect();
     let pairs = model.contact_pairs.iter_mut().flat_map(|pair| {
@@ -76,7 +76,7 @@ fn difference(model: &Model, again: &Model) -> Option<String> {
     if !same(&model.parameters, &again.parameters) {
         return Some("the list of parameters".to_owned());
     }
-    for (name, interaction) in &model.interactions {
+    for (name, interaction) in model.interactions.iter() {
         if again.interactions.get(name).is_none_or(|found| !same(found, interaction)) {
             return Some(format!("interaction `{name}`"));
         }
@@ -166,7 +166,7 @@ fn with_meant<'a>(meant: Option<&'a GivenParameter>, others: &'a [GivenParameter
 
 fn print_electrical(out: &mut String, law: &ElectricalConductance, grammar: &Grammar) {
     let keyword = "GAP ELECTRICAL CONDUCTANCE";
-    let kind = law.kind.iter().map(|kind| parameter("TYPE", Some(kind.clone())));
+    let kind = law.kind.iter().map(|kind| parameter("TYPE", Some(kind.to_string())));
     let kind: Vec<_> = kind.collect();
     for (table, flag) in [(&law.clearance, None), (&law.pressure, Some("PRESSURE"))] {
         if let Some(table) = table {

@@ -85,7 +85,7 @@ fn is_explicit_procedure(block: &Block, grammar: &Grammar) -> bool {
         return false;
     };
     let is_explicit = |index: usize| definition.parameters[index].name == "EXPLICIT";
-    keyword.parameters.iter().any(|parameter| parameter.index().is_some_and(is_explicit))
+    keyword.parameters().any(|parameter| parameter.index().is_some_and(is_explicit))
 }
 
 impl<'a> Reader<'a> {

@@ -28,6 +28,19 @@ struct Elsewhere {
 }
 
 impl RowPlaces {
+    /// The places of rows of the table of that keyword line.
+    pub(super) fn of(spans: impl IntoIterator<Item = Span>, keyword: Span) -> Self {
+        let mut places = Self::default();
+        spans.into_iter().for_each(|span| places.push(span, keyword));
+        places.shrink();
+        places
+    }
+
+    /// Gives back the room of rows that did not come.
+    pub(super) fn shrink(&mut self) {
+        self.rows.shrink_to_fit();
+    }
+
     pub(super) fn reserve_exact(&mut self, rows: usize) {
         self.rows.reserve_exact(rows);
     }
@@ -40,7 +53,7 @@ impl RowPlaces {
     /// Makes the last row longer, up to the end of `line`, where it begins in the same file.
     pub(super) fn extend_last(&mut self, line: Span, keyword: Span) {
         let last = self.rows.len().checked_sub(1).and_then(|last| self.get(last, keyword));
-        if let Some(row) = last.filter(|row| row.source == line.source) {
+        if let Some(row) = last.filter(|row| row.source() == line.source()) {
             let place = self.place_of(row.to(line), keyword);
             self.rows.pop();
             self.rows.push(place);
@@ -56,7 +69,7 @@ impl RowPlaces {
     }
 
     fn place_of(&mut self, span: Span, keyword: Span) -> RowPlace {
-        let offset = span.start.checked_sub(keyword.start).filter(|_| span.source == keyword.source);
+        let offset = span.start().checked_sub(keyword.start()).filter(|_| span.source() == keyword.source());
         let offset =
             offset.and_then(|offset| u32::try_from(offset).ok()).filter(|offset| *offset < RowPlace::ELSEWHERE);
         if let (Some(offset), Ok(length)) = (offset, u32::try_from(span.len())) {
@@ -71,8 +84,8 @@ impl RowPlaces {
 
     fn span(&self, RowPlace { offset, length }: RowPlace, keyword: Span) -> Span {
         if offset != RowPlace::ELSEWHERE {
-            let start = keyword.start + u64::from(offset);
-            return Span::new(keyword.source, start, start + u64::from(length));
+            let start = keyword.start() + u64::from(offset);
+            return Span::new(keyword.source(), start, start + u64::from(length));
         }
         let spans = self.elsewhere.as_ref().map_or(&[][..], |elsewhere| &elsewhere.spans);
         spans.get(length as usize).copied().unwrap_or(keyword)

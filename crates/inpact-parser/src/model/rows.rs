@@ -3,6 +3,7 @@
 //! Knows the layout of a row, not what its numbers mean. Reads every line, whatever is wrong with the one before.
 
 use super::SubOption;
+use super::row_places::RowPlaces;
 use super::table::{CellText, Table};
 use crate::deck::{Block, DataLine, Deck, items};
 use crate::expression::{Parameters, SubstitutionError, substitute};
@@ -20,7 +21,7 @@ pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: u
     if count <= ALWAYS_THERE {
         return count;
     }
-    let texts = std::iter::once(&block.rows).chain(&block.continued_in).map(|rows| deck.text(*rows));
+    let texts = block.all_rows().map(|rows| deck.text(rows));
     let (mut lines, mut commas) = (0, 0);
     for text in texts {
         lines += memchr::memchr2_iter(b'\n', b'\r', text.trim_ascii_end()).count() + 1;
@@ -48,9 +49,10 @@ pub(super) fn read_table(
         lines: layout.lines_per_row(),
         parameters,
         problems,
-        table: Table::default(),
+        values: Vec::new(),
+        texts: Vec::new(),
+        places: RowPlaces::default(),
     };
-    reader.table.keyword = keyword;
     reader.reserve(deck.text(block.rows));
     let mut line_of_row = 0;
     for line in deck.data_lines(block) {
@@ -64,10 +66,16 @@ pub(super) fn read_table(
         line_of_row = reader.take_line(&line, line_of_row);
     }
     reader.finish(line_of_row);
-    let mut table = reader.table;
-    table.columns = layout.columns.into();
-    table.unwritten = layout.unwritten;
-    table
+    let RowReader { values, texts, mut places, .. } = reader;
+    places.shrink();
+    Table {
+        columns: layout.columns.into(),
+        values: values.into(),
+        places,
+        texts: texts.into(),
+        keyword,
+        unwritten: layout.unwritten,
+    }
 }
 
 /// A table in the making.
@@ -79,7 +87,9 @@ struct RowReader<'a> {
     lines: usize,
     parameters: &'a Parameters,
     problems: &'a mut Vec<Problem>,
-    table: Table,
+    values: Vec<f64>,
+    texts: Vec<CellText>,
+    places: RowPlaces,
 }
 
 impl RowReader<'_> {
@@ -88,9 +98,9 @@ impl RowReader<'_> {
         let rows = memchr::memchr_iter(b'\n', text).count() / self.lines + 1;
         // No more than the text could spell out: rows of empty items are made as they come.
         let most = text.len() / 2;
-        self.table.places.reserve_exact(rows.min(most));
+        self.places.reserve_exact(rows.min(most));
         let width = self.layout.columns.len();
-        self.table.values.reserve_exact((rows * width).min(most.max(width)));
+        self.values.reserve_exact((rows * width).min(most.max(width)));
     }
 
     fn report(&mut self, kind: ProblemKind, span: Span) {
@@ -103,12 +113,12 @@ impl RowReader<'_> {
         // K-53: too much for a first line, but exactly a whole row.
         let whole_row = self.lines > 1 && line_of_row == 0 && count_items(line) == self.layout.width();
         let room = if whole_row { width } else { items_on(self.layout, line_of_row) };
-        let first_column = self.table.values.len() % width.max(1);
+        let first_column = self.values.len() % width.max(1);
         let mut items = items(line.text);
         for column in first_column..first_column + room {
             match items.next() {
                 Some(item) => self.take_item(line, item, column),
-                None => self.table.values.push(self.layout.defaults[column]),
+                None => self.values.push(self.layout.defaults[column]),
             }
         }
         let content = trimmed(line);
@@ -122,9 +132,9 @@ impl RowReader<'_> {
             self.report(ProblemKind::TooManyItems { allowed: room, given, lines: self.lines }, surplus);
         }
         match line_of_row {
-            0 => self.table.push_row_span(content),
+            0 => self.places.push(content, self.keyword),
             // A row that begins in one file and ends in another is found where it begins.
-            _ => self.table.places.extend_last(content, self.keyword),
+            _ => self.places.extend_last(content, self.keyword),
         }
         if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
     }
@@ -135,7 +145,7 @@ impl RowReader<'_> {
         if text.len() <= FLOAT_CHARACTERS
             && let Ok(value) = read_float(text)
         {
-            self.table.values.push(value);
+            self.values.push(value);
             return;
         }
         let item = line.part(item);
@@ -143,16 +153,16 @@ impl RowReader<'_> {
             if column == 0 && self.layout.columns.len() > 1 {
                 self.report(ProblemKind::EmptyValue { column: self.layout.columns[column].clone() }, item);
             }
-            self.table.values.push(self.layout.defaults[column]);
+            self.values.push(self.layout.defaults[column]);
             return;
         }
         let is_symbolic = text.contains(&b'<');
         let value = if is_symbolic { self.symbolic_value(item, column) } else { self.value(text, item, column) };
         if is_symbolic || value.is_none() {
             let text = self.deck.shown(item);
-            self.table.texts.push(CellText { cell: self.table.values.len(), text });
+            self.texts.push(CellText { cell: self.values.len(), text });
         }
-        self.table.values.push(value.unwrap_or(f64::NAN));
+        self.values.push(value.unwrap_or(f64::NAN));
     }
 
     /// The number of an item that names parameters (S-62).
@@ -161,7 +171,7 @@ impl RowReader<'_> {
         match substitute(&text, self.parameters) {
             Ok(text) => self.value(text.trim().as_bytes(), item, column),
             Err(error) => {
-                self.problems.extend(undefined_parameter(&error, self.parameters, item, self.keyword));
+                self.problems.extend(substitution_problem(&error, self.parameters, item, self.keyword));
                 None
             }
         }
@@ -180,11 +190,11 @@ impl RowReader<'_> {
         if line_of_row == 0 {
             return;
         }
-        let row = self.table.row_spans().last().unwrap_or(self.keyword);
+        let row = self.places.iter(self.keyword).last().unwrap_or(self.keyword);
         self.report(ProblemKind::IncompleteRow { lines: self.lines, given: line_of_row }, row);
         let width = self.layout.columns.len();
-        let missing = (width - self.table.values.len() % width) % width;
-        self.table.values.extend_from_slice(&self.layout.defaults[width - missing..]);
+        let missing = (width - self.values.len() % width) % width;
+        self.values.extend_from_slice(&self.layout.defaults[width - missing..]);
     }
 }
 
@@ -205,16 +215,22 @@ impl SubOption {
     }
 }
 
-/// The problem of a reference that cannot be replaced; none for a parameter whose definition is reported already (S016).
-pub(super) fn undefined_parameter(
+/// The problem of a text whose parameters cannot be substituted; none for a parameter whose definition is reported already (S016).
+pub(super) fn substitution_problem(
     error: &SubstitutionError,
     parameters: &Parameters,
     span: Span,
     keyword: Span,
 ) -> Option<Problem> {
-    let SubstitutionError::Undefined(name) = error else { return None };
-    let similar = parameters.name_in_other_case(name).map(str::to_owned);
-    Some(Problem { kind: ProblemKind::UndefinedParameter { name: name.clone(), similar }, span, keyword })
+    let kind = match error {
+        SubstitutionError::Undefined(name) => {
+            let similar = parameters.name_in_other_case(name).map(str::to_owned);
+            ProblemKind::UndefinedParameter { name: name.clone(), similar }
+        }
+        SubstitutionError::WithoutValue(_) => return None,
+        SubstitutionError::TooLong { bytes, most } => ProblemKind::SubstitutionTooLong { bytes: *bytes, most: *most },
+    };
+    Some(Problem { kind, span, keyword })
 }
 
 /// The number that an item of a column is in a dialect, and what is to be said of it.
@@ -268,6 +284,6 @@ fn count_items(line: &DataLine<'_>) -> usize {
 /// The line without blanks around it.
 fn trimmed(line: &DataLine<'_>) -> Span {
     let before = (line.text.len() - line.text.trim_ascii_start().len()) as u64;
-    let start = line.span.start + before;
-    Span::new(line.span.source, start, start + line.text.trim_ascii().len() as u64)
+    let start = line.span.start() + before;
+    Span::new(line.span.source(), start, start + line.text.trim_ascii().len() as u64)
 }

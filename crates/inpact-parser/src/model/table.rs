@@ -17,12 +17,12 @@ pub struct Table {
     /// The cells, row after row; `columns.len()` a row. Units are those of the columns (see the grammar).
     ///
     /// A cell that is no number, or a parameter without a value, is NaN; see [`Table::texts`].
-    pub values: Vec<f64>,
+    pub values: Box<[f64]>,
     /// The places of the rows; see [`Table::row_span`].
     pub places: RowPlaces,
     /// The text of the cells that are not written as a number: a parameter, `<name>` (S-62), or a malformed number (S006).
     /// In ascending order of [`CellText::cell`].
-    pub texts: Vec<CellText>,
+    pub texts: Box<[CellText]>,
     /// The keyword line the table belongs to.
     pub keyword: Span,
     /// The number of field variables of DEPENDENCIES after `columns`: no row reaches them, so that they are zero throughout (S-32).
@@ -71,9 +71,9 @@ impl Table {
         self.places.iter(self.keyword)
     }
 
-    /// Says where the next row is; [`keyword`](Self::keyword) is set before.
-    pub fn push_row_span(&mut self, span: Span) {
-        self.places.push(span, self.keyword);
+    /// Says where the rows are; [`keyword`](Self::keyword) is set before.
+    pub fn set_row_spans(&mut self, spans: impl IntoIterator<Item = Span>) {
+        self.places = RowPlaces::of(spans, self.keyword);
     }
 
     /// The position of a column of that name.

@@ -108,7 +108,7 @@ impl<'a, 'b> Records<'a, 'b> {
                     Word::Real(value) => value.to_string(),
                     Word::Text(text) => shown(&text),
                 };
-                let message = format!("expected the number of words of a record, 2 or more, found `{found}`");
+                let message = format!("expected the number of words of a record, 2 to {MOST_WORDS}, found `{found}`");
                 Err(Problem::new(place, message, FOREIGN))
             }
         }

@@ -127,7 +127,7 @@ fn electrical_properties(interaction: &Interaction) -> Vec<Span> {
     let law = interaction.gap_electrical_conductance.iter();
     let spans = law.filter_map(|law| {
         let tables = [&law.clearance, &law.pressure].into_iter().flatten().map(|table| table.keyword);
-        law.user.into_iter().chain(tables).min_by_key(|span| span.start)
+        law.user.into_iter().chain(tables).min_by_key(|span| span.start())
     });
     spans.collect()
 }

@@ -37,7 +37,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // Beside rows or ignored parameters it is not clear yet that the subroutine is meant (T011, K011).
     let unclear: HashSet<_> = context.defined_blocks().filter(|block| is_unclear(context, *block)).map(start).collect();
     let mut say = |span: Span, subroutine: &str, law: &str| {
-        if unclear.contains(&(span.source, span.start)) {
+        if unclear.contains(&(span.source(), span.start())) {
             return;
         }
         report
@@ -80,5 +80,5 @@ fn is_unclear(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
 
 /// The start of the keyword line of a block.
 fn start(block: DefinedBlock<'_>) -> (SourceId, u64) {
-    (block.keyword.span.source, block.keyword.span.start)
+    (block.keyword.span.source(), block.keyword.span.start())
 }

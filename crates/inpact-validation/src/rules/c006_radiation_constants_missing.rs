@@ -5,6 +5,7 @@ use crate::parameter::given_as;
 use crate::quantity::and_more;
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use crate::tables::has_unclear_parameters;
+use inpact_parser::deck::KeywordLine;
 use inpact_parser::grammar::lookup_name;
 
 declare_rule! {
@@ -73,7 +74,7 @@ fn is_given(context: &Context<'_>, constant: &str) -> bool {
         .any(|block| has_unclear_parameters(block.keyword) || given_as(block, constant).is_some());
     in_options || {
         let unknown = context.keyword_lines().filter(|keyword| keyword.id().is_none());
-        let mut parameters = unknown.flat_map(|keyword| &keyword.parameters);
+        let mut parameters = unknown.flat_map(KeywordLine::parameters);
         parameters.any(|parameter| lookup_name(context.deck.text(parameter.name), CONSTANTS).found().is_some())
     }
 }

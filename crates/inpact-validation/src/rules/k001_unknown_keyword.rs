@@ -5,7 +5,7 @@ use inpact_diagnostics::{Diagnostic, Edit, FixSafety, Severity};
 use crate::invisible;
 use crate::rule::{Context, Report, declare_rule};
 use crate::suggestion::did_you_mean;
-use inpact_parser::deck::KeywordLine;
+use inpact_parser::deck::{KeywordLine, Resolved};
 use inpact_parser::grammar::{Dialect, Grammar, Lookup};
 use inpact_parser::span::Span;
 
@@ -58,7 +58,7 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let dialect = context.grammar.dialect();
-    for keyword in context.keyword_lines().filter(|keyword| keyword.resolved == Lookup::Unknown) {
+    for keyword in context.keyword_lines().filter(|keyword| keyword.resolved == Resolved::Unknown) {
         if keyword_of_other_release(context, keyword).is_some() {
             continue;
         }
@@ -99,7 +99,7 @@ fn say_hidden<'r>(
     }
     let place = |hidden: &invisible::Hidden| {
         let (start, end) = (hidden.start as u64, hidden.end as u64);
-        Span::new(keyword.name.source, keyword.name.start + start, keyword.name.start + end)
+        Span::new(keyword.name.source(), keyword.name.start() + start, keyword.name.start() + end)
     };
     let edits = invisible::all(written).map(|hidden| Edit::new(place(&hidden), hidden.plain)).collect();
     let plain = String::from_utf8_lossy(&plain).into_owned();

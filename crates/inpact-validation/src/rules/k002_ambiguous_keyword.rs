@@ -2,7 +2,8 @@
 
 use crate::rule::{Context, Report, declare_rule};
 use crate::suggestion::alternatives;
-use inpact_parser::grammar::Lookup;
+use inpact_parser::deck::{KeywordLine, Resolved};
+use inpact_parser::grammar::{KeywordId, Lookup};
 use inpact_parser::number::read_float;
 
 declare_rule! {
@@ -27,15 +28,29 @@ declare_rule! {
     "K002", "ambiguous-keyword", Error, fix: None, source: "S-13"
 }
 
+/// The keywords that an ambiguous name may mean; none for any other.
+pub(crate) fn candidates(context: &Context<'_>, keyword: &KeywordLine) -> Vec<KeywordId> {
+    if keyword.resolved != Resolved::Ambiguous {
+        return Vec::new();
+    }
+    match context.grammar.keyword_named(context.deck.text(keyword.name)) {
+        Lookup::Ambiguous(candidates) => candidates,
+        _ => Vec::new(),
+    }
+}
+
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for keyword in context.keyword_lines() {
-        let Lookup::Ambiguous(candidates) = &keyword.resolved else { continue };
+        let candidates = candidates(context, keyword);
+        if candidates.is_empty() {
+            continue;
+        }
         let name = context.shown(keyword.name);
         let full: Vec<String> = candidates.iter().map(|id| format!("*{}", context.grammar.keyword(*id).name)).collect();
         let names = alternatives(full.iter().map(String::as_str));
         let count = candidates.len();
         // `*load,1,1000`: a row that was put aside with one asterisk.
-        let first = keyword.parameters.first().map(|parameter| context.deck.text(parameter.name));
+        let first = keyword.parameters().next().map(|parameter| context.deck.text(parameter.name));
         let is_row = first.is_some_and(|text| read_float(text).is_ok());
         let found = report.at(keyword.name, format!("`*{name}` may mean {count} keywords"));
         found.label("the beginning of several");

@@ -2,6 +2,7 @@
 
 use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::Resolved;
 use inpact_parser::grammar::{Grammar, Lookup};
 
 declare_rule! {
@@ -36,7 +37,7 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for keyword in context.keyword_lines() {
-        let Lookup::Abbreviated(id) = keyword.resolved else { continue };
+        let Resolved::Abbreviated(id) = keyword.resolved else { continue };
         let full = in_case_of(&context.grammar.keyword(id).name, context.deck.text(keyword.name));
         let name = context.shown(keyword.name);
         let found = report.at(keyword.name, format!("`*{name}` is short for `*{full}`"));

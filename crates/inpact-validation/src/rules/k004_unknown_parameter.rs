@@ -7,7 +7,7 @@ use crate::invisible;
 use crate::parameter::{self, GivenParameter, given_as};
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use crate::suggestion::{alternatives, did_you_mean};
-use inpact_parser::deck::Parameter;
+use inpact_parser::deck::{Parameter, Resolved};
 use inpact_parser::grammar::{Lookup, ParameterDefinition, ValueUse};
 use inpact_parser::span::Span;
 
@@ -49,17 +49,17 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
     }
     for block in context.defined_blocks().filter(|block| block.definition.parameters_complete) {
-        for parameter in &block.keyword.parameters {
+        for parameter in block.keyword.parameters() {
             let is_cut = open_quote(context.deck.text(parameter.span())).is_some();
             let is_of_other_release = parameter_of_other_release(context, block, parameter).is_some();
-            if parameter.resolved == Lookup::Unknown && !is_cut && !is_of_other_release {
+            if parameter.resolved == Resolved::Unknown && !is_cut && !is_of_other_release {
                 say(context, report, block, parameter);
             }
         }
     }
 }
 
-fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, parameter: &Parameter) {
+fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, parameter: Parameter) {
     let keyword = block.name;
     if parameter.name.is_empty() {
         let value = context.shown(parameter.value.unwrap_or(parameter.name));
@@ -73,8 +73,8 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
         let plain = invisible::plain(written);
         let plain = plain.trim_ascii();
         if context.grammar.parameter_named(block.definition, plain) != Lookup::Unknown {
-            let at = |offset: usize| parameter.name.start + offset as u64;
-            let place = Span::new(parameter.name.source, at(first.start), at(first.end));
+            let at = |offset: usize| parameter.name.start() + offset as u64;
+            let place = Span::new(parameter.name.source(), at(first.start), at(first.end));
             let plain = String::from_utf8_lossy(plain).into_owned();
             report
                 .at(place, format!("{} in the parameter `{plain}` of `*{keyword}`", first.name))
@@ -121,7 +121,7 @@ fn say_other_name(report: &mut Report<'_>, given: &GivenParameter<'_>, meant: &s
 }
 
 /// The one name that is near, when it is not given already and wants a value just as this one has it.
-fn only_candidate<'a>(block: DefinedBlock<'_>, parameter: &Parameter, near: &[&'a str]) -> Option<&'a str> {
+fn only_candidate<'a>(block: DefinedBlock<'_>, parameter: Parameter, near: &[&'a str]) -> Option<&'a str> {
     let [meant] = near else { return None };
     let fits = match block.definition.parameter(meant)?.value_use() {
         ValueUse::Never => parameter.value.is_none(),

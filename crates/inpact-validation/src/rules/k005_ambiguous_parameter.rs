@@ -1,8 +1,8 @@
 //! K005: abbreviated parameters that may mean several.
 
+use crate::parameter::candidates;
 use crate::rule::{Context, Report, declare_rule};
 use crate::suggestion::alternatives;
-use inpact_parser::grammar::Lookup;
 
 declare_rule! {
     /// A parameter is the beginning of several that the keyword has.
@@ -28,8 +28,11 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks().filter(|block| block.definition.parameters_complete) {
-        for parameter in &block.keyword.parameters {
-            let Lookup::Ambiguous(candidates) = &parameter.resolved else { continue };
+        for parameter in block.keyword.parameters() {
+            let candidates = candidates(context, block, parameter);
+            if candidates.is_empty() {
+                continue;
+            }
             let names = candidates.iter().map(|index| block.definition.parameters[*index].name.as_str());
             let written = context.shown(parameter.name);
             report

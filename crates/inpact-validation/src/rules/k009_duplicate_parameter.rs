@@ -26,7 +26,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    for block in context.defined_blocks().filter(|block| block.keyword.parameters.len() > 1) {
+    for block in context.defined_blocks().filter(|block| block.keyword.parameters().len() > 1) {
         // The last place of each parameter, by its index in the definition.
         let mut earlier = vec![None; block.definition.parameters.len()];
         for given in given(block) {

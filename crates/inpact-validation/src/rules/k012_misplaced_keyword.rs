@@ -1,11 +1,11 @@
 //! K012: sub-options outside the block they belong to.
 
 use crate::placement::{runs, visible};
+use super::k002_ambiguous_keyword::candidates;
 use crate::rule::{Context, Report, declare_rule};
 use crate::suggestion::alternatives;
-use inpact_parser::deck::KeywordLine;
-use inpact_parser::grammar::Lookup;
 use inpact_parser::ProblemKind;
+use inpact_parser::deck::{KeywordLine, Resolved};
 
 declare_rule! {
     /// A sub-option is where no *SURFACE INTERACTION is open.
@@ -78,10 +78,12 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 /// Whether an unreadable keyword line is likely meant to be a *SURFACE INTERACTION.
 fn may_be_interaction(context: &Context<'_>, keyword: &KeywordLine) -> bool {
     let is_interaction = |name: &str| name == "SURFACE INTERACTION";
-    match &keyword.resolved {
-        Lookup::Exact(_) | Lookup::Abbreviated(_) => false,
-        Lookup::Ambiguous(candidates) => candidates.iter().any(|id| is_interaction(&context.grammar.keyword(*id).name)),
-        Lookup::Unknown => {
+    match keyword.resolved {
+        Resolved::Exact(_) | Resolved::Abbreviated(_) => false,
+        Resolved::Ambiguous => {
+            candidates(context, keyword).into_iter().any(|id| is_interaction(&context.grammar.keyword(id).name))
+        }
+        Resolved::Unknown => {
             let near = context.grammar.nearest_keywords(&context.deck.shown(keyword.name), 3);
             near.into_iter().any(is_interaction)
         }

@@ -1,7 +1,7 @@
 //! K015: keywords and parameters that the release does not have.
 
 use crate::rule::{Context, DefinedBlock, Report, declare_rule};
-use inpact_parser::deck::{KeywordLine, Parameter};
+use inpact_parser::deck::{KeywordLine, Parameter, Resolved};
 use inpact_parser::grammar::{Dialect, Keyword, Lookup, ParameterDefinition, Release, lookup_name};
 
 declare_rule! {
@@ -36,7 +36,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .help("leave it out, or check for the release that has it with `--release`");
     }
     for block in context.defined_blocks().filter(|block| block.definition.parameters_complete) {
-        for parameter in &block.keyword.parameters {
+        for parameter in block.keyword.parameters() {
             let Some(known) = parameter_of_other_release(context, block, parameter) else { continue };
             let (name, keyword) = (&known.name, block.name);
             report
@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 /// Only a name in full counts: what a piece of a word would mean in another release says nothing.
 pub(crate) fn keyword_of_other_release<'a>(context: &Context<'a>, keyword: &KeywordLine) -> Option<&'a Keyword> {
     let grammar = context.grammar;
-    if keyword.resolved != Lookup::Unknown || grammar.dialect() != Dialect::Abaqus {
+    if keyword.resolved != Resolved::Unknown || grammar.dialect() != Dialect::Abaqus {
         return None;
     }
     grammar.id_of(&context.deck.shown(keyword.name)).map(|id| grammar.keyword(id))
@@ -62,9 +62,9 @@ pub(crate) fn keyword_of_other_release<'a>(context: &Context<'a>, keyword: &Keyw
 pub(crate) fn parameter_of_other_release<'a>(
     context: &Context<'a>,
     block: DefinedBlock<'a>,
-    parameter: &Parameter,
+    parameter: Parameter,
 ) -> Option<&'a ParameterDefinition> {
-    if parameter.resolved != Lookup::Unknown || context.grammar.dialect() != Dialect::Abaqus {
+    if parameter.resolved != Resolved::Unknown || context.grammar.dialect() != Dialect::Abaqus {
         return None;
     }
     let written = context.deck.text(parameter.name);

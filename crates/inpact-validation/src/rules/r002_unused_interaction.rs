@@ -74,7 +74,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 fn all_uses(context: &Context<'_>) -> Vec<Use> {
     let mut uses = uses_of_interactions(context);
     for keyword in context.keyword_lines() {
-        for parameter in &keyword.parameters {
+        for parameter in keyword.parameters() {
             let name = context.deck.text(parameter.name);
             let Some(value) = parameter.value.filter(|_| name.eq_ignore_ascii_case(b"INTERACTION")) else { continue };
             // *CONTACT PAIR is among the uses already; twice does no harm.

@@ -96,11 +96,11 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 fn sets_of<'a>(context: &Context<'a>, line: &'a KeywordLine) -> impl Iterator<Item = Name> {
     let keyword = line.id().map_or("", |id| context.grammar.keyword(id).name.as_str());
     let defining = DEFINING.iter().find(|(name, _)| *name == keyword);
-    let is_name = move |parameter: &Parameter| {
+    let is_name = move |parameter: Parameter| {
         let written = context.deck.text(parameter.name).iter().filter(|byte| !byte.is_ascii_whitespace());
         let written: Vec<u8> = written.map(u8::to_ascii_uppercase).collect();
         defining.is_some_and(|(_, of)| written == of.as_bytes())
     };
-    let values = line.parameters.iter().filter_map(move |parameter| parameter.value.filter(|_| is_name(parameter)));
+    let values = line.parameters().filter_map(move |parameter| parameter.value.filter(|_| is_name(parameter)));
     values.map(|value| context.name(value)).collect::<Vec<_>>().into_iter()
 }

@@ -54,7 +54,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     // An unknown keyword that names an interaction was likely meant to be the pair.
     let meant = context.keyword_lines().filter(|line| line.id().is_none()).find(|line| {
-        line.parameters.iter().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(b"INTERACTION"))
+        line.parameters().any(|parameter| context.deck.text(parameter.name).eq_ignore_ascii_case(b"INTERACTION"))
     });
     for interaction in model.interactions.values() {
         let found = report

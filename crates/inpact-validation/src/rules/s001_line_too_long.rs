@@ -51,8 +51,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         // A character of several bytes is not cut in two.
         let first_beyond =
             (0..=LIMIT.min(line.len())).rev().find(|at| line.get(*at).is_none_or(|byte| byte & 0xC0 != 0x80));
-        let beyond = note.span.start + first_beyond.unwrap_or(LIMIT) as u64;
-        let span = Span::new(note.span.source, beyond, note.span.start + line.len() as u64);
+        let beyond = note.span.start() + first_beyond.unwrap_or(LIMIT) as u64;
+        let span = Span::new(note.span.source(), beyond, note.span.start() + line.len() as u64);
         let is_keyword_line = line.trim_ascii_start().starts_with(b"*");
         let found = report.at(span, format!("line of {} characters: Abaqus reads {LIMIT}", line.len()));
         found.label(format!("beyond character {LIMIT}"));

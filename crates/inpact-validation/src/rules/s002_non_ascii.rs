@@ -3,9 +3,9 @@
 use super::s011_not_a_deck::{Reading, reading};
 use crate::parameter;
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::deck::{LineNote, LineNoteKind};
-use inpact_parser::grammar::{Lookup, ParameterKind};
 use inpact_parser::ProblemKind;
+use inpact_parser::deck::{LineNote, LineNoteKind, Resolved};
+use inpact_parser::grammar::ParameterKind;
 use inpact_parser::span::Span;
 
 declare_rule! {
@@ -41,7 +41,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let judged = judged_elsewhere(context);
     for note in notes() {
         let Some(found) = first_non_ascii(context, note) else { continue };
-        let later = judged.partition_point(|span| (span.source, span.start) <= (found.span.source, found.span.start));
+        let later = judged.partition_point(|span| (span.source(), span.start()) <= (found.span.source(), found.span.start()));
         let is_judged = later.checked_sub(1).is_some_and(|last| judged[last].contains(found.span));
         if is_judged && note.lines == 1 {
             continue;
@@ -78,16 +78,16 @@ fn first_non_ascii(context: &Context<'_>, note: &LineNote) -> Option<NonAscii> {
         Some(character) => format!("U+{:04X}", u32::from(character)),
         None => format!("byte 0x{:02X}", line[at]),
     };
-    let start = note.span.start + at as u64;
+    let start = note.span.start() + at as u64;
     let length = character.map_or(1, char::len_utf8) as u64;
-    Some(NonAscii { span: Span::new(note.span.source, start, start + length), name })
+    Some(NonAscii { span: Span::new(note.span.source(), start, start + length), name })
 }
 
 /// The names with such characters that another rule finds wrong as a whole, in order.
 fn judged_elsewhere(context: &Context<'_>) -> Vec<Span> {
-    let unknown_names = context.keyword_lines().filter(|line| line.resolved == Lookup::Unknown).map(|line| line.name);
+    let unknown_names = context.keyword_lines().filter(|line| line.resolved == Resolved::Unknown).map(|line| line.name);
     let blocks = context.defined_blocks().filter(|block| block.definition.parameters_complete);
-    let parameters = blocks.flat_map(|block| &block.keyword.parameters);
+    let parameters = blocks.flat_map(|block| block.keyword.parameters());
     let unknown_parameters = parameters.filter(|parameter| parameter.index().is_none()).map(|parameter| parameter.name);
     let is_free = |kind| matches!(kind, ParameterKind::Label | ParameterKind::Text | ParameterKind::File);
     let values = parameter::all_given(context).filter(|given| !is_free(given.definition.kind));

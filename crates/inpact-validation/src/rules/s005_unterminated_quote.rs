@@ -39,14 +39,14 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let is_interpreted =
             !matches!(block.definition.rows(), RowShape::None | RowShape::Text | RowShape::Uninterpreted);
         // Almost no table has a quote, and then no line is cut.
-        let mut rows = std::iter::once(&block.block.rows).chain(&block.block.continued_in);
-        if !is_interpreted || !rows.any(|rows| context.deck.text(*rows).contains(&b'"')) {
+        let mut rows = block.block.all_rows();
+        if !is_interpreted || !rows.any(|rows| context.deck.text(rows).contains(&b'"')) {
             continue;
         }
         for line in context.deck.data_lines(block.block) {
             if let Some(at) = open_quote(line.text) {
-                let start = line.span.start + at as u64;
-                say(Span::new(line.span.source, start, start + 1), report);
+                let start = line.span.start() + at as u64;
+                say(Span::new(line.span.source(), start, start + 1), report);
             }
         }
     }

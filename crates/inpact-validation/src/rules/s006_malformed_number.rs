@@ -88,7 +88,7 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, span: Span, error: Number
             let mended = format!("{}E{}", text[..at].escape_ascii(), text[at..].escape_ascii());
             found.help(format!("write `{mended}`"));
             if !is_symbolic {
-                let sign = Span::new(span.source, span.start + at as u64, span.start + at as u64);
+                let sign = Span::new(span.source(), span.start() + at as u64, span.start() + at as u64);
                 let edits = vec![Edit::new(sign, *b"E")];
                 found.fix(FixSafety::ChangesMeaning, format!("write `{mended}`"), edits);
             }
@@ -113,11 +113,11 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, span: Span, error: Number
 
 /// A number that is one but for a character which is not what it looks like.
 fn say_hidden(report: &mut Report<'_>, span: Span, hidden: &Hidden, written: &[u8]) {
-    let at = span.start + hidden.start as u64;
-    let place = Span::new(span.source, at, span.start + hidden.end as u64);
+    let at = span.start() + hidden.start as u64;
+    let place = Span::new(span.source(), at, span.start() + hidden.end as u64);
     let edits = invisible::all(written).map(|hidden| {
         let range = hidden.range();
-        let span = Span::new(span.source, span.start + range.start as u64, span.start + range.end as u64);
+        let span = Span::new(span.source(), span.start() + range.start as u64, span.start() + range.end as u64);
         Edit::new(span, hidden.plain)
     });
     let mended = invisible::plain(written).escape_ascii().to_string();

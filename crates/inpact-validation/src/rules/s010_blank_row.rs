@@ -42,15 +42,15 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // After the comma of a keyword line the line that comes up would become its continuation (S-19).
     let holds_off = |problem: &Problem| {
         let keyword = problem.keyword;
-        let is_here = open.contains(&keyword) && keyword.source == problem.span.source;
-        let between = Span::new(keyword.source, keyword.end, problem.span.start.max(keyword.end));
+        let is_here = open.contains(&keyword) && keyword.source() == problem.span.source();
+        let between = Span::new(keyword.source(), keyword.end(), problem.span.start().max(keyword.end()));
         is_here && context.deck.data_lines_in(between).all(|line| line.is_blank())
     };
     for problem in context.problems.iter().filter(|problem| problem.kind == ProblemKind::BlankRow) {
         let line = problem.span;
         // The line end follows the span of the line; the longest is CR LF.
-        let after = context.deck.text(Span::new(line.source, line.end, line.end + 2));
-        let whole = Span::new(line.source, line.start, line.end + next_line(after, 0) as u64);
+        let after = context.deck.text(Span::new(line.source(), line.end(), line.end() + 2));
+        let whole = Span::new(line.source(), line.start(), line.end() + next_line(after, 0) as u64);
         let found = report.at(line, "empty line among the rows of a table");
         found
             .label("skipped")

@@ -53,7 +53,7 @@ pub(super) fn leading_lines<'a>(context: &Context<'a>) -> impl Iterator<Item = D
     let is_leading = move |block: &&Block| block.keyword.is_none() || block.keyword_id().is_some_and(is_include);
     let blocks = deck.blocks().iter().take_while(is_leading).filter(|block| block.keyword.is_none());
     let looked_at =
-        blocks.map(|block| block.rows).map(|rows| Span { end: rows.end.min(rows.start + LOOKED_AT), ..rows });
+        blocks.map(|block| block.rows).map(|rows| Span::new(rows.source(), rows.start(), rows.end().min(rows.start() + LOOKED_AT)));
     looked_at.flat_map(|rows| deck.data_lines_in(rows)).filter(|line| !line.is_blank())
 }
 
@@ -89,7 +89,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         return;
     }
     let Some(first) = leading_lines(context).next() else { return };
-    let beginning = Span::new(first.span.source, first.span.start, first.span.end.min(first.span.start + 80));
+    let beginning = Span::new(first.span.source(), first.span.start(), first.span.end().min(first.span.start() + 80));
     let found = report
         .at(beginning, "this is no deck: no line begins with `*`, and the lines are no rows of items between commas");
     found.label(label(first.text)).help(help(first.text));

@@ -1,10 +1,10 @@
-//! S016: statements of *PARAMETER that cannot be executed.
+//! S016: statements of *PARAMETER that cannot be executed, and values that cannot be substituted.
 
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::ProblemKind;
 
 declare_rule! {
-    /// A row of *PARAMETER is no statement that can be executed.
+    /// A row of *PARAMETER is no statement that can be executed, or a value of a parameter cannot be put where it is used.
     ///
     /// Rows of *PARAMETER are `name = expression`, as Python reads them: `**` is a power, and `#` begins a comment.
     ///
@@ -32,6 +32,13 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let has_unread_files = context.has_unread_files();
     for problem in context.problems {
+        if let ProblemKind::SubstitutionTooLong { bytes, most } = problem.kind {
+            report
+                .at(problem.span, format!("these {bytes} bytes become more than {most} with the values of their parameters"))
+                .label("not substituted")
+                .help("write fewer parameters here, or shorter texts into them");
+            continue;
+        }
         let ProblemKind::InvalidExpression { message, help, undefined } = &problem.kind else { continue };
         if undefined.is_some() && has_unread_files {
             // A file that was not read may define it.

@@ -81,13 +81,13 @@ fn with_point(context: &Context<'_>, division: &IntegerDivision) -> Option<Vec<E
         let text = context.deck.text(span);
         !text.is_empty() && text.iter().all(u8::is_ascii_digit)
     };
-    let insert = |at: u64, text: &str| Edit::new(Span::new(dividend.source, at, at), text);
-    if dividend.is_empty() || divisor.is_empty() || dividend.source != divisor.source || divisor.start < dividend.end {
+    let insert = |at: u64, text: &str| Edit::new(Span::new(dividend.source(), at, at), text);
+    if dividend.is_empty() || divisor.is_empty() || dividend.source() != divisor.source() || divisor.start() < dividend.end() {
         return None;
     }
     Some(match (is_integer(*dividend), is_integer(*divisor)) {
-        (true, _) => vec![insert(dividend.end, ".")],
-        (false, true) => vec![insert(divisor.end, ".")],
-        (false, false) => vec![insert(dividend.start, "float("), insert(dividend.end, ")")],
+        (true, _) => vec![insert(dividend.end(), ".")],
+        (false, true) => vec![insert(divisor.end(), ".")],
+        (false, false) => vec![insert(dividend.start(), "float("), insert(dividend.end(), ")")],
     })
 }

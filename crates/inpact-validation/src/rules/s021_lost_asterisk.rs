@@ -45,10 +45,10 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .label("an asterisk is missing")
                 .note("the rows after it are taken for rows of the option above")
                 .help("write `*` in front of it")
-                .fix(FixSafety::ChangesMeaning, "write the asterisk", vec![Edit::new(Span::new(span.source, span.start, span.start), "*")]);
+                .fix(FixSafety::ChangesMeaning, "write the asterisk", vec![Edit::new(Span::new(span.source(), span.start(), span.start()), "*")]);
             continue;
         };
-        let place = Span::new(span.source, span.start, span.start + hidden.end as u64);
+        let place = Span::new(span.source(), span.start(), span.start() + hidden.end as u64);
         report
             .at(place, format!("{} in front of `*{meant}` makes it a row", hidden.name))
             .label("an invisible character")

@@ -60,8 +60,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     let doubtful = doubtful_lines(context);
     let is_doubtful = |later: Span, earlier: Span| {
-        let after = doubtful.partition_point(|line| *line < (earlier.source, earlier.start));
-        doubtful.get(after).is_some_and(|line| *line <= (later.source, later.start))
+        let after = doubtful.partition_point(|line| *line < (earlier.source(), earlier.start()));
+        doubtful.get(after).is_some_and(|line| *line <= (later.source(), later.start()))
     };
     for (keyword, later, earlier) in duplicates {
         if !is_doubtful(later, earlier) {
@@ -78,7 +78,7 @@ fn doubtful_lines(context: &Context<'_>) -> Vec<(SourceId, u64)> {
         .defined_blocks()
         .filter(|block| matches!(block.definition.rows(), RowShape::Table) && has_unclear_parameters(block.keyword));
     let lines = unknown.chain(unclear.map(|block| block.keyword));
-    let mut lines: Vec<_> = lines.map(|keyword| (keyword.span.source, keyword.span.start)).collect();
+    let mut lines: Vec<_> = lines.map(|keyword| (keyword.span.source(), keyword.span.start())).collect();
     lines.sort_unstable();
     lines
 }

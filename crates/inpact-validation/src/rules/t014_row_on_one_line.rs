@@ -68,7 +68,7 @@ fn breaks(context: &Context<'_>, problem: &Problem) -> Option<Vec<Edit>> {
     let line_end = line_end_and_indentation(context, problem.span);
     let starts = (first..items.len()).step_by(following.max(1));
     let edit = |start: usize| {
-        let comma = Span::new(problem.span.source, items[start - 1].end, items[start].start);
+        let comma = Span::new(problem.span.source(), items[start - 1].end(), items[start].start());
         let begins_row = !context.deck.text(items[start]).starts_with(b"*");
         begins_row.then(|| Edit::new(comma, line_end.clone()))
     };
@@ -79,7 +79,7 @@ fn breaks(context: &Context<'_>, problem: &Problem) -> Option<Vec<Edit>> {
 fn line_end_and_indentation(context: &Context<'_>, row: Span) -> Vec<u8> {
     let (start, text) = context.deck.surroundings(row);
     let offset = |position: u64| usize::try_from(position.saturating_sub(start)).unwrap_or(text.len()).min(text.len());
-    let (before, after) = (&text[..offset(row.start)], &text[offset(row.end)..]);
+    let (before, after) = (&text[..offset(row.start())], &text[offset(row.end())..]);
     let mut line_end = match after.iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
         Some(at) if after[at..].starts_with(b"\r\n") => b"\r\n".to_vec(),
         Some(at) => vec![after[at]],

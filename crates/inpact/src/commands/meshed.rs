@@ -134,13 +134,13 @@ impl MeshedDeck {
 
     /// Where a span is, as compilers say it: `deck.inp:12`.
     pub(crate) fn place_of(&self, span: Span) -> Result<String, Failure> {
-        let file = self.read.deck.source(span.source).name();
+        let file = self.read.deck.source(span.source()).name();
         Ok(format!("{file}:{}", self.position(span)?.line))
     }
 
     /// Where a span is, for messages: `line 12 of `deck.inp``.
     pub(crate) fn line_of(&self, span: Span) -> Result<String, Failure> {
-        let file = self.read.deck.source(span.source).name();
+        let file = self.read.deck.source(span.source()).name();
         Ok(format!("line {} of `{file}`", self.position(span)?.line))
     }
 
@@ -156,7 +156,7 @@ impl MeshedDeck {
     /// A finding at a place in the deck; without one it is of the deck as a whole.
     pub(crate) fn finding(&self, rule: &Rule, span: Option<Span>, message: &str) -> Result<Diagnostic, Failure> {
         let mut label = Label::new(span.unwrap_or_default(), "");
-        label.file = self.read.deck.source(label.span.source).name().into();
+        label.file = self.read.deck.source(label.span.source()).name().into();
         match span {
             Some(span) => label.position = self.position(span)?,
             None => label.extent = Extent::File,
@@ -187,7 +187,7 @@ impl MeshedDeck {
     /// Says something of a place in the deck.
     fn say_note(&self, note: &MeshNote, messages: Messages<'_>) -> Result<(), Failure> {
         let (place, severity) = (self.position(note.span)?, "note");
-        let file = self.read.deck.source(note.span.source).name();
+        let file = self.read.deck.source(note.span.source()).name();
         let line = || {
             let line = format!("{file}:{}:{}: {severity}: {}", place.line, place.column, note.message);
             vec![visible_line(&line).into_owned()]
@@ -198,7 +198,7 @@ impl MeshedDeck {
                 file,
                 line: place.line,
                 column: place.column,
-                span: [note.span.start, note.span.end],
+                span: [note.span.start(), note.span.end()],
                 message: &note.message,
             };
             // A record of strings and numbers has no reason to fail.

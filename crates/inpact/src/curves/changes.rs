@@ -36,7 +36,7 @@ pub fn changes(old: &Model, new: &Model, kinds: &[LawKind]) -> Vec<String> {
             }
         }
     }
-    let gone = old.interactions.keys().filter(|name| !new.interactions.contains_key(*name));
+    let gone = old.interactions.keys().filter(|name| !new.interactions.contains_key(name));
     lines.extend(gone.map(|name| format!("{name} is gone")));
     lines
 }

@@ -84,7 +84,7 @@ fn view_factors<'a>(model: &Model, interaction: &'a Interaction) -> Option<Rows<
 
 impl<'a> Rows<'a> {
     fn of_table(table: &'a Table) -> Self {
-        Self { columns: table.columns.to_vec(), cells: (&table.values).into(), spans: table.row_spans().collect() }
+        Self { columns: table.columns.to_vec(), cells: (&*table.values).into(), spans: table.row_spans().collect() }
     }
 
     pub(super) fn width(&self) -> usize {

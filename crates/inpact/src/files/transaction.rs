@@ -61,7 +61,8 @@ impl Snapshot {
         let most = if metadata.is_file() { u64::MAX } else { MOST_OF_STREAM + 1 };
         let bytes = lines_of(&mut bounded(&mut file, Some(&metadata)).take(most)).map_err(unreadable)?;
         if most <= bytes.len() as u64 {
-            let message = format!("it is no file, and gives more than {MOST_OF_STREAM} bytes");
+            let message =
+                format!("it is no file, and gives more than {MOST_OF_STREAM} bytes: write it to a file first");
             return Err(unreadable(io::Error::new(io::ErrorKind::InvalidData, message)));
         }
         let whole = whole_path(path);

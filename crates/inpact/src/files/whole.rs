@@ -28,7 +28,11 @@ impl<R: Read> Read for Bounded<R> {
         let count = self.input.read(into)?;
         match self.left.checked_sub(count as u64) {
             Some(left) => self.left = left,
-            None => return Err(invalid(format!("it is a device, and gives more than {MOST_OF_DEVICE} bytes"))),
+            None => {
+                return Err(invalid(format!(
+                    "it is a device, and gives more than {MOST_OF_DEVICE} bytes: write it to a file first"
+                )));
+            }
         }
         Ok(count)
     }

@@ -63,11 +63,11 @@ pub(super) fn choose(
     for (found, fix) in found.iter().filter_map(|found| Some((found, selection.selects(found)?))) {
         // A source without a place would be one that was never read.
         let located: Option<Vec<(&Path, &Edit)>> =
-            fix.edits.iter().map(|edit| Some((deck.place(edit.span.source)?, edit))).collect();
+            fix.edits.iter().map(|edit| Some((deck.place(edit.span.source())?, edit))).collect();
         let Some(located) = located else { continue };
         let refused = located.iter().find_map(|(place, edit)| {
-            let reason = *refusals.entry(edit.span.source).or_insert_with(|| refusal(place));
-            Some((*place, edit.span.start, reason?))
+            let reason = *refusals.entry(edit.span.source()).or_insert_with(|| refusal(place));
+            Some((*place, edit.span.start(), reason?))
         });
         if let Some((place, start, reason)) = refused {
             let left = chosen.left.entry(place.to_owned());
@@ -81,7 +81,7 @@ pub(super) fn choose(
         }
         chosen.findings += 1;
         for (place, edit) in located {
-            taken.entry(place).or_default().insert((edit.span.start, edit.span.end));
+            taken.entry(place).or_default().insert((edit.span.start(), edit.span.end()));
             chosen.edits.entry(place.to_owned()).or_default().push(edit.clone());
         }
     }
@@ -90,7 +90,7 @@ pub(super) fn choose(
 
 /// Whether an edit touches none of those before it.
 fn is_free(taken: &Taken, edit: &Edit) -> bool {
-    let (start, end) = (edit.span.start, edit.span.end);
+    let (start, end) = (edit.span.start(), edit.span.end());
     let before = taken.range(..=(start, u64::MAX)).next_back().copied();
     let after = taken.range((start, 0)..).next().map(|(start, _)| *start);
     let is_before = before.is_none_or(|(other, other_end)| other < start && other_end <= start);

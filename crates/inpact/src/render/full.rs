@@ -28,8 +28,8 @@ pub(super) fn write(found: &Diagnostic, sources: Sources<'_>, style: Style) -> S
 
 /// The labels in the file of the primary one: an excerpt is of one file.
 fn labels(found: &Diagnostic) -> impl Iterator<Item = &Label> {
-    let source = found.primary.span.source;
-    std::iter::once(&found.primary).chain(found.secondary.iter().filter(move |label| label.span.source == source))
+    let source = found.primary.span.source();
+    std::iter::once(&found.primary).chain(found.secondary.iter().filter(move |label| label.span.source() == source))
 }
 
 /// A finding in the terms of the renderer.
@@ -92,8 +92,8 @@ impl miette::Diagnostic for Rendered<'_> {
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        let source = self.found.primary.span.source;
-        let elsewhere = self.found.secondary.iter().filter(|label| label.span.source != source);
+        let source = self.found.primary.span.source();
+        let elsewhere = self.found.secondary.iter().filter(|label| label.span.source() != source);
         let elsewhere = elsewhere.map(|label| {
             let file = self.sources.file(label);
             format!("see {file}:{}:{}: {}", label.position.line, label.position.column, label.text)

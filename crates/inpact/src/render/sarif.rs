@@ -124,7 +124,7 @@ fn location(label: &Label, sources: Sources<'_>) -> Value {
             let mut region = json!({
                 "startLine": label.position.line,
                 "startColumn": label.position.column,
-                "byteOffset": label.span.start,
+                "byteOffset": label.span.start(),
                 "byteLength": label.span.len(),
             });
             if let Some(end) = end(label, sources) {

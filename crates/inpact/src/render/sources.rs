@@ -29,14 +29,14 @@ impl<'a> Sources<'a> {
         'a: 'l,
     {
         match self {
-            Self::Deck(deck) => deck.source(label.span.source).name(),
+            Self::Deck(deck) => deck.source(label.span.source()).name(),
             Self::Data => &label.file,
         }
     }
 
     pub(super) fn shown(self, label: &Label) -> Shown {
         match self {
-            Self::Deck(deck) if deck.source(label.span.source).excerpts() == Excerpts::Shown => Shown::Yes,
+            Self::Deck(deck) if deck.source(label.span.source()).excerpts() == Excerpts::Shown => Shown::Yes,
             Self::Deck(_) => Shown::Withheld,
             Self::Data if label.lines.is_some() => Shown::Yes,
             Self::Data => Shown::No,
@@ -51,7 +51,7 @@ impl<'a> Sources<'a> {
         match (self, &label.lines) {
             (Self::Deck(deck), _) => deck.surroundings(label.span),
             (Self::Data, Some(lines)) => (lines.start, &lines.bytes),
-            (Self::Data, None) => (label.span.start, &[]),
+            (Self::Data, None) => (label.span.start(), &[]),
         }
     }
 
@@ -74,10 +74,10 @@ impl<'a> Sources<'a> {
     /// The chain of *INCLUDE of a finding, the nearest first: `deck.inp:3`; empty for the deck itself and for data.
     pub(super) fn include_chain(self, found: &Diagnostic) -> Vec<String> {
         let Self::Deck(deck) = self else { return Vec::new() };
-        let chain = deck.include_chain(found.primary.span.source);
+        let chain = deck.include_chain(found.primary.span.source());
         let places = deck.positions(&chain);
         let shown = chain.iter().zip(places);
-        shown.map(|(span, place)| format!("{}:{}", deck.source(span.source).name(), place.line)).collect()
+        shown.map(|(span, place)| format!("{}:{}", deck.source(span.source()).name(), place.line)).collect()
     }
 }
 
@@ -90,6 +90,6 @@ pub(super) fn place_of(label: &Label) -> (u64, u64) {
             let start = lines.start + (lines.line.start + blanks) as u64;
             (start, start + line.trim_ascii().len() as u64)
         }
-        _ => (label.span.start, label.span.end.max(label.span.start)),
+        _ => (label.span.start(), label.span.end().max(label.span.start())),
     }
 }

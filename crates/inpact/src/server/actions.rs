@@ -83,7 +83,7 @@ fn edit_of(view: View<'_>, fix: &Fix) -> WorkspaceEdit {
     for edit in &fix.edits {
         let new_text = String::from_utf8_lossy(&edit.replacement).into_owned();
         let text_edit = TextEdit { range: view.range(edit.span), new_text };
-        edits.entry(edit.span.source).or_default().push(text_edit);
+        edits.entry(edit.span.source()).or_default().push(text_edit);
     }
     workspace_edit(view, edits)
 }
@@ -95,12 +95,12 @@ fn silence(view: View<'_>, finding: &found::Diagnostic) -> Option<CodeAction> {
         return None;
     }
     let span = finding.primary.span;
-    let block = blocks::block_at(view.analysis, span.source, span.start)?;
+    let block = blocks::block_at(view.analysis, span.source(), span.start())?;
     let keyword = block.keyword.as_ref()?;
-    let text = view.text_of(span.source)?;
-    let (number, start) = text.line_of(keyword.span.start);
+    let text = view.text_of(span.source())?;
+    let (number, start) = text.line_of(keyword.span.start());
     let (_, line) = text.line(number);
-    let line_end = view.text(Span::new(span.source, start + line.len() as u64, start + line.len() as u64 + 2));
+    let line_end = view.text(Span::new(span.source(), start + line.len() as u64, start + line.len() as u64 + 2));
     let line_end = match &*line_end {
         [b'\r', b'\n', ..] => "\r\n",
         [b'\r', ..] => "\r",
@@ -110,7 +110,7 @@ fn silence(view: View<'_>, finding: &found::Diagnostic) -> Option<CodeAction> {
     let fix = Fix {
         title: String::new(),
         safety: FixSafety::Safe,
-        edits: vec![Edit::new(Span::new(span.source, start, start), comment)],
+        edits: vec![Edit::new(Span::new(span.source(), start, start), comment)],
     };
     let title = format!("Silence {} in this block (`** inpact: ignore {}`)", finding.code, finding.code);
     Some(quick_fix(title, Some(vec![findings::diagnostic(view, finding)]), false, edit_of(view, &fix)))
@@ -164,19 +164,19 @@ fn mend_once(analysis: &Analysis, view: View<'_>, text: &mut EditedText) -> usiz
     for fix in all.iter().filter_map(|finding| finding.fix.as_ref()).filter(|fix| fix.safety == FixSafety::Safe) {
         let overlaps = |edit: &Edit| {
             taken.iter().any(|other| {
-                (other.span.start < edit.span.end && edit.span.start < other.span.end)
-                    || other.span.start == edit.span.start
+                (other.span.start() < edit.span.end() && edit.span.start() < other.span.end())
+                    || other.span.start() == edit.span.start()
             })
         };
         // A fix is whole or not at all.
-        if fix.edits.iter().all(|edit| edit.span.source == source && !overlaps(edit)) {
+        if fix.edits.iter().all(|edit| edit.span.source() == source && !overlaps(edit)) {
             taken.extend(&fix.edits);
             mended += 1;
         }
     }
-    taken.sort_by_key(|edit| std::cmp::Reverse(edit.span.start));
+    taken.sort_by_key(|edit| std::cmp::Reverse(edit.span.start()));
     for edit in taken {
-        text.replace(edit.span.start..edit.span.end, &edit.replacement);
+        text.replace(edit.span.start()..edit.span.end(), &edit.replacement);
     }
     mended
 }

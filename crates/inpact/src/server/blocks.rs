@@ -27,11 +27,10 @@ impl<'a> Entry<'a> {
     }
 
     /// The parameter of that name that counts, the last one.
-    pub(super) fn parameter(&self, name: &str) -> Option<&'a Parameter> {
+    pub(super) fn parameter(&self, name: &str) -> Option<Parameter> {
         let definition = self.definition?;
-        let is_meant =
-            |given: &&Parameter| given.index().is_some_and(|index| definition.parameters[index].name == name);
-        self.keyword.parameters.iter().rev().find(is_meant)
+        let is_meant = |given: &Parameter| given.index().is_some_and(|index| definition.parameters[index].name == name);
+        self.keyword.parameters().rev().find(is_meant)
     }
 
     pub(super) fn is_given(&self, name: &str) -> bool {
@@ -40,13 +39,13 @@ impl<'a> Entry<'a> {
 
     /// The value of a parameter of that name, as it is written, whether the grammar has the parameter or not.
     pub(super) fn value_written(&self, view: View<'_>, name: &str) -> Option<Span> {
-        let is_meant = |given: &&Parameter| is_same(&view.text(given.name), name);
-        self.keyword.parameters.iter().rev().find(is_meant)?.value
+        let is_meant = |given: &Parameter| is_same(&view.text(given.name), name);
+        self.keyword.parameters().rev().find(is_meant)?.value
     }
 
     /// Where all of its rows are, in whatever files.
     pub(super) fn rows(&self) -> impl Iterator<Item = Span> + use<'a> {
-        std::iter::once(self.block.rows).chain(self.block.continued_in.iter().copied())
+        self.block.all_rows()
     }
 }
 
@@ -66,8 +65,8 @@ pub(super) fn entries(analysis: &Analysis) -> impl Iterator<Item = Entry<'_>> {
 
 /// The block that a byte of a document lies in; at the border of two the one that begins there.
 pub(super) fn block_at(analysis: &Analysis, source: SourceId, offset: u64) -> Option<&Block> {
-    let blocks = analysis.deck.blocks().iter().filter(|block| block.rows.source == source);
-    blocks.take_while(|block| block.span().start <= offset).last()
+    let blocks = analysis.deck.blocks().iter().filter(|block| block.rows.source() == source);
+    blocks.take_while(|block| block.span().start() <= offset).last()
 }
 
 /// The block with a keyword whose row a byte is part of, though it may stand in another file.
@@ -76,7 +75,7 @@ pub(super) fn owner_at(analysis: &Analysis, source: SourceId, offset: u64) -> Op
     if block.keyword.is_some() {
         return Entry::of(analysis, block);
     }
-    let owner = analysis.deck.blocks().iter().find(|owner| owner.continued_in.contains(&block.rows))?;
+    let owner = analysis.deck.blocks().iter().find(|owner| owner.continued_in().contains(&block.rows))?;
     Entry::of(analysis, owner)
 }
 
@@ -107,7 +106,7 @@ pub(super) fn context_at(analysis: &Analysis, source: SourceId, offset: u64) -> 
     let mut parent = None;
     for entry in entries(analysis) {
         let span = entry.keyword.span;
-        if span.source == source && offset <= span.start {
+        if span.source() == source && offset <= span.start() {
             break;
         }
         for (opens, closes, level) in LEVELS {

@@ -147,7 +147,7 @@ fn on_line<'a>(line: &DataLine<'_>, columns: &[ColumnOf<'a>], first: usize) -> V
 /// The table that a keyword line opens.
 pub(super) fn table_of<'a>(analysis: &'a Analysis, entry: &Entry<'_>) -> Option<&'a Table> {
     let opens = |table: &Table| {
-        table.keyword.source == entry.keyword.span.source && table.keyword.start == entry.keyword.span.start
+        table.keyword.source() == entry.keyword.span.source() && table.keyword.start() == entry.keyword.span.start()
     };
     analysis.model.tables().into_iter().map(|of| of.table).find(|table| opens(table))
 }

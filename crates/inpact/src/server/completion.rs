@@ -94,9 +94,9 @@ impl<'a> Place<'a> {
     /// The keyword line that begins there, as far as it can be told.
     fn entry(&self, keyword_start: u64) -> Option<Entry<'a>> {
         let begins = |entry: &Entry<'_>| {
-            entry.keyword.span.source == self.view.source
-                && entry.keyword.span.start <= keyword_start
-                && keyword_start < entry.keyword.span.end.max(entry.keyword.span.start + 1)
+            entry.keyword.span.source() == self.view.source
+                && entry.keyword.span.start() <= keyword_start
+                && keyword_start < entry.keyword.span.end().max(entry.keyword.span.start() + 1)
         };
         blocks::entries(self.view.analysis).find(begins)
     }
@@ -133,10 +133,8 @@ impl<'a> Place<'a> {
         let typed = typed.trim_ascii_start();
         let here = Span::new(self.view.source, self.offset - typed.len() as u64, self.offset);
         let is_given = |parameter: &ParameterDefinition| {
-            let others = entry.keyword.parameters.iter().filter(|given| !touches(given.name, here));
-            others
-                .filter_map(inpact_parser::deck::Parameter::index)
-                .any(|index| definition.parameters[index].name == parameter.name)
+            let others = entry.keyword.parameters().filter(|given| !touches(given.name, here));
+            others.filter_map(|given| given.index()).any(|index| definition.parameters[index].name == parameter.name)
         };
         let has_value = self.after.trim_ascii_start().first() == Some(&b'=');
         let offered = definition.parameters.iter().filter(|parameter| {
@@ -196,14 +194,14 @@ impl<'a> Place<'a> {
             return Some(parameters.map(item).collect());
         }
         let entry = blocks::owner_at(self.view.analysis, self.view.source, self.start)?;
-        if entry.keyword.span.source == self.view.source && self.start < entry.keyword.span.end {
+        if entry.keyword.span.source() == self.view.source && self.start < entry.keyword.span.end() {
             // A line that continues the keyword line.
-            let start = entry.keyword.span.start;
+            let start = entry.keyword.span.start();
             let text = self.view.text(Span::new(self.view.source, start, self.offset));
             return self.on_keyword_line(start, &text);
         }
         // A keyword line that ends in a comma goes on here as soon as there is something.
-        if entry.keyword.dangling_comma().is_some() && entry.block.rows.start == self.start && self.after.is_empty() {
+        if entry.keyword.dangling_comma().is_some() && entry.block.rows.start() == self.start && self.after.is_empty() {
             return Some(self.parameters(&entry, &self.before));
         }
         let index = memchr::memchr_iter(b',', &self.before).count();
@@ -298,7 +296,7 @@ fn markdown(value: String) -> Documentation {
 }
 
 fn touches(span: Span, other: Span) -> bool {
-    span.source == other.source && span.start <= other.end && other.start <= span.end
+    span.source() == other.source() && span.start() <= other.end() && other.start() <= span.end()
 }
 
 /// The last comma outside of quotes.

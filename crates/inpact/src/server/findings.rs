@@ -23,7 +23,7 @@ pub(super) fn by_file(workspace: &Workspace) -> BTreeMap<String, (Option<i32>, V
             }
         }
         for finding in &analysis.findings {
-            let view = View { workspace, analysis, source: finding.primary.span.source };
+            let view = View { workspace, analysis, source: finding.primary.span.source() };
             let place = analysis.place(view.source);
             let entry = files.entry(workspace.uri(place).0).or_default();
             let diagnostic = diagnostic(view, finding);
@@ -72,10 +72,10 @@ pub(super) fn diagnostic(view: View<'_>, finding: &found::Diagnostic) -> Diagnos
         }
     }
     let secondary = finding.secondary.iter().map(|label| (label.span, label.text.clone()));
-    let chain = view.analysis.deck.include_chain(finding.primary.span.source);
+    let chain = view.analysis.deck.include_chain(finding.primary.span.source());
     let chain = chain.into_iter().map(|span| (span, "included here".to_owned()));
     let related = secondary.chain(chain).map(|(span, message)| DiagnosticRelatedInformation {
-        location: Location { uri: view.uri(span.source), range: visible_range(view, span) },
+        location: Location { uri: view.uri(span.source()), range: visible_range(view, span) },
         message: if message.is_empty() { "see here".to_owned() } else { message },
     });
     let related: Vec<_> = related.collect();
@@ -101,13 +101,13 @@ fn page_of(code: &str) -> Option<Uri> {
 
 /// A span without the line end at its end: an editor underlines what is there.
 fn visible_range(view: View<'_>, span: Span) -> Range {
-    let trimmed = view.text_of(span.source).map_or(span.len(), |text| {
-        let bytes = text.bytes(span.start..span.end);
+    let trimmed = view.text_of(span.source()).map_or(span.len(), |text| {
+        let bytes = text.bytes(span.start()..span.end());
         // Of a long span only the end matters.
         bytes.trim_ascii_end().len() as u64
     });
-    let end = if trimmed == 0 { span.end } else { span.start + trimmed };
-    view.range(Span::new(span.source, span.start, end))
+    let end = if trimmed == 0 { span.end() } else { span.start() + trimmed };
+    view.range(Span::new(span.source(), span.start(), end))
 }
 
 /// A configuration that is no good, shown where it begins.
@@ -124,7 +124,8 @@ fn of_configuration(message: &str) -> Diagnostic {
 
 /// The findings of a deck that are in one of its files and touch some bytes of it.
 pub(super) fn touching(analysis: &Analysis, bytes: Span) -> impl Iterator<Item = &found::Diagnostic> {
-    let touches = move |span: Span| span.source == bytes.source && span.start <= bytes.end && bytes.start <= span.end;
+    let touches =
+        move |span: Span| span.source() == bytes.source() && span.start() <= bytes.end() && bytes.start() <= span.end();
     analysis.findings.iter().filter(move |finding| touches(finding.primary.span))
 }
 

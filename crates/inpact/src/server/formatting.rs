@@ -33,14 +33,14 @@ fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
     let mut scanner = Scanner::new("", ScanOptions { grammar, keep: Keep::Interpreted });
     text.push_watched(&mut scanner, &|| view.workspace.stop.look());
     let deck = scanner.finish();
-    let touches = |edit: &Edit| edit.span.start <= selected.end && selected.start <= edit.span.end;
+    let touches = |edit: &Edit| edit.span.start() <= selected.end() && selected.start() <= edit.span.end();
     let edits = format_edits(&deck, SourceId::ROOT, grammar).into_iter().filter(touches);
     edits.map(|edit| narrowed(view, edit)).collect()
 }
 
 /// An edit without the lines at its beginning and at its end that stay as they are.
 fn narrowed(view: View<'_>, edit: Edit) -> TextEdit {
-    let before = view.text(Span::new(view.source, edit.span.start, edit.span.end)).into_owned();
+    let before = view.text(Span::new(view.source, edit.span.start(), edit.span.end())).into_owned();
     let after = edit.replacement;
     let same_lines = |lengths: &mut dyn Iterator<Item = (u8, u8)>, is_end: fn(u8) -> bool| {
         let mut same = 0;
@@ -61,7 +61,7 @@ fn narrowed(view: View<'_>, edit: Edit) -> TextEdit {
     let mut from_end = rest.0.iter().rev().copied().zip(rest.1.iter().rev().copied());
     // Counted from the end, a line begins after the line end before it.
     let end = same_lines(&mut from_end, |byte| byte == b'\n').saturating_sub(1);
-    let span = Span::new(view.source, edit.span.start + start as u64, edit.span.end - end as u64);
+    let span = Span::new(view.source, edit.span.start() + start as u64, edit.span.end() - end as u64);
     let new_text = String::from_utf8_lossy(&after[start..after.len() - end]).into_owned();
     TextEdit { range: view.range(span), new_text }
 }

@@ -23,7 +23,7 @@ pub(super) fn hints(workspace: &mut Workspace, params: &InlayHintParams) -> Resu
     let mut hints = Vec::new();
     for entry in blocks::entries(view.analysis) {
         let span = entry.block.span();
-        if span.source != view.source || shown.end < span.start || span.end < shown.start {
+        if span.source() != view.source || shown.end() < span.start() || span.end() < shown.start() {
             continue;
         }
         hints.extend(names_of_columns(view, &entry));
@@ -50,7 +50,7 @@ fn names_of_columns(view: View<'_>, entry: &blocks::Entry<'_>) -> Vec<InlayHint>
         padding_right: Some(true),
         ..hint_at(view.range(cell.span).start)
     };
-    first.filter(|cell| cell.span.source == view.source && !cell.span.is_empty()).map(hint).collect()
+    first.filter(|cell| cell.span.source() == view.source && !cell.span.is_empty()).map(hint).collect()
 }
 
 fn tooltip(column: ColumnOf<'_>) -> String {
@@ -65,13 +65,13 @@ fn values(view: View<'_>, shown: Span) -> Vec<InlayHint> {
         return Vec::new();
     }
     let Some(text) = view.text_of(view.source) else { return Vec::new() };
-    let (_, start) = text.line_of(shown.start);
-    let part = Span::new(view.source, start, shown.end.min(start + MOST_BYTES));
+    let (_, start) = text.line_of(shown.start());
+    let part = Span::new(view.source, start, shown.end().min(start + MOST_BYTES));
     let mut hints = Vec::new();
     for (line, bytes) in view.lines(part) {
         for reference in references(&bytes) {
             let Some(value) = parameters.value(reference.name) else { continue };
-            let end = line.start + reference.range.end as u64;
+            let end = line.start() + reference.range.end as u64;
             let position = view.range(Span::new(view.source, end, end)).start;
             hints.push(InlayHint {
                 label: Label::String(format!("= {value}")),
@@ -103,10 +103,10 @@ pub(super) fn lenses(workspace: &mut Workspace, params: &CodeLensParams) -> Resu
     let mut lenses = Vec::new();
     for of in view.analysis.model.tables() {
         let keyword = of.table.keyword;
-        if keyword.source != view.source {
+        if keyword.source() != view.source {
             continue;
         }
-        let range = view.range(Span::new(keyword.source, keyword.start, keyword.start));
+        let range = view.range(Span::new(keyword.source(), keyword.start(), keyword.start()));
         // A command without a name is a text that nothing happens at, unless the editor has a command that draws what the argument names.
         let arguments = drawing(view, &of).map(|drawing| vec![drawing]);
         let command = Command { title: shape(of.table), tooltip: None, command: String::new(), arguments };
@@ -131,10 +131,10 @@ fn drawing(view: View<'_>, of: &TableOf<'_>) -> Option<Value> {
         TableKind::ViewFactor => "view-factor",
         _ => return None,
     };
-    let block = blocks::block_at(view.analysis, view.source, of.table.keyword.start)?;
+    let block = blocks::block_at(view.analysis, view.source, of.table.keyword.start())?;
     // The end of a block is where the next one begins.
     let span = block.span();
-    let lines = view.range(Span::new(view.source, span.start, span.end.saturating_sub(1).max(span.start)));
+    let lines = view.range(Span::new(view.source, span.start(), span.end().saturating_sub(1).max(span.start())));
     let lines = [lines.start.line, lines.end.line];
     Some(json!({"interaction": interaction.name.to_string(), "law": law, "lines": lines}))
 }

@@ -33,7 +33,7 @@ fn page_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
         return Some(found);
     }
     let entry = blocks::owner_at(view.analysis, view.source, offset)?;
-    if touches(entry.keyword.span, view, offset) && offset < entry.keyword.span.end {
+    if touches(entry.keyword.span, view, offset) && offset < entry.keyword.span.end() {
         return on_keyword_line(view, &entry, offset);
     }
     if let Some(found) = interaction(view, offset) {
@@ -46,7 +46,7 @@ fn page_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
 }
 
 fn touches(span: Span, view: View<'_>, offset: u64) -> bool {
-    span.source == view.source && span.start <= offset && offset <= span.end
+    span.source() == view.source && span.start() <= offset && offset <= span.end()
 }
 
 /// `** inpact: ignore T005`: the page of the rule.
@@ -60,10 +60,10 @@ fn directive(view: View<'_>, offset: u64) -> Option<(Span, String)> {
 /// The bytes around a place that are of a kind.
 fn word_at(view: View<'_>, within: Span, offset: u64, is_part: fn(&u8) -> bool) -> Option<Span> {
     let text = view.text(within);
-    let at = usize::try_from(offset - within.start).ok()?;
+    let at = usize::try_from(offset - within.start()).ok()?;
     let before = text.get(..at)?.iter().rev().take_while(|byte| is_part(byte)).count();
     let after = text.get(at..)?.iter().take_while(|byte| is_part(byte)).count();
-    (before + after > 0).then(|| Span::new(within.source, offset - before as u64, offset + after as u64))
+    (before + after > 0).then(|| Span::new(within.source(), offset - before as u64, offset + after as u64))
 }
 
 /// `<name>`: its value, and where that comes from.
@@ -98,19 +98,19 @@ pub(super) fn parameter_at(view: View<'_>, offset: u64) -> Option<(Span, String)
 /// A place in words: file and line.
 fn place_of(view: View<'_>, span: Span) -> String {
     let line = view.range(span).start.line + 1;
-    let place = view.analysis.place(span.source);
+    let place = view.analysis.place(span.source());
     let name =
         place.file_name().map_or_else(|| place.display().to_string(), |name| name.to_string_lossy().into_owned());
-    format!("[{name}:{line}]({}#L{line})", view.uri(span.source).0)
+    format!("[{name}:{line}]({}#L{line})", view.uri(span.source()).0)
 }
 
 fn on_keyword_line(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<(Span, String)> {
-    let given = entry.keyword.parameters.iter().find(|given| touches(given.span(), view, offset));
+    let given = entry.keyword.parameters().find(|given| touches(given.span(), view, offset));
     if let Some(given) = given {
         return interaction(view, offset).or_else(|| on_parameter(entry, given));
     }
     let span = entry.keyword.name;
-    if !touches(span, view, offset) && offset + 1 != span.start {
+    if !touches(span, view, offset) && offset + 1 != span.start() {
         return None;
     }
     let text = match entry.definition {
@@ -120,7 +120,7 @@ fn on_keyword_line(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<(Sp
     Some((span, text))
 }
 
-fn on_parameter(entry: &Entry<'_>, given: &Parameter) -> Option<(Span, String)> {
+fn on_parameter(entry: &Entry<'_>, given: Parameter) -> Option<(Span, String)> {
     let definition = entry.definition?;
     let parameter = &definition.parameters[given.index()?];
     let text = format!("*{}\n\n{}\nSource: {}", definition.name, page::parameter_item(parameter), parameter.source);
@@ -166,7 +166,7 @@ fn interaction(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     let uses: Vec<_> = uses.into_iter().filter(|occurrence| !occurrence.is_definition).collect();
     text += if uses.is_empty() { "\nUsed nowhere in this deck\n" } else { "\nUsed by:\n" };
     for used in &uses {
-        let entry = blocks::owner_at(view.analysis, used.span.source, used.span.start);
+        let entry = blocks::owner_at(view.analysis, used.span.source(), used.span.start());
         let keyword = entry.map_or("", |entry| entry.name);
         text += &format!("- *{keyword} at {}\n", place_of(view, used.span));
     }
@@ -197,7 +197,8 @@ fn cell_page(view: View<'_>, entry: &Entry<'_>, cell: &Cell<'_>) -> String {
 
 /// Row, group and value of a cell of a table.
 fn in_table(view: View<'_>, entry: &Entry<'_>, table: &Table, cell: &Cell<'_>) -> String {
-    let holds = |row: Span| row.contains(cell.span) || (row.source == cell.span.source && row.start == cell.span.start);
+    let holds =
+        |row: Span| row.contains(cell.span) || (row.source() == cell.span.source() && row.start() == cell.span.start());
     let Some(row) = table.row_spans().position(holds) else { return String::new() };
     let mut text = String::new();
     let (value, written) = (table.row(row).get(cell.index).copied(), view.shown(cell.span));

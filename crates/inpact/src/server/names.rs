@@ -146,7 +146,7 @@ fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'
         }
         let in_part = open.iter().rev().find(|(level, _)| matches!(level, Level::Part | Level::Instance));
         let scope = in_part.map_or("", |(_, name)| name.as_str());
-        for given in &entry.keyword.parameters {
+        for given in entry.keyword.parameters() {
             let meaning = meaning_of_value(entry.name, &view.text(given.name));
             if let (Some(value), Some(meaning)) = (given.value, meaning) {
                 take(meaning, &entry, &view.text(value), value, scope);
@@ -171,7 +171,8 @@ fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'
                     {
                         continue;
                     }
-                    let span = Span::new(line.source, line.start + range.start as u64, line.start + range.end as u64);
+                    let span =
+                        Span::new(line.source(), line.start() + range.start as u64, line.start() + range.end as u64);
                     if let Some(meaning) = meaning_of_item(&entry, view, index) {
                         take(meaning, &entry, item, span, scope);
                     }
@@ -192,7 +193,7 @@ fn last_part(text: &[u8], span: Span) -> (String, Span) {
         }
     }
     let part = String::from_utf8_lossy(&text[from..]).into_owned();
-    (part, Span::new(span.source, span.start + from as u64, span.end))
+    (part, Span::new(span.source(), span.start() + from as u64, span.end()))
 }
 
 /// Everything of that kind and name: definitions and uses, in the order of the deck.
@@ -228,7 +229,7 @@ pub(super) fn occurrences(view: View<'_>, kind: Kind, name: &Name) -> Vec<Occurr
 /// A file that is included twice has each of its names twice.
 fn once_each(mut found: Vec<Occurrence>) -> Vec<Occurrence> {
     let mut seen = BTreeSet::new();
-    found.retain(|occurrence| seen.insert((occurrence.span.source, occurrence.span.start)));
+    found.retain(|occurrence| seen.insert((occurrence.span.source(), occurrence.span.start())));
     found
 }
 
@@ -240,7 +241,7 @@ fn occurrences_of_parameter(view: View<'_>, name: &Name) -> Vec<Occurrence> {
         found.push(Occurrence { kind: Kind::Parameter, name, span, is_definition, is_guess: false, scope });
     };
     let part = |line: Span, range: std::ops::Range<usize>| {
-        Span::new(line.source, line.start + range.start as u64, line.start + range.end as u64)
+        Span::new(line.source(), line.start() + range.start as u64, line.start() + range.end as u64)
     };
     for block in view.analysis.deck.blocks() {
         let entry = Entry::of(view.analysis, block);
@@ -280,20 +281,20 @@ fn inner(text: &[u8], range: std::ops::Range<usize>, line: Span) -> Span {
     let within = &text[range.start + 1..range.end - 1];
     let start = range.start + 1 + (within.len() - within.trim_ascii_start().len());
     let end = start + within.trim_ascii().len();
-    Span::new(line.source, line.start + start as u64, line.start + end as u64)
+    Span::new(line.source(), line.start() + start as u64, line.start() + end as u64)
 }
 
 /// The name at a place, as what it is there.
 pub(super) fn at(view: View<'_>, offset: u64) -> Option<Occurrence> {
     if let Some((span, name)) = parameter_at(view, offset) {
-        let inner = Span::new(span.source, span.start + 1, span.end - 1);
+        let inner = Span::new(span.source(), span.start() + 1, span.end() - 1);
         return Some(of_parameter(&name, inner));
     }
     let entry = blocks::owner_at(view.analysis, view.source, offset)?;
     let dialect = view.analysis.settings.grammar.dialect();
-    let touches = |span: Span| span.source == view.source && span.start <= offset && offset <= span.end;
-    let (text, span, meaning) = if offset < entry.keyword.span.end && touches(entry.keyword.span) {
-        let given = entry.keyword.parameters.iter().find(|given| given.value.is_some_and(touches))?;
+    let touches = |span: Span| span.source() == view.source && span.start() <= offset && offset <= span.end();
+    let (text, span, meaning) = if offset < entry.keyword.span.end() && touches(entry.keyword.span) {
+        let given = entry.keyword.parameters().find(|given| given.value.is_some_and(touches))?;
         let value = given.value?;
         (view.text(value).into_owned(), value, meaning_of_value(entry.name, &view.text(given.name))?)
     } else {

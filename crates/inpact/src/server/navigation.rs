@@ -34,7 +34,8 @@ pub(super) fn definition(
 /// The file that the *INCLUDE at a place names.
 fn included_at(view: View<'_>, offset: u64) -> Option<SourceId> {
     view.analysis.deck.includes().iter().find_map(|include| {
-        let name = include.name.filter(|name| name.source == view.source && name.start <= offset && offset <= name.end);
+        let name =
+            include.name.filter(|name| name.source() == view.source && name.start() <= offset && offset <= name.end());
         match include.outcome {
             IncludeOutcome::Read(source) => name.map(|_| source),
             _ => None,
@@ -61,7 +62,7 @@ pub(super) fn highlights(
     let (view, found) = found_at(workspace, &params.text_document_position_params)?;
     let Some(found) = found else { return Ok(None) };
     let here = names::occurrences(view, found.kind, &found.name).into_iter();
-    let here = here.filter(|other| other.span.source == view.source).map(|other| DocumentHighlight {
+    let here = here.filter(|other| other.span.source() == view.source).map(|other| DocumentHighlight {
         range: view.range(other.span),
         kind: Some(if other.is_definition { DocumentHighlightKind::Write } else { DocumentHighlightKind::Read }),
     });
@@ -99,7 +100,7 @@ pub(super) fn rename(workspace: &mut Workspace, params: &RenameParams) -> Result
     let mut edits: BTreeMap<SourceId, Vec<TextEdit>> = BTreeMap::new();
     for other in names::occurrences(view, found.kind, &found.name) {
         let edit = TextEdit { range: view.range(other.span), new_text: new_name.to_owned() };
-        edits.entry(other.span.source).or_default().push(edit);
+        edits.entry(other.span.source()).or_default().push(edit);
     }
     Ok(Some(workspace_edit(view, edits)))
 }
@@ -191,7 +192,7 @@ pub(super) fn links(
 ) -> Result<Option<Vec<DocumentLink>>, Refusal> {
     let view = requests::view(workspace, &params.text_document)?;
     let links = view.analysis.deck.includes().iter().filter_map(|include| {
-        let name = include.name.filter(|name| name.source == view.source)?;
+        let name = include.name.filter(|name| name.source() == view.source)?;
         let IncludeOutcome::Read(source) = include.outcome else { return None };
         let place = view.analysis.place(source).display().to_string();
         Some(DocumentLink { range: view.range(name), target: Some(view.uri(source)), tooltip: Some(place), data: None })

@@ -39,7 +39,7 @@ fn tree(view: View<'_>) -> Vec<Node<'_>> {
     let grammar = view.analysis.settings.grammar;
     let mut roots: Vec<Node<'_>> = Vec::new();
     let mut open: Vec<Node<'_>> = Vec::new();
-    for entry in blocks::entries(view.analysis).filter(|entry| entry.keyword.span.source == view.source) {
+    for entry in blocks::entries(view.analysis).filter(|entry| entry.keyword.span.source() == view.source) {
         let is_option = entry.keyword.id().is_some_and(|id| grammar.is_interaction_option(id));
         let is_in_interaction = open.last().is_some_and(|node| node.opens == Opens::Interaction);
         if is_in_interaction && !is_option && !matches!(entry.name, "INCLUDE" | "PARAMETER") {
@@ -163,19 +163,19 @@ fn fold(view: View<'_>, node: &Node<'_>, ranges: &mut Vec<FoldingRange>) {
 
 /// A span without blanks, line ends and whole lines of comments at its end: what stands before the next block belongs to that.
 fn trimmed(view: View<'_>, span: Span) -> Span {
-    let Some(text) = view.text_of(span.source) else { return span };
-    let mut end = span.end;
-    while end > span.start {
+    let Some(text) = view.text_of(span.source()) else { return span };
+    let mut end = span.end();
+    while end > span.start() {
         let (number, start) = text.line_of(end - 1);
         let (_, line) = text.line(number);
-        let is_over = start > span.start && matches!(line_kind(line), LineKind::Comment | LineKind::Blank);
+        let is_over = start > span.start() && matches!(line_kind(line), LineKind::Comment | LineKind::Blank);
         if !is_over {
             let content = start + line.trim_ascii_end().len() as u64;
-            return Span::new(span.source, span.start, content.min(end).max(span.start));
+            return Span::new(span.source(), span.start(), content.min(end).max(span.start()));
         }
         end = start;
     }
-    Span::new(span.source, span.start, end)
+    Span::new(span.source(), span.start(), end)
 }
 
 pub(super) fn selection(
@@ -192,12 +192,12 @@ pub(super) fn selection(
 fn selection_at(view: View<'_>, tree: &[Node<'_>], offset: u64) -> SelectionRange {
     let mut spans = vec![super::findings::whole(view, view.source)];
     let mut nodes = tree;
-    while let Some(node) = nodes.iter().find(|node| node.span.start <= offset && offset <= node.span.end) {
+    while let Some(node) = nodes.iter().find(|node| node.span.start() <= offset && offset <= node.span.end()) {
         spans.push(trimmed(view, node.span));
         let block = node.entry.block;
-        if node.children.iter().all(|child| offset < child.span.start || child.span.end < offset) {
+        if node.children.iter().all(|child| offset < child.span.start() || child.span.end() < offset) {
             spans.push(trimmed(view, block.span()));
-            if block.rows.start <= offset {
+            if block.rows.start() <= offset {
                 spans.push(trimmed(view, block.rows));
                 spans.extend(group_at(view, &node.entry, offset));
             }
@@ -215,7 +215,7 @@ fn selection_at(view: View<'_>, tree: &[Node<'_>], offset: u64) -> SelectionRang
         // On *CONTACT PAIR, INTERACTION=X the name by itself as well.
         spans.extend(names::at(view, offset).map(|found| found.span));
     }
-    let holds = |span: &Span| span.start <= offset && offset <= span.end;
+    let holds = |span: &Span| span.start() <= offset && offset <= span.end();
     let ranges = spans.into_iter().filter(holds).map(|span| view.range(span));
     let mut selection: Option<SelectionRange> = None;
     for range in ranges {
@@ -234,9 +234,10 @@ fn is_within(inner: Range, outer: Range) -> bool {
 /// The group of a table that a place lies in.
 fn group_at(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<Span> {
     let table = cells::table_of(view.analysis, entry)?;
-    let row =
-        table.row_spans().position(|row| row.source == view.source && row.start <= offset && offset <= row.end)?;
+    let row = table
+        .row_spans()
+        .position(|row| row.source() == view.source && row.start() <= offset && offset <= row.end())?;
     let group = table.groups().find(|group| group.contains(&row))?;
     let (first, last) = (table.row_span(group.start), table.row_span(group.end - 1));
-    (first.source == view.source && last.source == view.source).then(|| first.to(last))
+    (first.source() == view.source && last.source() == view.source).then(|| first.to(last))
 }

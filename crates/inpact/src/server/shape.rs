@@ -47,7 +47,7 @@ mod tests {
 
     fn check(columns: &[&str], values: &[f64], expected: &str) {
         let columns: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
-        let table = Table { columns: columns.into(), values: values.to_vec(), ..Table::default() };
+        let table = Table { columns: columns.into(), values: values.into(), ..Table::default() };
         assert_eq!(shape(&table), expected);
     }
 

@@ -3,7 +3,7 @@
 //! Made from the example that the grammar has for each keyword, which is checked by a test: rows of a snippet are legal rows.
 
 use inpact_parser::deck::lines::without_line_end;
-use inpact_parser::deck::{Block, Deck, scan};
+use inpact_parser::deck::{Block, Deck, KeywordLine, scan};
 use inpact_parser::grammar::{Definition, Grammar, ParameterDefinition, ParameterKind, RowShape};
 use inpact_parser::span::Span;
 
@@ -54,7 +54,7 @@ struct Snippet {
 impl Snippet {
     fn keyword(&mut self, deck: &Deck, block: &Block, definition: &Definition) {
         self.text += &format!("*{}", definition.name);
-        let given = block.keyword.iter().flat_map(|keyword| &keyword.parameters);
+        let given = block.keyword.iter().flat_map(KeywordLine::parameters);
         for parameter in given {
             let name = parameter
                 .index()
@@ -69,16 +69,16 @@ impl Snippet {
 
     /// A row whose items are places to fill in, with what stands between them.
     fn row(&mut self, deck: &Deck, line: Span, text: &[u8], items: impl Iterator<Item = Span>) {
-        let mut from = line.start;
+        let mut from = line.start();
         for item in items {
-            self.text += &escaped(&deck.shown(Span::new(line.source, from, item.start)));
+            self.text += &escaped(&deck.shown(Span::new(line.source(), from, item.start())));
             if !item.is_empty() {
                 self.place(&deck.shown(item));
             }
-            from = item.end;
+            from = item.end();
         }
-        let end = line.start + without_line_end(text).len() as u64;
-        self.text += escaped(&deck.shown(Span::new(line.source, from, end))).trim_end();
+        let end = line.start() + without_line_end(text).len() as u64;
+        self.text += escaped(&deck.shown(Span::new(line.source(), from, end))).trim_end();
     }
 
     fn place(&mut self, text: &str) {

@@ -47,7 +47,8 @@ pub(super) fn range(
 }
 
 fn tokens(view: View<'_>, shown: Span) -> SemanticTokens {
-    let is_shown = |span: Span| span.source == view.source && span.start <= shown.end && shown.start <= span.end;
+    let is_shown =
+        |span: Span| span.source() == view.source && span.start() <= shown.end() && shown.start() <= span.end();
     let mut found: Vec<(Span, u32)> = Vec::new();
     for entry in blocks::entries(view.analysis) {
         if is_shown(entry.keyword.span) {
@@ -60,17 +61,17 @@ fn tokens(view: View<'_>, shown: Span) -> SemanticTokens {
     }
     found.extend(view.analysis.deck.directives().iter().map(|span| (*span, DIRECTIVE)));
     found.retain(|(span, _)| is_shown(*span) && !span.is_empty());
-    found.sort_by_key(|(span, _)| span.start);
-    found.dedup_by_key(|(span, _)| span.start);
+    found.sort_by_key(|(span, _)| span.start());
+    found.dedup_by_key(|(span, _)| span.start());
     encoded(view, &found)
 }
 
 fn on_keyword_line(entry: &Entry<'_>, found: &mut Vec<(Span, u32)>) {
     let name = entry.keyword.name;
     // With its asterisk, where that stands right before it.
-    let start = name.start.saturating_sub(1).max(entry.keyword.span.start);
-    found.push((Span::new(name.source, start, name.end), KEYWORD));
-    for given in &entry.keyword.parameters {
+    let start = name.start().saturating_sub(1).max(entry.keyword.span.start());
+    found.push((Span::new(name.source(), start, name.end()), KEYWORD));
+    for given in entry.keyword.parameters() {
         found.push((given.name, PARAMETER));
         let kind = given.index().and_then(|index| Some(entry.definition?.parameters[index].kind));
         let is_number = matches!(kind, Some(ParameterKind::Integer | ParameterKind::Float));

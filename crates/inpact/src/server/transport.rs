@@ -104,7 +104,8 @@ fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Can
                 Incoming::Nonsense { id: None, code: ErrorCode::ParseError, reason }
             }
             Body::TooLong(length) => {
-                let reason = format!("a message of {length} bytes is longer than any that is read");
+                let reason =
+                    format!("a message of {length} bytes is longer than {LONGEST_MESSAGE}, the most that is read");
                 Incoming::Nonsense { id: None, code: ErrorCode::InvalidRequest, reason }
             }
         };
@@ -340,7 +341,7 @@ mod tests {
 
     #[test]
     fn an_input_that_breaks_off_ends() {
-        let too_long = "nonsense: a message of 99999999999 bytes is longer than any that is read";
+        let too_long = "nonsense: a message of 99999999999 bytes is longer than 4294967296, the most that is read";
         check(b"Content-Length: 99999999999\r\n\r\n{}", &[too_long]);
         check(b"Content-Length: 9999\r\n\r\n{}", &[]);
         check(b"Content-Length: 10\r\n\r\n{}", &[]);

@@ -309,14 +309,14 @@ impl<'a> View<'a> {
     /// A span as the editor counts it.
     pub(super) fn range(&self, span: Span) -> Range {
         self.workspace.stop.look();
-        let text = self.text_of(span.source);
-        text.map(|text| self.workspace.range_in(text, span.start, span.end)).unwrap_or_default()
+        let text = self.text_of(span.source());
+        text.map(|text| self.workspace.range_in(text, span.start(), span.end())).unwrap_or_default()
     }
 
     /// The bytes of a span, kept by the deck or not.
     pub(super) fn text(&self, span: Span) -> Cow<'a, [u8]> {
         self.workspace.stop.look();
-        self.text_of(span.source).map_or(Cow::Borrowed(&[]), |text| text.bytes(span.start..span.end))
+        self.text_of(span.source()).map_or(Cow::Borrowed(&[]), |text| text.bytes(span.start()..span.end()))
     }
 
     /// The text of a span for a person to read.
@@ -332,15 +332,15 @@ impl<'a> View<'a> {
         let of = |range: std::ops::Range<usize>| {
             self.workspace.stop.look();
             let line = without_line_end(&bytes[range.clone()]);
-            let start = rows.start + range.start as u64;
-            (Span::new(rows.source, start, start + line.len() as u64), line.to_vec())
+            let start = rows.start() + range.start as u64;
+            (Span::new(rows.source(), start, start + line.len() as u64), line.to_vec())
         };
         found.map(of).collect()
     }
 
     /// A place as the editor names it.
     pub(super) fn location(&self, span: Span) -> Location {
-        Location { uri: self.uri(span.source), range: self.range(span) }
+        Location { uri: self.uri(span.source()), range: self.range(span) }
     }
 
     /// The name in the editor of one of the files of the deck.

@@ -24,12 +24,8 @@ impl Reader<'_> {
         let value = number.value();
         if !((1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0) {
             let message = format!("`conditions.step` is {}", self.written(number));
-            self.report(
-                &MALFORMED_SCENE,
-                number.span().start,
-                message,
-                "give the number of a step of the deck, from 1",
-            );
+            let help = format!("give the number of a step of the deck, from 1 to {MOST_STEPS:.0} at most");
+            self.report(&MALFORMED_SCENE, number.span().start, message, &help);
             return None;
         }
         #[expect(

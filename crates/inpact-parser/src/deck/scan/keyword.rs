@@ -1,7 +1,8 @@
 //! Keyword lines of a scan: their keyword, their parameters, and the lines that continue them (S-19).
 
 use crate::deck::lines::{LineKind, line_kind};
-use crate::deck::{KeywordLine, Parameter, items, keyword_line};
+use crate::deck::parameter::PlacedParameter;
+use crate::deck::{KeywordLine, items, keyword_line};
 use crate::grammar::{Dialect, Grammar, KeywordId, Lookup, RowShape, ValueUse};
 use crate::span::{SourceId, Span};
 use std::num::NonZeroU32;
@@ -90,16 +91,15 @@ pub(super) fn resolve(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) 
         Lookup::Exact(id) | Lookup::Abbreviated(id) => grammar.keyword(id).definition(),
         Lookup::Ambiguous(_) | Lookup::Unknown => None,
     };
-    let parameters = pieces.parameters.into_iter().map(|parameter| Parameter {
-        resolved: definition
-            .map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()])),
-        name: span(parameter.name),
-        value: parameter.value.map(span),
+    let parameters = pieces.parameters.into_iter().map(|parameter| {
+        let resolved =
+            definition.map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()]));
+        PlacedParameter::new(parameter.name, parameter.value, resolved)
     });
     KeywordLine {
         span: span(0..text.len()),
         name: span(pieces.name),
-        resolved,
+        resolved: resolved.into(),
         parameters: parameters.collect(),
         open_quote: pieces.unterminated_quote.and_then(point),
         last_comma: pieces.final_comma.and_then(point),

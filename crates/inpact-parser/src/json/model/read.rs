@@ -44,7 +44,7 @@ pub fn read(text: &str) -> Result<Model, Error> {
         if model.interactions.contains_key(&interaction.name) {
             return Err(Error::json(path, "duplicate interaction"));
         }
-        model.interactions.insert(interaction.name.clone(), interaction);
+        model.interactions.insert(interaction);
     }
     model.contact_pairs = document.contact_pairs.into_iter().map(ContactPairDocument::into_model).collect();
     model.property_assignments =
@@ -99,8 +99,8 @@ impl InteractionDocument {
         let [start, end] = self.span;
         let mut interaction = Interaction::new(Name::new(&self.name), Span::new(SourceId::ROOT, start, end));
         interaction.thickness = self.thickness;
-        interaction.parameters = given_parameters(self.parameters);
-        interaction.properties = self.properties;
+        interaction.parameters = given_parameters(self.parameters).into();
+        interaction.properties = self.properties.into();
         let electrical = self.gap_electrical_conductance;
         interaction.gap_electrical_conductance = electrical
             .map(|law| law.into_model(&format!("{path}.gap_electrical_conductance")).map(Box::new))
@@ -164,7 +164,7 @@ impl ElectricalDocument {
             user: self.user.then(Span::default),
             clearance: table(self.clearance, "clearance")?,
             pressure: table(self.pressure, "pressure")?,
-            kind: self.kind,
+            kind: self.kind.map(Into::into),
         })
     }
 }
@@ -212,6 +212,7 @@ impl TableDocument {
             }
             table.unwritten = dependencies - listed;
         }
+        let (mut values, mut texts) = (Vec::new(), Vec::new());
         for (index, row) in self.rows.into_iter().enumerate() {
             if row.len() != table.width() {
                 let message = format!("{} items in a table of {} columns", row.len(), table.width());
@@ -219,10 +220,11 @@ impl TableDocument {
             }
             for cell in row {
                 let value = cell.value();
-                table.texts.extend(written((table.values.len(), cell)));
-                table.values.push(value);
+                texts.extend(written((values.len(), cell)));
+                values.push(value);
             }
         }
+        (table.values, table.texts) = (values.into(), texts.into());
         Ok(table)
     }
 
@@ -279,7 +281,7 @@ impl ProcedureDocument {
             rows: self.rows,
         };
         if self.step > MOST_STEPS {
-            let message = format!("a deck has {MOST_STEPS} steps at most here");
+            let message = format!("expected the number of a step from 0 to {MOST_STEPS}, found {}", self.step);
             return Err(Error::json(format!("procedures[{index}].step"), message));
         }
         let procedure = Procedure { step: self.step, option };

@@ -32,10 +32,10 @@ impl From<&Interaction> for InteractionDocument {
     fn from(interaction: &Interaction) -> Self {
         Self {
             name: interaction.name.written().to_owned(),
-            span: [interaction.span.start, interaction.span.end],
+            span: [interaction.span.start(), interaction.span.end()],
             thickness: interaction.thickness,
             parameters: given_documents(&interaction.parameters),
-            properties: interaction.properties.clone(),
+            properties: interaction.properties.to_vec(),
             gap_electrical_conductance: interaction.gap_electrical_conductance.as_deref().map(Into::into),
             contact_permeability: interaction.contact_permeability.as_deref().map(Into::into),
             gap_heat_generation: interaction.gap_heat_generation.as_ref().map(|heat| HeatDocument {
@@ -71,7 +71,7 @@ impl From<&ElectricalConductance> for ElectricalDocument {
         };
         Self {
             user: law.user.is_some(),
-            kind: law.kind.clone(),
+            kind: law.kind.as_deref().map(str::to_owned),
             clearance: table(law.clearance.as_deref()),
             pressure: table(law.pressure.as_deref()),
         }

@@ -23,15 +23,15 @@ pub(super) struct Entry<'a> {
     pub(super) block: &'a Block,
 }
 
-impl<'a> Entry<'a> {
+impl Entry<'_> {
     /// The last setting of a parameter counts.
-    pub(super) fn parameter(self, name: &str) -> Option<&'a Parameter> {
-        self.keyword.parameters.iter().rev().find(|parameter| self.is_called(parameter, name))
+    pub(super) fn parameter(self, name: &str) -> Option<Parameter> {
+        self.keyword.parameters().rev().find(|parameter| self.is_called(parameter, name))
     }
 
     /// The first setting of a parameter.
-    pub(super) fn first_parameter(self, name: &str) -> Option<&'a Parameter> {
-        self.keyword.parameters.iter().find(|parameter| self.is_called(parameter, name))
+    pub(super) fn first_parameter(self, name: &str) -> Option<Parameter> {
+        self.keyword.parameters().find(|parameter| self.is_called(parameter, name))
     }
 
     fn is_called(self, parameter: &Parameter, name: &str) -> bool {
@@ -106,7 +106,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn given_parameters(&self, option: Entry<'_>) -> Vec<GivenParameter> {
-        let given = option.keyword.parameters.iter().map(|parameter| GivenParameter {
+        let given = option.keyword.parameters().map(|parameter| GivenParameter {
             name: match parameter.index() {
                 Some(index) => option.definition.parameters[index].name.clone(),
                 None => on_one_line(&self.deck.shown(parameter.name)),

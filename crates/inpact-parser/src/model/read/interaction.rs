@@ -5,7 +5,7 @@ use super::entry::Entry;
 use crate::deck::{DataLine, KeywordLine};
 use crate::expression::substitute;
 use crate::grammar::{Dialect, KeywordId, RowShape};
-use crate::model::rows::undefined_parameter;
+use crate::model::rows::substitution_problem;
 use crate::model::{
     CellText, ConstraintMethod, ContactPermeability, ElectricalConductance, HeatGeneration, Interaction, Name,
     OptionKind, SetAside, SetAsideItem, SetAsideReason, Table,
@@ -26,13 +26,12 @@ impl Reader<'_> {
             Dialect::Calculix => option.first_parameter("NAME"),
         };
         parameters.retain(|parameter| named.is_none_or(|named| named.span() != parameter.span));
-        parameters.shrink_to_fit();
         // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
         let name = named.and_then(|named| named.value).map(|value| self.value_text(value)).unwrap_or_default();
         let name = Name::in_dialect(&name, self.grammar.dialect());
         let mut interaction = Interaction::new(name, option.keyword.visible_span(self.deck));
         let is_user = parameters.iter().any(|parameter| parameter.name == "USER");
-        interaction.parameters = parameters;
+        interaction.parameters = parameters.into();
         // CalculiX interprets no row here.
         if option.definition.rows() != RowShape::Items {
             self.read_interaction_rows(option, is_user, &mut interaction);
@@ -44,6 +43,7 @@ impl Reader<'_> {
     pub(super) fn read_interaction_rows(&mut self, option: Entry<'_>, is_user: bool, interaction: &mut Interaction) {
         let constants = if is_user { 8 } else { 0 };
         let has_thickness = !(is_user && self.rows_are_properties(option));
+        let mut properties = Vec::new();
         for (index, line) in self.deck.data_lines(option.block).enumerate() {
             let is_thickness = has_thickness && index == 0;
             let allowed = if is_thickness { 1 } else { constants };
@@ -57,20 +57,20 @@ impl Reader<'_> {
             for item in line.items().take(used.min(allowed)) {
                 if item.is_empty() {
                     // The default of the thickness stays; a property that is left out is zero (S-32).
-                    interaction.properties.extend((!is_thickness).then_some(0.0));
+                    properties.extend((!is_thickness).then_some(0.0));
                     continue;
                 }
                 let text = match substitute(&self.deck.shown(item), &self.model.parameters) {
                     Ok(text) => text.into_owned(),
                     Err(error) => {
                         let keyword = option.keyword.span;
-                        self.problems.extend(undefined_parameter(&error, &self.model.parameters, item, keyword));
+                        self.problems.extend(substitution_problem(&error, &self.model.parameters, item, keyword));
                         continue;
                     }
                 };
                 match read_float(text.trim().as_bytes()) {
                     Ok(value) if is_thickness => interaction.thickness = value,
-                    Ok(value) => interaction.properties.push(value),
+                    Ok(value) => properties.push(value),
                     Err(error) => {
                         let column = if is_thickness { "thickness" } else { "property" }.to_owned();
                         let kind = ProblemKind::MalformedNumber { error, column };
@@ -79,6 +79,7 @@ impl Reader<'_> {
                 }
             }
         }
+        interaction.properties = properties.into();
         self.count_properties(option, is_user);
     }
 
@@ -131,7 +132,7 @@ impl Reader<'_> {
             let reason = SetAsideReason::Shadowed { first: first.span };
             return self.set_aside(reason, SetAsideItem::Interaction(Box::new(interaction)));
         }
-        if let Some(earlier) = self.model.interactions.insert(interaction.name.clone(), interaction) {
+        if let Some(earlier) = self.model.interactions.insert(interaction) {
             self.set_aside(SetAsideReason::ReplacedBy(span), SetAsideItem::Interaction(Box::new(earlier)));
         }
     }
@@ -194,7 +195,7 @@ impl Reader<'_> {
     pub(super) fn read_electrical(&mut self, option: Entry<'_>, interaction: &mut Interaction) {
         let law = interaction.gap_electrical_conductance.get_or_insert_default();
         if let Some(kind) = self.value_of(option, "TYPE") {
-            law.kind = Some(kind);
+            law.kind = Some(kind.into());
         }
         if option.is_given("USER") {
             law.user = Some(option.keyword.visible_span(self.deck));

@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::deck::{Block, KeywordLine};
 use crate::expression::{StatementLine, define, substitute};
-use crate::model::rows::undefined_parameter;
+use crate::model::rows::substitution_problem;
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
 
@@ -13,7 +13,7 @@ impl Reader<'_> {
         let Some(id) = keyword.id().filter(|id| self.grammar.keyword(*id).name == "PARAMETER") else { return };
         let from_table = self.grammar.keyword(id).definition().is_some_and(|definition| {
             let is_table = |index: usize| definition.parameters[index].name == "TABLE";
-            keyword.parameters.iter().any(|parameter| parameter.index().is_some_and(is_table))
+            keyword.parameters().any(|parameter| parameter.index().is_some_and(is_table))
         });
         if from_table {
             let span = keyword.visible_span(self.deck);
@@ -47,14 +47,14 @@ impl Reader<'_> {
 
     /// Reports the parameters without a definition in the values of a keyword line.
     pub(super) fn check_references(&mut self, keyword: &KeywordLine) {
-        for value in keyword.parameters.iter().filter_map(|parameter| parameter.value) {
+        for value in keyword.parameters().filter_map(|parameter| parameter.value) {
             let text = self.deck.text(value);
             if !text.contains(&b'<') {
                 continue;
             }
             let text = self.deck.shown(value);
             if let Err(error) = substitute(&text, &self.model.parameters) {
-                self.problems.extend(undefined_parameter(&error, &self.model.parameters, value, keyword.span));
+                self.problems.extend(substitution_problem(&error, &self.model.parameters, value, keyword.span));
             }
         }
     }

@@ -102,7 +102,7 @@ pub(super) fn gather(evaluable: &mut Evaluable, nodes_path: &Path, most: u64) ->
 }
 
 fn subject(model: &Model, reads: TableReads) -> Subject {
-    let interaction = model.interactions.get_index(reads.interaction).map(|(name, _)| name.to_string());
+    let interaction = model.interactions.get_index(reads.interaction).map(|of| of.name.to_string());
     let against = if reads.against == Along::Pressure { "pressure" } else { "clearance" };
     let what = match reads.quantity {
         TabulatedQuantity::ElectricalConductance => format!("conductance against {against}"),
