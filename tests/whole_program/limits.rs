@@ -20,7 +20,7 @@ fn field_variables() {
     let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE, DEPENDENCIES=1001\n1., 0.\n0., 1.\n";
     check(
         &[("a.inp", deck)],
-        &["check", "--format", "concise", "a.inp"],
+        &["check", "--format", "json", "a.inp"],
         &["K010", "above the greatest legal value 1000", "write a value within"],
     );
 }
@@ -39,13 +39,13 @@ fn values_that_do_not_fit_where_they_are_used() {
     let message = format!("these {bytes} bytes become more than {most} with the values of their parameters");
     check(
         &[("a.inp", &deck(80))],
-        &["check", "--format", "concise", "a.inp"],
-        &["error[S016]", &message, "write fewer parameters here"],
+        &["check", "--format", "json", "a.inp"],
+        &["S016", &message, "write fewer parameters here"],
     );
     let nodes = "pressure,epot_s,epot_m\n0,1,0\n";
     let files = [("a.inp", &deck(80)[..]), ("n.csv", nodes)];
-    check(&files, &["eval", "a.inp", "--nodes", "n.csv"], &["error[S016]", &message]);
-    let run = Folder::with(&[("a.inp", &deck(2))]).inpact(&["check", "--format", "concise", "a.inp"]);
+    check(&files, &["eval", "a.inp", "--nodes", "n.csv", "--format", "concise"], &["S016", &message]);
+    let run = Folder::with(&[("a.inp", &deck(2))]).inpact(&["check", "--format", "json", "a.inp"]);
     assert!(!run.output.contains("S016"), "{}", run.shown());
 }
 
@@ -54,7 +54,7 @@ fn statements_of_parameters() {
     let deck = format!("*PARAMETER\na = '{}'\nb = {}1{}\n", "x".repeat(1025), "(".repeat(201), ")".repeat(201));
     check(
         &[("a.inp", &deck)],
-        &["check", "--format", "concise", "a.inp"],
+        &["check", "--format", "json", "a.inp"],
         &[
             "a text of 1025 bytes is longer than the 1024 allowed",
             "in several parameters",
@@ -76,7 +76,7 @@ fn files_that_are_included_again() {
         format!("files that are included more than once come to {again} bytes already, and {most} are the most");
     check(
         &[("a.inp", &deck), ("b.inp", &part)],
-        &["check", "--format", "concise", "a.inp"],
+        &["check", "--format", "json", "a.inp"],
         &["S012", &message, "include it once"],
     );
 }
@@ -120,7 +120,7 @@ fn scenes() {
 #[test]
 fn lines() {
     let deck = format!("*HEADING\n{}", "x".repeat((16 << 20) + 1));
-    let run = Folder::with(&[("a.inp", &deck)]).inpact(&["check", "--format", "concise", "a.inp"]);
+    let run = Folder::with(&[("a.inp", &deck)]).inpact(&["check", "--format", "json", "a.inp"]);
     assert_eq!(run.code, 2, "{}", run.shown());
     assert!(
         run.errors.contains("line 2 is longer than 16777216 bytes, the most that a line may have"),
