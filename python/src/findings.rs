@@ -127,7 +127,7 @@ impl Fix {
 
     #[getter]
     fn edits(&self) -> Vec<(u64, u64, &[u8])> {
-        self.0.edits.iter().map(|edit| (edit.span.start, edit.span.end, edit.replacement.as_slice())).collect()
+        self.0.edits.iter().map(|edit| (edit.span.start(), edit.span.end(), edit.replacement.as_slice())).collect()
     }
 
     fn __repr__(&self) -> String {

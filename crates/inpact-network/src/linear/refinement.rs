@@ -207,7 +207,9 @@ mod tests {
             };
             self.corrections = self.corrections.saturating_sub(1);
             self.solver.solve(right)?;
-            right.iter_mut().for_each(|change| *change *= factor);
+            for change in right {
+                *change *= factor;
+            }
             Ok(())
         }
 
