@@ -48,7 +48,7 @@ pub struct NumberColumn {
 enum Values {
     Owned(Vec<f64>),
     #[cfg(feature = "columnar")]
-    Shared(arrow::buffer::ScalarBuffer<f64>),
+    Shared(arrow_buffer::ScalarBuffer<f64>),
 }
 
 impl Values {
@@ -263,7 +263,7 @@ impl NumberColumn {
 
     /// The column of an array of which no number is missing; its memory becomes the column's where nobody else has it, and is shared otherwise.
     #[cfg(feature = "columnar")]
-    pub(super) fn of_buffer(buffer: arrow::buffer::ScalarBuffer<f64>) -> Self {
+    pub(super) fn of_buffer(buffer: arrow_buffer::ScalarBuffer<f64>) -> Self {
         let values = match buffer.into_inner().into_vec() {
             Ok(values) => Values::Owned(values),
             Err(shared) => Values::Shared(shared.into()),
@@ -345,7 +345,7 @@ impl NumberColumn {
         if let Some(present) = self.present.get_mut(rows.clone()) {
             present.fill(true);
         }
-        self.values[rows].iter_mut().enumerate().for_each(|(row, value)| *value = of(row));
+        self.values.owned()[rows].iter_mut().enumerate().for_each(|(row, value)| *value = of(row));
     }
 
     /// Drops the flags of a column that lacks no number.
