@@ -35,6 +35,7 @@ mod includes;
 mod interfaces;
 mod json;
 mod limits;
+mod lumping;
 mod nodes;
 mod nodes_results;
 mod pictures;

@@ -14,6 +14,9 @@ pub(crate) struct Even {
 }
 
 pub(crate) fn even(body: &Body, terminal: &MeshTerminal) -> Even {
+    if let Some(even) = &terminal.even {
+        return Even { shares: even.shares.clone(), area: Some(even.area) };
+    }
     let of_set = if terminal.faces.is_none() { faces_of_set(body, &terminal.nodes) } else { None };
     let by_area = terminal.faces.as_ref().or(of_set.as_ref()).and_then(|faces| by_area(body, terminal, faces));
     by_area.unwrap_or_else(|| {

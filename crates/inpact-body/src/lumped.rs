@@ -78,6 +78,9 @@ pub struct BodySummary {
     pub volume: f64,
     /// Its capacity (M L² T⁻² θ⁻¹); `None` as of [`Lumped::capacities`].
     pub capacity: Option<f64>,
+    /// What lumping may cost: with even flows it conducts no less than this share below what it conducts with one temperature a terminal, whatever the temperatures
+    /// of its terminals are. Exact with two terminals, a bound with more.
+    pub relative: f64,
 }
 
 impl Body {
@@ -95,7 +98,7 @@ impl Body {
         let isothermal = self.isothermal(&matrix, &potentials);
         let (even, ranges, even_solution) = self.even(&matrix, &shares)?;
         let (held, left_out) = self.held(&blocks, field, temperature)?;
-        let bodies = self.summaries(&held);
+        let bodies = self.summaries(&held, (&isothermal, &even));
         let bodies_of: Vec<Option<usize>> =
             (0..self.terminals.len()).map(|at| bodies.iter().position(|body| body.terminals.contains(&at))).collect();
         let capacity = |at: usize| {
@@ -414,7 +417,7 @@ impl Body {
         Ok((OfNodes { volumes, capacities, is_known }, left_out))
     }
 
-    fn summaries(&self, held: &OfNodes) -> Vec<BodySummary> {
+    fn summaries(&self, held: &OfNodes, (isothermal, even): (&Conductances, &Conductances)) -> Vec<BodySummary> {
         let with_terminal = self.parts.iter().enumerate().filter(|(_, part)| !part.terminals.is_empty());
         let summary = |(number, part): (usize, &crate::BodyPart)| {
             let sum = |values: &[f64]| {
@@ -429,6 +432,7 @@ impl Body {
                 elements: part.elements,
                 volume: sum(&held.volumes),
                 capacity: held.is_known[number].then(|| sum(&held.capacities)),
+                relative: relative(&part.terminals, isothermal, even),
             }
         };
         with_terminal.map(summary).collect()
@@ -497,6 +501,23 @@ fn resistances(matrix: &Matrix, fields: &[&[f64]], sources: &[Vec<f64>]) -> Vec<
         }
     }
     resistances
+}
+
+/// The largest share, over all temperatures of some terminals, by which even flows conduct less than one temperature a terminal.
+///
+/// With S and L the matrices of both without the last terminal, it is 1 − 1/λ for the largest eigenvalue λ of L⁻¹S. As means are less than single values, S ≥ L: no
+/// eigenvalue is below 1, so that λ is at most the sum of all of them, the trace, less 1 for each of the others.
+fn relative(terminals: &[usize], isothermal: &Conductances, even: &Conductances) -> f64 {
+    let Some(count) = terminals.len().checked_sub(1).filter(|count| 0 < *count) else { return 0.0 };
+    let entry = |of: &Conductances, i: usize, j: usize| {
+        if i == j { of.to_all(terminals[i]) } else { -of.between(terminals[i], terminals[j]) }
+    };
+    let places = || (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
+    let upper: Vec<f64> = places().map(|(i, j)| entry(even, i, j)).collect();
+    let Ok(inverse) = inverse(&upper, count) else { return 1.0 };
+    let trace: f64 = places().map(|(i, j)| inverse[i * count + j] * entry(isothermal, i, j)).sum();
+    let largest = trace - (count - 1) as f64;
+    if largest.is_finite() { (1.0 - 1.0 / largest.max(1.0)).max(0.0) } else { 1.0 }
 }
 
 /// The inverse of a symmetric positive definite matrix of which the upper triangle is given.

@@ -32,7 +32,7 @@ mod selection;
 mod surfaces;
 
 pub use amplitudes::{Amplitude, AmplitudeTime, AmplitudeValue};
-pub use bodies::{BodyMesh, ElementBlock, MeshTerminal};
+pub use bodies::{BodyMesh, ElementBlock, EvenFlow, MeshTerminal};
 pub use conditions::{Condition, ConditionField, ConditionKind, DeckConditions, Target};
 pub use initial::{InitialField, InitialQuantity};
 pub use materials::{BodyMaterial, MaterialProperty, TensorKind};

@@ -91,6 +91,17 @@ pub struct MeshTerminal {
     pub nodes: Vec<NodeId>,
     /// The faces of a surface of element faces.
     pub faces: Option<Surface>,
+    /// How a flow is spread evenly over a part of it, where that is known better than by its faces and nodes.
+    pub even: Option<EvenFlow>,
+}
+
+/// A flow that is spread evenly over an area.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvenFlow {
+    /// The shares of the nodes of a terminal, in their order; they sum to 1.
+    pub shares: Vec<f64>,
+    /// The area (L²).
+    pub area: f64,
 }
 
 impl BodyMesh {
@@ -390,7 +401,7 @@ impl<'deck> Reader<'deck, '_> {
                 None
             }
         };
-        MeshTerminal { name: name.clone(), span: picked.span, nodes, faces }
+        MeshTerminal { name: name.clone(), span: picked.span, nodes, faces, even: None }
     }
 }
 

@@ -24,6 +24,7 @@ use crate::settings::{DeckArguments, Settings};
 use crate::terminals::{Stated, StepTime, Taker, procedure};
 use clap::Args;
 use inpact_body::{Body, BodyFault, BodyField, Lumped};
+use inpact_contact::{Interfaces, PairInterfaces};
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::plan::Choices;
@@ -174,13 +175,21 @@ fn make(
     let mut text = SceneText::new(&deck_from(arguments), regime, time, procedure);
     text.nodes(&terminals, &stated, &lumped);
     text.links(&terminals, &lumped, &mut unplaced);
-    text.interfaces(&interfaces);
+    let areas: Vec<Option<f64>> =
+        interfaces.pairs.iter().map(|pair| joint_area(arguments, &terminals, &interfaces, pair)).collect();
+    text.interfaces(&interfaces, &areas);
     let mut lumping = Lumping::new(&terminals, &lumped);
-    for pair in &interfaces.pairs {
-        let Some(of) = interfaces.lumped(pair) else { continue };
+    for (pair, area) in interfaces.pairs.iter().zip(areas) {
+        let Some((of, area)) = interfaces.lumped(pair).zip(area) else {
+            let message = format!(
+                "`{}` on `{}`: no slave node has the master across from it, so that there is no joint (with the surfaces exchanged there may be one)",
+                pair.slave, pair.master
+            );
+            notes.push(MeshNote { span: pair.span, message });
+            continue;
+        };
         let choices = Choices { dialect: settings.grammar.dialect(), ..Choices::default() };
-        lumping.joint(model, &choices, &interfaces, (pair, &of));
-        lumping.areas(&lumped, (pair, &of));
+        lumping.joint((model, &choices), &interfaces, &terminals, (pair, &of, area));
         let title = format!("`{}` on `{}`:", pair.slave, pair.master);
         lumping.lines.extend(std::iter::once(title).chain(lumped_lines(&interfaces, &of)));
         if !pair.beside.is_empty() {
@@ -195,6 +204,23 @@ fn make(
     let whole = head.written(&not_taken, &missing, &lumping) + &text.written;
     Ok(Made { whole, nodes: terminals.len(), not_taken, missing, lumping })
 }
+
+/// The area of a joint: that of its slave surface which has the master across, and with result files that of the slave nodes; `None` where nothing is known of any.
+fn joint_area(
+    arguments: &SceneArguments,
+    terminals: &[Terminal],
+    interfaces: &Interfaces,
+    pair: &PairInterfaces,
+) -> Option<f64> {
+    let of_nodes = interfaces.lumped(pair)?.area;
+    let slave = terminals.iter().find(|terminal| terminal.name == pair.slave);
+    let across = slave.filter(|_| arguments.results.is_empty()).and_then(Terminal::area);
+    // The same to rounding is that of the nodes.
+    Some(across.filter(|area| SAME_AREA < (area - of_nodes).abs() / area).unwrap_or(of_nodes))
+}
+
+/// Areas that differ by less are the same but for rounding.
+const SAME_AREA: f64 = 1e-9;
 
 /// The fields of a procedure; heat where the deck does not say.
 fn fields_of(procedure: Option<&Procedure>) -> Fields {

@@ -71,7 +71,7 @@ fn terminals(lumped: &Lumped) -> Vec<Vec<String>> {
 }
 
 fn bodies(names: &[&str], lumped: &Lumped) -> Vec<Vec<String>> {
-    let mut rows = vec![["nodes", "elements", "volume", "capacity", "terminals"].map(str::to_owned).to_vec()];
+    let mut rows = vec![["nodes", "elements", "volume", "capacity", "apart", "terminals"].map(str::to_owned).to_vec()];
     for body in &lumped.bodies {
         let terminals: Vec<&str> = body.terminals.iter().map(|at| names[*at]).collect();
         rows.push(vec![
@@ -79,6 +79,7 @@ fn bodies(names: &[&str], lumped: &Lumped) -> Vec<Vec<String>> {
             body.elements.to_string(),
             short(body.volume),
             body.capacity.map_or("-".to_owned(), short),
+            percent(body.relative),
             terminals.join(", "),
         ]);
     }

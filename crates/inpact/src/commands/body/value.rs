@@ -93,6 +93,8 @@ struct OfBody<'a> {
     volume: f64,
     /// What it holds; null as of terminals.
     capacity: Option<f64>,
+    /// With even flows it conducts at most by this share less than with one value a terminal, whatever these values are.
+    relative: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -157,6 +159,7 @@ fn of_field<'a>(names: &[&'a str], lumped: &'a Lumped) -> OfField<'a> {
         elements: body.elements,
         volume: body.volume,
         capacity: body.capacity,
+        relative: body.relative,
     };
     let [isothermal, even] = &lumped.solutions;
     OfField {

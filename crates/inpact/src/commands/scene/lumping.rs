@@ -1,11 +1,11 @@
 //! The cost of one temperature a terminal, and of one pressure a joint.
 //!
 //! A body conducts most where each terminal has one temperature, and least where its flow is spread evenly; a joint conducts most where both sides have one
-//! temperature (the mean of its conductances by area), and least where its flow is spread evenly (their harmonic mean). Between held nodes a network of such parts
-//! scales with them: if none is off by more than a share, no flow is.
+//! temperature (the mean of its conductances by area), and least where its flow is spread evenly (their harmonic mean). Between two held values a network of such
+//! parts scales with them: if none is off by more than a share, no flow is. Even flows go over the part of a surface that has the other across.
 
-use super::network_field;
 use super::terminals::Terminal;
+use super::{SAME_AREA, network_field};
 use inpact_body::Lumped;
 use inpact_contact::{Interfaces, LumpedPair, PairInterfaces};
 use inpact_evaluation::law::{Clearance, ContactPoint, ContactPressure, ContactState, InterfaceLaws};
@@ -15,22 +15,17 @@ use inpact_evaluation::results::rounded_up;
 use inpact_network::scene::Field;
 use inpact_parser::model::Model;
 
-/// Areas that differ by less are the same but for rounding.
-const ROUNDING: f64 = 1e-9;
-
 pub(super) struct Lumping {
     pub(super) lines: Vec<String>,
-    /// The largest relative cost so far.
-    worst: f64,
-    /// Whether an estimate is among the costs: areas of two sides that differ have no bound.
-    is_estimate: bool,
+    /// The largest relative cost so far; `None` where one has no bound.
+    worst: Option<f64>,
     /// Joints whose conductance is not known at all nodes.
     unknown: Vec<String>,
 }
 
 impl Lumping {
     pub(super) fn new(terminals: &[Terminal], lumped: &[Lumped]) -> Self {
-        let mut lumping = Self { lines: Vec::new(), worst: 0.0, is_estimate: false, unknown: Vec::new() };
+        let mut lumping = Self { lines: Vec::new(), worst: Some(0.0), unknown: Vec::new() };
         for of in lumped {
             let key = network_field(of.field).conductance_key();
             for (terminal, summary) in terminals.iter().zip(&of.terminals) {
@@ -38,28 +33,63 @@ impl Lumping {
                     continue;
                 }
                 let cost = summary.relative();
-                lumping.worst = lumping.worst.max(cost);
+                lumping.costs(cost);
                 let (lower, upper, cost) = (summary.lower, summary.upper, percent(cost));
                 lumping.lines.push(format!(
                     "`{}`: {key} conductance to the rest of its body {upper:?} at one value, {lower:?} with an even flow: at most {cost} less",
                     terminal.name
                 ));
             }
+            for body in of.bodies.iter().filter(|body| 2 < body.terminals.len()) {
+                let names: Vec<String> = body.terminals.iter().map(|at| format!("`{}`", terminals[*at].name)).collect();
+                lumping.costs(body.relative);
+                lumping.lines.push(format!(
+                    "the body of {}: {key} conductances with even flows at most {} less, whatever the values of its terminals",
+                    names.join(", "),
+                    percent(body.relative)
+                ));
+            }
+        }
+        for terminal in terminals.iter().filter(|terminal| terminal.meets_several()) {
+            lumping.worst = None;
+            lumping.lines.push(format!(
+                "`{}`: it meets several surfaces and has one value, so that what lumping costs has no bound",
+                terminal.name
+            ));
         }
         lumping
     }
 
-    /// Takes the cost of a joint with one pressure and one clearance.
+    /// Takes a relative cost.
+    fn costs(&mut self, cost: f64) {
+        self.worst = self.worst.map(|worst| worst.max(cost));
+    }
+
+    /// Takes the cost of a joint with one pressure, one clearance and an area.
     pub(super) fn joint(
+        &mut self,
+        (model, choices): (&Model, &Choices),
+        interfaces: &Interfaces,
+        terminals: &[Terminal],
+        (pair, lumped, area): (&PairInterfaces, &LumpedPair, f64),
+    ) {
+        let of_area = self.areas(terminals, (pair, area));
+        let varying = self.varying(model, choices, interfaces, (pair, lumped));
+        // Both are of one conductance.
+        self.costs(of_area + varying + of_area * varying);
+    }
+
+    /// The cost of one pressure and one clearance; 0 where it is not known, which is said.
+    fn varying(
         &mut self,
         model: &Model,
         choices: &Choices,
         interfaces: &Interfaces,
         (pair, lumped): (&PairInterfaces, &LumpedPair),
-    ) {
-        let Some(interaction) = model.interactions.get(&pair.interaction) else { return };
+    ) -> f64 {
+        let Some(interaction) = model.interactions.get(&pair.interaction) else { return 0.0 };
         let laws = InterfaceLaws::of(model, interaction, choices);
-        let Some(thermal) = &laws.thermal else { return };
+        let Some(thermal) = &laws.thermal else { return 0.0 };
         let at = |values: &dyn Fn(usize) -> Option<f64>| {
             let of =
                 |column: Column| interfaces.quantities.iter().position(|quantity| *quantity == column).and_then(values);
@@ -82,64 +112,67 @@ impl Lumping {
             pair.rows.iter().map(|row| Some((row.area, at(&|quantity| row.values[quantity])?))).collect();
         let (Some(whole), Some(each)) = (whole, each) else {
             self.unknown.push(format!("`{}` on `{}`", pair.slave, pair.master));
-            return;
+            return 0.0;
         };
         let area: f64 = each.iter().map(|(area, _)| area).sum();
         let upper = each.iter().map(|(area, value)| area * value).sum::<f64>() / area;
         let lower = area / each.iter().map(|(area, value)| area / value).sum::<f64>();
         let cost = ((upper - whole).abs().max((whole - lower).abs())) / whole;
         if cost.is_finite() {
-            self.worst = self.worst.max(cost);
             self.lines.push(format!(
                 "`{}` on `{}`: thermal conductance per area {whole:?} of the means, {upper:?} at one temperature on either side, {lower:?} with an even flow: off by at most {}",
                 pair.slave,
                 pair.master,
                 percent(cost)
             ));
+            cost
         } else {
             self.unknown.push(format!("`{}` on `{}`", pair.slave, pair.master));
+            0.0
         }
     }
 
-    /// Takes the cost of a joint whose sides do not end where the other does: the faces of the bodies that meet have other areas than the joint.
-    pub(super) fn areas(&mut self, lumped: &[Lumped], (pair, of): (&PairInterfaces, &LumpedPair)) {
-        for bodies in lumped {
-            for name in [&pair.slave, &pair.master] {
-                let Some(terminal) = bodies.terminals.iter().find(|terminal| terminal.name == *name) else { continue };
-                let cost = terminal.area.map_or(1.0, |area| (area - of.area).abs() / of.area.min(area));
-                if cost < ROUNDING {
-                    continue;
-                }
-                self.worst = self.worst.max(cost);
-                self.is_estimate = true;
-                let line = match terminal.area {
-                    Some(area) => format!(
-                        "`{name}`: its whole faces in the joint have the area {area:?}, the joint has {:?}: off by about {}",
-                        of.area,
-                        percent(cost)
-                    ),
-                    None => format!(
-                        "`{name}`: no whole face of it is in the joint, so that what lumping costs has no bound"
-                    ),
-                };
-                // Areas are the same for heat and current.
-                if !self.lines.contains(&line) {
-                    self.lines.push(line);
-                }
+    /// The cost of the area of a joint, by what of either surface has the other across.
+    fn areas(&mut self, terminals: &[Terminal], (pair, area): (&PairInterfaces, f64)) -> f64 {
+        let mut largest = 0.0_f64;
+        for name in [&pair.slave, &pair.master] {
+            let Some(terminal) = terminals.iter().find(|terminal| terminal.name == *name) else { continue };
+            if terminal.meets_several() {
+                continue;
             }
+            let Some(found) = terminal.area() else {
+                self.worst = None;
+                self.lines.push(format!(
+                    "`{name}`: how much of it has the other surface across is not known, so that what lumping costs has no bound"
+                ));
+                continue;
+            };
+            let cost = (found - area).abs() / area;
+            if cost < SAME_AREA {
+                continue;
+            }
+            largest = largest.max(cost);
+            self.lines.push(format!(
+                "`{name}`: {found:?} of it has the other surface across, the joint has the area {area:?}: off by {}",
+                percent(cost)
+            ));
         }
+        largest
     }
 
     /// The lines, and what they come to.
     pub(super) fn finish(self) -> Vec<String> {
-        let Self { mut lines, worst, is_estimate, unknown } = self;
+        let Self { mut lines, worst, unknown } = self;
         let beside = if unknown.is_empty() {
             String::new()
         } else {
             format!(", beside what varies over the joints {}, whose conductance is not known yet", unknown.join(", "))
         };
-        let areas = if is_estimate { ", where differences of areas are estimates and no bounds" } else { "" };
-        lines.push(format!("{} between held nodes: off by at most {}{areas}{beside}", flows(), percent(worst)));
+        let measure = worst.map_or_else(
+            || "no bound of what lumping costs".to_owned(),
+            |worst| format!("off by at most {}", percent(worst)),
+        );
+        lines.push(format!("{} between held nodes: {measure}{beside}", flows()));
         lines
     }
 }

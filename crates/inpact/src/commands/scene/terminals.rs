@@ -3,15 +3,39 @@
 use crate::commands::meshed::MeshedDeck;
 use crate::terminals::nodes_of;
 use inpact_contact::Interfaces;
-use inpact_geometry::{ContactNode, NodeId, Surface};
-use inpact_parser::mesh::{BodyMesh, ConditionKind, Mesh, MeshNote, MeshPair, SurfaceKind};
+use inpact_geometry::{ContactNode, Master, NodeId, Placed, Surface, overlap};
+use inpact_parser::mesh::{BodyMesh, ConditionKind, EvenFlow, Mesh, MeshNote, MeshPair, SurfaceKind};
 use inpact_parser::model::Name;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// A part of the mesh that is one node of the scene.
 pub(super) struct Terminal {
     pub(super) name: Name,
     pub(super) nodes: BTreeSet<NodeId>,
+    /// Of a contact surface, where it meets the other one.
+    meets: Meets,
+}
+
+/// Where a contact surface meets the other one of its pair.
+enum Meets {
+    /// It is none, or nothing is known of where: its own faces count.
+    Unsaid,
+    /// Over this area, ∫ N dA at its nodes.
+    Over(BTreeMap<NodeId, f64>, f64),
+    /// It meets several, each with a flow of its own.
+    Several,
+}
+
+impl Terminal {
+    /// The area over which it meets the other surface of its only pair.
+    pub(super) fn area(&self) -> Option<f64> {
+        if let Meets::Over(_, area) = &self.meets { Some(*area) } else { None }
+    }
+
+    /// Whether it meets several surfaces.
+    pub(super) fn meets_several(&self) -> bool {
+        matches!(self.meets, Meets::Several)
+    }
 }
 
 /// The terminals of a deck; parts that cannot be one are noted.
@@ -29,14 +53,20 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
                 .all(|(surface, name)| mesh.surfaces[*surface].name == **name)
         };
         let Some(of) = of_mesh.into_iter().find(is_named) else { continue };
-        for (name, nodes) in [(&pair.slave, met(mesh, of)), (&pair.master, met(mesh, &turned(of)))] {
+        for (name, of) in [(&pair.slave, of.clone()), (&pair.master, turned(of))] {
+            let (mut nodes, mut meets) = met(mesh, &of);
             // A surface of several pairs is one terminal, of all that any of them meets.
             if let Some(known) = found.iter_mut().find(|known| known.name == *name) {
                 known.nodes.extend(nodes);
+                known.meets = Meets::Several;
                 continue;
             }
+            // Where faces reach beyond the other surface into another terminal, the nodes that have it across remain.
+            if found.iter().any(|known| !known.nodes.is_disjoint(&nodes)) {
+                (nodes, meets) = (strictly_across(mesh, &of), Meets::Unsaid);
+            }
             let note = |other: &Name| format!("the contact surface `{name}` shares nodes with `{other}`");
-            add(&mut found, name, nodes, (pair.span, &note), notes);
+            add(&mut found, Terminal { name: name.clone(), nodes, meets }, (pair.span, &note), notes);
         }
     }
     // Sets before what is in them.
@@ -58,7 +88,8 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
                 condition.keyword
             )
         };
-        add(&mut found, name, nodes_of(mesh, surface), (condition.span, &note), notes);
+        let terminal = Terminal { name: name.clone(), nodes: nodes_of(mesh, surface), meets: Meets::Unsaid };
+        add(&mut found, terminal, (condition.span, &note), notes);
     }
     found
 }
@@ -66,8 +97,31 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
 /// How far beside the other surface a node may be that it meets, as a share of an edge: what rounding makes of an edge.
 const ON_EDGE: f64 = 1e-6;
 
-/// The slave nodes of a pair that have the master across from them: heat crosses there and nowhere else.
-fn met(mesh: &Mesh, pair: &MeshPair) -> BTreeSet<NodeId> {
+/// The nodes of the slave faces of a pair that have some of the master across from them, and how an even flow through what is across is spread over them.
+///
+/// With one temperature at all of them every point that heat crosses has it, so that no true joint conducts more.
+fn met(mesh: &Mesh, pair: &MeshPair) -> (BTreeSet<NodeId>, Meets) {
+    let unsaid = || (strictly_across(mesh, pair), Meets::Unsaid);
+    let (SurfaceKind::Faces(slave), SurfaceKind::Faces(master)) =
+        (&mesh.surfaces[pair.slave].kind, &mesh.surfaces[pair.master].kind)
+    else {
+        return unsaid();
+    };
+    let (slave, master) = (Placed::new(&slave.surface, &mesh.points), Placed::new(&master.surface, &mesh.points));
+    let (Ok(slave), Ok(master)) = (slave, master) else { return unsaid() };
+    let Ok(found) = overlap(&slave, &Master::new(master)) else { return unsaid() };
+    if found.area <= 0.0 {
+        return unsaid();
+    }
+    let surface = slave.surface();
+    let faces = surface.faces().zip(&found.faces).filter(|(_, has_some)| **has_some).map(|(face, _)| face);
+    let nodes: BTreeSet<NodeId> = faces.flat_map(|face| surface.face(face).nodes).copied().collect();
+    let shares = surface.nodes().iter().copied().zip(found.shares).filter(|(node, _)| nodes.contains(node)).collect();
+    (nodes, Meets::Over(shares, found.area))
+}
+
+/// The slave nodes of a pair that have the master across from them.
+fn strictly_across(mesh: &Mesh, pair: &MeshPair) -> BTreeSet<NodeId> {
     let all = || nodes_of(mesh, pair.slave);
     let SurfaceKind::Faces(_) = mesh.surfaces[pair.master].kind else { return all() };
     let strict = MeshPair { extension: ON_EDGE, ..pair.clone() };
@@ -87,6 +141,14 @@ pub(super) fn restrict(bodies: &mut BodyMesh, mesh: &Mesh, terminals: &[Terminal
     let mut restricted = std::mem::take(&mut bodies.terminals);
     for (terminal, of) in terminals.iter().zip(&mut restricted) {
         let Some(of) = of else { continue };
+        if let Meets::Over(shares, area) = &terminal.meets {
+            let by_name: HashMap<String, f64> =
+                shares.iter().map(|(node, share)| (mesh.nodes[node.index()].to_string(), share / area)).collect();
+            of.nodes.retain(|node| by_name.contains_key(&bodies.node(*node).to_string()));
+            let shares = of.nodes.iter().map(|node| by_name[&bodies.node(*node).to_string()]).collect();
+            of.even = Some(EvenFlow { shares, area: *area });
+            continue;
+        }
         let kept: HashSet<String> = terminal.nodes.iter().map(|node| mesh.nodes[node.index()].to_string()).collect();
         let before = of.nodes.len();
         let is_kept: HashSet<NodeId> =
@@ -105,16 +167,16 @@ pub(super) fn restrict(bodies: &mut BodyMesh, mesh: &Mesh, terminals: &[Terminal
 
 fn add(
     found: &mut Vec<Terminal>,
-    name: &Name,
-    nodes: BTreeSet<NodeId>,
+    terminal: Terminal,
     (span, note): (inpact_parser::span::Span, &dyn Fn(&Name) -> String),
     notes: &mut Vec<MeshNote>,
 ) {
+    let nodes = &terminal.nodes;
     if nodes.is_empty() || found.iter().any(|known| nodes.is_subset(&known.nodes)) {
         return;
     }
-    match found.iter().find(|known| !known.nodes.is_disjoint(&nodes)) {
+    match found.iter().find(|known| !known.nodes.is_disjoint(nodes)) {
         Some(known) => notes.push(MeshNote { span, message: note(&known.name) }),
-        None => found.push(Terminal { name: name.clone(), nodes }),
+        None => found.push(terminal),
     }
 }

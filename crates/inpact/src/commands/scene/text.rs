@@ -145,15 +145,14 @@ impl SceneText {
         put(&mut self.written, format_args!("\n[[link]]\nnodes = [{names}]\n{}\n", keys.join("\n")));
     }
 
-    /// The contact pairs, one interface each.
-    pub(super) fn interfaces(&mut self, interfaces: &Interfaces) {
-        for pair in &interfaces.pairs {
-            let Some(lumped) = interfaces.lumped(pair) else { continue };
+    /// The contact pairs, one interface each, with its area.
+    pub(super) fn interfaces(&mut self, interfaces: &Interfaces, areas: &[Option<f64>]) {
+        for (pair, area) in interfaces.pairs.iter().zip(areas) {
+            let Some((lumped, area)) = interfaces.lumped(pair).zip(*area) else { continue };
             let [interaction, slave, master] =
                 [&pair.interaction, &pair.slave, &pair.master].map(|name| quoted(name.written()));
             let mut text = format!(
-                "\n[[interface]]\ninteraction = {interaction}\nslave = {slave}\nmaster = {master}\narea = {:?}\n",
-                lumped.area
+                "\n[[interface]]\ninteraction = {interaction}\nslave = {slave}\nmaster = {master}\narea = {area:?}\n"
             );
             let mut fields: Vec<(u32, f64)> = Vec::new();
             for (quantity, mean) in interfaces.quantities.iter().zip(&lumped.means) {
