@@ -42,26 +42,31 @@ pub struct CellText {
 
 impl Table {
     /// The number of columns.
+    #[inline]
     pub fn width(&self) -> usize {
         self.columns.len()
     }
 
     /// The number of rows.
+    #[inline]
     pub fn row_count(&self) -> usize {
         self.values.len() / self.width().max(1)
     }
 
     /// The numbers of each row.
+    #[inline]
     pub fn row_values(&self) -> std::slice::ChunksExact<'_, f64> {
         self.values.chunks_exact(self.width().max(1))
     }
 
     /// The numbers of row `index`, counted from 0.
+    #[inline]
     pub fn row(&self, index: usize) -> &[f64] {
         &self.values[index * self.width()..(index + 1) * self.width()]
     }
 
     /// The span of row `index`; an empty span at the keyword when the table was not read from a deck.
+    #[inline]
     pub fn row_span(&self, index: usize) -> Span {
         self.places.get(index, self.keyword).unwrap_or(self.keyword)
     }
