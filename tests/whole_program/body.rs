@@ -1,6 +1,6 @@
 //! `inpact body`: conductances and capacities of a deck's bodies, as tables, JSON, links and parts of scenes; what is refused, with its line.
 
-use crate::program::{Folder, Run};
+use crate::program::{Folder, Run, inpact, root};
 
 /// An L of three unit cubes along x, the last with one more above it: terminals at both ends and beside the first.
 const ELL: &str = "\
@@ -51,6 +51,20 @@ const ALL: &[&str] = &["--terminals", "END,TOP,SIDE", "--temperature", "25"];
 #[test]
 fn tables_for_a_person() {
     insta::assert_snapshot!(timeless(&of(ELL, ALL)));
+}
+
+/// The pages show what the sample gives.
+#[test]
+fn the_example_of_the_pages() {
+    let command = "inpact body decks/bracket/bracket.inp --terminals END,TOP,SIDE --temperature 25 --field thermal";
+    let run = inpact(&command.split(' ').skip(1).collect::<Vec<_>>());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    for page in ["README.md", "docs/bodies.md"] {
+        let text = std::fs::read_to_string(root().join(page)).expect("readable");
+        let shown = text.split_once(&format!("$ {command}\n")).expect("the command").1;
+        let shown = shown.split_once("```").expect("the end of the example").0;
+        assert_eq!(shown, run.output, "{page}");
+    }
 }
 
 #[test]
