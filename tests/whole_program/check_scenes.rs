@@ -58,12 +58,17 @@ fn everything_wrong_in_one_pass() {
 fn the_findings_are_those_of_solve() {
     let floating =
         RIGHT.replace("potential = { fixed = 1.0 }\n", "").replace("potential = { fixed = 0.0 }\n", "potential = {}\n");
+    // Beyond the end of the table nothing is conducted.
+    let open = RIGHT
+        .replace("potential = { fixed = 0.0 }\n", "potential = {}\n")
+        .replace("clearance = 0.0", "clearance = 2.0");
     let lacking = RIGHT.replace("clearance = 0.0\n", "");
     let apart = RIGHT.to_owned() + "[[link]]\nnodes = [\"a\", \"b\"]\nelectrical = inf\n";
     let of_deck = DECK.replace("20., 0.\n0., 1.\n", "20., 1.\n0., 0.\n");
     for (deck, scene, code) in [
         (DECK, WRONG, "D011"),
         (DECK, &floating, "D016"),
+        (DECK, &open, "D016"),
         (DECK, &apart, "D017"),
         (DECK, &lacking, "D018"),
         (&of_deck, RIGHT, "T001"),

@@ -85,6 +85,13 @@ fn failures(code: &str, page: &str) -> String {
                 failures += &format!("\n{code}: `{command}` brings up {found:?}\n{}", run.errors);
             }
             is_shown |= codes(expected).contains(&code);
+            // `check` finds it in a scene without solving, but for what only a solution shows.
+            if command.starts_with("inpact solve scene.toml") && !["D010", "D019", "D022"].contains(&code) {
+                let checked = folder.inpact(&["check", "scene.toml", "--format", "concise"]);
+                if codes(&checked.output).iter().all(|found| *found != code) {
+                    failures += &format!("\n{code}: `inpact check scene.toml` does not find it\n{}", checked.output);
+                }
+            }
             continue;
         };
         folder.write(file, &text);

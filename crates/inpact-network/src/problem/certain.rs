@@ -1,33 +1,58 @@
-//! Failures that are certain before anything is solved: bodies that nothing holds, and nodes that are one and held apart, whatever the laws of interfaces give.
+//! Failures that are certain before anything is solved: bodies that nothing holds, nodes that are one and held apart, and laws that give no conductance.
+//!
+//! Laws are evaluated where they depend on nothing that is sought.
 
-use super::Problem;
+use super::{FieldNodes, Problem};
+use crate::assembly::{RowFault, row_terms};
+use crate::knowledge::Knowledge;
 use crate::linear::Sets;
 use crate::scene::Field;
 use crate::solve::SolveFailure;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 impl Problem<'_> {
-    /// The failures that no state of contact avoids, field by field.
+    /// The failures that are certain at the start, field by field.
     ///
-    /// Interfaces count as paths, open or closed: a scene without such a failure may still have none of the paths it needs, which only solving shows.
+    /// An interface whose conductance depends on what is sought counts as a path: a scene without such a failure may still have none of the paths it needs, which only
+    /// solving shows.
     pub fn certain_failures(&self) -> Vec<SolveFailure> {
         let mut failures = Vec::new();
         for field in self.solved_fields() {
+            let Some(nodes) = self.field(field) else { continue };
             failures.extend(self.held_apart(field));
-            failures.extend(self.floating(field));
+            match self.sealed(field, nodes) {
+                Ok(sealed) => failures.extend(self.floating(field, nodes, &sealed)),
+                Err(fault) => failures.push(SolveFailure::Row(fault)),
+            }
         }
         failures
     }
 
+    /// The rows that conduct nothing, whatever is sought.
+    fn sealed(&self, field: Field, nodes: &FieldNodes) -> Result<HashSet<u32>, RowFault> {
+        let start = self.start();
+        let is_known = |row: &u32| {
+            let of = &self.scene.interfaces[*row as usize];
+            self.laws_of(*row as usize).is_some_and(|laws| {
+                let needs = Self::dependence(of, laws, field, start);
+                !needs.temperature && !needs.pore_pressure
+            })
+        };
+        let known = FieldNodes { rows: nodes.rows.iter().copied().filter(is_known).collect(), ..nodes.clone() };
+        let terms = row_terms(&Knowledge::at_start(self, start), field, &known)?;
+        let conductances = known.rows.iter().zip(terms.conductances);
+        Ok(conductances.filter(|(_, conductance)| *conductance == 0.0).map(|(row, _)| *row).collect())
+    }
+
     /// Bodies without a path to a fixed value, or in a transient to a capacity.
-    fn floating(&self, field: Field) -> Option<SolveFailure> {
-        let nodes = self.field(field)?;
+    fn floating(&self, field: Field, nodes: &FieldNodes, sealed: &HashSet<u32>) -> Option<SolveFailure> {
         let conditions = self.scene.conditions(field);
         let mut sets = Sets::new(self.scene.nodes.len());
         for link in nodes.links.iter().map(|link| &self.scene.links[*link as usize]) {
             sets.join(link.nodes[0], link.nodes[1]);
         }
-        for row in nodes.rows.iter().map(|row| &self.scene.interfaces[*row as usize]) {
+        let conducting = nodes.rows.iter().filter(|row| !sealed.contains(*row));
+        for row in conducting.map(|row| &self.scene.interfaces[*row as usize]) {
             sets.join(row.slave, row.master);
         }
         let mut is_held = vec![false; self.scene.nodes.len()];
