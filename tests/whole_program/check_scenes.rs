@@ -1,5 +1,6 @@
 //! `inpact check` of scenes: what `solve` finds in them, in every format, without solving them.
 
+use crate::folders::git;
 use crate::program::{Folder, Run, inpact, inpact_with_input, root};
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
@@ -182,6 +183,24 @@ fn laws_of_scenes() {
     assert!(run.code == 1 && run.output.contains("[D018]"), "{}", run.output);
     let run = check(&folder, &["s.toml", "--user-library", "none.so"]);
     assert!(run.code == 2 && run.errors.contains("none.so"), "{}", run.errors);
+}
+
+/// A branch changes a scene where it changes the scene itself, its deck or a table of it.
+#[test]
+fn scenes_that_a_branch_changes() {
+    let folder =
+        Folder::with(&[("a.inp", DECK), ("s.toml", &(RIGHT.to_owned() + "[[node_file]]\nfile = \"n.csv\"\n"))]);
+    folder.write("n.csv", "node,potential_fixed\nc,1\n");
+    for arguments in [&["init", "-q"][..], &["add", "."], &["commit", "-qm", "first"], &["checkout", "-qb", "work"]] {
+        git(folder.path(), arguments);
+    }
+    let since = || check(&folder, &["--since", "main", "s.toml"]).errors;
+    assert_eq!(since(), "0 decks: nothing to report\n");
+    for (name, text) in [("n.csv", "node,potential_fixed\nc,2\n"), ("a.inp", &format!("{DECK}** more\n"))] {
+        folder.write(name, text);
+        assert_eq!(since(), "1 scene: nothing to report\n", "{name}");
+        git(folder.path(), &["checkout", "-q", "."]);
+    }
 }
 
 /// A scene is checked again when its deck or a table of it changes.

@@ -81,7 +81,7 @@ fn fixes_and_layout_of_a_folder() {
     assert_eq!(folder.read("b/second.inp"), "*SURFACE INTERACTION, NAME=B\n** indented\n");
 }
 
-fn git(folder: &Path, arguments: &[&str]) {
+pub(crate) fn git(folder: &Path, arguments: &[&str]) {
     let options = ["-c", "user.name=A", "-c", "user.email=a@example.org", "-c", "init.defaultBranch=main"];
     let output = Command::new("git").args(options).args(arguments).current_dir(folder).output().expect("git runs");
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
