@@ -140,7 +140,7 @@ impl<'a> Join<'a> {
         let head = results.frames(&mut |head, frame| {
             let of_file = match &mut of_file {
                 Some(of_file) => of_file,
-                None => match self.begin(&file, head, results) {
+                None => match self.begin(&file, (head, Some(frame)), results) {
                     Ok(begun) => of_file.insert(begun),
                     Err(error) => {
                         failed = Some(error);
@@ -157,7 +157,7 @@ impl<'a> Join<'a> {
         }
         let of_file = match of_file {
             Some(of_file) => of_file,
-            None => self.begin(&file, &head, results)?,
+            None => self.begin(&file, (&head, None), results)?,
         };
         let OfFile { map, used, not_needed, notes, .. } = of_file;
         let mut messages: Vec<String> = notes.into_iter().collect();
@@ -183,11 +183,19 @@ impl<'a> Join<'a> {
         Ok(())
     }
 
-    /// Finds out which nodes of the mesh the labels of a file are, from what it says before its first state.
-    fn begin<F: ResultFile>(&self, file: &Arc<str>, head: &Results, results: &F) -> Result<OfFile, F::Error> {
+    /// Finds out which nodes of the mesh the labels of a file are, from what it says before its first state and in it.
+    fn begin<F: ResultFile>(
+        &self,
+        file: &Arc<str>,
+        (head, first): (&Results, Option<&Frame>),
+        results: &F,
+    ) -> Result<OfFile, F::Error> {
         let surfaces = || -> Result<FileSurfaces, F::Error> {
             let mut surfaces = FileSurfaces::of(head);
-            // Without surfaces by their faces, the regions of contact say which nodes are on one.
+            if let Some(frame) = first {
+                surfaces.take(frame);
+            }
+            // Without surfaces by their faces, the regions of contact say which nodes are on one, in whichever state.
             if head.surfaces.is_empty() {
                 results.frames(&mut |_, frame| {
                     surfaces.take(frame);

@@ -225,6 +225,44 @@ fn nodes_of_instances_are_found_by_coordinates_and_distinguished_by_surfaces() {
     }
 }
 
+/// A file need not give surfaces by their faces, and may say contact in a later state only: that distinguishes the nodes of the states before.
+#[test]
+fn contact_of_a_later_state_distinguishes_nodes() {
+    let read = deck(INSTANCES);
+    let mut fil = Fil::default();
+    let corners = |z: f64| [[10.0, 0.0, z], [12.0, 0.0, z], [12.0, 1.0, z], [10.0, 1.0, z]];
+    for (node, [x, y, z]) in (1..).zip([corners(0.0), corners(1.0), corners(1.0), corners(2.0)].concat()) {
+        fil.record(1901, &[W::I(node), W::D(x), W::D(y), W::D(z)]);
+    }
+    fil.record(1940, &[W::I(7), W::A("ASSEMBLY"), W::A("_LOW-1_T"), W::A("OP")]);
+    fil.record(1940, &[W::I(8), W::A("ASSEMBLY"), W::A("_UP-1_BO"), W::A("TTOM")]);
+    fil.end();
+    for increment in 1..=2 {
+        let time = 0.25 * f64::from(i32::try_from(increment).expect("small"));
+        fil.begin(1, increment, time, time);
+        for node in 1..=16 {
+            fil.record(201, &[W::I(node), W::D(if node <= 8 { 20.0 } else { 90.0 })]);
+        }
+        if increment == 2 {
+            fil.record(1503, &[W::I(0), W::A("       8"), W::A("       7"), W::A("")]);
+            for node in 9..=12 {
+                fil.record(1504, &[W::I(node), W::I(3)]);
+                fil.record(1511, &[W::D(10.0), W::D(0.0), W::D(0.0)]);
+            }
+        }
+        fil.end();
+    }
+    let joined = read.join(&[("job.fil", &fil.bytes())]).expect("of this mesh");
+    assert_eq!((joined.files[0].matched_by, joined.files[0].nodes), (MatchedBy::Coordinates, 8));
+    let table = read.table(&joined.states);
+    for state in [0, 1] {
+        for node in ["Up-1.1", "Up-1.2", "Up-1.3", "Up-1.4"] {
+            let number = |column| table.number(node, state, column);
+            assert_eq!((number("temp_s"), number("temp_m")), (90.0, 20.0), "{node} in state {state}");
+        }
+    }
+}
+
 #[test]
 fn nodes_at_one_place_that_nothing_tells_apart_are_named_and_not_used() {
     let read = deck(INSTANCES);
