@@ -6,6 +6,7 @@ The wheel must be one for release, with SciPy and pyarrow beside it.
 
 from __future__ import annotations
 
+import os
 import statistics
 import subprocess
 import sys
@@ -43,12 +44,25 @@ def deck_of(rows: list[tuple[float, ...]]) -> inpact.Deck:
     return inpact.parse(head + "\n".join(lines) + "\n")
 
 
+def on_one_thread(function: Callable[[], object]) -> Callable[[], object]:
+    """Do the same on one thread, as NumPy and SciPy do; otherwise all cores share it."""
+
+    def alone() -> object:
+        os.environ["RAYON_NUM_THREADS"] = "1"
+        try:
+            return function()
+        finally:
+            del os.environ["RAYON_NUM_THREADS"]
+
+    return alone
+
+
 def row(what: str, ours: float, theirs: float, whose: str, aim: str) -> str:
     """Make a row of the table; times in milliseconds."""
     return f"| {what} | {ours * 1e3:.3g} ms | {whose} {theirs * 1e3:.3g} ms | {theirs / ours:.1f} × | {aim} |"
 
 
-def one_axis(random: np.random.Generator) -> str:
+def one_axis(random: np.random.Generator) -> list[str]:
     """Interpolate along pressure alone."""
     pressures = np.concatenate([[0.0], np.sort(random.random(9))]) * 1e6
     values = np.sort(random.random(10)) * 4e3
@@ -56,11 +70,20 @@ def one_axis(random: np.random.Generator) -> str:
     points = random.random(POINTS) * 1.1e6
     ours, theirs = gap.conductance(pressure=points), np.interp(points, pressures, values)
     assert np.abs(ours - theirs).max() <= 1e-12 * values.max()
-    times = best([lambda: gap.conductance(pressure=points), lambda: np.interp(points, pressures, values)])
-    return row("`conductance`, 10⁶ points, table of 10 pressures", *times, "`numpy.interp`", "≥ 15 ×")
+
+    def conductance() -> object:
+        return gap.conductance(pressure=points)
+
+    functions = [conductance, on_one_thread(conductance), lambda: np.interp(points, pressures, values)]
+    shared, alone, theirs = best(functions)
+    what = "`conductance`, 10⁶ points, table of 10 pressures"
+    return [
+        row(what, shared, theirs, "`numpy.interp`", "≥ 15 ×"),
+        row(f"{what}, one thread", alone, theirs, "`numpy.interp`", "—"),
+    ]
 
 
-def two_axes(random: np.random.Generator) -> str:
+def two_axes(random: np.random.Generator) -> list[str]:
     """Interpolate along pressure and temperature."""
     pressures = np.concatenate([[0.0], np.sort(random.random(9))]) * 1e6
     temperatures = np.array([20.0, 150.0, 400.0, 700.0, 1100.0])
@@ -75,9 +98,16 @@ def two_axes(random: np.random.Generator) -> str:
     points = np.column_stack([temperature, pressure])
     ours, theirs = gap.conductance(pressure=pressure, temperature=temperature), grid(points)
     assert np.abs(ours - theirs).max() <= 1e-12 * values.max()
-    times = best([lambda: gap.conductance(pressure=pressure, temperature=temperature), lambda: grid(points)], 9)
+
+    def conductance() -> object:
+        return gap.conductance(pressure=pressure, temperature=temperature)
+
+    shared, alone, theirs = best([conductance, on_one_thread(conductance), lambda: grid(points)], 9)
     what = "`conductance`, 10⁶ points, 10 pressures × 5 temperatures"
-    return row(what, *times, "`RegularGridInterpolator`", "≥ 20 ×")
+    return [
+        row(what, shared, theirs, "`RegularGridInterpolator`", "≥ 20 ×"),
+        row(f"{what}, one thread", alone, theirs, "`RegularGridInterpolator`", "—"),
+    ]
 
 
 def tables(random: np.random.Generator) -> list[str]:
@@ -139,7 +169,7 @@ def imports() -> str:
 def main() -> None:
     """Measure all, and write the section."""
     random = np.random.default_rng(1)
-    rows = [one_axis(random), two_axes(random), *tables(random), *one_point(), imports()]
+    rows = [*one_axis(random), *two_axes(random), *tables(random), *one_point(), imports()]
     page.write(
         "speed",
         [

@@ -113,7 +113,10 @@ def conductance(
     others = [by_name.get(name) for name in names[: len(gap.depends_on)]]
     rows = columns[0].size
     arguments = (rows, by_name.get("clearance"), by_name.get("pressure"), others)
-    values = shaped(gap.values(*arguments), shape)
+    # NumPy's memory is used again from call to call, and is not cleared before it is written.
+    column = np.empty(rows)
+    gap.values(*arguments, column)
+    values = shaped(column, shape)
     if not derivatives:
         return values
     slopes = gap.slopes(*arguments)
@@ -127,7 +130,9 @@ def table_values(gap: _inpact.GapConductance, against: str, first: Any, temperat
     by_name = {name: column for (name, _), column in zip(variables, columns[1:], strict=True)}
     names = ["temperature", *(f"fv{number}" for number in range(1, len(gap.depends_on)))]
     others = [by_name.get(name) for name in names[: len(gap.depends_on)]]
-    return shaped(gap.table_values(against, columns[0].size, [columns[0], *others]), shape)
+    column = np.empty(columns[0].size)
+    gap.table_values(against, columns[0].size, [columns[0], *others], column)
+    return shaped(column, shape)
 
 
 Column = tuple[str, Any, Any]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+# `typing` takes longer to import than this package does: types are for those who check them.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
     from inpact._inpact import Finding

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from collections.abc import Mapping
+
+# `typing` takes longer to import than this package does: types are for those who check them.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import Any, Literal
+
     from inpact._deck import Deck, Path
     from inpact._inpact import Result
     from inpact._laws import UserPoints

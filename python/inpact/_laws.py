@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, overload
-
 from inpact import _inpact
+
+# `typing` takes longer to import than this package does: types are for those who check them.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from typing import Any, Literal, overload
 
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     Against = Literal["clearance", "pressure"]
 
 
-@dataclass(frozen=True)
 class UserPoints:
     """The points that a user's conductance is asked at, as arrays of one length.
 
@@ -37,12 +37,26 @@ class UserPoints:
         The number of the slave node; 0 where its label is no number.
     """
 
-    interaction: str
-    clearance: Floats
-    temperature: tuple[Floats, ...]
-    fv: list[tuple[Floats, ...]]
-    time: Floats
-    node: Floats
+    __slots__ = ("clearance", "fv", "interaction", "node", "temperature", "time")
+
+    def __init__(
+        self,
+        interaction: str,
+        clearance: Floats,
+        temperature: tuple[Floats, ...],
+        fv: list[tuple[Floats, ...]],
+        time: Floats,
+        node: Floats,
+    ) -> None:
+        self.interaction = interaction
+        self.clearance = clearance
+        self.temperature = temperature
+        self.fv = fv
+        self.time = time
+        self.node = node
+
+    def __repr__(self) -> str:
+        return f"<UserPoints of {self.interaction!r}: {len(self.clearance)}>"
 
 
 class GapConductance:
@@ -74,36 +88,39 @@ class GapConductance:
         names = ["temperature", *(f"fv{number}" for number in range(1, len(flags)))]
         return [name for name, depends in zip(names, flags, strict=False) if depends]
 
-    @overload
-    def conductance(
-        self,
-        clearance: float | None = None,
-        pressure: float | None = None,
-        temperature: float | None = None,
-        fv: float | Sequence[float] | None = None,
-        *,
-        derivatives: Literal[False] = False,
-    ) -> float: ...
-    @overload
-    def conductance(
-        self,
-        clearance: ArrayLike | None = None,
-        pressure: ArrayLike | None = None,
-        temperature: ArrayLike | None = None,
-        fv: ArrayLike | Sequence[ArrayLike] | None = None,
-        *,
-        derivatives: Literal[False] = False,
-    ) -> float | Floats: ...
-    @overload
-    def conductance(
-        self,
-        clearance: ArrayLike | None = None,
-        pressure: ArrayLike | None = None,
-        temperature: ArrayLike | None = None,
-        fv: ArrayLike | Sequence[ArrayLike] | None = None,
-        *,
-        derivatives: Literal[True],
-    ) -> tuple[float | Floats, dict[str, float | Floats]]: ...
+    if TYPE_CHECKING:
+
+        @overload
+        def conductance(
+            self,
+            clearance: float | None = None,
+            pressure: float | None = None,
+            temperature: float | None = None,
+            fv: float | Sequence[float] | None = None,
+            *,
+            derivatives: Literal[False] = False,
+        ) -> float: ...
+        @overload
+        def conductance(
+            self,
+            clearance: ArrayLike | None = None,
+            pressure: ArrayLike | None = None,
+            temperature: ArrayLike | None = None,
+            fv: ArrayLike | Sequence[ArrayLike] | None = None,
+            *,
+            derivatives: Literal[False] = False,
+        ) -> float | Floats: ...
+        @overload
+        def conductance(
+            self,
+            clearance: ArrayLike | None = None,
+            pressure: ArrayLike | None = None,
+            temperature: ArrayLike | None = None,
+            fv: ArrayLike | Sequence[ArrayLike] | None = None,
+            *,
+            derivatives: Literal[True],
+        ) -> tuple[float | Floats, dict[str, float | Floats]]: ...
+
     def conductance(
         self,
         clearance: Any = None,

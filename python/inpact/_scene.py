@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal
 
 from inpact import _inpact
 
+# `typing` takes longer to import than this package does: types are for those who check them.
+TYPE_CHECKING = False
+
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import Any, Literal
+
     import numpy as np
     from numpy.typing import NDArray
 

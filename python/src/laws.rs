@@ -1,7 +1,7 @@
 //! The laws of an interaction over NumPy arrays.
 
 use inpact::{Against, ContactColumns};
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyTuple};
@@ -121,7 +121,7 @@ impl GapConductance {
         arrays.call1((slf, clearance, pressure, temperature, fv, derivatives))
     }
 
-    /// The conductance over contiguous columns of equal length.
+    /// The conductance over contiguous columns of equal length, into one of that length.
     fn values<'py>(
         &self,
         py: Python<'py>,
@@ -129,15 +129,16 @@ impl GapConductance {
         clearance: Option<PyReadonlyArray1<'py, f64>>,
         pressure: Option<PyReadonlyArray1<'py, f64>>,
         variables: Vec<Option<PyReadonlyArray1<'py, f64>>>,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        mut out: PyReadwriteArray1<'py, f64>,
+    ) -> PyResult<()> {
+        let out = out.as_slice_mut()?;
         let clearance = clearance.as_ref().map(|column| column.as_slice()).transpose()?;
         let pressure = pressure.as_ref().map(|column| column.as_slice()).transpose()?;
         let variables = slices(&variables)?;
-        self.check_columns(rows, &[clearance, pressure], &variables)?;
+        self.check_columns(rows, &[clearance, pressure, Some(&*out)], &variables)?;
         let columns = ContactColumns { clearance, pressure, variables: &variables };
-        let mut values = vec![0.0; rows];
-        py.detach(|| self.gap.values(&columns, &mut values));
-        Ok(PyArray1::from_vec(py, values))
+        py.detach(|| self.gap.values(&columns, out));
+        Ok(())
     }
 
     /// The slopes over contiguous columns of equal length, by the names of what they are along.
@@ -177,20 +178,21 @@ impl GapConductance {
         Ok(dict)
     }
 
-    /// One table by itself over contiguous columns of equal length.
+    /// One table by itself over contiguous columns of equal length, into one of that length.
     fn table_values<'py>(
         &self,
         py: Python<'py>,
         against: &str,
         rows: usize,
         columns: Vec<Option<PyReadonlyArray1<'py, f64>>>,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        mut out: PyReadwriteArray1<'py, f64>,
+    ) -> PyResult<()> {
         let against = self.against(against)?;
+        let out = out.as_slice_mut()?;
         let columns = slices(&columns)?;
-        self.check_columns(rows, &[columns.first().copied()], columns.get(1..).unwrap_or_default())?;
-        let mut values = vec![0.0; rows];
-        py.detach(|| self.gap.table_values(against, &columns, &mut values));
-        Ok(PyArray1::from_vec(py, values))
+        self.check_columns(rows, &[columns.first().copied(), Some(&*out)], columns.get(1..).unwrap_or_default())?;
+        py.detach(|| self.gap.table_values(against, &columns, out));
+        Ok(())
     }
 
     /// The abscissae of a table.

@@ -6,6 +6,7 @@ import sys
 import threading
 import time
 
+import duckdb
 import numpy as np
 import pandas as pd
 import polars as pl
@@ -63,6 +64,32 @@ def test_every_kind_of_table_gives_the_same():
     frame = pl.from_arrow(pa.table(inpact.evaluate(deck, arrow)))
     assert frame["ECD"].to_list() == [3000.0, 4000.0, 0.0]
     assert pd.DataFrame.from_records(pa.table(inpact.evaluate(deck, arrow)).to_pylist())["ECD"][0] == 3000.0
+
+
+def test_relations_of_duckdb_give_the_same(tmp_path: pathlib.Path):
+    rows = 5000
+    random = np.random.default_rng(5)
+    arrow = pa.table(
+        {
+            "node": pa.array([str(row) for row in range(rows)]),
+            "clearance": random.random(rows) * 3.0,
+            "epot_jump": random.normal(size=rows),
+        }
+    )
+    deck = inpact.parse(JOINT)
+    expected = pa.table(inpact.evaluate(deck, arrow, outputs=["ECD", "SJD"]))
+    pyarrow.parquet.write_table(arrow, tmp_path / "nodes.parquet")
+    with duckdb.connect() as connection:
+        from_memory = connection.sql("SELECT * FROM arrow")
+        from_disk = connection.sql(f"SELECT * FROM '{tmp_path}/nodes.parquet' ORDER BY node::INTEGER")
+        for relation in (from_memory, from_disk):
+            result = inpact.evaluate(deck, relation, outputs=["ECD", "SJD"])
+            assert pa.table(result).to_pydict() == expected.to_pydict()
+        # And back: what is evaluated is a table to DuckDB.
+        currents = pa.table(result)
+        (count, largest) = connection.sql("SELECT count(*), max(abs(ECD)) FROM currents").fetchone()
+    assert count == rows == currents.num_rows
+    assert largest == np.abs(expected["ECD"].to_numpy()).max()
 
 
 def test_what_is_missing_and_what_is_no_number():

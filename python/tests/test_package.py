@@ -29,8 +29,10 @@ def test_everything_public_has_an_example_or_a_page():
         assert getattr(inpact, name).__doc__, name
 
 
-def test_importing_needs_no_numpy():
-    code = "import inpact, sys; print('numpy' in sys.modules)"
+@pytest.mark.parametrize("module", ["dataclasses", "inspect", "json", "numpy", "typing"])
+def test_importing_takes_nothing_heavy_along(module: str):
+    # What the environment has imported before is none of ours.
+    code = f"import sys; before = set(sys.modules); import inpact; print('{module}' in set(sys.modules) - before)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "False"
 

@@ -2,9 +2,12 @@
 
 use crate::deck::Deck;
 use crate::error::Error;
+use crate::threads::{threads_for, with_threads};
 use inpact_evaluation::law::{Clearance, ConductanceTables, ContactPoint, ContactPressure, ContactState};
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableKernel, Tail};
 use inpact_parser::model::{ElectricalConductance, Interaction, Name, Table};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// The gap electrical conductance of an interaction, σ_g (C T⁻¹ L⁻² φ⁻¹), as *GAP ELECTRICAL CONDUCTANCE gives it (T-20 to T-25).
 #[derive(Debug, Clone)]
@@ -12,6 +15,8 @@ pub struct GapConductance {
     tables: ConductanceTables,
     clearance: Option<TableKernel>,
     pressure: Option<TableKernel>,
+    /// Whether the values of the table against pressure depend on the pressure.
+    pressure_matters: bool,
     /// The value depends on temperature, then on each field variable.
     depends_on: Vec<bool>,
     /// Of the tables against clearance and pressure.
@@ -40,6 +45,9 @@ pub enum Against {
 
 /// Points that are gone through together, so that what one step writes is still in the first cache for the next.
 const CHUNK: usize = 1024;
+
+/// So many points at least are the share of a thread: fewer are done sooner than it starts.
+const SHARE: usize = 1 << 17;
 
 impl Deck {
     /// The electrical conductance of an interaction; `None` where it has none but a user subroutine's, or no *GAP ELECTRICAL CONDUCTANCE at all.
@@ -87,13 +95,15 @@ impl GapConductance {
         let axes = tables().map(PiecewiseTable::axis_count).max().unwrap_or(1);
         let depends = |axis: usize| tables().any(|table| table.axes().get(axis).is_some_and(AxisSummary::matters));
         let depends_on = (1..axes).map(depends).collect();
+        let pressure_matters =
+            pressure.as_ref().is_some_and(|table| table.axes().first().is_some_and(AxisSummary::matters));
         let abscissae =
             [&option.clearance, &option.pressure].map(|table| table.as_deref().map_or_else(Vec::new, abscissae));
         let Some(tables) = ConductanceTables::of(clearance, pressure) else {
             return Err(Error::data(format!("*GAP ELECTRICAL CONDUCTANCE of `{}` has no rows", interaction.name)));
         };
         let [clearance, pressure] = kernels;
-        Ok(Self { tables, clearance, pressure, depends_on, abscissae })
+        Ok(Self { tables, clearance, pressure, pressure_matters, depends_on, abscissae })
     }
 
     /// Whether there is a table against clearance or pressure.
@@ -127,26 +137,48 @@ impl GapConductance {
 
     /// The conductance at all points of some columns; the bits are those of [`at`](Self::at).
     ///
+    /// Many points are shared by the threads of the machine, or as many as the environment variable `RAYON_NUM_THREADS` says.
+    ///
     /// # Panics
     /// A column is shorter than `values`, unless no table depends on it.
     pub fn values(&self, columns: &ContactColumns<'_>, values: &mut [f64]) {
+        in_shares(values, |first, values| {
+            let part = first..first + values.len();
+            let variables: Vec<&[f64]> = columns.variables.iter().map(|column| part_of(column, &part)).collect();
+            let columns = ContactColumns {
+                clearance: columns.clearance.map(|column| part_of(column, &part)),
+                pressure: columns.pressure.map(|column| part_of(column, &part)),
+                variables: &variables,
+            };
+            self.values_of_part(&columns, values);
+        });
+    }
+
+    /// The same on the calling thread.
+    fn values_of_part(&self, columns: &ContactColumns<'_>, values: &mut [f64]) {
+        // Without a clearance every point is closed, and one whose pressure is NaN has the value NaN, which the table gives where the pressure matters.
+        if let (None, Some(pressure), Some(kernel), true) =
+            (columns.clearance, columns.pressure, &self.pressure, self.pressure_matters)
+        {
+            let columns: Vec<&[f64]> = std::iter::once(pressure).chain(columns.variables.iter().copied()).collect();
+            return kernel.values(&columns, values);
+        }
         let mut first = 0;
         let mut clearances = [0.0; CHUNK];
         let mut states = [ContactState::Closed; CHUNK];
         while first < values.len() {
             let end = values.len().min(first + CHUNK);
             let count = end - first;
-            let part =
-                |column: &'_ [f64]| -> std::ops::Range<usize> { if column.is_empty() { 0..0 } else { first..end } };
-            let clearance = columns.clearance.map(|column| &column[part(column)]);
-            let pressure = columns.pressure.map(|column| &column[part(column)]);
+            let part = first..end;
+            let clearance = columns.clearance.map(|column| part_of(column, &part));
+            let pressure = columns.pressure.map(|column| part_of(column, &part));
             for (row, state) in states[..count].iter_mut().enumerate() {
                 *state = state_of(clearance.map(|column| column[row]), pressure.map(|column| column[row]));
             }
             let states = &states[..count];
             let out = &mut values[first..end];
             let coordinates = |first: &'_ [f64], of: &mut dyn FnMut(&[&[f64]])| {
-                let others = columns.variables.iter().map(|column| &column[part(column)]);
+                let others = columns.variables.iter().map(|column| part_of(column, &part));
                 of(&std::iter::once(first).chain(others).collect::<Vec<_>>());
             };
             let is_open = |state: &ContactState| *state == ContactState::Open;
@@ -194,7 +226,12 @@ impl GapConductance {
     /// # Panics
     /// A column the table depends on is shorter than `values`.
     pub fn table_values(&self, against: Against, columns: &[&[f64]], values: &mut [f64]) -> Option<()> {
-        self.kernel(against)?.values(columns, values);
+        let kernel = self.kernel(against)?;
+        in_shares(values, |first, values| {
+            let part = first..first + values.len();
+            let columns: Vec<&[f64]> = columns.iter().map(|column| part_of(column, &part)).collect();
+            kernel.values(&columns, values);
+        });
         Some(())
     }
 
@@ -212,6 +249,23 @@ impl GapConductance {
             Against::Pressure => self.pressure.as_ref(),
         }
     }
+}
+
+/// The rows of a column in a part; none of one that is not given.
+fn part_of<'a>(column: &'a [f64], part: &Range<usize>) -> &'a [f64] {
+    if column.is_empty() { column } else { &column[part.clone()] }
+}
+
+/// Hands shares of values, each with the number of values before it, to the threads of the machine; few values to none but this one.
+fn in_shares(values: &mut [f64], work: impl Fn(usize, &mut [f64]) + Send + Sync) {
+    let threads = threads_for(values.len() / SHARE);
+    if threads == 1 {
+        return work(0, values);
+    }
+    let share = values.len().div_ceil(threads).next_multiple_of(CHUNK);
+    with_threads(threads, || {
+        values.par_chunks_mut(share).enumerate().for_each(|(at, values)| work(at * share, values));
+    });
 }
 
 /// The abscissae of the first variable.
@@ -248,6 +302,8 @@ mod tests {
     const CLEARANCE: &str = "*GAP ELECTRICAL CONDUCTANCE\n8., 0., 300.\n5., 1., 300.\n9., 0., 400.\n6., 2., 400.\n";
     const PRESSURE: &str = "*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n10., 0., 300.\n30., 2., 300.\n40., 3., 400.\n";
 
+    const CONSTANT: &str = "*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n10., 0., 300.\n10., 2., 300.\n40., 0., 400.\n";
+
     /// Columns and single points agree bit for bit, for every combination of tables and of what is known of contact.
     #[test]
     fn t_22_columns_have_the_bits_of_points() {
@@ -259,7 +315,8 @@ mod tests {
             .take(3000)
             .collect();
         let [d, p, t] = [0, 1, 2].map(|index| points.iter().map(|point| point[index]).collect::<Vec<f64>>());
-        for tables in [CLEARANCE.to_owned(), PRESSURE.to_owned(), CLEARANCE.to_owned() + PRESSURE] {
+        for tables in [CLEARANCE.to_owned(), PRESSURE.to_owned(), CLEARANCE.to_owned() + PRESSURE, CONSTANT.to_owned()]
+        {
             let text = format!("*SURFACE INTERACTION, NAME=A\n{tables}");
             let deck = Deck::parse("a.inp", text, &ReadOptions::new().isolated()).expect("a deck");
             let gap = deck.electrical_conductance("A").expect("it is there").expect("it has tables");
@@ -276,6 +333,40 @@ mod tests {
                     let at = gap.at(clearance.then_some(*d), pressure.then_some(*p), &[*t]);
                     assert_eq!(value.to_bits(), at.to_bits(), "{tables}: d {d}, p {p}, t {t}: {value} and {at}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn points_that_threads_share_have_the_bits_of_points_alone() {
+        let text = format!("*SURFACE INTERACTION, NAME=A\n{CLEARANCE}{PRESSURE}");
+        let deck = Deck::parse("a.inp", text, &ReadOptions::new().isolated()).expect("a deck");
+        let gap = deck.electrical_conductance("A").expect("it is there").expect("it has tables");
+        let rows = 2 * super::SHARE + 77;
+        let column = |step: usize, width: f64| -> Vec<f64> {
+            (0..rows).map(|row| (row * step % 1009) as f64 / 1009.0 * width - 0.5).collect()
+        };
+        let (d, p, t) = (column(7, 3.0), column(13, 4.0), column(11, 500.0));
+        for (clearance, pressure) in [(true, true), (true, false), (false, true)] {
+            let columns = ContactColumns {
+                clearance: clearance.then_some(d.as_slice()),
+                pressure: pressure.then_some(p.as_slice()),
+                variables: &[&t],
+            };
+            let mut values = vec![0.0; rows];
+            gap.values(&columns, &mut values);
+            for (row, value) in values.iter().enumerate() {
+                let at = gap.at(clearance.then_some(d[row]), pressure.then_some(p[row]), &[t[row]]);
+                assert_eq!(value.to_bits(), at.to_bits(), "row {row}");
+            }
+        }
+        for (against, own) in [(Against::Clearance, &d), (Against::Pressure, &p)] {
+            let (mut values, mut alone) = (vec![0.0; rows], vec![0.0; 1]);
+            gap.table_values(against, &[own, &t], &mut values).expect("there is such a table");
+            for (row, value) in values.iter().enumerate().step_by(997) {
+                gap.table_values(against, &[&own[row..=row], &t[row..=row]], &mut alone)
+                    .expect("there is such a table");
+                assert_eq!(value.to_bits(), alone[0].to_bits(), "row {row}");
             }
         }
     }

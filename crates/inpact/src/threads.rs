@@ -4,6 +4,8 @@
 //! results do not depend on how many there are.
 
 use rayon::ThreadPoolBuilder;
+use std::num::NonZero;
+use std::thread::available_parallelism;
 
 /// The stack of a thread in bytes.
 ///
@@ -21,4 +23,15 @@ pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + S
         // The calling thread has a pool already.
         Err(_) => work(),
     }
+}
+
+/// The number of threads for work that is worth so many at most: what the machine has, or what `RAYON_NUM_THREADS` says, as rayon takes it.
+pub(crate) fn threads_for(most: usize) -> usize {
+    // To find out what the machine has takes longer than little work.
+    if most <= 1 {
+        return 1;
+    }
+    let said = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    let available = || available_parallelism().map_or(1, NonZero::get);
+    said.filter(|number| *number != 0).unwrap_or_else(available).min(most)
 }
