@@ -87,7 +87,7 @@ def test_relations_of_duckdb_give_the_same(tmp_path: pathlib.Path):
             assert pa.table(result).to_pydict() == expected.to_pydict()
         # And back: what is evaluated is a table to DuckDB.
         currents = pa.table(result)
-        (count, largest) = connection.sql("SELECT count(*), max(abs(ECD)) FROM currents").fetchone()
+        [(count, largest)] = connection.sql("SELECT count(*), max(abs(ECD)) FROM currents").fetchall()
     assert count == rows == currents.num_rows
     assert largest == np.abs(expected["ECD"].to_numpy()).max()
 

@@ -49,6 +49,9 @@ const CHUNK: usize = 1024;
 /// So many points at least are the share of a thread: fewer are done sooner than it starts.
 const SHARE: usize = 1 << 17;
 
+/// The same for tables of one axis, which are evaluated nearly as fast as memory is read.
+const SHARE_OF_ONE_AXIS: usize = 1 << 20;
+
 impl Deck {
     /// The electrical conductance of an interaction; `None` where it has none but a user subroutine's, or no *GAP ELECTRICAL CONDUCTANCE at all.
     ///
@@ -142,7 +145,7 @@ impl GapConductance {
     /// # Panics
     /// A column is shorter than `values`, unless no table depends on it.
     pub fn values(&self, columns: &ContactColumns<'_>, values: &mut [f64]) {
-        in_shares(values, |first, values| {
+        in_shares(values, self.share(), |first, values| {
             let part = first..first + values.len();
             let variables: Vec<&[f64]> = columns.variables.iter().map(|column| part_of(column, &part)).collect();
             let columns = ContactColumns {
@@ -227,7 +230,7 @@ impl GapConductance {
     /// A column the table depends on is shorter than `values`.
     pub fn table_values(&self, against: Against, columns: &[&[f64]], values: &mut [f64]) -> Option<()> {
         let kernel = self.kernel(against)?;
-        in_shares(values, |first, values| {
+        in_shares(values, self.share(), |first, values| {
             let part = first..first + values.len();
             let columns: Vec<&[f64]> = columns.iter().map(|column| part_of(column, &part)).collect();
             kernel.values(&columns, values);
@@ -241,6 +244,11 @@ impl GapConductance {
             Against::Clearance => &self.abscissae[0],
             Against::Pressure => &self.abscissae[1],
         }
+    }
+
+    /// The number of points that are a share of a thread.
+    fn share(&self) -> usize {
+        if self.depends_on.contains(&true) { SHARE } else { SHARE_OF_ONE_AXIS }
     }
 
     fn kernel(&self, against: Against) -> Option<&TableKernel> {
@@ -257,8 +265,8 @@ fn part_of<'a>(column: &'a [f64], part: &Range<usize>) -> &'a [f64] {
 }
 
 /// Hands shares of values, each with the number of values before it, to the threads of the machine; few values to none but this one.
-fn in_shares(values: &mut [f64], work: impl Fn(usize, &mut [f64]) + Send + Sync) {
-    let threads = threads_for(values.len() / SHARE);
+fn in_shares(values: &mut [f64], least: usize, work: impl Fn(usize, &mut [f64]) + Send + Sync) {
+    let threads = threads_for(values.len() / least);
     if threads == 1 {
         return work(0, values);
     }
