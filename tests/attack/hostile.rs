@@ -192,7 +192,7 @@ fn by_structure(program: &Path, runs: &Runs, trials: u64, seed: u64) -> Report {
     }
     report.text = format!(
         "{wanted} of the {possible} files in which one value, one key or the end is another.\n\
-         What is refused is refused with a message; bytes that are not UTF-8, NUL, values nested 100,000 deep and keys that are there twice are always refused, and so is JSON that is cut short.\n\n\
+         What is refused is refused with a message; in JSON and TOML bytes that are not UTF-8, NUL, values nested 100,000 deep and keys that are there twice are always refused, and so is JSON that is cut short; a table of nodes may hold names of any bytes and end after any row.\n\n\
          | changed | ended with 0 | with 1 | with 2 | faults |\n|---|---|---|---|---|\n"
     );
     for (kind, [clean, errors, refused, faults]) in Kind::ALL.iter().zip(counts) {
