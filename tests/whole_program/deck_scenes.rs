@@ -470,26 +470,27 @@ fn a_fault_leaves_out_the_links_of_its_body_alone() {
     }
 }
 
-/// A current into a bar, a joint and another bar to the ground: a deck of electrical conduction becomes a scene with nothing typed.
-#[test]
-fn an_electrical_scene_from_a_deck() {
+/// Two bars and a joint between them, a current of 18 A from the upper end to the ground; `joule` are the options of the materials on the heat of the current.
+fn electrical(joule: [&str; 2]) -> Folder {
     let below = Block { first: 1000, name: "A", low: 0.0, high: 0.02, conductivity: 40.0, at: [0.0; 2] };
     let above = Block { first: 2000, name: "B", low: 0.02, high: 0.05, conductivity: 90.0, at: [0.0; 2] };
-    let block = |of: &Block, electrical: f64| {
+    let block = |of: &Block, electrical: f64, joule: &str| {
         let text = block(of, "C3D8", Shape::Distorted, (2, 0.03)).replace("TYPE=C3D8", "TYPE=DC3D8E");
-        text.replace("*CONDUCTIVITY", &format!("*ELECTRICAL CONDUCTIVITY\n{electrical:?}\n*CONDUCTIVITY"))
+        text.replace("*CONDUCTIVITY", &format!("{joule}*ELECTRICAL CONDUCTIVITY\n{electrical:?}\n*CONDUCTIVITY"))
     };
     let deck = format!(
         "{}{}*SURFACE INTERACTION, NAME=JOINT\n*GAP ELECTRICAL CONDUCTANCE\n2.E6, 0.\n1.E5, 0.001\n*GAP CONDUCTANCE\n3000., 0.\n100., 0.001\n\
          *CONTACT PAIR, INTERACTION=JOINT, TYPE=SURFACE TO SURFACE\nSLB, SHA\n*STEP\n*COUPLED THERMAL-ELECTRICAL, STEADY STATE\n1., 1.\n\
          *BOUNDARY\nLA, 9, 9, 0.\nLA, 11, 11, 20.\nHB, 11, 11, 20.\n*CECURRENT\nHB, 9, 2.\n*END STEP\n",
-        block(&below, 5e6),
-        block(&above, 1e6)
+        block(&below, 5e6, joule[0]),
+        block(&above, 1e6, joule[1])
     );
-    let folder = Folder::with(&[("job.inp", &deck)]);
-    let run = made(&folder, &[]);
-    assert!(!run.errors.contains("missing"), "{}", run.errors);
-    let Solved { nodes, .. } = solve_in(&folder, "s.toml", &[]);
+    Folder::with(&[("job.inp", &deck)])
+}
+
+/// Solves the scene of [`electrical`], whose bars turn these shares of what they dissipate into heat.
+fn solves_as(folder: &Folder, shares: [f64; 2]) {
+    let Solved { nodes, .. } = solve_in(folder, "s.toml", &[]);
     let area = 9e-4;
     // Nine nodes at the top, 2 A each.
     let current = 9.0 * 2.0;
@@ -500,14 +501,53 @@ fn an_electrical_scene_from_a_deck() {
     about(potential("SHA"), lower);
     about(potential("SLB"), lower + joint);
     about(potential("HB"), lower + joint + upper);
-    // Half of what the joint dissipates warms either face; through 1.8, 2.7 and 2.7 W/K it leaves at both ends.
-    let half = 0.5 * current * joint;
+    // Half of what the joint dissipates warms either face, as does half of the heat of the bar at it; through 1.8, 2.7 and 2.7 W/K it leaves at both ends.
+    let [at_lower, at_upper] =
+        [(shares[0], lower), (shares[1], upper)].map(|(share, jump)| 0.5 * current * (joint + share * jump));
     let [below, between, above] = [40.0 * area / 0.02, 3000.0 * area, 90.0 * area / 0.03];
     let determinant = (below + between) * (above + between) - between * between;
-    about(nodes.number(&["SHA"], "temperature") - 20.0, half * (above + 2.0 * between) / determinant);
-    about(nodes.number(&["SLB"], "temperature") - 20.0, half * (below + 2.0 * between) / determinant);
+    let warmer = |node: &str| nodes.number(&[node], "temperature") - 20.0;
+    about(warmer("SHA"), (at_lower * (above + between) + at_upper * between) / determinant);
+    about(warmer("SLB"), (at_upper * (below + between) + at_lower * between) / determinant);
     let checked = folder.inpact(&["check", "s.toml"]);
     assert_eq!((checked.code, checked.output.as_str()), (0, ""), "{}", checked.errors);
+}
+
+/// A deck of electrical conduction becomes a scene with nothing typed.
+#[test]
+fn an_electrical_scene_from_a_deck() {
+    let folder = electrical(["*JOULE HEAT FRACTION\n0.\n"; 2]);
+    let run = made(&folder, &[]);
+    assert!(!run.errors.contains("missing") && !run.errors.contains("heat of its current"), "{}", run.errors);
+    assert!(!folder.read("s.toml").contains("joule_heat_fraction"), "{}", folder.read("s.toml"));
+    solves_as(&folder, [0.0; 2]);
+}
+
+/// *JOULE HEAT FRACTION of each bar: in an even current half of its heat leaves at either end, exactly.
+#[test]
+fn the_current_heats_the_bodies() {
+    let folder = electrical(["*JOULE HEAT FRACTION\n0.5\n", "*JOULE HEAT FRACTION\n1.\n"]);
+    let run = made(&folder, &[]);
+    assert!(!run.errors.contains("missing") && !run.errors.contains("not taken over"), "{}", run.errors);
+    assert!(run.errors.contains("the body of `SHA`, `LA`: half of the heat of its current"), "{}", run.errors);
+    assert!(run.errors.contains(", beside where in bodies the current makes its heat"), "{}", run.errors);
+    solves_as(&folder, [0.5, 1.0]);
+}
+
+/// What a deck does not say of the heat of the current, or a link cannot have, is said and not made up.
+#[test]
+fn heat_of_the_current_that_is_not_taken_over() {
+    let folder = electrical(["", "*JOULE HEAT FRACTION\n1000.\n"]);
+    let run = made(&folder, &[]);
+    assert!(
+        run.errors.contains("the current makes no heat in the body of `SHA`, `LA`: `MA` has no *JOULE HEAT FRACTION"),
+        "{}",
+        run.errors
+    );
+    let line = 1 + folder.read("job.inp").lines().position(|line| line == "*JOULE HEAT FRACTION").expect("there");
+    let why = format!("job.inp:{line}: expected *JOULE HEAT FRACTION of `MB` from 0 to 1, found 1000.0");
+    assert!(run.errors.contains(&why), "{}", run.errors);
+    solves_as(&folder, [0.0; 2]);
 }
 
 /// A deck of several steps has to be told which, and none is written over the deck.

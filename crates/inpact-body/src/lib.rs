@@ -41,6 +41,7 @@
 mod assembly;
 mod body;
 mod conductances;
+mod dissipation;
 mod error;
 mod even;
 mod lumped;
@@ -50,6 +51,7 @@ mod solve;
 
 pub use body::{Body, BodyPart};
 pub use conductances::Conductances;
+pub use dissipation::JouleHeat;
 pub use error::{BodyError, BodyFault};
 pub use lumped::{BodySummary, Lumped, TerminalSummary};
 pub use material::BodyField;

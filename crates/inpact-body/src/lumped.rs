@@ -3,6 +3,7 @@
 use crate::assembly::{Held, Matrix, Sum};
 use crate::body::Body;
 use crate::conductances::Conductances;
+use crate::dissipation::JouleHeat;
 use crate::error::{BodyError, BodyFault};
 use crate::even::{Even, even};
 use crate::material::{BodyField, tensor, values_at};
@@ -78,6 +79,8 @@ pub struct BodySummary {
     pub volume: f64,
     /// Its capacity (M L² T⁻² θ⁻¹); `None` as of [`Lumped::capacities`].
     pub capacity: Option<f64>,
+    /// The heat that a current makes in it.
+    pub joule_heat: JouleHeat,
     /// What lumping may cost: with even flows it conducts no less than this share below what it conducts with one temperature a terminal, whatever the temperatures
     /// of its terminals are. Exact with two terminals, a bound with more.
     pub relative: f64,
@@ -419,23 +422,27 @@ impl Body {
 
     fn summaries(&self, held: &OfNodes, (isothermal, even): (&Conductances, &Conductances)) -> Vec<BodySummary> {
         let with_terminal = self.parts.iter().enumerate().filter(|(_, part)| !part.terminals.is_empty());
-        let summary = |(number, part): (usize, &crate::BodyPart)| {
-            let sum = |values: &[f64]| {
-                let mut sum = Sum::default();
-                let of_part = values.iter().zip(&self.part_of).filter(|(_, of)| **of as usize == number);
-                of_part.for_each(|(value, _)| sum.add(*value));
-                sum.value()
-            };
-            BodySummary {
-                terminals: part.terminals.clone(),
-                nodes: part.nodes,
-                elements: part.elements,
-                volume: sum(&held.volumes),
-                capacity: held.is_known[number].then(|| sum(&held.capacities)),
-                relative: relative(&part.terminals, isothermal, even),
-            }
+        let [volumes, capacities] = [&held.volumes, &held.capacities].map(|values| self.sums(values));
+        let joule_heat = self.joule_heat();
+        let summary = |(number, part): (usize, &crate::BodyPart)| BodySummary {
+            terminals: part.terminals.clone(),
+            nodes: part.nodes,
+            elements: part.elements,
+            volume: volumes[number].value(),
+            capacity: held.is_known[number].then(|| capacities[number].value()),
+            joule_heat: joule_heat[number].clone(),
+            relative: relative(&part.terminals, isothermal, even),
         };
         with_terminal.map(summary).collect()
+    }
+
+    /// The sum over the nodes of each body.
+    fn sums(&self, values: &[f64]) -> Vec<Sum> {
+        let mut sums = vec![Sum::default(); self.parts.len()];
+        for (value, part) in values.iter().zip(&self.part_of) {
+            sums[*part as usize].add(*value);
+        }
+        sums
     }
 }
 

@@ -130,7 +130,7 @@ impl<'deck> Layout<'deck> {
                     let name = entry.named("NAME").unwrap_or_else(|| Name::new(""));
                     layout.materials.push(MaterialEntries { name, entry, properties: Vec::new() });
                 }
-                "CONDUCTIVITY" | "ELECTRICALCONDUCTIVITY" | "DENSITY" | "SPECIFICHEAT" => {
+                "CONDUCTIVITY" | "ELECTRICALCONDUCTIVITY" | "DENSITY" | "SPECIFICHEAT" | "JOULEHEATFRACTION" => {
                     if let Some(material) = layout.materials.last_mut() {
                         material.properties.push((name, entry));
                     }

@@ -1,4 +1,4 @@
-//! Properties of materials: *CONDUCTIVITY, *ELECTRICAL CONDUCTIVITY, *DENSITY and *SPECIFIC HEAT.
+//! Properties of materials: *CONDUCTIVITY, *ELECTRICAL CONDUCTIVITY, *DENSITY, *SPECIFIC HEAT and *JOULE HEAT FRACTION.
 
 use super::layout::{Entry, MaterialEntries, canonical};
 use super::reader::Reader;
@@ -10,7 +10,7 @@ use crate::number::read_float;
 use crate::span::Span;
 use std::io;
 
-/// A *MATERIAL as far as conduction goes.
+/// A *MATERIAL as far as conduction, and the heat of a current, go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyMaterial {
     /// NAME.
@@ -25,6 +25,8 @@ pub struct BodyMaterial {
     pub density: Option<MaterialProperty>,
     /// *SPECIFIC HEAT (L² T⁻² θ⁻¹).
     pub specific_heat: Option<MaterialProperty>,
+    /// *JOULE HEAT FRACTION (1): the share of the energy dissipated by a current that becomes heat.
+    pub joule_heat_fraction: Option<MaterialProperty>,
 }
 
 /// An option of a material.
@@ -79,6 +81,7 @@ impl<'deck> Reader<'deck, '_> {
                 electrical_conductivity: property("ELECTRICAL CONDUCTIVITY")?,
                 density: property("DENSITY")?,
                 specific_heat: property("SPECIFIC HEAT")?,
+                joule_heat_fraction: property("JOULE HEAT FRACTION")?,
                 name,
                 span: entry.span(),
             });

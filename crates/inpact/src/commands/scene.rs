@@ -2,11 +2,13 @@
 //!
 //! Nothing is invented: what the deck does not say is missing in the scene, and what cannot be taken over is listed with its line.
 
+mod joule_heat;
 mod lumping;
 mod terminals;
 mod text;
 mod unread;
 
+use self::joule_heat::JouleHeats;
 use self::lumping::Lumping;
 use self::terminals::{Terminal, restrict, terminals};
 use self::text::{Head, SceneText};
@@ -171,14 +173,15 @@ fn make(
     notes.extend(taker.left_out().into_iter().map(|(span, message)| MeshNote { span, message }));
     let mut unplaced = Vec::new();
     let lumped = lumped(arguments, settings, meshed, &terminals, (fields, regime), (&mut notes, &mut unplaced))?;
+    let heats = JouleHeats::of(&terminals, &lumped, &mut notes);
     notes.extend(unread::unread(&meshed.read.deck, settings.grammar, step));
     let mut text = SceneText::new(&deck_from(arguments), regime, time, procedure);
     text.nodes(&terminals, &stated, &lumped);
-    text.links(&terminals, &lumped, &mut unplaced);
+    text.links(&terminals, &lumped, &heats, &mut unplaced);
     let areas: Vec<Option<f64>> =
         interfaces.pairs.iter().map(|pair| joint_area(arguments, &terminals, &interfaces, pair)).collect();
     text.interfaces(&interfaces, &areas);
-    let mut lumping = Lumping::new(&terminals, &lumped);
+    let mut lumping = Lumping::new(&terminals, &lumped, &heats);
     for (pair, area) in interfaces.pairs.iter().zip(areas) {
         let Some((of, area)) = interfaces.lumped(pair).zip(area) else {
             let message = format!(
@@ -198,7 +201,8 @@ fn make(
         }
     }
     let not_taken = placed(meshed, notes, unplaced)?;
-    let missing = missing(&text.written, meshed, settings);
+    let mut missing = missing(&text.written, meshed, settings);
+    missing.extend(heats.missing);
     let lumping = lumping.finish();
     let head = Head { inputs: inputs(arguments, meshed)?, command: command(arguments) };
     let whole = head.written(&not_taken, &missing, &lumping) + &text.written;

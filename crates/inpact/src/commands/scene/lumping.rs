@@ -4,6 +4,7 @@
 //! temperature (the mean of its conductances by area), and least where its flow is spread evenly (their harmonic mean). Between two held values a network of such
 //! parts scales with them: if none is off by more than a share, no flow is. Even flows go over the part of a surface that has the other across.
 
+use super::joule_heat::JouleHeats;
 use super::terminals::Terminal;
 use super::{SAME_AREA, network_field};
 use inpact_body::Lumped;
@@ -21,11 +22,14 @@ pub(super) struct Lumping {
     worst: Option<f64>,
     /// Joints whose conductance is not known at all nodes.
     unknown: Vec<String>,
+    /// Whether the current makes heat in bodies.
+    is_heated: bool,
 }
 
 impl Lumping {
-    pub(super) fn new(terminals: &[Terminal], lumped: &[Lumped]) -> Self {
-        let mut lumping = Self { lines: Vec::new(), worst: Some(0.0), unknown: Vec::new() };
+    pub(super) fn new(terminals: &[Terminal], lumped: &[Lumped], heats: &JouleHeats) -> Self {
+        let is_heated = !heats.heated.is_empty();
+        let mut lumping = Self { lines: Vec::new(), worst: Some(0.0), unknown: Vec::new(), is_heated };
         for of in lumped {
             let key = network_field(of.field).conductance_key();
             for (terminal, summary) in terminals.iter().zip(&of.terminals) {
@@ -50,6 +54,7 @@ impl Lumping {
                 ));
             }
         }
+        lumping.lines.extend(heats.heated.iter().cloned());
         for terminal in terminals.iter().filter(|terminal| terminal.meets_several()) {
             lumping.worst = None;
             lumping.lines.push(format!(
@@ -162,12 +167,18 @@ impl Lumping {
 
     /// The lines, and what they come to.
     pub(super) fn finish(self) -> Vec<String> {
-        let Self { mut lines, worst, unknown } = self;
-        let beside = if unknown.is_empty() {
-            String::new()
-        } else {
-            format!(", beside what varies over the joints {}, whose conductance is not known yet", unknown.join(", "))
-        };
+        let Self { mut lines, worst, unknown, is_heated } = self;
+        let mut beside = Vec::new();
+        if !unknown.is_empty() {
+            beside.push(format!(
+                "what varies over the joints {}, whose conductance is not known yet",
+                unknown.join(", ")
+            ));
+        }
+        if is_heated {
+            beside.push("where in bodies the current makes its heat".to_owned());
+        }
+        let beside = if beside.is_empty() { String::new() } else { format!(", beside {}", beside.join(" and ")) };
         let measure = worst.map_or_else(
             || "no bound of what lumping costs".to_owned(),
             |worst| format!("off by at most {}", percent(worst)),

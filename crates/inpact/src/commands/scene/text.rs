@@ -1,5 +1,6 @@
 //! A scene as TOML, with a head that says what it stands on.
 
+use super::joule_heat::JouleHeats;
 use super::network_field;
 use super::terminals::Terminal;
 use crate::report::Input;
@@ -117,7 +118,13 @@ impl SceneText {
     }
 
     /// The conductances of the bodies; those below zero, which a network refuses, are named.
-    pub(super) fn links(&mut self, terminals: &[Terminal], lumped: &[Lumped], unplaced: &mut Vec<String>) {
+    pub(super) fn links(
+        &mut self,
+        terminals: &[Terminal],
+        lumped: &[Lumped],
+        heats: &JouleHeats,
+        unplaced: &mut Vec<String>,
+    ) {
         for (a, first) in terminals.iter().enumerate() {
             for (b, second) in terminals.iter().enumerate().skip(a + 1) {
                 let mut keys = Vec::new();
@@ -132,6 +139,10 @@ impl SceneText {
                     } else if rounding < conductance {
                         keys.push(format!("{key} = {conductance:?}"));
                     }
+                }
+                let electrical = Field::Potential.conductance_key();
+                if let Some(share) = heats.share(a).filter(|_| keys.iter().any(|key| key.starts_with(electrical))) {
+                    keys.push(format!("joule_heat_fraction = {share:?}"));
                 }
                 if !keys.is_empty() {
                     self.link(first.name.written(), second.name.written(), &keys);

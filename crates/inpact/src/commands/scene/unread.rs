@@ -5,7 +5,7 @@ use inpact_parser::grammar::Grammar;
 use inpact_parser::mesh::MeshNote;
 
 /// Keywords that are taken over, or arrange the deck, or say what is printed.
-const READ: [&str; 63] = [
+const READ: [&str; 64] = [
     "AMPLITUDE",
     "ASSEMBLY",
     "BOUNDARY",
@@ -48,6 +48,7 @@ const READ: [&str; 63] = [
     "INCLUDE",
     "INITIAL CONDITIONS",
     "INSTANCE",
+    "JOULE HEAT FRACTION",
     "MATERIAL",
     "MONITOR",
     "NODE",
