@@ -144,6 +144,53 @@ fn solve_takes_links_and_scenes_as_they_are() {
     }
 }
 
+/// The heat of the current: the share of *JOULE HEAT FRACTION, in a table of links and in a scene alike, and a note where none is given.
+#[test]
+fn links_turn_what_the_current_dissipates_into_heat() {
+    let bar = "\
+*NODE
+1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 2.\n6, 1., 0., 2.\n7, 1., 1., 2.\n8, 0., 1., 2.
+*ELEMENT, TYPE=DC3D8E, ELSET=BAR
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*NSET, NSET=LOW\n1, 2, 3, 4
+*NSET, NSET=HIGH\n5, 6, 7, 8
+*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL
+*MATERIAL, NAME=STEEL
+*CONDUCTIVITY\n40.\n*ELECTRICAL CONDUCTIVITY\n10.
+*SURFACE INTERACTION, NAME=NONE
+";
+    let heated = bar.replace("10.\n*SURFACE", "10.\n*JOULE HEAT FRACTION\n0.5\n*SURFACE");
+    let node = |name: &str| format!("[[node]]\nname = '{name}'\n");
+    for format in ["links", "scene"] {
+        let folder = Folder::with(&[("a.inp", heated.as_str()), ("b.inp", bar)]);
+        let part_of = |deck: &str| {
+            let run = folder.inpact(&["body", deck, "--terminals", "LOW,HIGH", "--format", format]);
+            assert_eq!(run.code, 0, "{}", run.errors);
+            run
+        };
+        let run = part_of("a.inp");
+        assert!(!run.errors.contains("the current"), "{}", run.errors);
+        let parts = if format == "links" {
+            folder.write("links.csv", &run.output);
+            format!("{}{}[[link_file]]\nfile = 'links.csv'\n", node("LOW"), node("HIGH"))
+        } else {
+            run.output.replace("potential = {}\ntemperature = {}\n", "")
+        };
+        let low = "name = 'LOW'\npotential = { fixed = 0.0 }\ntemperature = { fixed = 0.0 }\n";
+        let high = "name = 'HIGH'\npotential = { fixed = 10.0 }\ntemperature = { fixed = 0.0 }\n";
+        let parts = parts.replace('"', "'").replace("name = 'LOW'\n", low).replace("name = 'HIGH'\n", high);
+        folder.write("s.toml", &format!("deck = 'a.inp'\n{parts}"));
+        let solved = folder.inpact(&["solve", "s.toml", "--format", "json"]);
+        assert_eq!(solved.code, 0, "{parts}{}", solved.errors);
+        let document: serde_json::Value = serde_json::from_str(&solved.output).expect("JSON");
+        // 5 × 10² dissipated, half of it heat, half of that at either end.
+        let out = document["balance"]["temperature"]["supplies"]["LOW"].as_f64().expect("a supply");
+        assert!((out + 125.0).abs() < 1e-9, "{out}: {parts}");
+        let note = part_of("b.inp").errors;
+        assert!(note.contains("b.inp:17:1: note[D029] the current makes no heat in the body of `LOW`, `HIGH`: `STEEL` has no *JOULE HEAT FRACTION"), "{note}");
+    }
+}
+
 #[test]
 fn what_cannot_be_taken_over_is_named_with_its_line() {
     for (deck, arguments, expected) in [

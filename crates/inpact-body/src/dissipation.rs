@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 pub enum JouleHeat {
     /// From 0 to 1, the same in all of its materials.
     Share(f64),
-    /// A material of the body has no *JOULE HEAT FRACTION.
-    Unsaid(Name),
+    /// A material of the body has no *JOULE HEAT FRACTION: its line, and its name.
+    Unsaid(Span, Name),
     /// One share does not do for the body: the line that says so, and why.
     NotOne(Span, String),
 }
@@ -39,8 +39,8 @@ impl Body {
 /// The share that all materials have; `Err` is the reason why there is none.
 fn shared(materials: &[&BodyMaterial]) -> Result<JouleHeat, JouleHeat> {
     let mut found: Option<(f64, &Name)> = None;
-    for BodyMaterial { name, joule_heat_fraction, .. } in materials {
-        let property = joule_heat_fraction.as_ref().ok_or_else(|| JouleHeat::Unsaid(name.clone()))?;
+    for BodyMaterial { name, span, joule_heat_fraction, .. } in materials {
+        let property = joule_heat_fraction.as_ref().ok_or_else(|| JouleHeat::Unsaid(*span, name.clone()))?;
         let not_one = |message: String| JouleHeat::NotOne(property.span, message);
         let share = values_at(property, name, None).map_err(|fault| not_one(fault.message))?[0];
         let keyword = property.keyword;

@@ -94,6 +94,7 @@ data_rules! {
     ///
     /// Elements that are not solid, and options that join nodes beside elements (*TIE, *EQUATION, *MPC, *COUPLING …) or let heat leave by radiation.
     /// Where such a part matters, the conductances are not those of the model.
+    /// For a scene with both fields, materials whose *JOULE HEAT FRACTION is not given, or is none that a link can have, are such parts too: the current makes no heat in their bodies.
     ///
     /// ```inp deck.inp
     /// *NODE

@@ -25,6 +25,7 @@ mod drawing;
 pub(crate) mod evaluable;
 pub(crate) mod findings;
 pub(crate) mod job_results;
+mod joule_heat;
 mod laws;
 pub(crate) mod mesh_rows;
 pub(crate) mod meshed;

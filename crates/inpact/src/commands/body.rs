@@ -5,6 +5,7 @@ mod text;
 mod value;
 
 use super::findings::{Messages, with_messages};
+use super::joule_heat::JouleHeats;
 use super::mesh_rows::counted;
 use super::meshed::MeshedDeck;
 use crate::failure::{Failure, Outcome};
@@ -76,6 +77,7 @@ struct Found<'a> {
     body: &'a Body,
     temperature: Option<f64>,
     lumped: Vec<Lumped>,
+    heats: JouleHeats,
 }
 
 pub(crate) fn run(arguments: &BodyArguments) -> Result<Outcome, Failure> {
@@ -126,13 +128,19 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     if meshed.say_findings(&BESIDE_BODIES, &left_out, (messages, &settings))? {
         return Ok(Outcome::HasErrors);
     }
-    let found = Found { deck: &meshed.name, body: &body, temperature: arguments.temperature, lumped };
+    let terminals: Vec<&Name> = body.terminals().iter().map(|terminal| &terminal.name).collect();
+    let heats = JouleHeats::of(&terminals, &lumped);
+    let found = Found { deck: &meshed.name, body: &body, temperature: arguments.temperature, lumped, heats };
     if matches!(arguments.format, BodyFormat::Links | BodyFormat::Scene) {
         let negative: Vec<Diagnostic> = scene::negative(&found)
             .iter()
             .map(|message| meshed.finding(&NEGATIVE_CONDUCTANCE, None, message))
             .collect::<Result<_, _>>()?;
         if messages.of_deck(negative, &meshed.read.deck, &settings) {
+            return Ok(Outcome::HasErrors);
+        }
+        let unsaid: Vec<MeshNote> = found.heats.missing.iter().chain(&found.heats.refused).cloned().collect();
+        if meshed.say_findings(&BESIDE_BODIES, &unsaid, (messages, &settings))? {
             return Ok(Outcome::HasErrors);
         }
     }

@@ -2,19 +2,18 @@
 //!
 //! Nothing is invented: what the deck does not say is missing in the scene, and what cannot be taken over is listed with its line.
 
-mod joule_heat;
 mod lumping;
 mod terminals;
 mod text;
 mod unread;
 
-use self::joule_heat::JouleHeats;
 use self::lumping::Lumping;
 use self::terminals::{Terminal, restrict, terminals};
 use self::text::{Head, SceneText};
 use super::findings::{Messages, with_messages};
 use super::interfaces::lumped_lines;
 use super::job_results::{RESULTS_HELP, states};
+use super::joule_heat::JouleHeats;
 use super::mesh_rows::node_rows;
 use super::meshed::MeshedDeck;
 use super::solvable::{choices_of, steps_of};
@@ -173,7 +172,9 @@ fn make(
     notes.extend(taker.left_out().into_iter().map(|(span, message)| MeshNote { span, message }));
     let mut unplaced = Vec::new();
     let lumped = lumped(arguments, settings, meshed, &terminals, (fields, regime), (&mut notes, &mut unplaced))?;
-    let heats = JouleHeats::of(&terminals, &lumped, &mut notes);
+    let names: Vec<&Name> = terminals.iter().map(|terminal| &terminal.name).collect();
+    let heats = JouleHeats::of(&names, &lumped);
+    notes.extend(heats.refused.iter().cloned());
     notes.extend(unread::unread(&meshed.read.deck, settings.grammar, step));
     let mut text = SceneText::new(&deck_from(arguments), regime, time, procedure);
     text.nodes(&terminals, &stated, &lumped);
@@ -202,7 +203,7 @@ fn make(
     }
     let not_taken = placed(meshed, notes, unplaced)?;
     let mut missing = missing(&text.written, meshed, settings);
-    missing.extend(heats.missing);
+    missing.extend(heats.missing.into_iter().map(|note| note.message));
     let lumping = lumping.finish();
     let head = Head { inputs: inputs(arguments, meshed)?, command: command(arguments) };
     let whole = head.written(&not_taken, &missing, &lumping) + &text.written;

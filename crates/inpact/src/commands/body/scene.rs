@@ -3,6 +3,7 @@
 use super::super::mesh_rows::number_text;
 use super::Found;
 use super::text::short;
+use crate::commands::joule_heat::JOULE_HEAT_FRACTION;
 use crate::failure::Failure;
 use inpact_body::{BodyField, Lumped};
 
@@ -47,12 +48,14 @@ pub(super) fn links(found: &Found<'_>) -> Result<String, Failure> {
     let failed = |error: csv::Error| Failure::Output(error.into());
     let mut writer = csv::Writer::from_writer(Vec::new());
     let fields: Vec<String> = found.lumped.iter().map(|lumped| lumped.field.to_string()).collect();
-    let header = ["node_1", "node_2"].into_iter().chain(fields.iter().map(String::as_str));
+    let heat = found.heats.is_any().then_some(JOULE_HEAT_FRACTION);
+    let header = ["node_1", "node_2"].into_iter().chain(fields.iter().map(String::as_str)).chain(heat);
     writer.write_record(header).map_err(failed)?;
     for link in conducting(found) {
         let names = link.nodes.iter().map(|at| found.body.terminals()[*at].name.written().to_owned());
         let numbers = link.conductances.iter().map(|conductance| number_text(*conductance));
-        writer.write_record(names.chain(numbers)).map_err(failed)?;
+        let heat = heat.map(|_| number_text(found.heats.share(link.nodes[0]).unwrap_or(0.0)));
+        writer.write_record(names.chain(numbers).chain(heat)).map_err(failed)?;
     }
     let table = writer.into_inner().map_err(|error| Failure::Output(error.into_error()))?;
     Ok(String::from_utf8_lossy(&table).into_owned())
@@ -74,6 +77,9 @@ pub(super) fn rows(found: &Found<'_>) -> String {
         text += &format!("[[link]]\nnodes = [{}, {}]\n", quoted(a), quoted(b));
         for (lumped, conductance) in found.lumped.iter().zip(&link.conductances) {
             text += &format!("{} = {}\n", lumped.field, toml_number(*conductance));
+        }
+        if let Some(share) = found.heats.share(a) {
+            text += &format!("{JOULE_HEAT_FRACTION} = {}\n", toml_number(share));
         }
         text.push('\n');
     }

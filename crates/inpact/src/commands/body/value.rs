@@ -3,7 +3,7 @@
 //! The form is a contract; its JSON Schema is committed (`schema/body.schema.json`).
 
 use super::Found;
-use inpact_body::{BodyField, BodySummary, Conductances, Lumped, Solution, SolutionMethod};
+use inpact_body::{BodyField, BodySummary, Conductances, JouleHeat, Lumped, Solution, SolutionMethod};
 use serde::Serialize;
 
 /// What the bodies of a deck conduct and hold between terminals, as `inpact body --format json` gives it.
@@ -93,6 +93,8 @@ struct OfBody<'a> {
     volume: f64,
     /// What it holds; null as of terminals.
     capacity: Option<f64>,
+    /// The share of the energy dissipated by its current that becomes heat; null where its materials give none, or none that is one share from 0 to 1.
+    joule_heat_fraction: Option<f64>,
     /// With even flows it conducts at most by this share less than with one value a terminal, whatever these values are.
     relative: f64,
 }
@@ -159,6 +161,7 @@ fn of_field<'a>(names: &[&'a str], lumped: &'a Lumped) -> OfField<'a> {
         elements: body.elements,
         volume: body.volume,
         capacity: body.capacity,
+        joule_heat_fraction: if let JouleHeat::Share(share) = body.joule_heat { Some(share) } else { None },
         relative: body.relative,
     };
     let [isothermal, even] = &lumped.solutions;

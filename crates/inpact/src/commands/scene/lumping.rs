@@ -4,9 +4,9 @@
 //! temperature (the mean of its conductances by area), and least where its flow is spread evenly (their harmonic mean). Between two held values a network of such
 //! parts scales with them: if none is off by more than a share, no flow is. Even flows go over the part of a surface that has the other across.
 
-use super::joule_heat::JouleHeats;
 use super::terminals::Terminal;
 use super::{SAME_AREA, network_field};
+use crate::commands::joule_heat::JouleHeats;
 use inpact_body::Lumped;
 use inpact_contact::{Interfaces, LumpedPair, PairInterfaces};
 use inpact_evaluation::law::{Clearance, ContactPoint, ContactPressure, ContactState, InterfaceLaws};
@@ -28,7 +28,7 @@ pub(super) struct Lumping {
 
 impl Lumping {
     pub(super) fn new(terminals: &[Terminal], lumped: &[Lumped], heats: &JouleHeats) -> Self {
-        let is_heated = !heats.heated.is_empty();
+        let is_heated = heats.is_any();
         let mut lumping = Self { lines: Vec::new(), worst: Some(0.0), unknown: Vec::new(), is_heated };
         for of in lumped {
             let key = network_field(of.field).conductance_key();

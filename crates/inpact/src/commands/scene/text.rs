@@ -1,8 +1,8 @@
 //! A scene as TOML, with a head that says what it stands on.
 
-use super::joule_heat::JouleHeats;
 use super::network_field;
 use super::terminals::Terminal;
+use crate::commands::joule_heat::{JOULE_HEAT_FRACTION, JouleHeats};
 use crate::report::Input;
 use crate::terminals::{Film, Stated, StepTime};
 use inpact_body::{BodyField, Lumped};
@@ -142,7 +142,7 @@ impl SceneText {
                 }
                 let electrical = Field::Potential.conductance_key();
                 if let Some(share) = heats.share(a).filter(|_| keys.iter().any(|key| key.starts_with(electrical))) {
-                    keys.push(format!("joule_heat_fraction = {share:?}"));
+                    keys.push(format!("{JOULE_HEAT_FRACTION} = {share:?}"));
                 }
                 if !keys.is_empty() {
                     self.link(first.name.written(), second.name.written(), &keys);

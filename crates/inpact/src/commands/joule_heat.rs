@@ -1,0 +1,67 @@
+//! The heat of the current in bodies: what their links turn into heat, and what the deck does not say of it.
+
+use inpact_body::{BodyField, JouleHeat, Lumped};
+use inpact_parser::mesh::MeshNote;
+use inpact_parser::model::Name;
+
+/// The key of a link that says what share of the energy its current dissipates becomes heat.
+pub(super) const JOULE_HEAT_FRACTION: &str = "joule_heat_fraction";
+
+/// The heat of the current in bodies of which both potentials and temperatures are wanted.
+#[derive(Default)]
+pub(super) struct JouleHeats {
+    /// The share of each terminal's links; `None` where the deck gives none, or one field alone is wanted.
+    shares: Vec<Option<f64>>,
+    /// What the deck does not say.
+    pub(super) missing: Vec<MeshNote>,
+    /// Shares that links cannot have.
+    pub(super) refused: Vec<MeshNote>,
+    /// The bodies whose current makes heat, each with how.
+    pub(super) heated: Vec<String>,
+}
+
+impl JouleHeats {
+    /// That of bodies with these terminals.
+    pub(super) fn of(terminals: &[&Name], lumped: &[Lumped]) -> Self {
+        let of_field = |field: BodyField| lumped.iter().find(|of| of.field == field);
+        let mut heats = Self { shares: vec![None; terminals.len()], ..Self::default() };
+        let Some((electrical, _)) = of_field(BodyField::Electrical).zip(of_field(BodyField::Thermal)) else {
+            return heats;
+        };
+        for body in electrical.bodies.iter().filter(|body| 1 < body.terminals.len()) {
+            let names: Vec<String> = body.terminals.iter().map(|at| format!("`{}`", terminals[*at])).collect();
+            let body_of = format!("the body of {}", names.join(", "));
+            match &body.joule_heat {
+                JouleHeat::Share(share) => {
+                    body.terminals.iter().for_each(|at| heats.shares[*at] = Some(*share));
+                    if 0.0 < *share {
+                        heats
+                            .heated
+                            .push(format!("{body_of}: half of the heat of its current in either node of a link"));
+                    }
+                }
+                JouleHeat::Unsaid(span, material) => {
+                    let message = format!(
+                        "the current makes no heat in {body_of}: `{material}` has no *JOULE HEAT FRACTION (give `{JOULE_HEAT_FRACTION}` of its links, or at the top of the scene for all)"
+                    );
+                    heats.missing.push(MeshNote { span: *span, message });
+                }
+                JouleHeat::NotOne(span, why) => {
+                    let message = format!("{why}; the current makes no heat in {body_of}");
+                    heats.refused.push(MeshNote { span: *span, message });
+                }
+            }
+        }
+        heats
+    }
+
+    /// The share of the links of a terminal that have an electrical conductance; a link that gives none has 0.
+    pub(super) fn share(&self, terminal: usize) -> Option<f64> {
+        self.shares[terminal].filter(|share| 0.0 < *share)
+    }
+
+    /// Whether any current makes heat.
+    pub(super) fn is_any(&self) -> bool {
+        !self.heated.is_empty()
+    }
+}
