@@ -1,12 +1,13 @@
 //! From a scene at one time to the equations of one field: conductances of rows, sources and their sum as a linear network.
 
 use crate::dependence::range_of_unknown;
+use crate::error::{Error, ErrorKind, RowFault};
 use crate::interface::{self, Conducts, Contact, PoreElement, Sides};
 use crate::knowledge::{Guess, Knowledge};
 use crate::linear::{LinearNetwork, Link, NONE, Sets, Store};
 use crate::problem::FieldNodes;
 use crate::scene::{Field, SceneInterface};
-use inpact_evaluation::law::{InterfaceLaws, UserFault};
+use inpact_evaluation::law::InterfaceLaws;
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The contribution of the rows to the network of a field, at some state.
@@ -16,33 +17,6 @@ pub(crate) struct RowTerms {
     pub(crate) conductances: Vec<f64>,
     /// Slopes per area and conductance of each row.
     pub(crate) slopes: Vec<Conducts>,
-}
-
-/// A row whose law gives nothing that can be solved with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RowFault {
-    /// The row, in the order of the scene.
-    pub row: u32,
-    /// The reason.
-    pub why: RowFaultReason,
-}
-
-/// Reasons why a row cannot be solved with.
-#[derive(Debug, Clone, PartialEq)]
-pub enum RowFaultReason {
-    /// A routine of the user's gives what is no conductance.
-    User(UserFault),
-    /// The flow of fluid depends on the characteristic element length, which is not known.
-    NeedsLength,
-    /// A conductance is negative, NaN or infinite.
-    NoConductance(f64),
-    /// A conductance times the area of the row is beyond the range of f64.
-    TooLarge {
-        /// The conductance per area.
-        conductance: f64,
-        /// The area, L².
-        area: f64,
-    },
 }
 
 /// Heat of a current at nodes, with its slopes: what Newton's iteration needs of it.
@@ -70,10 +44,10 @@ pub(crate) struct Currents<'a> {
 ///
 /// # Errors
 /// The first row that cannot be solved with.
-pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNodes) -> Result<RowTerms, RowFault> {
+pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNodes) -> Result<RowTerms, Error> {
     let mut terms = RowTerms::default();
     for &row in &nodes.rows {
-        let fault = |why| RowFault { row, why };
+        let failed = |fault| Error::from(ErrorKind::Row { row, fault }).of_field(field);
         let Some(laws) = knowledge.problem.laws_of(row as usize) else { continue };
         let (of, contact, sides) = (knowledge.row(row), knowledge.contact(row), knowledge.sides(row));
         let conducts = match field {
@@ -81,7 +55,7 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
                 Some(source) => {
                     let node = node_number(&knowledge.problem.scene.nodes[of.slave as usize]);
                     interface::electrical(source, of, &contact, &sides, knowledge.moment(), node)
-                        .map_err(|why| fault(RowFaultReason::User(why)))?
+                        .map_err(|fault| failed(RowFault::User(fault)))?
                 }
                 None => Conducts::default(),
             },
@@ -89,7 +63,7 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
             Field::PorePressure => match interface::pore(laws, of, &contact, &sides, knowledge.gap(row)).0 {
                 PoreElement::Finite(conducts) => conducts,
                 PoreElement::Constrained => Conducts { conductance: f64::INFINITY, ..Conducts::default() },
-                PoreElement::NeedsLength => return Err(fault(RowFaultReason::NeedsLength)),
+                PoreElement::NeedsLength => return Err(failed(RowFault::NeedsLength)),
             },
         };
         let asks_elsewhere = conducts.conductance == 0.0 && knowledge.guess == Guess::WhereRowsConduct;
@@ -101,10 +75,10 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
         if !is_usable {
             let (value, area) = (conducts.conductance, of.area);
             let is_product = 0.0 <= value && value.is_finite();
-            return Err(fault(if is_product {
-                RowFaultReason::TooLarge { conductance: value, area }
+            return Err(failed(if is_product {
+                RowFault::TooLarge { conductance: value, area }
             } else {
-                RowFaultReason::NoConductance(value)
+                RowFault::NoConductance(value)
             }));
         }
         terms.conductances.push(conductance);

@@ -16,7 +16,7 @@
 //! let solution = Solver::new(Method::Direct, LAST_DIGIT).solve(&network)?;
 //! assert_eq!(solution.flows[1].to_f64(), 50.0 * 1e-300);
 //! assert_eq!(solution.jump(&network, 2).to_f64(), 50.0);
-//! # Ok::<(), inpact_network::linear::LinearFailure>(())
+//! # Ok::<(), inpact_network::Error>(())
 //! ```
 //!
 //! Nothing here opens files or prints.
@@ -25,6 +25,7 @@ mod assembly;
 mod dependence;
 mod distance;
 mod effect;
+mod error;
 mod integrals;
 mod interface;
 mod knowledge;
@@ -37,8 +38,8 @@ mod state;
 pub mod tables;
 pub mod transient;
 
-pub use assembly::{RowFault, RowFaultReason};
 pub use distance::Distance;
+pub use error::{Error, ErrorKind, RowFault};
 pub use problem::{Problem, report_unknown_interactions};
-pub use solve::{Equations, Histories, SolveFailure};
+pub use solve::{Equations, Histories};
 pub use state::{FieldBalance, StageReport, State};

@@ -18,7 +18,8 @@ mod equations;
 mod krylov;
 mod system;
 
-use crate::assembly::{Capacities, Currents, RowFault, add_heat, row_terms, sources};
+use crate::assembly::{Capacities, Currents, add_heat, row_terms, sources};
+use crate::error::Error;
 use crate::knowledge::Knowledge;
 use crate::linear::{LinearSolution, Method, index, largest_or_nan};
 use crate::scene::Field;
@@ -105,7 +106,7 @@ impl<'a> Newton<'a> {
     ///
     /// # Errors
     /// A row whose law fails.
-    pub(crate) fn iterate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, RowFault> {
+    pub(crate) fn iterate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, Error> {
         let start = self.jumps();
         let mut iterated = self.descend(knowledge)?;
         for pseudo_capacity in FIRST_PSEUDO_CAPACITIES {
@@ -120,7 +121,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Takes steps that lessen the residuals.
-    fn descend(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, RowFault> {
+    fn descend(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, Error> {
         let mut states = self.evaluate(knowledge)?;
         let mut best = f64::INFINITY;
         let mut idle = 0;
@@ -158,7 +159,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Pseudo-transient continuation until the residuals are small; gives the number of steps.
-    fn pseudo_transient(&mut self, knowledge: &mut Knowledge<'a>, mut pseudo_capacity: f64) -> Result<usize, RowFault> {
+    fn pseudo_transient(&mut self, knowledge: &mut Knowledge<'a>, mut pseudo_capacity: f64) -> Result<usize, Error> {
         let mut states = self.evaluate(knowledge)?;
         let mut worst = self.worst(&states);
         let mut previous: Vec<f64> = Vec::new();
@@ -189,7 +190,7 @@ impl<'a> Newton<'a> {
         &mut self,
         knowledge: &mut Knowledge<'a>,
         states: &[Evaluated],
-    ) -> Result<Option<Vec<Evaluated>>, RowFault> {
+    ) -> Result<Option<Vec<Evaluated>>, Error> {
         let Some(potential) = self.fields.iter().find(|system| system.field == Field::Potential) else {
             return Ok(None);
         };
@@ -225,7 +226,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Asks the laws and takes the balances at the jumps as they are.
-    fn evaluate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Vec<Evaluated>, RowFault> {
+    fn evaluate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Vec<Evaluated>, Error> {
         for system in &self.fields {
             system.tell(knowledge);
         }
@@ -260,7 +261,7 @@ impl<'a> Newton<'a> {
         knowledge: &mut Knowledge<'a>,
         direction: &[f64],
         states: &[Evaluated],
-    ) -> Result<Option<Vec<Evaluated>>, RowFault> {
+    ) -> Result<Option<Vec<Evaluated>>, Error> {
         let units: Vec<f64> = self.fields.iter().zip(states).map(|(of, at)| of.unit(at)).collect();
         let merit = |systems: &[System<'a>], states: &[Evaluated]| -> f64 {
             let of_field = |((of, at), unit): ((&System<'a>, &Evaluated), &f64)| of.merit(at, *unit);

@@ -1,18 +1,15 @@
 //! Solves a scene at one time: stage by stage, each field with what the stages before have found.
 
-mod failure;
 mod relaxation;
 
-pub use failure::SolveFailure;
-
 use crate::assembly::{Capacities, Currents, RowTerms, add_heat, network, row_terms, sources};
+use crate::error::{Error, ErrorKind};
 use crate::knowledge::{Guess, Increment, Knowledge};
-use crate::linear::{LAST_DIGIT, LinearSolution, Method, Solver, Work};
+use crate::linear::{Clock, LAST_DIGIT, LinearSolution, Method, Solver, Work};
 use crate::newton::{Iterated, Newton};
 use crate::problem::{FieldNodes, Problem, Stage};
 use crate::scene::Field;
 use crate::state::{FieldState, StageReport, State};
-use failure::failed;
 use inpact_evaluation::numbers::DoubleDouble;
 use relaxation::{Relaxation, Walk};
 
@@ -68,6 +65,12 @@ impl<'a> Equations<'a> {
         Self { histories, ..self }
     }
 
+    /// The same, with the times of [`work`](Self::work) by a clock of the caller; without one they are 0.
+    #[must_use]
+    pub fn timed_by(self, clock: Clock) -> Self {
+        Self { solvers: self.solvers.map(|solver| solver.timed_by(clock)), ..self }
+    }
+
     /// Whether time integrals are wanted.
     pub(crate) fn histories(&self) -> Histories {
         self.histories
@@ -88,8 +91,8 @@ impl<'a> Equations<'a> {
     /// The steady state.
     ///
     /// # Errors
-    /// See [`SolveFailure`].
-    pub fn steady(&mut self) -> Result<State, SolveFailure> {
+    /// See [`Error`].
+    pub fn steady(&mut self) -> Result<State, Error> {
         let knowledge = Knowledge::at_start(self.problem, 0.0);
         self.solve(knowledge, Capacities::None)
     }
@@ -97,8 +100,8 @@ impl<'a> Equations<'a> {
     /// The state at the start of a transient: nodes with a capacity have their initial values, all others what follows from them.
     ///
     /// # Errors
-    /// See [`SolveFailure`].
-    pub fn start(&mut self, time: f64) -> Result<State, SolveFailure> {
+    /// See [`Error`].
+    pub fn start(&mut self, time: f64) -> Result<State, Error> {
         let knowledge = Knowledge::at_start(self.problem, time);
         self.solve(knowledge, Capacities::Held)
     }
@@ -106,14 +109,14 @@ impl<'a> Equations<'a> {
     /// The state an increment after another, by backward Euler.
     ///
     /// # Errors
-    /// See [`SolveFailure`].
-    pub fn step(&mut self, before: &State, time: f64) -> Result<State, SolveFailure> {
+    /// See [`Error`].
+    pub fn step(&mut self, before: &State, time: f64) -> Result<State, Error> {
         let increment = Increment { before, duration: time - before.time };
         let knowledge = Knowledge::in_increment(self.problem, increment, time);
         self.solve(knowledge, Capacities::Stored)
     }
 
-    fn solve(&mut self, mut knowledge: Knowledge<'_>, capacities: Capacities) -> Result<State, SolveFailure> {
+    fn solve(&mut self, mut knowledge: Knowledge<'_>, capacities: Capacities) -> Result<State, Error> {
         let mut state = State {
             time: knowledge.time,
             increment: knowledge.number,
@@ -138,7 +141,7 @@ impl<'a> Equations<'a> {
     }
 
     /// Refuses temperatures below absolute zero: the laws say nothing there, and a balance that is met is met by accident.
-    fn refuse_cold(&self, state: &State) -> Result<(), SolveFailure> {
+    fn refuse_cold(&self, state: &State) -> Result<(), Error> {
         let (Some(zero), Some(nodes), Some(field)) =
             (self.problem.absolute_zero, self.problem.field(Field::Temperature), state.field(Field::Temperature))
         else {
@@ -146,7 +149,7 @@ impl<'a> Equations<'a> {
         };
         let coldest = nodes.nodes.iter().zip(field.values()).min_by(|one, other| one.1.total_cmp(&other.1));
         match coldest.filter(|(_, value)| *value < zero) {
-            Some((&node, value)) => Err(SolveFailure::BelowAbsoluteZero { node, value, zero }),
+            Some((&node, value)) => Err(ErrorKind::BelowAbsoluteZero { node, value, zero }.into()),
             None => Ok(()),
         }
     }
@@ -158,17 +161,17 @@ impl<'a> Equations<'a> {
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
         state: &mut State,
-    ) -> Result<(), SolveFailure> {
+    ) -> Result<(), Error> {
         for &field in &stage.fields {
             let Some(nodes) = self.problem.field(field) else { continue };
-            let terms = row_terms(knowledge, field, nodes).map_err(SolveFailure::Row)?;
+            let terms = row_terms(knowledge, field, nodes)?;
             let mut sources = sources(knowledge, field, nodes);
             if field == Field::Temperature {
                 sources.iter_mut().zip(&knowledge.heat).for_each(|(sum, heat)| *sum += heat);
             }
             let network = network(knowledge, field, nodes, &terms.conductances, &sources, capacities);
             let solution =
-                self.solvers[field.index()].solve(&network).map_err(|failure| failed(field, nodes, failure))?;
+                self.solvers[field.index()].solve(&network).map_err(|error| error.in_field(field, &nodes.nodes))?;
             if field == Field::Potential {
                 knowledge.heat = self.heat_of(knowledge, nodes, &solution, &terms);
             }
@@ -204,11 +207,13 @@ impl<'a> Equations<'a> {
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
         state: &mut State,
-    ) -> Result<StageReport, SolveFailure> {
+    ) -> Result<StageReport, Error> {
         let begin = knowledge.clone();
         let found = self.solve_within(stage, knowledge, capacities, state);
         let is_rough = self.solvers.iter().any(|solver| LAST_DIGIT < solver.tolerance());
-        if !is_rough || !matches!(found, Err(SolveFailure::NotConverged { .. } | SolveFailure::NotSolved { .. })) {
+        let is_short =
+            |error: &Error| matches!(error.kind(), ErrorKind::NotConverged { .. } | ErrorKind::NotSolved { .. });
+        if !is_rough || !found.as_ref().is_err_and(is_short) {
             return found;
         }
         *knowledge = begin;
@@ -227,9 +232,9 @@ impl<'a> Equations<'a> {
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
         state: &mut State,
-    ) -> Result<(), SolveFailure> {
+    ) -> Result<(), Error> {
         match self.solve_fields(stage, knowledge, capacities, state) {
-            Err(SolveFailure::Floating { .. }) => {
+            Err(error) if matches!(error.kind(), ErrorKind::Floating { .. }) => {
                 knowledge.guess = Guess::WhereRowsConduct;
                 let solved = self.solve_fields(stage, knowledge, capacities, state);
                 knowledge.guess = Guess::AsItIs;
@@ -246,7 +251,7 @@ impl<'a> Equations<'a> {
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
         state: &mut State,
-    ) -> Result<StageReport, SolveFailure> {
+    ) -> Result<StageReport, Error> {
         for _ in 0..FIRST_PASSES {
             self.solve_first(stage, knowledge, capacities, state)?;
         }
@@ -287,7 +292,8 @@ impl<'a> Equations<'a> {
         let worst: Vec<(Field, f64, Option<u32>)> = worst.collect();
         let is_unmet = |(_, share, _): &(Field, f64, Option<u32>)| share.is_nan() || MET < *share;
         let unmet: Vec<_> = worst.iter().copied().filter(is_unmet).collect();
-        Err(SolveFailure::NotConverged { steps, worst: if unmet.is_empty() { worst } else { unmet }, inconsistency })
+        Err(ErrorKind::NotConverged { steps, worst: if unmet.is_empty() { worst } else { unmet }, inconsistency }
+            .into())
     }
 
     /// Newton's iteration, until the conductances of its state are those it was found with.
@@ -298,7 +304,7 @@ impl<'a> Equations<'a> {
         capacities: Capacities,
         state: &mut State,
         steps: &mut usize,
-    ) -> Result<Attempt, SolveFailure> {
+    ) -> Result<Attempt, Error> {
         let (mut inconsistency, mut beyond) = (f64::INFINITY, f64::INFINITY);
         loop {
             let iterated = self.iterate(stage, knowledge, capacities, state)?;
@@ -325,7 +331,7 @@ impl<'a> Equations<'a> {
         capacities: Capacities,
         state: &mut State,
         steps: &mut usize,
-    ) -> Result<bool, SolveFailure> {
+    ) -> Result<bool, Error> {
         let unknowns: usize = stage.fields.iter().map(|field| self.problem.nodes_of(*field).len()).sum();
         let passes = (MOST_RELAXED_NODES / unknowns.max(1)).min(MOST_PASSES);
         let nodes = knowledge.temperatures.len();
@@ -360,7 +366,7 @@ impl<'a> Equations<'a> {
         knowledge: &mut Knowledge<'_>,
         capacities: Capacities,
         state: &State,
-    ) -> Result<Iterated, SolveFailure> {
+    ) -> Result<Iterated, Error> {
         let first = stage.fields.iter().filter_map(|&field| {
             let state = state.field(field)?;
             Some((field, state.solution.clone(), state.rows.clone()))
@@ -370,21 +376,16 @@ impl<'a> Equations<'a> {
             self.solvers.iter_mut().for_each(Solver::release_factor);
         }
         let mut newton = Newton::new(knowledge, first.collect(), capacities, self.solvers[0].method());
-        newton.iterate(knowledge).map_err(SolveFailure::Row)
+        newton.iterate(knowledge)
     }
 
     /// The largest relative distance of the conductances at a state from those it was found with; and the largest of those that the last digits
     /// of temperatures and pore pressures do not account for.
-    fn inconsistency(
-        &self,
-        stage: &Stage,
-        knowledge: &Knowledge<'_>,
-        state: &State,
-    ) -> Result<(f64, f64), SolveFailure> {
+    fn inconsistency(&self, stage: &Stage, knowledge: &Knowledge<'_>, state: &State) -> Result<(f64, f64), Error> {
         let (mut largest, mut beyond) = (0.0_f64, 0.0_f64);
         for &field in &stage.fields {
             let (Some(nodes), Some(found)) = (self.problem.field(field), state.field(field)) else { continue };
-            let terms = row_terms(knowledge, field, nodes).map_err(SolveFailure::Row)?;
+            let terms = row_terms(knowledge, field, nodes)?;
             for (place, (now, before)) in terms.conductances.iter().zip(&found.rows).enumerate() {
                 if now == before {
                     continue;

@@ -7,10 +7,11 @@
 //! Where time integrals of the rows are wanted, their error in an increment counts as well, as a part of the integrals (`integrals.rs`).
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the control of lengths.
 
+use crate::error::Error;
 use crate::integrals::{Added, Integrals, RowFlows};
 use crate::problem::Problem;
 use crate::scene::{Field, Procedure, Scene, Steps, TimeSpan};
-use crate::solve::{Equations, Histories, SolveFailure};
+use crate::solve::{Equations, Histories};
 use crate::state::{FieldState, State};
 
 /// An increment is not cut below this part of the whole time.
@@ -38,7 +39,7 @@ pub struct TransientReport {
 ///
 /// # Errors
 /// The first failure, after the states before it, or what `take` returns.
-pub fn run<E: From<SolveFailure>>(
+pub fn run<E: From<Error>>(
     equations: &mut Equations<'_>,
     mut take: impl FnMut(&State) -> Result<(), E>,
 ) -> Result<TransientReport, E> {
@@ -69,7 +70,7 @@ pub fn run<E: From<SolveFailure>>(
 ///
 /// # Errors
 /// The first failure, after the states before it, or what `take` returns.
-pub fn begin<E: From<SolveFailure>>(
+pub fn begin<E: From<Error>>(
     equations: &mut Equations<'_>,
     mut take: impl FnMut(State) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -99,7 +100,7 @@ struct March<'a, 'p> {
 const STORING: [Field; 2] = [Field::Temperature, Field::PorePressure];
 
 impl March<'_, '_> {
-    fn by_length<E: From<SolveFailure>>(
+    fn by_length<E: From<Error>>(
         &mut self,
         mut state: State,
         span: TimeSpan,
@@ -125,7 +126,7 @@ impl March<'_, '_> {
         Ok(())
     }
 
-    fn by_error<E: From<SolveFailure>>(
+    fn by_error<E: From<Error>>(
         &mut self,
         mut state: State,
         span: TimeSpan,

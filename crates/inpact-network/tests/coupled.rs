@@ -8,7 +8,7 @@ use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::scene::{
     Conditions, Course, Field, Procedure, Scene, SceneInterface, SceneLink, StartFrom, Steps, TimeSpan,
 };
-use inpact_network::{Equations, Problem, SolveFailure, State};
+use inpact_network::{Equations, ErrorKind, Problem, State};
 use inpact_parser::model::Name;
 use scene_support::{model_of, problem};
 use seeded::{Random, Spread};
@@ -291,7 +291,7 @@ fn steep_scenes_balance_where_they_are_solved() {
         let problem = problem.unwrap_or_else(|| panic!("seed {seed}: {findings:?}"));
         match Equations::new(&problem, Method::Direct, LAST_DIGIT).steady() {
             Ok(state) => is_solved(&problem, &state, &joints, seed),
-            Err(SolveFailure::NotConverged { .. }) => continue,
+            Err(error) if matches!(error.kind(), ErrorKind::NotConverged { .. }) => continue,
             Err(failure) => panic!("seed {seed}: {failure:?}"),
         }
         solved += 1;

@@ -3,7 +3,8 @@
 mod linear_support;
 
 use inpact_evaluation::numbers::DoubleDouble;
-use inpact_network::linear::{LAST_DIGIT, LinearFailure, LinearNetwork, Link, Method, Shortcoming, Store, Unsolvable};
+use inpact_network::ErrorKind;
+use inpact_network::linear::{LAST_DIGIT, LinearNetwork, Link, Method, Shortcoming, Store};
 use linear_support::{METHODS, failure, jumps, network, rounded, solutions, solve};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -166,8 +167,8 @@ fn nodes_that_are_one_cannot_be_held_at_two_values() {
     let infinite = f64::INFINITY;
     let links = [(0, 1, infinite), (3, 1, infinite), (3, 4, infinite), (2, 4, 1.0)];
     let held = [(0, 7.0), (2, 1.0), (4, 7.0_f64.next_up())];
-    let contradiction = Unsolvable::Contradiction { nodes: [0, 4], values: [7.0, 7.0_f64.next_up()] };
-    assert_eq!(failure(&network(5, &held, &links)), LinearFailure::Unsolvable(contradiction));
+    let contradiction = ErrorKind::Contradiction { nodes: [0, 4], values: [7.0, 7.0_f64.next_up()] };
+    assert_eq!(*failure(&network(5, &held, &links)).kind(), contradiction);
     // As soon as one conductance is finite, however large, it is a network as any other.
     let links = [(0, 1, infinite), (3, 1, 1e300), (3, 4, infinite), (2, 4, 1.0)];
     assert!(solve(&network(5, &held, &links), Method::Direct).is_ok());
@@ -176,16 +177,15 @@ fn nodes_that_are_one_cannot_be_held_at_two_values() {
 #[test]
 fn what_floats_is_named_body_by_body() {
     let links = [(0, 1, 1.0), (2, 3, 1e-300), (3, 6, f64::INFINITY), (1, 2, 0.0), (4, 7, 0.0)];
-    let floating_parts = |parts: &[&[u32]]| {
-        LinearFailure::Unsolvable(Unsolvable::Floating(parts.iter().map(|part| part.to_vec()).collect()))
-    };
+    let floating_parts =
+        |parts: &[&[u32]]| ErrorKind::Floating { components: parts.iter().map(|part| part.to_vec()).collect() };
     let mut floating = network(8, &[(0, 1.0)], &links);
-    assert_eq!(failure(&floating), floating_parts(&[&[2, 3, 6], &[4], &[5], &[7]]));
+    assert_eq!(*failure(&floating).kind(), floating_parts(&[&[2, 3, 6], &[4], &[5], &[7]]));
     // A source is no level; a store is one, but not if it takes up nothing.
     floating.sources[4] = 1.0;
     floating.stores.push(Store { node: 6, conductance: 1e-300, before: DoubleDouble::new(3.0) });
     floating.stores.push(Store { node: 5, conductance: 0.0, before: DoubleDouble::new(3.0) });
-    assert_eq!(failure(&floating), floating_parts(&[&[4], &[5], &[7]]));
+    assert_eq!(*failure(&floating).kind(), floating_parts(&[&[4], &[5], &[7]]));
     floating.held[5] = Some(0.0);
     floating.links.extend([Link { nodes: [7, 4], conductance: 1e300 }, Link { nodes: [4, 0], conductance: 2.0 }]);
     for (method, solution) in solutions(&floating) {
@@ -355,7 +355,7 @@ fn numbers_beyond_the_range_are_refused() {
     let overflows = |network: &LinearNetwork| {
         for method in METHODS {
             let failure = solve(network, method).expect_err("beyond the range");
-            let LinearFailure::NotSolved(tried) = failure else { panic!("{failure:?}") };
+            let ErrorKind::NotSolved { tried } = failure.kind() else { panic!("{failure:?}") };
             assert_eq!(tried.last().map(|(_, why)| *why), Some(Shortcoming::Overflow), "{method:?}: {tried:?}");
         }
     };

@@ -3,9 +3,8 @@
 mod linear_support;
 
 use inpact_evaluation::numbers::DoubleDouble;
-use inpact_network::linear::{
-    LAST_DIGIT, LinearFailure, LinearNetwork, LinearSolution, Link, Method, Store, Unsolvable,
-};
+use inpact_network::ErrorKind;
+use inpact_network::linear::{LAST_DIGIT, LinearNetwork, LinearSolution, Link, Method, Store};
 use linear_support::{Balanced, METHODS, rounded, solve, worst_balance};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -61,12 +60,14 @@ fn networks(decades: f64) -> impl Strategy<Value = LinearNetwork> {
 fn solved(network: &LinearNetwork, method: Method) -> Result<Option<LinearSolution>, TestCaseError> {
     match solve(network, method) {
         Ok(solution) => Ok(Some(solution)),
-        Err(LinearFailure::Unsolvable(Unsolvable::Contradiction { nodes, values })) => {
+        Err(error) => {
+            let ErrorKind::Contradiction { nodes, values } = error.kind() else {
+                return Err(TestCaseError::fail(format!("{method:?}: {error}")));
+            };
             prop_assert_eq!(nodes.map(|node| network.held[node as usize]), values.map(Some));
             prop_assert!(values[0] != values[1]);
             Ok(None)
         }
-        Err(failure) => Err(TestCaseError::fail(format!("{method:?}: {failure:?}"))),
     }
 }
 

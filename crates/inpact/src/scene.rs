@@ -10,7 +10,7 @@ use inpact_evaluation::plan::Choices;
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::scene::Field;
 use inpact_network::transient;
-use inpact_network::{Equations, Problem, SolveFailure, State};
+use inpact_network::{Equations, Problem, State};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -171,12 +171,12 @@ impl Scene {
 
 /// Reasons why a transient ended early.
 enum Ended {
-    Failed(SolveFailure),
+    Failed(inpact_network::Error),
     Stopped,
 }
 
-impl From<SolveFailure> for Ended {
-    fn from(failure: SolveFailure) -> Self {
+impl From<inpact_network::Error> for Ended {
+    fn from(failure: inpact_network::Error) -> Self {
         Self::Failed(failure)
     }
 }

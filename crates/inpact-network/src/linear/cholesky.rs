@@ -1,8 +1,9 @@
 //! Cholesky factors of symmetric positive definite matrices that are no networks: with the orders that networks have, for those who assemble their own.
 
-use super::factor::{Factor, NoSolution, Solves};
+use super::factor::{Factor, Solves};
 use super::matrix::Matrix;
 use super::ordering::{Analysis, Ordering};
+use super::report::NoSolution;
 use faer::sparse::SymbolicSparseColMatRef;
 use std::sync::Arc;
 

@@ -1,14 +1,15 @@
 //! Connected components of a network. One without a held value and without a store floats, and is found before anything is factored.
 
-use super::network::{LinearNetwork, Unsolvable};
+use super::network::LinearNetwork;
 use super::sets::{Sets, index};
+use crate::error::{Error, ErrorKind};
 use std::collections::BTreeMap;
 
 /// Refuses a network with floating components.
 ///
 /// # Errors
-/// [`Unsolvable::Floating`] with the nodes of each such body, in ascending order.
-pub(crate) fn refuse_floating(network: &LinearNetwork) -> Result<(), Unsolvable> {
+/// [`ErrorKind::Floating`] with the nodes of each such body, in ascending order.
+pub(crate) fn refuse_floating(network: &LinearNetwork) -> Result<(), Error> {
     let mut sets = Sets::new(network.nodes());
     for link in network.links.iter().filter(|link| link.conductance > 0.0) {
         sets.join(link.nodes[0], link.nodes[1]);
@@ -27,5 +28,8 @@ pub(crate) fn refuse_floating(network: &LinearNetwork) -> Result<(), Unsolvable>
             floating.entry(body).or_default().push(node);
         }
     }
-    if floating.is_empty() { Ok(()) } else { Err(Unsolvable::Floating(floating.into_values().collect())) }
+    if floating.is_empty() {
+        return Ok(());
+    }
+    Err(ErrorKind::Floating { components: floating.into_values().collect() }.into())
 }

@@ -1,11 +1,15 @@
 //! The network that is left to solve once infinite conductances have merged their nodes: free nodes, known values, finite conductances.
 
-use super::network::{LinearNetwork, Unsolvable};
+use super::network::LinearNetwork;
 use super::sets::{Sets, index};
+use crate::error::{Error, ErrorKind};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// Stands where there is no node, element or unknown.
 pub(crate) const NONE: u32 = u32::MAX;
+
+/// Relative rounding error of a handful of double-double operations.
+pub(crate) const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// Conductances among free nodes and known values.
 #[derive(Clone, Debug, Default)]
@@ -44,11 +48,8 @@ impl Core {
     /// The network with the nodes of every infinite conductance made one; links that conduct nothing are left out unless they have to stay.
     ///
     /// # Errors
-    /// [`Unsolvable::Contradiction`] where such nodes are held at different values.
-    pub(crate) fn merged(
-        network: &LinearNetwork,
-        stays: &dyn Fn(usize) -> bool,
-    ) -> Result<(Self, Origins), Unsolvable> {
+    /// [`ErrorKind::Contradiction`] where such nodes are held at different values.
+    pub(crate) fn merged(network: &LinearNetwork, stays: &dyn Fn(usize) -> bool) -> Result<(Self, Origins), Error> {
         let Clusters { number, held, merged } = clusters(network)?;
         let free = index(held.iter().filter(|held| held.is_none()).count());
         // Free nodes first, then known values, each in the order of the network.
@@ -118,7 +119,7 @@ struct Clusters {
     merged: usize,
 }
 
-fn clusters(network: &LinearNetwork) -> Result<Clusters, Unsolvable> {
+fn clusters(network: &LinearNetwork) -> Result<Clusters, Error> {
     let infinite = || network.links.iter().filter(|link| link.conductance == f64::INFINITY);
     if infinite().next().is_none() {
         let number = (0..index(network.nodes())).collect();
@@ -141,10 +142,8 @@ fn clusters(network: &LinearNetwork) -> Result<Clusters, Unsolvable> {
         let Some(value) = network.held[node as usize] else { continue };
         match held[cluster as usize].replace(value) {
             Some(other) if other != value => {
-                return Err(Unsolvable::Contradiction {
-                    nodes: [holder[cluster as usize], node],
-                    values: [other, value],
-                });
+                let (nodes, values) = ([holder[cluster as usize], node], [other, value]);
+                return Err(ErrorKind::Contradiction { nodes, values }.into());
             }
             _ => holder[cluster as usize] = node,
         }

@@ -7,8 +7,8 @@
 //! All known values are one node of that walk, its root.
 
 use super::core::{Core, NONE};
+use super::found::CoreFound;
 use super::sets::index;
-use super::solve::CoreFound;
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The free nodes in such parts, those nearer to the rest first, each with the number whose value it has.

@@ -3,7 +3,7 @@
 //! The balance of a node from an assembled diagonal, s x − Σ c x', has lost whatever the strongest conductance rounds away;
 //! Σ c (x − x') has not. Jumps and flows are kept in 106 bits, so that what refinement makes of a balance is limited by no rounding of f64.
 
-use super::core::{Core, NONE};
+use super::core::{Core, NONE, ROUNDING};
 use super::largest::largest_or_nan;
 use super::relative::Form;
 use super::sets::index;
@@ -35,9 +35,6 @@ const MOST_ELEMENTS: usize = 1 << 16;
 
 /// Steps that are kept in any case.
 const LEAST_STEPS: usize = 1 << 16;
-
-/// Relative rounding error of a handful of double-double operations.
-pub(crate) const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// Absolute rounding error of the smallest numbers, of which the second half has run out of exponents.
 const LEAST: f64 = f64::MIN_POSITIVE / (1_u64 << 46) as f64;

@@ -11,15 +11,13 @@
 //! Source: Grassmann, Taksar and Heyman, Operations Research 33 (1985) 1107–1116; Peña, ETNA 18 (2004) 198–208.
 
 use super::core::{Core, Element};
+use super::report::MOST_FILLED;
 use super::sets::index;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::collections::HashMap;
 
 /// Above so many different known values the filled network is too dense.
 const MOST_KNOWN: usize = 256;
-
-/// Above so many conductances of the filled network elimination is given up.
-pub(super) const MOST_FILLED: usize = 20_000_000;
 
 /// Result of an elimination: the values of the free nodes, and the flow through each element that is there.
 #[derive(Debug)]

@@ -2,6 +2,7 @@
 
 use super::matrix::Matrix;
 use super::ordering::Analysis;
+use super::report::NoSolution;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::SparseColMatRef;
@@ -52,17 +53,6 @@ pub(crate) enum Accuracy {
     Full,
     /// So rough that changes shrink unevenly: what is left is only known to be less than the last change.
     Rough,
-}
-
-/// Reasons why a factorisation or iteration has no solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NoSolution {
-    /// A pivot was not above zero: rounding has made the matrix indefinite.
-    Pivot,
-    /// There is not enough memory.
-    Memory,
-    /// Iterations did not converge.
-    Iterations,
 }
 
 /// A Cholesky factor in numbers `T`.

@@ -4,15 +4,19 @@
 //! Where they form no ring that determines their flows. In a ring it does not; there they share as equal conductances would, however large,
 //! and the report says how many there are.
 
-use super::core::{Core, Element, NONE};
-use super::edges::ROUNDING;
+use super::core::{Core, Element, NONE, ROUNDING};
+use super::found::CoreFound;
 use super::network::LinearNetwork;
 use super::sets::{Sets, index};
-use super::solve::{LAST_DIGIT, LinearFailure, LinearSolution, Method, Solver};
+use super::solve::LinearSolution;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// Finds the flows through the infinite conductances of a network that is solved otherwise.
-pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution) -> Result<(), LinearFailure> {
+/// Finds the flows through the infinite conductances of a network that is solved otherwise; `solve` solves a network of finite ones.
+pub(super) fn find_flows<E>(
+    network: &LinearNetwork,
+    solution: &mut LinearSolution,
+    solve: impl FnOnce(&mut Core) -> Result<CoreFound, E>,
+) -> Result<(), E> {
     let (missing, magnitudes) = missing(network, solution);
     let is_infinite = |number: &usize| network.links[*number].conductance == f64::INFINITY;
     let infinite: Vec<usize> = (0..network.links.len()).filter(is_infinite).collect();
@@ -37,7 +41,7 @@ pub(super) fn find_flows(network: &LinearNetwork, solution: &mut LinearSolution)
         elements: infinite.iter().map(element).collect(),
         sources,
     };
-    let (found, _) = Solver::new(Method::Direct, LAST_DIGIT).solve_core(&mut core)?;
+    let found = solve(&mut core)?;
     for (place, &link) in infinite.iter().enumerate() {
         solution.flows[link] = found.flows[place];
     }

@@ -6,8 +6,9 @@
 //!
 //! Source: Gustafsson, A class of first order factorization methods, BIT 18 (1978) 142–156; the conjugate gradients are faer's.
 
-use super::factor::{NoSolution, PAR, Solves};
+use super::factor::{PAR, Solves};
 use super::matrix::Matrix;
+use super::report::NoSolution;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::conjugate_gradient::{CgParams, conjugate_gradient, conjugate_gradient_scratch};
 use faer::matrix_free::{InitialGuessStatus, LinOp, Precond};

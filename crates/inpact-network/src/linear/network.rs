@@ -38,21 +38,6 @@ pub struct Store {
     pub before: DoubleDouble,
 }
 
-/// Reasons why a network has no solution or more than one.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Unsolvable {
-    /// Bodies without a path to a held value or a store: the nodes of each. A path needs conductances above zero.
-    Floating(Vec<Vec<u32>>),
-    /// Two nodes that are held at different values have one value, by infinite conductances between them.
-    Contradiction {
-        /// The nodes.
-        nodes: [u32; 2],
-        /// The held values of the two.
-        values: [f64; 2],
-    },
-}
-
 impl LinearNetwork {
     /// A network of so many nodes, none of them held, without a link.
     pub fn of_nodes(nodes: usize) -> Self {

@@ -8,10 +8,11 @@
 //! A balance is not better than its rounding: what is left of it below that is no reason to go on. What rounding may have done to a flow counts as its error;
 //! a flow that is no more than that is none. Steps that gain nothing more end in a solution where rounding accounts for the error that is left, and in a failure elsewhere.
 
-use super::core::Core;
-use super::edges::{Balance, Edges, ROUNDING};
-use super::factor::{Accuracy, NoSolution, Solves};
+use super::core::{Core, ROUNDING};
+use super::edges::{Balance, Edges};
+use super::factor::{Accuracy, Solves};
 use super::matrix::{scaled_flows, shift, unscale};
+use super::report::{NoSolution, Quality, Shortcoming};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The most steps of a refinement: a body without any flow comes down from rounding to zero by some sixteen decades a step, through all six hundred of f64 if need be.
@@ -35,19 +36,6 @@ pub(crate) struct Refined {
     pub(crate) quality: Quality,
 }
 
-/// Measures of the error of a solution.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Quality {
-    /// The number of solves.
-    pub solves: usize,
-    /// The largest share of its flows that is missing in a balance, balances that are at their rounding left out.
-    pub residual: f64,
-    /// An estimate of the largest relative error of a flow, before it is rounded to f64.
-    pub error: f64,
-    /// A lower estimate of the condition of the scaled matrix.
-    pub condition: f64,
-}
-
 /// Reasons why a refinement gave up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum GaveUp {
@@ -57,6 +45,16 @@ pub(crate) enum GaveUp {
     Stalled(Quality),
     /// A flow is beyond the range of f64.
     Overflow,
+}
+
+impl From<GaveUp> for Shortcoming {
+    fn from(reason: GaveUp) -> Self {
+        match reason {
+            GaveUp::Solver(reason) => Self::NoSolution(reason),
+            GaveUp::Stalled(quality) => Self::Stalled(quality),
+            GaveUp::Overflow => Self::Overflow,
+        }
+    }
 }
 
 /// Solves by refinement until residual and estimated error are within `tolerance`.
@@ -182,11 +180,12 @@ fn inverse_norm(solution: &[f64], solver: &mut dyn Solves) -> Result<f64, NoSolu
 
 #[cfg(test)]
 mod tests {
-    use super::{AT_ROUNDING, GaveUp, PATIENCE, Quality, refine};
+    use super::{AT_ROUNDING, GaveUp, PATIENCE, refine};
     use crate::linear::dead_ends::DeadEnds;
-    use crate::linear::factor::{NoSolution, Solves};
+    use crate::linear::factor::Solves;
     use crate::linear::iterative::ConjugateGradients;
     use crate::linear::matrix::Pattern;
+    use crate::linear::report::{NoSolution, Quality};
     use crate::linear::{Core, Edges, Form, LAST_DIGIT, LinearNetwork, Link, Series};
 
     /// Conjugate gradients that find nothing more after some corrections, of which the last falls short by a part.

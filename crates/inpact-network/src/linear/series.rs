@@ -9,8 +9,8 @@
 
 use super::core::{Core, Element, NONE};
 use super::dead_ends::DeadEnds;
+use super::found::{CoreFound, SMALL};
 use super::sets::index;
-use super::solve::{CoreFound, SMALL};
 use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::DoubleDouble;
 

@@ -5,44 +5,23 @@ use super::core::{Core, NONE, Origins};
 use super::dead_ends::DeadEnds;
 use super::edges::{Balance, Edges};
 use super::elimination::eliminate;
-use super::factor::{Factor, NoSolution, Solves};
+use super::factor::{Factor, Solves};
+use super::found::{CoreFound, SMALL};
 use super::infinite;
 use super::iterative::ConjugateGradients;
 use super::largest::largest_or_nan;
 use super::matrix::Pattern;
-use super::network::{LinearNetwork, Link, Unsolvable};
-use super::ordering::{Analysis, Ordering};
-use super::refinement::{GaveUp, Quality, Refined, refine};
+use super::network::{LinearNetwork, Link};
+use super::ordering::Analysis;
+use super::refinement::{Refined, refine};
 use super::relative::Form;
+use super::report::{LAST_DIGIT, LinearReport, Method, NoSolution, Quality, Reused, Shortcoming};
 use super::series::Series;
 use super::sets::index;
-use super::spanning_forest::SpanningForest;
-use super::symbolic::Reused;
-use super::work::{Phases, Work};
+use super::work::{Clock, Phases, Work, no_clock};
+use crate::error::Error;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::sync::Arc;
-use std::time::Instant;
-
-/// Methods of solving a network.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Method {
-    /// A Cholesky factor in f64.
-    #[default]
-    Direct,
-    /// A Cholesky factor in f32: half the memory and, in three dimensions, about half the time.
-    Mixed,
-    /// Conjugate gradients with an incomplete factor: memory of a few entries a node.
-    Iterative,
-    /// Elimination without subtraction in 106 bits: slow, and exact at any contrast but where a jump leaves the range of f64 or steps of both signs nearly cancel, which it refuses.
-    Elimination,
-}
-
-/// Flows up to this have lost digits to the range of f64.
-pub(super) const SMALL: f64 = f64::MIN_POSITIVE / f64::EPSILON / f64::EPSILON;
-
-/// The tolerance of the last digit of f64.
-pub const LAST_DIGIT: f64 = f64::EPSILON / 16.0;
 
 /// Solves networks, and keeps what the next one can use again: the order of elimination as long as the same unknowns are coupled, the factor as long as the matrix is the same.
 #[derive(Debug)]
@@ -51,6 +30,7 @@ pub struct Solver {
     tolerance: f64,
     kept: Option<Kept>,
     work: Work,
+    clock: Clock,
 }
 
 /// State kept from one network to the next.
@@ -108,79 +88,16 @@ impl LinearSolution {
     }
 }
 
-/// Method, size and quality of a solution.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct LinearReport {
-    /// The method that gave it.
-    pub method: Method,
-    /// The relative error of a flow that is permitted.
-    pub tolerance: f64,
-    /// The number of unknowns.
-    pub unknowns: usize,
-    /// The number of unknowns that are jumps from another node.
-    pub relative: usize,
-    /// In how many levels the strengths of the conductances fall.
-    pub levels: usize,
-    /// The number of nodes that share the value of another by an infinite conductance.
-    pub merged: usize,
-    /// The number of nodes eliminated in series: they only pass on the flow.
-    pub taken_out: usize,
-    /// The number of nodes in dead ends: no flow reaches them, and they have the value of another.
-    pub dead_ends: usize,
-    /// The number of infinite conductances beyond those that determine the shares of their flow; they share it as equal ones would.
-    pub shared: usize,
-    /// The order of elimination, where there was a factor.
-    pub ordering: Option<Ordering>,
-    /// Entries of the factor.
-    pub factor_entries: usize,
-    /// Results of a network before that were used again.
-    pub reused: Reused,
-    /// Iterations of conjugate gradients.
-    pub iterations: usize,
-    /// Residual and estimated error; an elimination has no estimate.
-    pub quality: Quality,
-    /// The methods that were tried before, and why they were given up.
-    pub given_up: Vec<(Method, Shortcoming)>,
-    /// Time of each phase.
-    pub phases: Phases,
-}
-
-/// Reasons why a method was given up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Shortcoming {
-    /// It could not begin.
-    NoSolution(NoSolution),
-    /// It came no nearer than this.
-    Stalled(Quality),
-    /// A flow is beyond the range of f64, or what a rough factor made of it.
-    Overflow,
-    /// The filled network would be too large.
-    TooLarge,
-}
-
-/// Reasons why a network has no solution.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum LinearFailure {
-    /// It has none, or more than one.
-    Unsolvable(Unsolvable),
-    /// No method came within the tolerance.
-    NotSolved(Vec<(Method, Shortcoming)>),
-}
-
-/// The solution of a core: values of its free nodes, flows of its elements.
-pub(super) struct CoreFound {
-    pub(super) values: Vec<DoubleDouble>,
-    pub(super) flows: Vec<DoubleDouble>,
-    /// The spanning forest with its steps; an elimination has none.
-    pub(super) forest: Option<SpanningForest>,
-}
-
 impl Solver {
     /// A solver with this method whose estimated relative error of every flow is at most `tolerance`; [`LAST_DIGIT`] is the best that f64 can hold.
     pub fn new(method: Method, tolerance: f64) -> Self {
-        Self { method, tolerance, kept: None, work: Work::default() }
+        Self { method, tolerance, kept: None, work: Work::default(), clock: no_clock }
+    }
+
+    /// The same, with the times of its phases by a clock of the caller; without one they are 0.
+    #[must_use]
+    pub fn timed_by(self, clock: Clock) -> Self {
+        Self { clock, ..self }
     }
 
     /// The same, with an order of elimination that is known.
@@ -224,25 +141,27 @@ impl Solver {
     /// Solves a network.
     ///
     /// # Errors
-    /// See [`LinearFailure`].
-    pub fn solve(&mut self, network: &LinearNetwork) -> Result<LinearSolution, LinearFailure> {
-        let start = Instant::now();
-        refuse_floating(network).map_err(LinearFailure::Unsolvable)?;
-        let (core, origins) = Core::merged(network, &|_| false).map_err(LinearFailure::Unsolvable)?;
+    /// It has no solution, or more than one; or no method comes within the tolerance.
+    pub fn solve(&mut self, network: &LinearNetwork) -> Result<LinearSolution, Error> {
+        let start = (self.clock)();
+        refuse_floating(network)?;
+        let (core, origins) = Core::merged(network, &|_| false)?;
         let mut core = core;
         let (found, mut report) = self.solve_core(&mut core)?;
         report.merged = origins.merged;
         let Phases { order, factor, solve, .. } = report.phases;
-        report.phases.set_up = start.elapsed().as_secs_f64() - order - factor - solve;
-        self.work += Work::of(&report);
+        report.phases.set_up = ((self.clock)() - start).as_secs_f64() - order - factor - solve;
+        self.work += report.work();
         let method = report.method;
-        let overflow = || LinearFailure::NotSolved(vec![(method, Shortcoming::Overflow)]);
+        let overflow = || Error::not_solved(vec![(method, Shortcoming::Overflow)]);
         let mut solution = put_together(network, &core, &origins, found, report);
         if !solution.is_finite() {
             return Err(overflow());
         }
         if origins.merged > 0 {
-            infinite::find_flows(network, &mut solution)?;
+            let solve =
+                |core: &mut Core| Self::new(Method::Direct, LAST_DIGIT).solve_core(core).map(|(found, _)| found);
+            infinite::find_flows(network, &mut solution, solve)?;
             if !solution.is_finite() {
                 return Err(overflow());
             }
@@ -251,7 +170,7 @@ impl Solver {
     }
 
     /// Solves a core, in which all conductances are finite and every node has a path to a known value.
-    pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<(CoreFound, LinearReport), LinearFailure> {
+    pub(super) fn solve_core(&mut self, core: &mut Core) -> Result<(CoreFound, LinearReport), Error> {
         let dead_ends = DeadEnds::find(core);
         let series = Series::take_out(core, &dead_ends, &|_| false);
         let form = Form::choose(core, &series.is_there, &series.is_free);
@@ -277,7 +196,7 @@ impl Solver {
         series: &Series,
         form: Form,
         report: &mut LinearReport,
-    ) -> Result<CoreFound, LinearFailure> {
+    ) -> Result<CoreFound, Error> {
         let edges = Edges::new(core, form, &series.is_there);
         let mut method = self.method;
         loop {
@@ -291,7 +210,7 @@ impl Solver {
             report.given_up.push((method, shortcoming));
             method = match (method, shortcoming) {
                 (Method::Direct, Shortcoming::Overflow) | (Method::Elimination, _) => {
-                    return Err(LinearFailure::NotSolved(std::mem::take(&mut report.given_up)));
+                    return Err(Error::not_solved(std::mem::take(&mut report.given_up)));
                 }
                 (Method::Direct, _) => Method::Elimination,
                 // A rough factor may have left the range of numbers by itself, that of f32 before all.
@@ -322,15 +241,16 @@ impl Solver {
             let refined = refine(core, edges, &mut Nothing, self.tolerance)?;
             return Ok(found(core, edges, &refined.jumps, refined.balance));
         }
+        let clock = self.clock;
         let pattern = self.pattern(core, edges);
         let matrix = pattern.matrix(core, edges);
         let tolerance = self.tolerance;
         let refined = if method == Method::Iterative {
             let mut solver = ConjugateGradients::new(&matrix, tolerance);
-            let solving = Instant::now();
+            let solving = clock();
             let refined = refine(core, edges, &mut solver, tolerance);
             report.iterations = solver.iterations;
-            report.phases.solve += solving.elapsed().as_secs_f64();
+            report.phases.solve += (clock() - solving).as_secs_f64();
             refined?
         } else {
             let Some(Kept { pattern, analysis, factor }) = &mut self.kept else {
@@ -342,9 +262,9 @@ impl Solver {
                     analysis
                 }
                 None => {
-                    let ordering = Instant::now();
+                    let ordering = clock();
                     let made = Analysis::of(pattern.symbolic()).ok_or(NoSolution::Memory)?;
-                    report.phases.order += ordering.elapsed().as_secs_f64();
+                    report.phases.order += (clock() - ordering).as_secs_f64();
                     analysis.insert(Arc::new(made))
                 }
             };
@@ -361,15 +281,15 @@ impl Solver {
             if has_factor {
                 report.reused = Reused::Factor;
             }
-            let factoring = Instant::now();
+            let factoring = clock();
             let solver: &mut dyn Solves = match method {
                 Method::Mixed => get_or_try(single, || Factor::new(analysis, &matrix))?,
                 _ => get_or_try(double, || Factor::new(analysis, &matrix))?,
             };
-            report.phases.factor += factoring.elapsed().as_secs_f64();
-            let solving = Instant::now();
+            report.phases.factor += (clock() - factoring).as_secs_f64();
+            let solving = clock();
             let refined = refine(core, edges, solver, tolerance);
-            report.phases.solve += solving.elapsed().as_secs_f64();
+            report.phases.solve += (clock() - solving).as_secs_f64();
             let refined = refined?;
             *values = matrix.values;
             refined
@@ -471,21 +391,5 @@ impl Solves for Nothing {
 
     fn norm(&self) -> f64 {
         0.0
-    }
-}
-
-impl From<NoSolution> for Shortcoming {
-    fn from(reason: NoSolution) -> Self {
-        Self::NoSolution(reason)
-    }
-}
-
-impl From<GaveUp> for Shortcoming {
-    fn from(reason: GaveUp) -> Self {
-        match reason {
-            GaveUp::Solver(reason) => Self::NoSolution(reason),
-            GaveUp::Stalled(quality) => Self::Stalled(quality),
-            GaveUp::Overflow => Self::Overflow,
-        }
     }
 }

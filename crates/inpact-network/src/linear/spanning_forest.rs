@@ -4,8 +4,7 @@
 //! and the difference of two values of 100 has lost a jump of 1e-40.
 //! The steps along the forest and along what was taken out have all their digits; the jump is the sum of those on the way from one node to the other.
 
-use super::core::{Core, NONE};
-use super::edges::ROUNDING;
+use super::core::{Core, NONE, ROUNDING};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The parent of each free node of a core, and the step from there.

@@ -6,13 +6,14 @@ use super::components::refuse_floating;
 use super::core::Core;
 use super::dead_ends::DeadEnds;
 use super::edges::Edges;
-use super::factor::NoSolution;
 use super::matrix::Pattern;
 use super::network::LinearNetwork;
 use super::ordering::{Analysis, Ordering};
 use super::relative::Form;
+use super::report::{Method, NoSolution, Shortcoming};
 use super::series::Series;
-use super::solve::{LinearFailure, Method, Shortcoming, Solver};
+use super::solve::Solver;
+use crate::error::Error;
 use std::sync::Arc;
 
 /// A symbolic factorisation, shared by the solvers made of it.
@@ -51,7 +52,7 @@ use std::sync::Arc;
 /// network.links.iter_mut().for_each(|link| link.conductance *= 1.5);
 /// let solution = symbolic.solver(Method::Mixed, LAST_DIGIT).solve(&network)?;
 /// assert_eq!(solution.report.reused, Reused::Order);
-/// # Ok::<(), inpact_network::linear::LinearFailure>(())
+/// # Ok::<(), inpact_network::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Symbolic {
@@ -59,27 +60,14 @@ pub struct Symbolic {
     analysis: Arc<Analysis>,
 }
 
-/// Results of a network before that were used again.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Reused {
-    /// None.
-    #[default]
-    Nothing,
-    /// The order of elimination.
-    Order,
-    /// The order and the factor: only sources and held values differ.
-    Factor,
-}
-
 impl Symbolic {
     /// Analyses the graph of a network.
     ///
     /// # Errors
     /// The network has no solution, or more than one; or memory runs out.
-    pub fn of(network: &LinearNetwork) -> Result<Self, LinearFailure> {
-        refuse_floating(network).map_err(LinearFailure::Unsolvable)?;
-        let (core, _) = Core::merged(network, &|_| false).map_err(LinearFailure::Unsolvable)?;
+    pub fn of(network: &LinearNetwork) -> Result<Self, Error> {
+        refuse_floating(network)?;
+        let (core, _) = Core::merged(network, &|_| false)?;
         let mut core = core;
         // As the solver does, so that the unknowns are the same.
         let dead_ends = DeadEnds::find(&core);
@@ -87,7 +75,7 @@ impl Symbolic {
         let form = Form::choose(&core, &series.is_there, &series.is_free);
         let edges = Edges::new(&core, form, &series.is_there);
         let pattern = Pattern::of(&core, &edges);
-        let memory = || LinearFailure::NotSolved(vec![(Method::Direct, Shortcoming::NoSolution(NoSolution::Memory))]);
+        let memory = || Error::not_solved(vec![(Method::Direct, Shortcoming::NoSolution(NoSolution::Memory))]);
         let analysis = Analysis::of(pattern.symbolic()).ok_or_else(memory)?;
         Ok(Self { pattern: Arc::new(pattern), analysis: Arc::new(analysis) })
     }

@@ -1,7 +1,15 @@
 //! Times and counts of solving, for one solution and summed over many.
 
-use super::solve::LinearReport;
 use std::ops::AddAssign;
+use std::time::Duration;
+
+/// A clock that the caller reads: the time since some instant, never less than before. No clock is read here otherwise.
+pub type Clock = fn() -> Duration;
+
+/// The clock of those who want no times.
+pub(super) fn no_clock() -> Duration {
+    Duration::ZERO
+}
 
 /// Times of the phases of a solution, seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,13 +35,6 @@ pub struct Work {
     pub iterations: usize,
     /// Time of each phase.
     pub phases: Phases,
-}
-
-impl Work {
-    pub(super) fn of(report: &LinearReport) -> Self {
-        let LinearReport { quality, iterations, phases, .. } = report;
-        Self { networks: 1, solves: quality.solves, iterations: *iterations, phases: *phases }
-    }
 }
 
 impl AddAssign for Work {

@@ -3,11 +3,11 @@
 //! Laws are evaluated where they depend on nothing that is sought.
 
 use super::{FieldNodes, Problem};
-use crate::assembly::{RowFault, row_terms};
+use crate::assembly::row_terms;
+use crate::error::{Error, ErrorKind};
 use crate::knowledge::Knowledge;
 use crate::linear::Sets;
 use crate::scene::Field;
-use crate::solve::SolveFailure;
 use std::collections::{BTreeMap, HashSet};
 
 impl Problem<'_> {
@@ -15,21 +15,21 @@ impl Problem<'_> {
     ///
     /// An interface whose conductance depends on what is sought counts as a path: a scene without such a failure may still have none of the paths it needs, which only
     /// solving shows.
-    pub fn certain_failures(&self) -> Vec<SolveFailure> {
+    pub fn certain_failures(&self) -> Vec<Error> {
         let mut failures = Vec::new();
         for field in self.solved_fields() {
             let Some(nodes) = self.field(field) else { continue };
             failures.extend(self.held_apart(field));
             match self.sealed(field, nodes) {
                 Ok(sealed) => failures.extend(self.floating(field, nodes, &sealed)),
-                Err(fault) => failures.push(SolveFailure::Row(fault)),
+                Err(error) => failures.push(error),
             }
         }
         failures
     }
 
     /// The rows that conduct nothing, whatever is sought.
-    fn sealed(&self, field: Field, nodes: &FieldNodes) -> Result<HashSet<u32>, RowFault> {
+    fn sealed(&self, field: Field, nodes: &FieldNodes) -> Result<HashSet<u32>, Error> {
         let start = self.start();
         let is_known = |row: &u32| {
             let of = &self.scene.interfaces[*row as usize];
@@ -45,7 +45,7 @@ impl Problem<'_> {
     }
 
     /// Bodies without a path to a fixed value, or in a transient to a capacity.
-    fn floating(&self, field: Field, nodes: &FieldNodes, sealed: &HashSet<u32>) -> Option<SolveFailure> {
+    fn floating(&self, field: Field, nodes: &FieldNodes, sealed: &HashSet<u32>) -> Option<Error> {
         let conditions = self.scene.conditions(field);
         let mut sets = Sets::new(self.scene.nodes.len());
         for link in nodes.links.iter().map(|link| &self.scene.links[*link as usize]) {
@@ -69,11 +69,11 @@ impl Problem<'_> {
             }
         }
         let components: Vec<Vec<u32>> = components.into_values().collect();
-        (!components.is_empty()).then_some(SolveFailure::Floating { field, components })
+        (!components.is_empty()).then(|| Error::from(ErrorKind::Floating { components }).of_field(field))
     }
 
     /// Nodes that infinite links make one and that are held at different values at the start.
-    fn held_apart(&self, field: Field) -> Option<SolveFailure> {
+    fn held_apart(&self, field: Field) -> Option<Error> {
         let nodes = self.field(field)?;
         let mut sets = Sets::new(self.scene.nodes.len());
         for link in nodes.links.iter().map(|link| &self.scene.links[*link as usize]) {
@@ -86,7 +86,8 @@ impl Problem<'_> {
             let value = fixed.at(self.start());
             let (first, of_first) = *known.entry(sets.of(*node)).or_insert((*node, value));
             if value != of_first {
-                return Some(SolveFailure::Contradiction { field, nodes: [first, *node], values: [of_first, value] });
+                let (nodes, values) = ([first, *node], [of_first, value]);
+                return Some(Error::from(ErrorKind::Contradiction { nodes, values }).of_field(field));
             }
         }
         None

@@ -3,7 +3,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
 use inpact_evaluation::numbers::DoubleDouble;
-use inpact_network::linear::{LAST_DIGIT, LinearFailure, LinearNetwork, LinearSolution, Link, Method, Solver};
+use inpact_network::Error;
+use inpact_network::linear::{LAST_DIGIT, LinearNetwork, LinearSolution, Link, Method, Solver};
 
 /// Every method, the reference included.
 pub const METHODS: [Method; 4] = [Method::Direct, Method::Mixed, Method::Iterative, Method::Elimination];
@@ -19,7 +20,7 @@ pub fn network(nodes: usize, held: &[(usize, f64)], links: &[(u32, u32, f64)]) -
 }
 
 /// The solution by one method, to the last digit.
-pub fn solve(network: &LinearNetwork, method: Method) -> Result<LinearSolution, LinearFailure> {
+pub fn solve(network: &LinearNetwork, method: Method) -> Result<LinearSolution, Error> {
     Solver::new(method, LAST_DIGIT).solve(network)
 }
 
@@ -30,7 +31,7 @@ pub fn solutions(network: &LinearNetwork) -> Vec<(Method, LinearSolution)> {
 }
 
 /// The failure of every method, which is the same.
-pub fn failure(network: &LinearNetwork) -> LinearFailure {
+pub fn failure(network: &LinearNetwork) -> Error {
     let failures = METHODS.map(|method| solve(network, method).expect_err("a network without a solution"));
     assert!(failures.iter().all(|failure| *failure == failures[0]), "{failures:?}");
     failures[0].clone()

@@ -334,7 +334,9 @@ fn time_rules(arguments: &CheckArguments) -> Result<Outcome, Failure> {
         let start = std::time::Instant::now();
         let (model, problems) = model::read(&deck, settings.grammar);
         text += &format!("{:10.3} ms  read\n", milliseconds(start));
-        for (code, time) in inpact_validation::time_rules(&deck, settings.grammar, &model, &problems) {
+        let start = std::time::Instant::now();
+        let times = inpact_validation::time_rules(&deck, settings.grammar, &model, &problems, || start.elapsed());
+        for (code, time) in times {
             text += &format!("{:10.3} ms  {code}\n", time.as_secs_f64() * 1e3);
         }
     }

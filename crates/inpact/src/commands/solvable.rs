@@ -12,7 +12,7 @@ use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::{Diagnostic, Findings, keep_lines};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
-use inpact_network::{Problem, SolveFailure, report_unknown_interactions};
+use inpact_network::{Problem, report_unknown_interactions};
 use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{Model, Name, Regime};
 use inpact_validation::check;
@@ -135,7 +135,7 @@ impl SolvableScene {
     }
 
     /// The findings of a failure after the time of the last state.
-    pub(crate) fn findings(&self, failure: &SolveFailure, after: Option<f64>) -> Vec<Diagnostic> {
+    pub(crate) fn findings(&self, failure: &inpact_network::Error, after: Option<f64>) -> Vec<Diagnostic> {
         let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
     }

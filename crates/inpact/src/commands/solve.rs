@@ -17,7 +17,7 @@ use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::transient;
-use inpact_network::{Equations, Histories, SolveFailure, State};
+use inpact_network::{Equations, Error, Histories, State};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -72,12 +72,12 @@ enum SolverChoice {
 
 /// Reasons why solving ended early.
 enum Stopped {
-    Solving(SolveFailure),
+    Solving(Error),
     Writing(Failure),
 }
 
-impl From<SolveFailure> for Stopped {
-    fn from(failure: SolveFailure) -> Self {
+impl From<Error> for Stopped {
+    fn from(failure: Error) -> Self {
         Self::Solving(failure)
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::commands::solvable::SolvableScene;
 use inpact_network::linear::{LAST_DIGIT, Method, Work};
-use inpact_network::{Equations, Problem, SolveFailure, State, transient};
+use inpact_network::{Equations, Error, Problem, State, transient};
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
 
 /// A solver at a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +22,7 @@ pub(super) struct Solved {
 
 /// The failure of a solver, and the time of the last state before.
 pub(super) struct Failed {
-    pub(super) why: SolveFailure,
+    pub(super) why: Error,
     pub(super) after: Option<f64>,
 }
 
@@ -43,6 +45,12 @@ const TOLERANCES: [f64; 5] = [LAST_DIGIT, 1e-12, 1e-9, 1e-6, 1e-3];
 
 /// Up to so many nodes the reference is the elimination: in three dimensions that takes it a quarter of a second, and some times as long where Newton's iteration needs several.
 const MOST_NODES: usize = 1000;
+
+/// The time since this was first asked, for the phases of solvers.
+fn clock() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed()
+}
 
 /// All solvers at all tolerances.
 pub(super) fn subjects() -> impl Iterator<Item = Subject> {
@@ -84,7 +92,7 @@ impl Reference {
 impl Subject {
     /// Solves a scene as far as it is measured, with nothing kept from before.
     pub(super) fn solve(self, problem: &Problem<'_>) -> Result<Solved, Failed> {
-        let mut equations = Equations::new(problem, self.method, self.tolerance);
+        let mut equations = Equations::new(problem, self.method, self.tolerance).timed_by(clock);
         let mut states = Vec::new();
         let begun = transient::begin(&mut equations, |state| {
             states.push(state);

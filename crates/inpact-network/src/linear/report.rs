@@ -1,0 +1,164 @@
+//! The method, size and quality of a solution, and the reasons why methods fall short: plain values.
+
+use super::ordering::Ordering;
+use super::work::{Phases, Work};
+use std::fmt;
+
+/// The tolerance of the last digit of f64.
+pub const LAST_DIGIT: f64 = f64::EPSILON / 16.0;
+
+/// The most conductances that an elimination may add between nodes that are not neighbours.
+pub(super) const MOST_FILLED: usize = 20_000_000;
+
+/// Methods of solving a network.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// A Cholesky factor in f64.
+    #[default]
+    Direct,
+    /// A Cholesky factor in f32: half the memory and, in three dimensions, about half the time.
+    Mixed,
+    /// Conjugate gradients with an incomplete factor: memory of a few entries a node.
+    Iterative,
+    /// Elimination without subtraction in 106 bits: slow, and exact at any contrast but where a jump leaves the range of f64 or steps of both signs nearly cancel, which it refuses.
+    Elimination,
+}
+
+/// Method, size and quality of a solution.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct LinearReport {
+    /// The method that gave it.
+    pub method: Method,
+    /// The relative error of a flow that is permitted.
+    pub tolerance: f64,
+    /// The number of unknowns.
+    pub unknowns: usize,
+    /// The number of unknowns that are jumps from another node.
+    pub relative: usize,
+    /// In how many levels the strengths of the conductances fall.
+    pub levels: usize,
+    /// The number of nodes that share the value of another by an infinite conductance.
+    pub merged: usize,
+    /// The number of nodes eliminated in series: they only pass on the flow.
+    pub taken_out: usize,
+    /// The number of nodes in dead ends: no flow reaches them, and they have the value of another.
+    pub dead_ends: usize,
+    /// The number of infinite conductances beyond those that determine the shares of their flow; they share it as equal ones would.
+    pub shared: usize,
+    /// The order of elimination, where there was a factor.
+    pub ordering: Option<Ordering>,
+    /// Entries of the factor.
+    pub factor_entries: usize,
+    /// Results of a network before that were used again.
+    pub reused: Reused,
+    /// Iterations of conjugate gradients.
+    pub iterations: usize,
+    /// Residual and estimated error; an elimination has no estimate.
+    pub quality: Quality,
+    /// The methods that were tried before, and why they were given up.
+    pub given_up: Vec<(Method, Shortcoming)>,
+    /// Time of each phase.
+    pub phases: Phases,
+}
+
+/// Measures of the error of a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Quality {
+    /// The number of solves.
+    pub solves: usize,
+    /// The largest share of its flows that is missing in a balance, balances that are at their rounding left out.
+    pub residual: f64,
+    /// An estimate of the largest relative error of a flow, before it is rounded to f64.
+    pub error: f64,
+    /// A lower estimate of the condition of the scaled matrix.
+    pub condition: f64,
+}
+
+/// Results of a network before that were used again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Reused {
+    /// None.
+    #[default]
+    Nothing,
+    /// The order of elimination.
+    Order,
+    /// The order and the factor: only sources and held values differ.
+    Factor,
+}
+
+/// Reasons why a method was given up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shortcoming {
+    /// It could not begin.
+    NoSolution(NoSolution),
+    /// It came no nearer than this.
+    Stalled(Quality),
+    /// A flow is beyond the range of f64, or what a rough factor made of it.
+    Overflow,
+    /// The filled network would be too large.
+    TooLarge,
+}
+
+/// Reasons why a factorisation or iteration has no solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoSolution {
+    /// A pivot was not above zero: rounding has made the matrix indefinite.
+    Pivot,
+    /// There is not enough memory.
+    Memory,
+    /// Iterations did not converge.
+    Iterations,
+}
+
+impl LinearReport {
+    /// The work of one solution.
+    pub(super) fn work(&self) -> Work {
+        Work { networks: 1, solves: self.quality.solves, iterations: self.iterations, phases: self.phases }
+    }
+}
+
+impl From<NoSolution> for Shortcoming {
+    fn from(reason: NoSolution) -> Self {
+        Self::NoSolution(reason)
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Direct => "direct",
+            Self::Mixed => "mixed",
+            Self::Iterative => "iterative",
+            Self::Elimination => "elimination",
+        })
+    }
+}
+
+impl fmt::Display for NoSolution {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Pivot => "a pivot was not above zero",
+            Self::Memory => "there is not enough memory",
+            Self::Iterations => "the iterations did not converge",
+        })
+    }
+}
+
+impl fmt::Display for Shortcoming {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSolution(reason) => reason.fmt(formatter),
+            Self::Stalled(Quality { residual, error, .. }) => {
+                write!(formatter, "it came no nearer than a residual of {residual:.1e} and an error of {error:.1e}")
+            }
+            Self::Overflow => formatter.write_str("a value or a flow is beyond the range of f64"),
+            Self::TooLarge => write!(
+                formatter,
+                "it would need room for more than {MOST_FILLED} conductances between nodes that are not neighbours"
+            ),
+        }
+    }
+}
