@@ -2,24 +2,14 @@
 //!
 //! Read from the source as text: `pub mod`, `pub use` and public items at the outermost level; whatever a public item contains is public with it.
 
+#[path = "support/libraries.rs"]
+mod libraries;
+
+use libraries::{LIBRARIES, folder};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// The libraries, the lowest first.
-const LIBRARIES: [&str; 10] = [
-    "inpact-diagnostics",
-    "inpact-geometry",
-    "inpact-results",
-    "inpact-parser",
-    "inpact-validation",
-    "inpact-evaluation",
-    "inpact-contact",
-    "inpact-network",
-    "inpact-body",
-    "inpact",
-];
 
 /// The most public modules at the root of a crate.
 const MOST_MODULES: usize = 8;
@@ -60,7 +50,7 @@ fn every_root_has_an_example_that_is_run() {
 }
 
 fn source_of(library: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(library).join("src")
+    folder(library).join("src")
 }
 
 fn read(file: &Path) -> String {

@@ -211,6 +211,6 @@ fn solid(block: &ElementBlock) -> SolidElement {
     SolidElement::new(block.shape, block.integration).expect("blocks are of solid elements")
 }
 
-fn inverted(block: &ElementBlock, label: u32, error: &inpact_geometry::GeometryError) -> BodyFault {
+fn inverted(block: &ElementBlock, label: u32, error: &inpact_geometry::Error) -> BodyFault {
     BodyFault::at(&UNUSABLE_MESH, block.span, format!("element {label} of type {}: {error}", block.type_name))
 }

@@ -1,6 +1,6 @@
 //! Bodies: what solid elements connect, and where it ends.
 
-use crate::error::{BodyError, BodyFault};
+use crate::error::{BodyFault, Error};
 use crate::material::BodyField;
 use crate::rules::UNUSABLE_TERMINAL;
 use inpact_geometry::NodeId;
@@ -45,14 +45,14 @@ impl Body {
     ///
     /// # Errors
     ///
-    /// Bytes that cannot be read; within, a [`BodyError`] where the deck has faults, a terminal is not defined, has no node of a solid element, lies in two bodies, or
+    /// Bytes that cannot be read; within, a [`Error`] where the deck has faults, a terminal is not defined, has no node of a solid element, lies in two bodies, or
     /// shares a node with another.
     pub fn read(
         deck: &Deck,
         grammar: &Grammar,
         terminals: &[Name],
         rows: &mut dyn RowBytes,
-    ) -> io::Result<Result<Self, BodyError>> {
+    ) -> io::Result<Result<Self, Error>> {
         Ok(Self::of(mesh::read_bodies(deck, grammar, terminals, rows)?, terminals))
     }
 
@@ -61,9 +61,9 @@ impl Body {
     /// # Errors
     ///
     /// As [`read`](Self::read).
-    pub fn of(mesh: BodyMesh, names: &[Name]) -> Result<Self, BodyError> {
+    pub fn of(mesh: BodyMesh, names: &[Name]) -> Result<Self, Error> {
         let (body, faults) = Self::sound(mesh, names)?;
-        BodyError::unless_none(faults)?;
+        Error::unless_none(faults)?;
         Ok(body)
     }
 
@@ -72,7 +72,7 @@ impl Body {
     /// # Errors
     ///
     /// Faults that no body is free of: the mesh cannot be read, or a terminal is not defined.
-    pub fn sound(mut mesh: BodyMesh, names: &[Name]) -> Result<(Self, Vec<BodyFault>), BodyError> {
+    pub fn sound(mut mesh: BodyMesh, names: &[Name]) -> Result<(Self, Vec<BodyFault>), Error> {
         let mut faults: Vec<BodyFault> = std::mem::take(&mut mesh.faults).into_iter().map(BodyFault::from).collect();
         let (mut terminals, mut alone) = (Vec::new(), Vec::new());
         for (name, terminal) in names.iter().zip(std::mem::take(&mut mesh.terminals)) {
@@ -92,7 +92,7 @@ impl Body {
                 }),
             }
         }
-        BodyError::unless_none(faults)?;
+        Error::unless_none(faults)?;
         if mesh.points.is_empty() {
             return Err(without_solid(&mesh));
         }
@@ -188,12 +188,12 @@ fn undefined(name: &Name, known: &[Name]) -> String {
 }
 
 /// The elements that a deck has instead of solids, each with its place.
-fn without_solid(mesh: &BodyMesh) -> BodyError {
+fn without_solid(mesh: &BodyMesh) -> Error {
     let of_elements = mesh.left_out.iter().filter(|note| note.message.starts_with("elements of type"));
     let faults: Vec<BodyFault> = of_elements.cloned().map(BodyFault::from).collect();
-    match BodyError::unless_none(faults) {
+    match Error::unless_none(faults) {
         Err(error) => error,
-        Ok(()) => BodyError::without_place("the deck has no solid element".to_owned()),
+        Ok(()) => Error::without_place("the deck has no solid element".to_owned()),
     }
 }
 

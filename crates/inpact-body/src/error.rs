@@ -1,4 +1,4 @@
-//! Reasons why a body has no conductances.
+//! The one error of this crate: reasons why a body has no conductances.
 
 use crate::rules::UNUSABLE_MESH;
 use inpact_diagnostics::Rule;
@@ -8,7 +8,7 @@ use std::fmt;
 
 /// Everything that keeps a body from being lumped; at least one fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct BodyError {
+pub struct Error {
     faults: Vec<BodyFault>,
 }
 
@@ -25,7 +25,7 @@ pub struct BodyFault {
     pub bodies: Vec<u32>,
 }
 
-impl BodyError {
+impl Error {
     /// The faults, in the order of their places.
     pub fn faults(&self) -> &[BodyFault] {
         &self.faults
@@ -65,11 +65,11 @@ impl From<MeshNote> for BodyFault {
     }
 }
 
-impl fmt::Display for BodyError {
+impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let messages: Vec<&str> = self.faults.iter().map(|fault| fault.message.as_str()).collect();
         f.write_str(&messages.join("; "))
     }
 }
 
-impl std::error::Error for BodyError {}
+impl std::error::Error for Error {}

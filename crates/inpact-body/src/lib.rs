@@ -52,7 +52,7 @@ mod solve;
 pub use body::{Body, BodyPart};
 pub use conductances::Conductances;
 pub use dissipation::JouleHeat;
-pub use error::{BodyError, BodyFault};
+pub use error::{BodyFault, Error};
 pub use lumped::{BodySummary, Lumped, TerminalSummary};
 pub use material::BodyField;
 pub use rules::{BESIDE_BODIES, BODY_RULES, NEGATIVE_CONDUCTANCE, UNUSABLE_MESH, UNUSABLE_PROPERTY, UNUSABLE_TERMINAL};

@@ -4,12 +4,13 @@ use crate::assembly::{Held, Matrix, Sum};
 use crate::body::Body;
 use crate::conductances::Conductances;
 use crate::dissipation::JouleHeat;
-use crate::error::{BodyError, BodyFault};
+use crate::error::{BodyFault, Error};
 use crate::even::{Even, even};
 use crate::material::{BodyField, tensor, values_at};
 use crate::rules::UNUSABLE_PROPERTY;
 use crate::solve::{Equations, Solution};
 use inpact_geometry::{Conductivity, NodeId, Point};
+use inpact_network::ErrorKind;
 use inpact_network::linear::{Cholesky, NoSolution};
 use inpact_parser::mesh::{BodyMaterial, ElementBlock, MaterialAxes, MaterialProperty, MeshNote, TensorKind};
 use inpact_parser::model::Name;
@@ -93,7 +94,7 @@ impl Body {
     ///
     /// A material without a conductivity, one that depends on temperature without `temperature`, a conductivity that is not positive, one with directions in a
     /// section with ORIENTATION or in a turned instance, an element that is inside out, or equations that rounding leaves without a solution.
-    pub fn lumped(&self, field: BodyField, temperature: Option<f64>) -> Result<Lumped, BodyError> {
+    pub fn lumped(&self, field: BodyField, temperature: Option<f64>) -> Result<Lumped, Error> {
         let blocks = self.blocks();
         let matrix = self.matrix(&blocks, field, temperature)?;
         let shares: Vec<Even> = self.terminals.iter().map(|terminal| even(self, terminal)).collect();
@@ -149,7 +150,7 @@ impl Body {
         field: BodyField,
         temperature: Option<f64>,
         terminal: usize,
-    ) -> Result<(Vec<f64>, Solution), BodyError> {
+    ) -> Result<(Vec<f64>, Solution), Error> {
         let matrix = self.matrix(&self.blocks(), field, temperature)?;
         let nodes = self.mesh.points.len();
         let is_held = self.held_nodes();
@@ -163,12 +164,7 @@ impl Body {
     }
 
     /// The matrix of some blocks.
-    fn matrix(
-        &self,
-        blocks: &[&ElementBlock],
-        field: BodyField,
-        temperature: Option<f64>,
-    ) -> Result<Matrix, BodyError> {
+    fn matrix(&self, blocks: &[&ElementBlock], field: BodyField, temperature: Option<f64>) -> Result<Matrix, Error> {
         let conductivities = self.conductivities(blocks, field, temperature)?;
         let mut matrix = Matrix::pattern(blocks, self.mesh.points.len());
         for (block, conductivity) in blocks.iter().zip(&conductivities) {
@@ -183,7 +179,7 @@ impl Body {
         blocks: &[&ElementBlock],
         field: BodyField,
         temperature: Option<f64>,
-    ) -> Result<Vec<Conductivity>, BodyError> {
+    ) -> Result<Vec<Conductivity>, Error> {
         let mut faults: Vec<BodyFault> = Vec::new();
         let mut found = Vec::new();
         for block in blocks {
@@ -227,7 +223,7 @@ impl Body {
             }
         }
         let faults = kept;
-        BodyError::unless_none(faults)?;
+        Error::unless_none(faults)?;
         Ok(found)
     }
 
@@ -276,7 +272,7 @@ impl Body {
     }
 
     /// The potential of each terminal: 1 at it, 0 at all others.
-    fn potentials(&self, matrix: &Matrix) -> Result<(Vec<Vec<f64>>, Solution), BodyError> {
+    fn potentials(&self, matrix: &Matrix) -> Result<(Vec<Vec<f64>>, Solution), Error> {
         let nodes = self.mesh.points.len();
         let groups = self.groups();
         let is_held = self.held_nodes();
@@ -320,7 +316,7 @@ impl Body {
     }
 
     /// Conductances with even flows, and the ranges of temperature over the terminals.
-    fn even(&self, matrix: &Matrix, shares: &[Even]) -> Result<(Conductances, Vec<f64>, Solution), BodyError> {
+    fn even(&self, matrix: &Matrix, shares: &[Even]) -> Result<(Conductances, Vec<f64>, Solution), Error> {
         let nodes = self.mesh.points.len();
         let groups = self.groups();
         let mut is_held = self.idle();
@@ -349,9 +345,7 @@ impl Body {
             let of_group: Vec<&[f64]> = of_group.iter().map(Vec::as_slice).collect();
             let resistances = resistances(matrix, &of_group, &equations.sources);
             let inverse = inverse(&resistances, count).map_err(|_| {
-                BodyError::without_place(
-                    "the body was not solved: its resistances are not positive definite".to_owned(),
-                )
+                Error::without_place("the body was not solved: its resistances are not positive definite".to_owned())
             })?;
             // To the last terminal goes what the rows do not have among themselves.
             let entry = |i: usize, j: usize| inverse[i * count + j];
@@ -392,7 +386,7 @@ impl Body {
         blocks: &[&ElementBlock],
         field: BodyField,
         temperature: Option<f64>,
-    ) -> Result<(OfNodes, Vec<MeshNote>), BodyError> {
+    ) -> Result<(OfNodes, Vec<MeshNote>), Error> {
         let mut left_out: Vec<MeshNote> = Vec::new();
         let mut heats = Vec::new();
         // What is held of a body is known where it is of all its elements.
@@ -462,8 +456,8 @@ fn along(k: &Conductivity, axes: &[Point; 3]) -> Conductivity {
     [0, 1, 2].map(|a| [0, 1, 2].map(|b| component(a.min(b), a.max(b))))
 }
 
-fn only(fault: BodyFault) -> BodyError {
-    BodyError::unless_none(vec![fault]).expect_err("there is one")
+fn only(fault: BodyFault) -> Error {
+    Error::unless_none(vec![fault]).expect_err("there is one")
 }
 
 /// ρ c of a material.
@@ -528,8 +522,8 @@ fn relative(terminals: &[usize], isothermal: &Conductances, even: &Conductances)
 }
 
 /// The inverse of a symmetric positive definite matrix of which the upper triangle is given.
-fn inverse(upper: &[f64], count: usize) -> Result<Vec<f64>, NoSolution> {
-    let number = |place: usize| u32::try_from(place).map_err(|_| NoSolution::Memory);
+fn inverse(upper: &[f64], count: usize) -> Result<Vec<f64>, inpact_network::Error> {
+    let number = |place: usize| u32::try_from(place).map_err(|_| ErrorKind::NotFactored(NoSolution::Memory));
     let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
     for column in 0..count {
         for row in column..count {

@@ -7,7 +7,8 @@ mod direct;
 mod gradients;
 
 use crate::assembly::Matrix;
-use crate::error::BodyError;
+use crate::error::Error;
+use inpact_network::ErrorKind;
 use inpact_network::linear::NoSolution;
 
 /// More unknowns than these are not factored unless they have to be.
@@ -53,7 +54,7 @@ impl Equations<'_> {
     /// # Errors
     ///
     /// Memory runs out, or rounding leaves nothing of the solution.
-    pub(crate) fn solve(&self, fields: &mut [Vec<f64>]) -> Result<Solution, BodyError> {
+    pub(crate) fn solve(&self, fields: &mut [Vec<f64>]) -> Result<Solution, Error> {
         let unknowns = self.is_held.iter().filter(|is_held| !**is_held).count();
         let entries = self.matrix.values.len();
         let mut method = SolutionMethod::Factor(0);
@@ -67,11 +68,11 @@ impl Equations<'_> {
             }
         }
         if !is_balanced(imbalance) {
-            let filled = direct::solve(self, fields).map_err(|error| failed(error, unknowns))?;
+            let filled = direct::solve(self, fields).map_err(|error| failed(&error, unknowns))?;
             method = SolutionMethod::Factor(filled);
             imbalance = self.imbalance(fields);
             if !is_balanced(imbalance) {
-                return Err(BodyError::without_place(format!(
+                return Err(Error::without_place(format!(
                     "the body was not solved: flows at a node leave {imbalance:.1e} of the largest unbalanced"
                 )));
             }
@@ -119,10 +120,12 @@ fn larger(largest: f64, value: f64) -> f64 {
     if value.abs() <= largest { largest } else { value.abs() }
 }
 
-fn failed(error: NoSolution, unknowns: usize) -> BodyError {
-    BodyError::without_place(match error {
-        NoSolution::Memory => format!("there is not enough memory for a factor of {unknowns} unknowns"),
-        NoSolution::Pivot | NoSolution::Iterations => {
+fn failed(error: &inpact_network::Error, unknowns: usize) -> Error {
+    Error::without_place(match error.kind() {
+        ErrorKind::NotFactored(NoSolution::Memory) => {
+            format!("there is not enough memory for a factor of {unknowns} unknowns")
+        }
+        _ => {
             format!("the body was not solved: rounding leaves its {unknowns} equations without a solution")
         }
     })

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Block, Edges, read, set};
-use inpact_body::{Body, BodyError, BodyFault, BodyField, Lumped};
+use inpact_body::{Body, BodyFault, BodyField, Error, Lumped};
 use inpact_geometry::ElementShape;
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::Grammar;
@@ -26,7 +26,7 @@ fn bar(material: &str) -> String {
         + "*SURFACE, NAME=TOP\n2, S2\n"
 }
 
-fn lump(deck: &str, terminals: &[&str], temperature: Option<f64>) -> Result<Lumped, BodyError> {
+fn lump(deck: &str, terminals: &[&str], temperature: Option<f64>) -> Result<Lumped, Error> {
     read(deck, terminals)?.lumped(BodyField::Thermal, temperature)
 }
 

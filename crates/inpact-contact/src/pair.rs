@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::state::State;
 use crate::summary::PairSummary;
-use inpact_geometry::{ContactNode, GeometryError, NodeId, Point, Projection, Vector};
+use inpact_geometry::{ContactNode, ErrorKind, NodeId, Point, Projection, Vector};
 use inpact_parser::mesh::{AreasOf, Mesh, MeshPair, Sliding, SurfaceKind};
 use std::borrow::Cow;
 
@@ -83,7 +83,7 @@ impl<'a> Pair<'a> {
 }
 
 /// The moves of slave nodes onto the master by ADJUST (L).
-fn adjusted(mesh: &Mesh, pair: &MeshPair, thickness: f64) -> Result<Vec<(NodeId, Vector)>, GeometryError> {
+fn adjusted(mesh: &Mesh, pair: &MeshPair, thickness: f64) -> Result<Vec<(NodeId, Vector)>, inpact_geometry::Error> {
     let (Some(within), None) = (pair.adjust, pair.clearance) else { return Ok(Vec::new()) };
     let contact = mesh.contact(&without_start(pair), thickness)?;
     let way = |node: ContactNode| {
@@ -134,13 +134,13 @@ pub(crate) fn interpolated<const N: usize>(
 }
 
 /// The fault of a geometry, with the nodes by their names.
-fn reason(mesh: &Mesh, error: &GeometryError) -> String {
+fn reason(mesh: &Mesh, error: &inpact_geometry::Error) -> String {
     let name = |node: &NodeId| mesh.nodes.get(node.index()).map_or_else(String::new, ToString::to_string);
-    match error {
-        GeometryError::Coordinate { node, coordinate } => {
+    match error.kind() {
+        ErrorKind::Coordinate { node, coordinate } => {
             format!("node {} has the coordinate {coordinate:?}, whose square is no finite number", name(node))
         }
-        GeometryError::Radius { node, radius } => {
+        ErrorKind::Radius { node, radius } => {
             format!("node {} of an axisymmetric surface has the radius {radius:?}, which is negative", name(node))
         }
         other => other.to_string(),

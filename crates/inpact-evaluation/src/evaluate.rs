@@ -20,7 +20,6 @@ mod totals;
 mod worker;
 
 pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
-pub use pipeline::RunFailure;
 pub use tally::{AxisTally, InteractionTally, RemarkedRows, Tally, UserFaultInRow};
 pub use totals::Totals;
 

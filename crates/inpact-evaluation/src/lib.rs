@@ -44,6 +44,7 @@ pub mod arrow;
 pub mod numbers;
 
 mod accuracy;
+mod error;
 mod evaluator;
 mod kernel;
 pub mod table;
@@ -60,8 +61,9 @@ mod evaluate;
 mod spread;
 
 pub use accuracy::{Accuracy, Tolerance, Wanted};
+pub use error::{Error, ErrorKind, TableFault};
 pub use evaluate::{
-    AxisTally, Coordinates, Evaluation, InteractionTally, RemarkedRows, RunFailure, TableReads, TabulatedQuantity,
-    Tally, Totals, UserFaultInRow,
+    AxisTally, Coordinates, Evaluation, InteractionTally, RemarkedRows, TableReads, TabulatedQuantity, Tally, Totals,
+    UserFaultInRow,
 };
 pub use history::HistoryStart;

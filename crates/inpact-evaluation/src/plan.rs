@@ -50,11 +50,12 @@ pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::{BuiltTables, InteractionTables};
 
 use crate::accuracy::{ErrorBound, Method, Shape, Wanted};
+use crate::error::Error;
 use crate::evaluator::Evaluator;
 use crate::law::contact::ContactState;
 use crate::nodes::{Batch, Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Selection};
 use crate::results::{Along, Output};
-use crate::table::{FoldRefusal, Tail};
+use crate::table::Tail;
 use inpact_parser::model::Name;
 use std::sync::Arc;
 
@@ -152,7 +153,7 @@ pub struct TablePlan {
     /// How many rows are left of it once it is folded.
     pub folded_rows: usize,
     /// The variables that have one value and along which it could not be folded.
-    pub not_folded: Vec<(Along, FoldRefusal)>,
+    pub not_folded: Vec<(Along, Error)>,
     /// The properties that decide how fast the whole table is evaluated.
     pub shape: Shape,
     /// The form in which it is evaluated; `None` for a table that no row reaches.

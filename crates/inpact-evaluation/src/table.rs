@@ -13,8 +13,6 @@ mod fold;
 mod marks;
 mod sides;
 
-pub use build::{TableError, TableFault};
-pub use fold::FoldRefusal;
 pub use sides::Sides;
 
 pub use crate::accuracy::{

@@ -2,6 +2,7 @@
 
 mod table_judge;
 
+use inpact_evaluation::ErrorKind;
 use inpact_evaluation::numbers::Scaled;
 use inpact_evaluation::table::{
     AxisSummary, ErrorBound, Grid, Method, PiecewiseTable, Refusal, Tail, choose, commensurate_cells,
@@ -278,7 +279,9 @@ fn what_is_chosen_keeps_its_bound() {
 fn what_no_grid_can_hold_is_refused_with_the_reason() {
     let refusal = |cells: &[f64], width: usize| {
         let table = PiecewiseTable::from_rows(cells, width, Tail::Constant).unwrap();
-        Grid::new(&table, &vec![4; width - 1]).map(|made| made.bound()).unwrap_err()
+        let error = Grid::new(&table, &vec![4; width - 1]).map(|made| made.bound()).unwrap_err();
+        let ErrorKind::Grid(refusal) = *error.kind() else { panic!("{error}") };
+        refusal
     };
     assert_eq!(refusal(&[5.0], 1), Refusal::Constant);
     assert_eq!(refusal(&[5.0, 0.0, 6.0, 1.0], 2), Refusal::OneAxis);

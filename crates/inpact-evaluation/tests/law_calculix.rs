@@ -7,7 +7,8 @@ use inpact_evaluation::law::{
     ShearStress, SlipRate, Temperatures, ThermalConductance, conducted_heat, frictional_heat,
 };
 use inpact_evaluation::numbers::Amount;
-use inpact_evaluation::table::{PiecewiseTable, TableFault, Tail};
+use inpact_evaluation::table::{PiecewiseTable, Tail};
+use inpact_evaluation::{ErrorKind, TableFault};
 use proptest::prelude::*;
 
 type Row = [f64; 3];
@@ -207,7 +208,8 @@ fn curves_without_pressures_in_common_are_refused() {
     let disjoint = of([0.0, 1.0], [2.0, 3.0]);
     let error = disjoint.expect("no pressures in common");
     assert_eq!(error.to_string(), "the curves at temperatures 0.0 and 9.0 share no pressures");
-    assert_eq!((error.row(), error.fault()), (2, TableFault::NoSharedPressures { temperatures: [0.0, 9.0] }));
+    let fault = TableFault::NoSharedPressures { temperatures: [0.0, 9.0] };
+    assert_eq!(*error.kind(), ErrorKind::Rows { row: 2, fault });
     assert_eq!(of([2.0, 3.0], [0.0, 1.0]), disjoint);
     assert_eq!(of([0.0, 1.0], [1.0, 3.0]), disjoint);
     assert_eq!(of([1.0, 3.0], [0.0, 1.0]), disjoint);

@@ -1,7 +1,8 @@
 //! Tables by the numbered rules: order of rows, ragged groups, constant ends, single rows, the zero tail, published values.
 
 use inpact_evaluation::numbers::product;
-use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableFault, TableKernel, Tail};
+use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableKernel, Tail};
+use inpact_evaluation::{Error, ErrorKind, TableFault};
 
 fn table(rows: &[&[f64]]) -> PiecewiseTable {
     with_tail(rows, Tail::Constant)
@@ -14,8 +15,14 @@ fn with_tail(rows: &[&[f64]], tail: Tail) -> PiecewiseTable {
 /// The row, counted from one, and the fault of rows that are no table.
 fn fault(rows: &[&[f64]]) -> (usize, TableFault) {
     let error = PiecewiseTable::from_rows(&rows.concat(), rows[0].len(), Tail::Constant).unwrap_err();
-    assert!(error.to_string().starts_with(&format!("row {} ", error.row() + 1)), "{error}");
-    (error.row() + 1, error.fault())
+    let (row, fault) = row_and_fault(error);
+    assert!(error.to_string().starts_with(&format!("row {row} ")), "{error}");
+    (row, fault)
+}
+
+fn row_and_fault(error: Error) -> (usize, TableFault) {
+    let ErrorKind::Rows { row, fault } = *error.kind() else { panic!("{error}") };
+    (row + 1, fault)
 }
 
 /// conductance, clearance, temperature; the two temperatures have clearances of their own.
@@ -70,7 +77,8 @@ fn t_08_numbers_that_are_not_finite_name_their_row() {
 
 #[test]
 fn cells_that_are_no_rows_are_refused() {
-    let fault = |cells: &[f64], width| PiecewiseTable::from_rows(cells, width, Tail::Constant).unwrap_err().fault();
+    let fault =
+        |cells: &[f64], width| row_and_fault(PiecewiseTable::from_rows(cells, width, Tail::Constant).unwrap_err()).1;
     assert_eq!(fault(&[], 2), TableFault::NoRows);
     assert_eq!(fault(&[1.0, 2.0, 3.0], 2), TableFault::IncompleteRow { width: 2, found: 1 });
     assert!(matches!(fault(&[1.0], 0), TableFault::IncompleteRow { width: 0, .. }));

@@ -14,7 +14,7 @@ use crate::coordinates::Placed;
 use crate::face_shape::{MAX_NODES, evaluate, monomials};
 use crate::quadrature::rule;
 use crate::vector::norm;
-use crate::{Face, FaceId, GeometryError};
+use crate::{Error, ErrorKind, Face, FaceId};
 
 /// Sharing of a face's area among its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -41,20 +41,20 @@ pub enum Extent<'a> {
 /// Their sum is the area of the surface.
 ///
 /// ```
-/// use inpact_geometry::{Extent, Face, FaceShape, NodeId, Placed, Shares, Surface, node_areas};
+/// use inpact_geometry::{Extent, Face, FaceShape, node_areas, NodeId, Placed, Shares, Surface};
 /// let nodes = [0, 1, 2].map(NodeId);
 /// let surface = Surface::new([Face { shape: FaceShape::Segment3, nodes: &nodes }])?;
 /// let points = [[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
 /// let placed = Placed::new(&surface, &points)?;
 /// let areas = node_areas(&placed, Shares::ShapeFunctions, Extent::Plane(&[0.5]))?;
 /// areas.iter().zip([0.5, 0.5, 2.0]).for_each(|(area, expected)| assert!((area - expected).abs() < 1e-14));
-/// # Ok::<(), inpact_geometry::GeometryError>(())
+/// # Ok::<(), inpact_geometry::Error>(())
 /// ```
 ///
 /// # Errors
 ///
 /// The extent does not suit the faces, there is not one thickness a face, or a radius is negative.
-pub fn node_areas(placed: &Placed<'_>, shares: Shares, extent: Extent<'_>) -> Result<Vec<f64>, GeometryError> {
+pub fn node_areas(placed: &Placed<'_>, shares: Shares, extent: Extent<'_>) -> Result<Vec<f64>, Error> {
     suits(placed, extent)?;
     let surface = placed.surface();
     let mut areas = vec![0.0; surface.nodes().len()];
@@ -76,7 +76,7 @@ pub fn node_areas(placed: &Placed<'_>, shares: Shares, extent: Extent<'_>) -> Re
 /// # Errors
 ///
 /// As [`node_areas`].
-pub fn face_areas(placed: &Placed<'_>, extent: Extent<'_>) -> Result<Vec<f64>, GeometryError> {
+pub fn face_areas(placed: &Placed<'_>, extent: Extent<'_>) -> Result<Vec<f64>, Error> {
     suits(placed, extent)?;
     Ok(placed.surface().faces().map(|face| face_parts(placed, face, extent).area).collect())
 }
@@ -88,7 +88,7 @@ pub fn face_areas(placed: &Placed<'_>, extent: Extent<'_>) -> Result<Vec<f64>, G
 /// # Errors
 ///
 /// The faces are lines.
-pub fn shape_function_areas(placed: &Placed<'_>) -> Result<Vec<f64>, GeometryError> {
+pub fn shape_function_areas(placed: &Placed<'_>) -> Result<Vec<f64>, Error> {
     suits(placed, Extent::Spatial)?;
     let surface = placed.surface();
     let mut areas = vec![0.0; surface.nodes().len()];
@@ -104,14 +104,14 @@ pub fn shape_function_areas(placed: &Placed<'_>) -> Result<Vec<f64>, GeometryErr
 }
 
 /// Refuses extents that do not suit the faces.
-fn suits(placed: &Placed<'_>, extent: Extent<'_>) -> Result<(), GeometryError> {
+fn suits(placed: &Placed<'_>, extent: Extent<'_>) -> Result<(), Error> {
     let surface = placed.surface();
     if !surface.is_empty() && surface.is_line() == matches!(extent, Extent::Spatial) {
-        return Err(GeometryError::Extent);
+        return Err(ErrorKind::Extent.into());
     }
     match extent {
         Extent::Plane(thickness) if thickness.len() != surface.len() => {
-            Err(GeometryError::Values { what: "thickness", expected: surface.len(), found: thickness.len() })
+            Err(ErrorKind::Values { what: "thickness", expected: surface.len(), found: thickness.len() }.into())
         }
         Extent::Axisymmetric => {
             let negative = surface
@@ -119,7 +119,7 @@ fn suits(placed: &Placed<'_>, extent: Extent<'_>) -> Result<(), GeometryError> {
                 .iter()
                 .map(|node| (*node, placed.points()[node.index()][0]))
                 .find(|(_, radius)| *radius < 0.0);
-            negative.map_or(Ok(()), |(node, radius)| Err(GeometryError::Radius { node, radius }))
+            negative.map_or(Ok(()), |(node, radius)| Err(ErrorKind::Radius { node, radius }.into()))
         }
         _ => Ok(()),
     }

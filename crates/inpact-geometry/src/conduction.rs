@@ -2,7 +2,7 @@
 
 use crate::solid::{MAX_SOLID_NODES, SolidPoint, rule};
 use crate::vector::{cross, dot, sub};
-use crate::{ElementShape, GeometryError, Integration, Point};
+use crate::{ElementShape, Error, ErrorKind, Integration, Point};
 
 /// A symmetric tensor in the axes of the coordinates: thermal conductivity (M L T⁻³ θ⁻¹), or electrical (C T⁻¹ L⁻¹ φ⁻¹).
 pub type Conductivity = [[f64; 3]; 3];
@@ -19,7 +19,7 @@ pub type Conductivity = [[f64; 3]; 3];
 /// assert_eq!(matrix.conductance(1, 0), -1.0);
 /// assert_eq!(matrix.conductance(0, 0), 3.0);
 /// assert!((matrix.volumes().iter().sum::<f64>() - 1.0 / 6.0).abs() < 1e-16);
-/// # Ok::<(), inpact_geometry::GeometryError>(())
+/// # Ok::<(), inpact_geometry::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SolidElement {
@@ -60,13 +60,13 @@ impl SolidElement {
     ///
     /// # Errors
     ///
-    /// [`GeometryError::Inverted`]: it is inside out, or flat, at one of its integration points.
+    /// [`ErrorKind::Inverted`]: it is inside out, or flat, at one of its integration points.
     pub fn conduct(
         &self,
         points: &[Point],
         conductivity: &Conductivity,
         into: &mut SolidIntegrals,
-    ) -> Result<(), GeometryError> {
+    ) -> Result<(), Error> {
         let n = self.nodes;
         into.conduction.fill(0.0);
         self.each_point(points, into, |point, columns, determinant, into| {
@@ -95,7 +95,7 @@ impl SolidElement {
     /// # Errors
     ///
     /// As [`conduct`](Self::conduct).
-    pub fn hold(&self, points: &[Point], into: &mut SolidIntegrals) -> Result<(), GeometryError> {
+    pub fn hold(&self, points: &[Point], into: &mut SolidIntegrals) -> Result<(), Error> {
         self.each_point(points, into, |_, _, _, _| {})
     }
 
@@ -105,10 +105,10 @@ impl SolidElement {
         points: &[Point],
         into: &mut SolidIntegrals,
         mut take: impl FnMut(&SolidPoint, [[f64; 3]; 3], f64, &mut SolidIntegrals),
-    ) -> Result<(), GeometryError> {
+    ) -> Result<(), Error> {
         let n = self.nodes;
         if points.len() != n {
-            return Err(GeometryError::Values { what: "points", expected: n, found: points.len() });
+            return Err(ErrorKind::Values { what: "points", expected: n, found: points.len() }.into());
         }
         // From the first node, so that a mesh far from the origin loses nothing more.
         let mut places = [[0.0; 3]; MAX_SOLID_NODES];
@@ -127,7 +127,7 @@ impl SolidElement {
             }
             let determinant = dot(columns[0], cross(columns[1], columns[2]));
             if !(0.0 < determinant && determinant < f64::INFINITY) {
-                return Err(GeometryError::Inverted { determinant });
+                return Err(ErrorKind::Inverted { determinant }.into());
             }
             let weight = point.weight * determinant;
             for (volume, value) in into.volumes.iter_mut().zip(&point.values).take(n) {

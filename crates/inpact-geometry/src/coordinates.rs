@@ -1,7 +1,7 @@
 //! A surface at its place: faces with their coordinates, checked once.
 
 use crate::patch::Patch;
-use crate::{FaceId, GeometryError, Point, Surface};
+use crate::{Error, ErrorKind, FaceId, Point, Surface};
 
 /// Squares of larger coordinates are not finite, or their sums are not.
 const LARGEST: f64 = 1e150;
@@ -9,12 +9,12 @@ const LARGEST: f64 = 1e150;
 /// A surface with the points of its nodes, all of which are there and finite.
 ///
 /// ```
-/// use inpact_geometry::{Face, FaceShape, GeometryError, NodeId, Placed, Surface};
+/// use inpact_geometry::{Error, ErrorKind, Face, FaceShape, NodeId, Placed, Surface};
 /// let nodes = [0, 1].map(NodeId);
 /// let surface = Surface::new([Face { shape: FaceShape::Segment2, nodes: &nodes }])?;
 /// let points = [[0.0, 0.0, 0.0]];
-/// assert_eq!(Placed::new(&surface, &points).err(), Some(GeometryError::NoPoint { node: NodeId(1), points: 1 }));
-/// # Ok::<(), GeometryError>(())
+/// assert_eq!(Placed::new(&surface, &points).err(), Some(ErrorKind::NoPoint { node: NodeId(1), points: 1 }.into()));
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
@@ -28,10 +28,10 @@ impl<'a> Placed<'a> {
     /// # Errors
     ///
     /// A node has no point, or the square of a coordinate is not finite.
-    pub fn new(surface: &'a Surface, points: &'a [Point]) -> Result<Self, GeometryError> {
+    pub fn new(surface: &'a Surface, points: &'a [Point]) -> Result<Self, Error> {
         for node in surface.nodes() {
-            let point = points.get(node.index()).ok_or(GeometryError::NoPoint { node: *node, points: points.len() })?;
-            finite(*point).map_err(|coordinate| GeometryError::Coordinate { node: *node, coordinate })?;
+            let point = points.get(node.index()).ok_or(ErrorKind::NoPoint { node: *node, points: points.len() })?;
+            finite(*point).map_err(|coordinate| ErrorKind::Coordinate { node: *node, coordinate })?;
         }
         Ok(Self { surface, points })
     }

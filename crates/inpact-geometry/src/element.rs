@@ -6,7 +6,7 @@
 //! There the nodes of a solid's face go round so that they are clockwise seen from outside; here they are the other way round, so that normals point out of
 //! solids, and out of shells on the side that the face is.
 
-use crate::{FaceShape, GeometryError};
+use crate::{Error, ErrorKind, FaceShape};
 use std::fmt;
 use std::str::FromStr;
 
@@ -32,16 +32,16 @@ impl fmt::Display for FaceLabel {
 }
 
 impl FromStr for FaceLabel {
-    type Err = GeometryError;
+    type Err = Error;
 
     /// `S1` to `S6`, `SPOS`, `SNEG`, in any case.
-    fn from_str(text: &str) -> Result<Self, GeometryError> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         let text = text.to_ascii_uppercase();
         match text.as_bytes() {
             [b'S', digit @ b'1'..=b'6'] => Ok(Self::Numbered(digit - b'0')),
             b"SPOS" => Ok(Self::Positive),
             b"SNEG" => Ok(Self::Negative),
-            _ => Err(GeometryError::FaceLabel),
+            _ => Err(ErrorKind::FaceLabel.into()),
         }
     }
 }

@@ -1,11 +1,32 @@
-//! Errors of meshes without geometry.
+//! The one error of this crate: meshes without geometry.
 
 use crate::NodeId;
+
+/// A mesh or a pair of surfaces without a geometry.
+///
+/// ```
+/// use inpact_geometry::{ErrorKind, Face, FaceShape, NodeId, Surface};
+///
+/// let face = Face { shape: FaceShape::Triangle3, nodes: &[NodeId(0), NodeId(1)] };
+/// let error = Surface::new([face]).unwrap_err();
+/// assert_eq!(error.kind(), &ErrorKind::NodesOfFace { expected: 3, found: 2 });
+/// assert_eq!(error.to_string(), "expected 3 nodes of a face, found 2");
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(transparent)]
+pub struct Error(#[from] ErrorKind);
+
+impl Error {
+    /// The reason, with the values concerned.
+    pub fn kind(&self) -> &ErrorKind {
+        &self.0
+    }
+}
 
 /// Reasons why a geometry cannot be found, with the values concerned.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum GeometryError {
+pub enum ErrorKind {
     /// A face has another number of nodes than its shape.
     #[error("expected {expected} nodes of a face, found {found}")]
     NodesOfFace {

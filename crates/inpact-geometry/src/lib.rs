@@ -14,7 +14,7 @@
 //! | pairs | | [`Master`], [`Projection`], [`sheet_shift`], [`contact_nodes`] |
 //!
 //! ```
-//! use inpact_geometry::{DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, NodeId, Placed, Shares, Surface, node_areas, node_normals};
+//! use inpact_geometry::{DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, node_areas, node_normals, NodeId, Placed, Shares, Surface};
 //!
 //! // A slave square of side 1 hovers 0.1 above a master square of side 3.
 //! let points = [
@@ -34,7 +34,7 @@
 //! assert_eq!(node_normals(&slave)[0], Some([0.0, 0.0, -1.0]));
 //! let across = master.project(points[4], DEFAULT_EXTENSION).expect("a face");
 //! assert_eq!((across.clearance, across.projects), (0.1, true));
-//! # Ok::<(), inpact_geometry::GeometryError>(())
+//! # Ok::<(), inpact_geometry::Error>(())
 //! ```
 
 mod ids;
@@ -61,6 +61,7 @@ mod projection;
 mod search;
 mod sheet;
 mod solid;
+mod spread;
 
 mod error;
 
@@ -70,7 +71,7 @@ pub use conduction::{Conductivity, SolidElement, SolidIntegrals};
 pub use coordinates::Placed;
 pub use element::{ElementShape, FaceLabel, LocalFace};
 pub use element_type::{ElementSpace, ElementType};
-pub use error::GeometryError;
+pub use error::{Error, ErrorKind};
 pub use face_shape::{FaceShape, MAX_NODES};
 pub use free_faces::FreeFaces;
 pub use ids::{FaceId, NodeId};

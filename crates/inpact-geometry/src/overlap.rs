@@ -8,9 +8,9 @@ use crate::face_shape::{MAX_NODES, evaluate, monomials};
 use crate::patch::Patch;
 use crate::quadrature::rule;
 use crate::search::Master;
+use crate::spread;
 use crate::vector::{dot, norm};
-use crate::{FaceId, FaceShape, GeometryError};
-use rayon::prelude::*;
+use crate::{Error, ErrorKind, FaceId, FaceShape};
 
 /// The part of a surface that has another one across.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ const INSIDE: f64 = 1e-4;
 /// The part of a surface that has `other` across from it: where a point projects onto it, and both face each other.
 ///
 /// ```
-/// use inpact_geometry::{Face, FaceShape, Master, NodeId, Placed, Surface, overlap};
+/// use inpact_geometry::{Face, FaceShape, Master, NodeId, overlap, Placed, Surface};
 /// // A square of 2 by 2, and one of 1 by 1 a little above its corner.
 /// let square = |z: f64, side: f64| [[0.0, 0.0, z], [side, 0.0, z], [side, side, z], [0.0, side, z]];
 /// let points = [square(0.0, 2.0), square(0.1, 1.0)].concat();
@@ -44,17 +44,17 @@ const INSIDE: f64 = 1e-4;
 /// assert!((found.area - 1.0).abs() < 0.01);
 /// // ∫ (1 − x/2)(1 − y/2) dA
 /// assert!((found.shares[0] - 0.5625).abs() < 0.01);
-/// # Ok::<(), inpact_geometry::GeometryError>(())
+/// # Ok::<(), inpact_geometry::Error>(())
 /// ```
 ///
 /// # Errors
 ///
 /// One of the surfaces is of lines.
-pub fn overlap(surface: &Placed<'_>, other: &Master<'_>) -> Result<Overlap, GeometryError> {
+pub fn overlap(surface: &Placed<'_>, other: &Master<'_>) -> Result<Overlap, Error> {
     let of = surface.surface();
     let is_line = |surface: &crate::Surface| !surface.is_empty() && surface.is_line();
     if is_line(of) || is_line(other.placed().surface()) {
-        return Err(GeometryError::Extent);
+        return Err(ErrorKind::Extent.into());
     }
     // Where the nodes of the other surface are across, by face: a part of it may lie between all other points that are looked at.
     let mut places: Vec<Vec<[f64; 2]>> = vec![Vec::new(); of.len()];
@@ -65,7 +65,7 @@ pub fn overlap(surface: &Placed<'_>, other: &Master<'_>) -> Result<Overlap, Geom
         places[across.face.index()].push(across.place);
     }
     let faces: Vec<FaceId> = of.faces().collect();
-    let parts: Vec<Part> = faces.par_iter().map(|face| part(surface, *face, other, &places[face.index()])).collect();
+    let parts: Vec<Part> = spread::map(&faces, |face| part(surface, *face, other, &places[face.index()]));
     let mut found = Overlap { area: 0.0, shares: vec![0.0; of.nodes().len()], faces: Vec::with_capacity(of.len()) };
     for (face, part) in faces.into_iter().zip(parts) {
         found.area += part.area;
@@ -198,7 +198,7 @@ fn size_of(shape: FaceShape, cell: &Cell) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::overlap;
-    use crate::{Face, FaceShape, GeometryError, Master, NodeId, Placed, Point, Surface, shape_function_areas};
+    use crate::{ErrorKind, Face, FaceShape, Master, NodeId, Placed, Point, Surface, shape_function_areas};
 
     /// Squares or triangles of a grid of `cells` by `cells` over a square, with normals up or down.
     fn grid(
@@ -292,6 +292,6 @@ mod tests {
         let line = Surface::new([Face { shape: FaceShape::Segment2, nodes: &[NodeId(0), NodeId(1)] }]).expect("a line");
         let points = [[0.0; 3], [1.0, 0.0, 0.0]];
         let placed = Placed::new(&line, &points).expect("placed");
-        assert_eq!(overlap(&placed, &Master::new(placed)), Err(GeometryError::Extent));
+        assert_eq!(overlap(&placed, &Master::new(placed)), Err(ErrorKind::Extent.into()));
     }
 }

@@ -6,7 +6,7 @@ use crate::normal::node_normals;
 use crate::projection::Projection;
 use crate::search::Master;
 use crate::sheet::node_shifts;
-use crate::{GeometryError, NodeId, Point, Vector};
+use crate::{Error, ErrorKind, NodeId, Point, Vector};
 
 /// Options of the geometry of a pair.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ pub struct ContactNode {
 /// The geometry of a pair, in the order of the slave's [`Surface::nodes`](crate::Surface::nodes).
 ///
 /// ```
-/// use inpact_geometry::{DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, NodeId, PairOptions, Placed, Shares, Surface, contact_nodes};
+/// use inpact_geometry::{contact_nodes, DEFAULT_EXTENSION, Extent, Face, FaceShape, Master, NodeId, PairOptions, Placed, Shares, Surface};
 /// // A line above a line twice as long, in a plate 0.5 thick.
 /// let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.5, 0.25, 0.0], [1.5, 0.25, 0.0]];
 /// let line = |from: u32, to: u32| Surface::new([Face { shape: FaceShape::Segment2, nodes: &[NodeId(from), NodeId(to)] }]);
@@ -55,7 +55,7 @@ pub struct ContactNode {
 /// assert!((found[0].area - 0.25).abs() < 1e-15);
 /// assert_eq!(found[0].normal, Some([0.0, -1.0, 0.0]));
 /// assert_eq!(found[0].across.as_ref().map(|across| across.clearance), Some(0.25));
-/// # Ok::<(), inpact_geometry::GeometryError>(())
+/// # Ok::<(), inpact_geometry::Error>(())
 /// ```
 ///
 /// # Errors
@@ -65,7 +65,7 @@ pub fn contact_nodes(
     slave: &Placed<'_>,
     master: &Master<'_>,
     options: &PairOptions<'_>,
-) -> Result<Vec<ContactNode>, GeometryError> {
+) -> Result<Vec<ContactNode>, Error> {
     let nodes = slave.surface().nodes();
     let areas = node_areas(slave, options.shares, options.extent)?;
     let points: Vec<Point> = nodes.iter().map(|node| slave.points()[node.index()]).collect();
@@ -76,7 +76,7 @@ pub fn contact_nodes(
     };
     let faces = master.placed().surface().len();
     if !options.master_shifts.is_empty() && options.master_shifts.len() != faces {
-        return Err(GeometryError::Values { what: "shift", expected: faces, found: options.master_shifts.len() });
+        return Err(ErrorKind::Values { what: "shift", expected: faces, found: options.master_shifts.len() }.into());
     }
     let normals = node_normals(slave);
     let across = master.project_all(&points, options.extension);

@@ -8,9 +8,9 @@
 use crate::closest::Closest;
 use crate::normal::{longest_edge, node_normal};
 use crate::search::Master;
+use crate::spread;
 use crate::vector::{add, dot, norm, scale, sub, unit};
 use crate::{FaceId, FaceShape, NodeId, Point, Vector};
-use rayon::prelude::*;
 
 /// The distance from an edge, in ξ and η, within which a closest point is on it.
 const ON_EDGE: f64 = 1e-12;
@@ -61,7 +61,7 @@ impl Master<'_> {
     /// assert_eq!(above.weights(FaceShape::Quadrilateral4), [0.25; 4]);
     /// let beside = master.project([1.5, 0.5, -0.25], DEFAULT_EXTENSION).expect("a face");
     /// assert_eq!((beside.clearance, beside.overhang, beside.projects), (-0.25, 0.5, false));
-    /// # Ok::<(), inpact_geometry::GeometryError>(())
+    /// # Ok::<(), inpact_geometry::Error>(())
     /// ```
     pub fn project(&self, point: Point, extension: f64) -> Option<Projection> {
         let (face, closest) = self.closest(point)?;
@@ -87,9 +87,9 @@ impl Master<'_> {
         Some(Projection { face, place, point: on_master, distance, clearance, normal, overhang, projects })
     }
 
-    /// The same for many points, on all cores; the answers do not depend on how many there are.
+    /// The same for many points, on all threads where feature `threads` is on; the answers do not depend on how many there are.
     pub fn project_all(&self, points: &[Point], extension: f64) -> Vec<Option<Projection>> {
-        points.par_iter().map(|point| self.project(*point, extension)).collect()
+        spread::map(points, |point| self.project(*point, extension))
     }
 
     /// The sum of the normals of both faces at an edge, and whether the edge is an outer one.

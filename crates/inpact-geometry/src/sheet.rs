@@ -1,6 +1,6 @@
 //! Sheets with a thickness: where the side of a shell is, whose nodes lie on a surface of reference.
 
-use crate::{FaceLabel, GeometryError, Surface};
+use crate::{Error, ErrorKind, FaceLabel, Surface};
 
 /// The distance (L) of the side of a shell from its nodes, along the normal of that side.
 ///
@@ -27,9 +27,9 @@ pub fn sheet_shift(side: FaceLabel, thickness: f64, offset: f64) -> f64 {
 /// # Errors
 ///
 /// There is not one shift a face.
-pub fn node_shifts(surface: &Surface, of_faces: &[f64]) -> Result<Vec<f64>, GeometryError> {
+pub fn node_shifts(surface: &Surface, of_faces: &[f64]) -> Result<Vec<f64>, Error> {
     if of_faces.len() != surface.len() {
-        return Err(GeometryError::Values { what: "shift", expected: surface.len(), found: of_faces.len() });
+        return Err(ErrorKind::Values { what: "shift", expected: surface.len(), found: of_faces.len() }.into());
     }
     let average =
         |faces: &[crate::FaceId]| faces.iter().map(|face| of_faces[face.index()]).sum::<f64>() / faces.len() as f64;

@@ -1,6 +1,6 @@
 //! The faces of a surface and their neighbours: nothing of coordinates.
 
-use crate::{FaceId, FaceShape, GeometryError, NodeId};
+use crate::{Error, ErrorKind, FaceId, FaceShape, NodeId};
 
 /// One face, by its nodes in the order of its shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub struct Face<'a> {
 /// assert_eq!(strip.faces_at(b), [FaceId(0), FaceId(1)]);
 /// assert_eq!(strip.across(FaceId(0), 1), Some(FaceId(1)));
 /// assert_eq!(strip.across(FaceId(0), 0), None);
-/// # Ok::<(), inpact_geometry::GeometryError>(())
+/// # Ok::<(), inpact_geometry::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Surface {
@@ -43,18 +43,18 @@ impl Surface {
     /// # Errors
     ///
     /// A face has not its shape's number of nodes, lines and areas are mixed, or there are more than 2³² faces or nodes of faces.
-    pub fn new<'a>(faces: impl IntoIterator<Item = Face<'a>>) -> Result<Self, GeometryError> {
+    pub fn new<'a>(faces: impl IntoIterator<Item = Face<'a>>) -> Result<Self, Error> {
         let mut surface = Self { starts: vec![0], ..Self::default() };
         for Face { shape, nodes } in faces {
             if nodes.len() != shape.nodes() {
-                return Err(GeometryError::NodesOfFace { expected: shape.nodes(), found: nodes.len() });
+                return Err(ErrorKind::NodesOfFace { expected: shape.nodes(), found: nodes.len() }.into());
             }
             if surface.shapes.first().is_some_and(|first| first.is_line() != shape.is_line()) {
-                return Err(GeometryError::MixedDimensions);
+                return Err(ErrorKind::MixedDimensions.into());
             }
             surface.shapes.push(shape);
             surface.connectivity.extend_from_slice(nodes);
-            surface.starts.push(u32::try_from(surface.connectivity.len()).map_err(|_| GeometryError::TooLarge)?);
+            surface.starts.push(u32::try_from(surface.connectivity.len()).map_err(|_| ErrorKind::TooLarge)?);
         }
         surface.gather();
         Ok(surface)

@@ -4,8 +4,7 @@ mod common;
 
 use common::{AREAS, Mesh, close, grid, line};
 use inpact_geometry::{
-    Extent, Face, FaceId, FaceShape, GeometryError, NodeId, Placed, Shares, Surface, face_areas, node_areas,
-    node_normals,
+    ErrorKind, Extent, Face, FaceId, FaceShape, NodeId, Placed, Shares, Surface, face_areas, node_areas, node_normals,
 };
 use proptest::prelude::*;
 
@@ -132,9 +131,12 @@ fn what_does_not_suit_is_refused_with_its_values() {
     let edge = line(FaceShape::Segment2, 1, |u| [u - 1.0, 0.0, 0.0]);
     let refused =
         |mesh: &Mesh, extent: Extent<'_>| node_areas(&mesh.placed(), Shares::Equal, extent).expect_err("refused");
-    assert_eq!(refused(&flat, Extent::Axisymmetric), GeometryError::Extent);
-    assert_eq!(refused(&edge, Extent::Spatial), GeometryError::Extent);
-    assert_eq!(refused(&edge, Extent::Plane(&[])), GeometryError::Values { what: "thickness", expected: 1, found: 0 });
+    assert_eq!(refused(&flat, Extent::Axisymmetric), ErrorKind::Extent.into());
+    assert_eq!(refused(&edge, Extent::Spatial), ErrorKind::Extent.into());
+    assert_eq!(
+        refused(&edge, Extent::Plane(&[])),
+        ErrorKind::Values { what: "thickness", expected: 1, found: 0 }.into()
+    );
     assert_eq!(
         refused(&edge, Extent::Axisymmetric).to_string(),
         "node 0 of an axisymmetric surface has the radius -1.0, which is negative"
@@ -144,7 +146,7 @@ fn what_does_not_suit_is_refused_with_its_values() {
     assert_eq!(short.to_string(), "expected 4 nodes of a face, found 3");
     let mixed =
         [Face { shape: FaceShape::Triangle3, nodes: &nodes }, Face { shape: FaceShape::Segment2, nodes: &nodes[..2] }];
-    assert_eq!(Surface::new(mixed).expect_err("mixed"), GeometryError::MixedDimensions);
+    assert_eq!(Surface::new(mixed).expect_err("mixed"), ErrorKind::MixedDimensions.into());
     let points = [[0.0; 3], [f64::NAN, 0.0, 0.0], [0.0; 3]];
     let surface = Surface::new([Face { shape: FaceShape::Triangle3, nodes: &nodes }]).expect("a surface");
     assert_eq!(

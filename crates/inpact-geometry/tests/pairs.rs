@@ -4,7 +4,7 @@ mod common;
 
 use common::{AREAS, Mesh, close, dot, grid, line, moved, norm, sub};
 use inpact_geometry::{
-    DEFAULT_EXTENSION, Extent, Face, FaceLabel, FaceShape, GeometryError, Master, NodeId, Placed, Point, Projection,
+    DEFAULT_EXTENSION, ErrorKind, Extent, Face, FaceLabel, FaceShape, Master, NodeId, Placed, Point, Projection,
     Shares, Surface, node_areas, node_normals, node_shifts, sheet_shift,
 };
 use proptest::prelude::*;
@@ -172,7 +172,10 @@ fn sides_of_shells_are_shifted_by_thickness_and_offset() {
     assert_eq!(node_shifts(&mesh.surface, &shifts).expect("shifts"), [0.25, 0.25, 0.25, 0.25, 0.25, 0.25]);
     let shifts = node_shifts(&mesh.surface, &[0.125, 0.375]).expect("shifts");
     assert_eq!(shifts, [0.125, 0.25, 0.375, 0.125, 0.25, 0.375]);
-    assert_eq!(node_shifts(&mesh.surface, &[0.1]), Err(GeometryError::Values { what: "shift", expected: 2, found: 1 }));
+    assert_eq!(
+        node_shifts(&mesh.surface, &[0.1]),
+        Err(ErrorKind::Values { what: "shift", expected: 2, found: 1 }.into())
+    );
 }
 
 /// Two surfaces of whatever shapes, bent and distorted.

@@ -1,6 +1,6 @@
 //! The one error of this crate.
 
-use crate::linear::{Method, Shortcoming};
+use crate::linear::{Method, NoSolution, Shortcoming};
 use crate::scene::Field;
 use inpact_evaluation::law::UserFault;
 use std::error;
@@ -56,6 +56,8 @@ pub enum ErrorKind {
         /// The methods tried, each with the reason of its failure.
         tried: Vec<(Method, Shortcoming)>,
     },
+    /// A matrix was not factored, or its factor not solved with.
+    NotFactored(NoSolution),
     /// A temperature would be below absolute zero.
     BelowAbsoluteZero {
         /// The node.
@@ -169,6 +171,7 @@ impl fmt::Display for Error {
                 formatter.write_str("no method solved the network")?;
                 tried.iter().try_for_each(|(method, why)| write!(formatter, "; {method}: {why}"))
             }
+            ErrorKind::NotFactored(reason) => reason.fmt(formatter),
             ErrorKind::BelowAbsoluteZero { node, value, zero } => {
                 write!(formatter, "node {node} would be at {value:?}, below absolute zero at {zero:?}")
             }

@@ -24,7 +24,7 @@ pub use marks::{Mark, mark_findings};
 pub use node_rows::{NodeRows, NodeSample};
 pub use probe::{Probe, ProbeAxis, ProbeBranch};
 pub use request::{Detail, HeldPlace, Probing, Request};
-pub use units::{Units, UnitsError};
+pub use units::Units;
 
 /// The drawing of one deck.
 #[derive(Debug, Clone, PartialEq, Default)]

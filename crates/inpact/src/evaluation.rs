@@ -13,7 +13,7 @@ use inpact_evaluation::law::{UserConductance, UserLaw};
 use inpact_evaluation::nodes::{NodeReader, RecordBatches};
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, concerning, make, survey_keeping};
 use inpact_evaluation::results::{Output, ResultRecords};
-use inpact_evaluation::{Accuracy, Evaluation, HistoryStart, RunFailure, Tolerance, Wanted};
+use inpact_evaluation::{Accuracy, Evaluation, HistoryStart, Tolerance, Wanted};
 use inpact_parser::model::{Name, Regime};
 use std::ops::ControlFlow;
 
@@ -229,7 +229,7 @@ impl Deck {
         let mut evaluation = Evaluation::on_all_threads(&self.model, &plan, choices);
         let mut records = ResultRecords::new(plan.keys(), &plan.outputs);
         let mut done = 0;
-        let ran = evaluation.run(&mut rows, &plan, |batch, results| {
+        let ran = evaluation.run::<Error>(&mut rows, &plan, |batch, results| {
             let records = records.record_batch(batch, results).map_err(|error| unreadable(&error))?;
             done += batch.rows as u64;
             if take(done, records).is_break() {
@@ -237,10 +237,7 @@ impl Deck {
             }
             Ok(())
         });
-        ran.map_err(|failure| match failure {
-            RunFailure::Reading(error) => unreadable(&error),
-            RunFailure::Writing(error) => error,
-        })?;
+        ran.map_err(|error| unreadable(&error))??;
         let tally = evaluation.finish();
         let mut findings = Findings::new(TABLE);
         tally.report_user_faults(&mut findings);

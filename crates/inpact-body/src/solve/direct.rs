@@ -2,16 +2,19 @@
 
 use super::Equations;
 use inpact_network::linear::{Cholesky, NoSolution};
+use inpact_network::{Error, ErrorKind};
 
 const HELD: u32 = u32::MAX;
 
+const MEMORY: ErrorKind = ErrorKind::NotFactored(NoSolution::Memory);
+
 /// Solves, and gives the number of entries of the factor.
-pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> Result<usize, NoSolution> {
+pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> Result<usize, Error> {
     let Equations { matrix, is_held, sources } = equations;
     let mut number = vec![HELD; is_held.len()];
     let mut free: Vec<usize> = Vec::new();
     for (node, number) in number.iter_mut().enumerate().filter(|(node, _)| !is_held[*node]) {
-        *number = u32::try_from(free.len()).map_err(|_| NoSolution::Memory)?;
+        *number = u32::try_from(free.len()).map_err(|_| MEMORY)?;
         free.push(node);
     }
     if free.is_empty() {
@@ -28,10 +31,10 @@ pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> Resul
     let mut starts = vec![0_u32; free.len() + 1];
     (0..free.len()).for_each(|column| starts[column + 1] = 1);
     for column in links().map(|(_, column, _)| number[column]).filter(|column| *column != HELD) {
-        starts[column as usize + 1] = starts[column as usize + 1].checked_add(1).ok_or(NoSolution::Memory)?;
+        starts[column as usize + 1] = starts[column as usize + 1].checked_add(1).ok_or(MEMORY)?;
     }
     for column in 0..free.len() {
-        starts[column + 1] = starts[column + 1].checked_add(starts[column]).ok_or(NoSolution::Memory)?;
+        starts[column + 1] = starts[column + 1].checked_add(starts[column]).ok_or(MEMORY)?;
     }
     let mut next: Vec<usize> = starts.iter().map(|start| *start as usize).collect();
     let entries = next[free.len()];

@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "each test file uses some of it")]
 
-use inpact_body::{Body, BodyError};
+use inpact_body::{Body, Error};
 use inpact_geometry::{ElementShape, Point};
 use inpact_parser::deck::scan;
 use inpact_parser::grammar::{Dialect, Grammar, Release};
@@ -148,12 +148,12 @@ pub(crate) fn set(name: &str, nodes: &[usize]) -> String {
 }
 
 /// The bodies of a deck.
-pub(crate) fn read(deck: &str, terminals: &[&str]) -> Result<Body, BodyError> {
+pub(crate) fn read(deck: &str, terminals: &[&str]) -> Result<Body, Error> {
     read_as(Dialect::Abaqus, deck, terminals)
 }
 
 /// The bodies of a deck of a dialect.
-pub(crate) fn read_as(dialect: Dialect, deck: &str, terminals: &[&str]) -> Result<Body, BodyError> {
+pub(crate) fn read_as(dialect: Dialect, deck: &str, terminals: &[&str]) -> Result<Body, Error> {
     let grammar = Grammar::new(dialect, Release::default());
     let deck = scan("body.inp", deck.as_bytes(), &grammar);
     let names: Vec<Name> = terminals.iter().map(|name| Name::new(name)).collect();

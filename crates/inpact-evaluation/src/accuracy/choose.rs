@@ -108,8 +108,8 @@ fn grid_within(table: &PiecewiseTable, shape: Shape, tolerance: Tolerance) -> (O
     let meeting_all = if shape.axes < 2 { None } else { commensurate_cells(table) };
     let mut cells = vec![COUNTS[0]; shape.axes];
     let mut made = match &meeting_all {
-        Some(meeting_all) => Grid::new(table, meeting_all),
-        None => Grid::new(table, &cells),
+        Some(meeting_all) => Grid::made(table, meeting_all),
+        None => Grid::made(table, &cells),
     };
     if let (Some(meeting_all), Ok(_)) = (meeting_all, &made) {
         cells = meeting_all;
@@ -118,7 +118,7 @@ fn grid_within(table: &PiecewiseTable, shape: Shape, tolerance: Tolerance) -> (O
             if made.as_ref().is_ok_and(|made| tolerance.refusal(&made.bound()).is_none()) {
                 break;
             }
-            let finer = Grid::new(table, &vec![*count; shape.axes]);
+            let finer = Grid::made(table, &vec![*count; shape.axes]);
             if finer.is_err() && made.is_ok() {
                 break;
             }

@@ -7,8 +7,10 @@
 //!
 //! A grid whose lines meet all abscissae is the table itself up to rounding ([`commensurate_cells`]). For one axis a grid gains nothing, see `docs/accuracy.md`.
 
+use super::refusal::{MOST_AXES, MOST_NODES, MOST_VERTICES};
 use super::vertices::{abscissae, all_abscissae, for_each_vertex};
 use super::{ErrorBound, Refusal, largest_magnitude};
+use crate::error::{Error, ErrorKind};
 use crate::kernel::{InstructionSet, Lanes, Operation};
 use crate::table::PiecewiseTable;
 
@@ -36,21 +38,12 @@ struct GridAxis {
     stride: usize,
 }
 
-/// The most axes of a grid. Each doubles the number of nodes that take part in a value.
-pub(super) const MOST_AXES: usize = 4;
-
 /// Half an ulp, as a part of a number of the normal range; and the smallest subnormal, which bounds a rounding below it.
 const UNIT: f64 = f64::EPSILON / 2.0;
 const UNDERFLOW: f64 = f64::from_bits(1);
 
 /// A number of which four can be added without overflow.
 const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
-
-/// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
-pub(super) const MOST_NODES: usize = 1 << 15;
-
-/// The most vertices of the refinement of table and grid.
-pub(super) const MOST_VERTICES: usize = 1 << 20;
 
 /// How many rows are done at a time: places first, then values.
 const BLOCK: usize = 64;
@@ -61,7 +54,12 @@ impl Grid {
     /// # Errors
     /// Why there is none: the table depends on fewer than two or more than four axes, its numbers are so extreme that a sum could overflow,
     /// or the grid, or the refinement its error is computed on, is too large.
-    pub fn new(table: &PiecewiseTable, cells: &[usize]) -> Result<Self, Refusal> {
+    pub fn new(table: &PiecewiseTable, cells: &[usize]) -> Result<Self, Error> {
+        Self::made(table, cells).map_err(|refusal| ErrorKind::Grid(refusal).into())
+    }
+
+    /// The same, with the bare reason why there is none.
+    pub(super) fn made(table: &PiecewiseTable, cells: &[usize]) -> Result<Self, Refusal> {
         match table.levels().len() {
             0 => return Err(Refusal::Constant),
             1 => return Err(Refusal::OneAxis),

@@ -1,10 +1,18 @@
 //! Why a method is not taken for a table.
 
-use super::grid::{MOST_AXES, MOST_NODES, MOST_VERTICES};
 use std::fmt;
 
+/// The most axes of a grid. Each doubles the number of nodes that take part in a value.
+pub(super) const MOST_AXES: usize = 4;
+
+/// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
+pub(super) const MOST_NODES: usize = 1 << 15;
+
+/// The most vertices of the refinement of table and grid.
+pub(super) const MOST_VERTICES: usize = 1 << 20;
+
 /// Why a method cannot be had for a table, or was not chosen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refusal {
     /// The value depends on nothing: there is nothing to make faster.

@@ -7,15 +7,6 @@ use crate::results::ResultBatch;
 use crate::spread;
 use std::io;
 
-/// Which end of an evaluation failed.
-#[derive(Debug)]
-pub enum RunFailure<E> {
-    /// The rows could not be read back.
-    Reading(io::Error),
-    /// The results could not be written.
-    Writing(E),
-}
-
 /// Batches with their results.
 #[derive(Debug, Default)]
 struct Window {
@@ -27,13 +18,13 @@ impl Evaluation<'_> {
     /// Evaluates all rows of a plan; `write` gets them in their order, a batch at a time.
     ///
     /// # Errors
-    /// Those of reading and writing; rows that were written before stay written.
+    /// Rows that cannot be read back; within, the first error of `write`, after which nothing more is written.
     pub fn run<E: Send>(
         &mut self,
         rows: &mut GivenBack,
         plan: &Plan,
         mut write: impl FnMut(&Batch, &mut ResultBatch) -> Result<(), E> + Send,
-    ) -> Result<(), RunFailure<E>> {
+    ) -> io::Result<Result<(), E>> {
         let (mut ready, mut next) = (Window::default(), Window::default());
         loop {
             let write_ready = || {
@@ -41,11 +32,13 @@ impl Evaluation<'_> {
                 each.try_for_each(|(batch, results)| write(batch, results))
             };
             let (written, filled) = spread::join(write_ready, || next.fill(self, rows, plan));
-            written.map_err(RunFailure::Writing)?;
-            filled.map_err(RunFailure::Reading)?;
+            if let Err(error) = written {
+                return Ok(Err(error));
+            }
+            filled?;
             std::mem::swap(&mut ready, &mut next);
             if ready.batches.is_empty() {
-                return Ok(());
+                return Ok(Ok(()));
             }
         }
     }

@@ -25,7 +25,8 @@
 
 use super::conductance::{Branch, Conductance, ConductanceSlopes, ContactPoint};
 use super::contact::ContactState;
-use crate::table::{PiecewiseTable, Sides, TableError, TableFault, Tail};
+use crate::error::{Error, TableFault};
+use crate::table::{PiecewiseTable, Sides, Tail};
 use std::ops::Range;
 
 /// The conductance of an interaction in the dialect of CalculiX.
@@ -51,11 +52,11 @@ impl CalculixConductance {
     ///
     /// # Errors
     /// Rows that do not ascend, which ccx would take without a word and read wrongly; and neighbouring curves without pressures in common, at which it stops.
-    pub fn from_rows(cells: &[f64]) -> Result<Self, TableError> {
+    pub fn from_rows(cells: &[f64]) -> Result<Self, Error> {
         let rows = PiecewiseTable::from_rows(cells, WIDTH, Tail::Constant)?;
         let (rows_of_table, _) = cells.as_chunks::<WIDTH>();
         let curves: Vec<&[[f64; WIDTH]]> = rows_of_table.chunk_by(|row, next| row[2] == next[2]).collect();
-        let nothing = TableError::new(0, TableFault::NoRows);
+        let nothing = Error::of_rows(0, TableFault::NoRows);
         let (Some(first), Some(last)) = (curves.first(), curves.last()) else { return Err(nothing) };
         let outermost = [curve_table(first)?, curve_table(last)?];
         let starts = curves.iter().scan(0, |next, curve| {
@@ -149,13 +150,13 @@ enum Outside {
 }
 
 /// A curve by itself, against pressure.
-fn curve_table(rows: &[[f64; WIDTH]]) -> Result<PiecewiseTable, TableError> {
+fn curve_table(rows: &[[f64; WIDTH]]) -> Result<PiecewiseTable, Error> {
     let cells: Vec<[f64; 2]> = rows.iter().map(|&[value, pressure, _]| [value, pressure]).collect();
     PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Constant)
 }
 
 /// Two neighbouring curves over the pressures both have; the second begins in that row of the table.
-fn clipped(row: usize, first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseTable, TableError> {
+fn clipped(row: usize, first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseTable, Error> {
     let (first_range, second_range) = (pressures(first), pressures(second));
     let shared = first_range.start.max(second_range.start)..first_range.end.min(second_range.end);
     // Curves that begin together share at least that pressure; otherwise the one that begins earlier must reach beyond where the other begins.
@@ -166,7 +167,7 @@ fn clipped(row: usize, first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Resul
             first_range.start < second_range.end
         };
     if !do_share {
-        return Err(TableError::new(row, TableFault::NoSharedPressures { temperatures: [first[0][2], second[0][2]] }));
+        return Err(Error::of_rows(row, TableFault::NoSharedPressures { temperatures: [first[0][2], second[0][2]] }));
     }
     let mut cells = Vec::new();
     for curve in [first, second] {

@@ -1,8 +1,8 @@
 //! Why something is left out of an evaluation.
 
+use crate::error::Error;
 use crate::nodes::Column;
 use crate::results::{Output, number_text};
-use crate::table::TableError;
 use std::fmt;
 
 /// Something an evaluation leaves out.
@@ -36,9 +36,9 @@ pub enum Reason {
     /// The keyword has no rows (K-11).
     NoRows(&'static str),
     /// The rows of a table do not form one.
-    BrokenTable(TableError),
+    BrokenTable(Error),
     /// The curves of CalculiX do not form a conductance.
-    BrokenCurves(TableError),
+    BrokenCurves(Error),
     /// *PHYSICAL CONSTANTS does not give a constant that radiation needs (T-42).
     NoConstant(&'static str),
     /// *GAP RADIATION has no two emissivities from 0 to 1.

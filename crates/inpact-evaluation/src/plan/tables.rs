@@ -1,20 +1,21 @@
 //! The tables of an interaction, compiled so that it is known which variables their values depend on.
 
+use crate::error::Error;
 use crate::law::conductance::ConductanceTables;
 use crate::law::thermal::tables::ThermalTables;
 use crate::results::Along;
-use crate::table::{PiecewiseTable, TableError, Tail};
+use crate::table::{PiecewiseTable, Tail};
 use inpact_parser::model::{Interaction, Table};
 
 /// The tables of one interaction; an error where the rows form none.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct InteractionTables {
     /// Electrical conductance against clearance.
-    pub(crate) clearance: Option<Result<PiecewiseTable, TableError>>,
+    pub(crate) clearance: Option<Result<PiecewiseTable, Error>>,
     /// Electrical conductance against contact pressure.
-    pub(crate) pressure: Option<Result<PiecewiseTable, TableError>>,
+    pub(crate) pressure: Option<Result<PiecewiseTable, Error>>,
     /// Permeability.
-    pub(crate) permeability: Option<Result<PiecewiseTable, TableError>>,
+    pub(crate) permeability: Option<Result<PiecewiseTable, Error>>,
 }
 
 /// All tables of an interaction, built once for its plan and its laws.
@@ -55,12 +56,12 @@ impl InteractionTables {
     }
 
     /// The fault of an electrical table.
-    pub(crate) fn electrical_error(&self) -> Option<TableError> {
+    pub(crate) fn electrical_error(&self) -> Option<Error> {
         [&self.clearance, &self.pressure].into_iter().flatten().find_map(|table| table.as_ref().err().copied())
     }
 
     /// The fault of the permeability table.
-    pub(crate) fn permeability_error(&self) -> Option<TableError> {
+    pub(crate) fn permeability_error(&self) -> Option<Error> {
         self.permeability.as_ref()?.as_ref().err().copied()
     }
 

@@ -1,97 +1,9 @@
 //! From the rows of a deck to a table that can be evaluated: validation (semantics T-08 to T-10) and grouping (T-02, T-05).
 
-use std::fmt;
-use std::sync::Arc;
-
 use super::{AxisSummary, Content, Level, PiecewiseTable, Tail};
+use crate::error::{Error, TableFault};
 use crate::numbers::KernelSlope;
-
-/// Rows that do not form a table: which row it is, counted from zero, and what is wrong with it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TableError {
-    row: usize,
-    fault: TableFault,
-}
-
-impl TableError {
-    pub(crate) fn new(row: usize, fault: TableFault) -> Self {
-        Self { row, fault }
-    }
-
-    /// The row, counted from zero.
-    pub fn row(&self) -> usize {
-        self.row
-    }
-
-    /// The fault.
-    pub fn fault(&self) -> TableFault {
-        self.fault
-    }
-}
-
-/// Faults of rows of tables.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum TableFault {
-    /// There are no rows.
-    NoRows,
-    /// The cells do not divide into rows of `width`, which is at least 1: the last row has only `found`.
-    IncompleteRow {
-        /// Cells a row has.
-        width: usize,
-        /// Cells the last row has.
-        found: usize,
-    },
-    /// A cell holds an infinity or NaN.
-    NotFinite {
-        /// The column, 0 for the value and a + 1 for axis a.
-        column: usize,
-        /// The number.
-        found: f64,
-    },
-    /// A second row of a table without axes, which is a single constant.
-    SecondConstant,
-    /// The abscissa of `axis` is not above the row before while all outer axes are unchanged.
-    NotAscending {
-        /// The axis, counted from zero.
-        axis: usize,
-        /// The abscissa of the row before.
-        previous: f64,
-        /// The abscissa of this row.
-        found: f64,
-    },
-    /// Neighbouring curves of a conductance for CalculiX have no pressures in common, where ccx stops.
-    NoSharedPressures {
-        /// The temperatures of the two curves, θ.
-        temperatures: [f64; 2],
-    },
-}
-
-impl fmt::Display for TableError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let row = self.row + 1;
-        match self.fault {
-            TableFault::NoRows => write!(f, "the table has no rows"),
-            TableFault::IncompleteRow { width, found } => {
-                write!(f, "row {row} has {found} of {width} cells")
-            }
-            TableFault::NotFinite { column, found } => {
-                write!(f, "row {row} has {found} in column {}", column + 1)
-            }
-            TableFault::SecondConstant => {
-                write!(f, "row {row} follows a constant, which has one row")
-            }
-            TableFault::NotAscending { axis, previous, found } => {
-                write!(f, "row {row} has {found:?} after {previous:?} in column {}, which must ascend", axis + 2)
-            }
-            TableFault::NoSharedPressures { temperatures: [first, second] } => {
-                write!(f, "the curves at temperatures {first:?} and {second:?} share no pressures")
-            }
-        }
-    }
-}
-
-impl std::error::Error for TableError {}
+use std::sync::Arc;
 
 impl PiecewiseTable {
     /// Builds a table from `cells`, rows of `width` numbers each: the value, then axis 0 (fastest) to the last axis (slowest).
@@ -115,9 +27,9 @@ impl PiecewiseTable {
     /// let table = PiecewiseTable::from_rows(rows.as_flattened(), 3, Tail::Zero)?;
     /// assert_eq!(table.value(&[2.0, 350.0]), 8.5); // halfway between 2 and 15
     /// assert_eq!(table.value(&[3.0, 350.0]), 6.25); // 0 beyond the clearances at 300
-    /// # Ok::<(), inpact_evaluation::table::TableError>(())
+    /// # Ok::<(), inpact_evaluation::Error>(())
     /// ```
-    pub fn from_rows(cells: &[f64], width: usize, tail: Tail) -> Result<Self, TableError> {
+    pub fn from_rows(cells: &[f64], width: usize, tail: Tail) -> Result<Self, Error> {
         check_cells(cells, width)?;
         let axis_count = width - 1;
         let mut axes = vec![Vec::<f64>::new(); axis_count];
@@ -129,7 +41,7 @@ impl PiecewiseTable {
             let abscissae = &cells[1..];
             let changed = match previous {
                 None => axis_count,
-                Some(previous) => first_change(previous, abscissae).map_err(|fault| TableError { row, fault })?,
+                Some(previous) => first_change(previous, abscissae).map_err(|fault| Error::of_rows(row, fault))?,
             };
             // The outermost changed axis goes on in its group; all inside it begin new groups.
             for axis in (0..axis_count).take(changed + usize::from(changed < axis_count)).rev() {
@@ -165,8 +77,8 @@ impl PiecewiseTable {
 }
 
 /// Refuses cells that are no complete rows of finite numbers.
-fn check_cells(cells: &[f64], width: usize) -> Result<(), TableError> {
-    let fault = |row, fault| Err(TableError { row, fault });
+fn check_cells(cells: &[f64], width: usize) -> Result<(), Error> {
+    let fault = |row, fault| Err(Error::of_rows(row, fault));
     if cells.is_empty() {
         return fault(0, TableFault::NoRows);
     }

@@ -9,38 +9,8 @@
 use super::evaluate::Place;
 use super::marks::Marks;
 use super::{Level, PiecewiseTable, Sides, Tail};
-use std::fmt;
+use crate::error::{Error, ErrorKind, MOST_FOLDED_ROWS};
 use std::ops::Range;
-
-/// The most rows a folded table may have; groups without a common abscissa add up.
-const MOST_ROWS: usize = 1 << 20;
-
-/// Why a table cannot be folded along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FoldRefusal {
-    /// The groups of an axis, counted from zero, have different ranges, so that no one range says which points lie beyond the table.
-    RangesDiffer {
-        /// The axis.
-        axis: usize,
-    },
-    /// Groups of axis 0 between which values are interpolated drop to zero at different abscissae.
-    DropsDiffer,
-    /// The folded table would have more than a million rows.
-    TooManyRows,
-}
-
-impl fmt::Display for FoldRefusal {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::RangesDiffer { .. } => formatter.write_str("its groups have different ranges"),
-            Self::DropsDiffer => formatter.write_str("its groups drop to zero at different abscissae"),
-            Self::TooManyRows => write!(formatter, "the folded table would have more than {MOST_ROWS} rows"),
-        }
-    }
-}
-
-impl std::error::Error for FoldRefusal {}
 
 impl PiecewiseTable {
     /// The table for a finite coordinate `at` along `axis`, as a table with the same axes that no longer depends on that one.
@@ -50,7 +20,7 @@ impl PiecewiseTable {
     /// Slopes are those of the folded table, whose values are rounded.
     ///
     /// # Errors
-    /// [`FoldRefusal`], where the remaining function cannot be written as a table.
+    /// The remaining function cannot be written as a table.
     ///
     /// # Example
     /// ```
@@ -63,7 +33,7 @@ impl PiecewiseTable {
     /// assert_eq!(folded.value(&[2.0, f64::NAN]), table.value(&[2.0, 350.0]));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn folded(&self, axis: usize, at: f64) -> Result<Self, FoldRefusal> {
+    pub fn folded(&self, axis: usize, at: f64) -> Result<Self, Error> {
         let Some(target) = self.levels().iter().position(|level| level.axis == axis) else { return Ok(self.clone()) };
         let height = self.levels().len();
         let mut point = vec![0.0; self.axis_count()];
@@ -85,7 +55,7 @@ impl PiecewiseTable {
         // A table that no longer depends on axis 0 drops nowhere.
         let tail = if axis == 0 { Tail::Constant } else { self.tail() };
         let table = Self::from_rows(&folding.cells, self.axis_count() + 1, tail);
-        Ok(table.map_err(|_| FoldRefusal::TooManyRows)?.marked(Marks { always, ranges }))
+        Ok(table.map_err(|_| ErrorKind::TooManyRows)?.marked(Marks { always, ranges }))
     }
 }
 
@@ -107,7 +77,7 @@ struct Folding<'a> {
 
 impl Folding<'_> {
     /// Adds the rows of the groups below `height` that the folded table interpolates between: one group, or after the folded axis several that become one.
-    fn fold(&mut self, height: usize, groups: &[Range<usize>]) -> Result<(), FoldRefusal> {
+    fn fold(&mut self, height: usize, groups: &[Range<usize>]) -> Result<(), Error> {
         let Some(index) = height.checked_sub(1) else { return self.add_row() };
         let level = &self.table.levels()[index];
         if index == self.target {
@@ -118,11 +88,11 @@ impl Folding<'_> {
         let range = groups.iter().map(|group| self.range(level, group));
         let range = range.fold((f64::NEG_INFINITY, f64::INFINITY), |a, b| (a.0.max(b.0), a.1.min(b.1)));
         if self.ranges[index].replace(range).is_some_and(|before| before != range) {
-            return Err(FoldRefusal::RangesDiffer { axis: level.axis });
+            return Err(ErrorKind::RangesDiffer { axis: level.axis }.into());
         }
         let drop_of = |group: &Range<usize>| level.knots[group.end - 1];
         if level.drops && groups.iter().any(|group| drop_of(group) != drop_of(&groups[0])) {
-            return Err(FoldRefusal::DropsDiffer);
+            return Err(ErrorKind::DropsDiffer.into());
         }
         for x in common_knots(level, groups) {
             self.point[level.axis] = x;
@@ -132,16 +102,20 @@ impl Folding<'_> {
     }
 
     /// The value at the point, rounded once from 106 bits, as a row.
-    fn add_row(&mut self) -> Result<(), FoldRefusal> {
+    fn add_row(&mut self) -> Result<(), Error> {
         let axis = self.table.levels()[self.target].axis;
         self.cells.push(self.table.reference_value_at(self.point[0], &self.point[1..]));
         let row = self.point.iter().enumerate().map(|(of, x)| if of == axis { 0.0 } else { *x });
         self.cells.extend(row);
-        if MOST_ROWS * (self.point.len() + 1) < self.cells.len() { Err(FoldRefusal::TooManyRows) } else { Ok(()) }
+        if MOST_FOLDED_ROWS * (self.point.len() + 1) < self.cells.len() {
+            Err(ErrorKind::TooManyRows.into())
+        } else {
+            Ok(())
+        }
     }
 
     /// All groups of the folded axis must lie on the same side of the coordinate.
-    fn note_sides(&mut self, level: &Level, groups: &[Range<usize>]) -> Result<(), FoldRefusal> {
+    fn note_sides(&mut self, level: &Level, groups: &[Range<usize>]) -> Result<(), Error> {
         for group in groups {
             let (least, greatest) = self.range(level, group);
             let mut sides = Sides::default();
@@ -154,7 +128,7 @@ impl Folding<'_> {
             // The range of the folded level says that a group of it was met before.
             let is_first = self.ranges[self.target].replace((least, greatest)).is_none();
             if !is_first && sides != self.sides {
-                return Err(FoldRefusal::RangesDiffer { axis: level.axis });
+                return Err(ErrorKind::RangesDiffer { axis: level.axis }.into());
             }
             self.sides = sides;
         }

@@ -95,7 +95,7 @@ pub(crate) fn evaluate_kept(
     let mut output = Vec::new();
     let mut writer = ResultWriter::new(&mut output, plan.keys(), &plan.outputs).expect("a vector takes all");
     let ran = evaluation.run(&mut rows, &plan, |batch, results| writer.write(batch, results));
-    ran.expect("memory can be read and written");
+    ran.expect("memory can be read").expect("a vector takes all");
     assert_eq!(writer.finish().expect("a vector takes all"), plan.rows, "rows out are rows in");
     let tally = evaluation.finish();
     tally.report(&plan, &mut findings);

@@ -4,6 +4,7 @@ use super::factor::{Factor, Solves};
 use super::matrix::Matrix;
 use super::ordering::{Analysis, Ordering};
 use super::report::NoSolution;
+use crate::error::{Error, ErrorKind};
 use faer::sparse::SymbolicSparseColMatRef;
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use std::sync::Arc;
 /// let mut right = [55.0, 65.0];
 /// factor.solve(&mut right)?;
 /// assert_eq!(right, [1.0, 2.0]);
-/// # Ok::<(), inpact_network::linear::NoSolution>(())
+/// # Ok::<(), inpact_network::Error>(())
 /// ```
 #[derive(Debug)]
 pub struct Cholesky {
@@ -36,11 +37,11 @@ impl Cholesky {
     /// # Panics
     ///
     /// The columns are no lower triangle.
-    pub fn new(starts: &[u32], rows: &[u32], values: Vec<f64>) -> Result<Self, NoSolution> {
+    pub fn new(starts: &[u32], rows: &[u32], values: Vec<f64>) -> Result<Self, Error> {
         let count = starts.len() - 1;
         let pattern = SymbolicSparseColMatRef::new_checked(count, count, starts, None, rows);
-        let analysis = Arc::new(Analysis::of(pattern).ok_or(NoSolution::Memory)?);
-        let factor = Factor::new(&analysis, &Matrix { pattern, values })?;
+        let analysis = Arc::new(Analysis::of(pattern).ok_or(NoSolution::Memory).map_err(not_factored)?);
+        let factor = Factor::new(&analysis, &Matrix { pattern, values }).map_err(not_factored)?;
         Ok(Self { factor, ordering: analysis.ordering, entries: analysis.entries() })
     }
 
@@ -49,8 +50,8 @@ impl Cholesky {
     /// # Errors
     ///
     /// Memory runs out.
-    pub fn solve(&mut self, right: &mut [f64]) -> Result<(), NoSolution> {
-        self.factor.solve(right)
+    pub fn solve(&mut self, right: &mut [f64]) -> Result<(), Error> {
+        self.factor.solve(right).map_err(not_factored)
     }
 
     /// The order of elimination.
@@ -62,4 +63,8 @@ impl Cholesky {
     pub fn entries(&self) -> usize {
         self.entries
     }
+}
+
+fn not_factored(reason: NoSolution) -> Error {
+    ErrorKind::NotFactored(reason).into()
 }

@@ -18,7 +18,7 @@ use super::relative::Form;
 use super::report::{LAST_DIGIT, LinearReport, Method, NoSolution, Quality, Reused, Shortcoming};
 use super::series::Series;
 use super::sets::index;
-use super::work::{Clock, Phases, Work, no_clock};
+use super::work::{Clock, Phases, Work, no_clock, seconds_since};
 use crate::error::Error;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::sync::Arc;
@@ -150,7 +150,7 @@ impl Solver {
         let (found, mut report) = self.solve_core(&mut core)?;
         report.merged = origins.merged;
         let Phases { order, factor, solve, .. } = report.phases;
-        report.phases.set_up = ((self.clock)() - start).as_secs_f64() - order - factor - solve;
+        report.phases.set_up = seconds_since(self.clock, start) - order - factor - solve;
         self.work += report.work();
         let method = report.method;
         let overflow = || Error::not_solved(vec![(method, Shortcoming::Overflow)]);
@@ -250,7 +250,7 @@ impl Solver {
             let solving = clock();
             let refined = refine(core, edges, &mut solver, tolerance);
             report.iterations = solver.iterations;
-            report.phases.solve += (clock() - solving).as_secs_f64();
+            report.phases.solve += seconds_since(clock, solving);
             refined?
         } else {
             let Some(Kept { pattern, analysis, factor }) = &mut self.kept else {
@@ -264,7 +264,7 @@ impl Solver {
                 None => {
                     let ordering = clock();
                     let made = Analysis::of(pattern.symbolic()).ok_or(NoSolution::Memory)?;
-                    report.phases.order += (clock() - ordering).as_secs_f64();
+                    report.phases.order += seconds_since(clock, ordering);
                     analysis.insert(Arc::new(made))
                 }
             };
@@ -286,10 +286,10 @@ impl Solver {
                 Method::Mixed => get_or_try(single, || Factor::new(analysis, &matrix))?,
                 _ => get_or_try(double, || Factor::new(analysis, &matrix))?,
             };
-            report.phases.factor += (clock() - factoring).as_secs_f64();
+            report.phases.factor += seconds_since(clock, factoring);
             let solving = clock();
             let refined = refine(core, edges, solver, tolerance);
-            report.phases.solve += (clock() - solving).as_secs_f64();
+            report.phases.solve += seconds_since(clock, solving);
             let refined = refined?;
             *values = matrix.values;
             refined

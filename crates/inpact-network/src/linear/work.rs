@@ -11,6 +11,11 @@ pub(super) fn no_clock() -> Duration {
     Duration::ZERO
 }
 
+/// The time since a clock said this, in seconds.
+pub(super) fn seconds_since(clock: Clock, then: Duration) -> f64 {
+    clock().saturating_sub(then).as_secs_f64()
+}
+
 /// Times of the phases of a solution, seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Phases {

@@ -8,8 +8,7 @@ use crate::model::{ContactPair, Model, Name, Reference};
 use crate::number::read_float;
 use crate::span::Span;
 use inpact_geometry::{
-    ContactNode, DEFAULT_EXTENSION, ElementSpace, Extent, GeometryError, Master, PairOptions, Placed, Point, Shares,
-    contact_nodes,
+    ContactNode, DEFAULT_EXTENSION, ElementSpace, Extent, Master, PairOptions, Placed, Point, Shares, contact_nodes,
 };
 
 /// Sliding of surfaces on each other.
@@ -68,7 +67,7 @@ impl Mesh {
     /// # Errors
     ///
     /// The mesh has no geometry, or the master is of nodes.
-    pub fn contact(&self, pair: &MeshPair, thickness: f64) -> Result<Vec<ContactNode>, GeometryError> {
+    pub fn contact(&self, pair: &MeshPair, thickness: f64) -> Result<Vec<ContactNode>, inpact_geometry::Error> {
         self.contact_at(&self.points, pair, thickness)
     }
 
@@ -84,7 +83,7 @@ impl Mesh {
         points: &[Point],
         pair: &MeshPair,
         thickness: f64,
-    ) -> Result<Vec<ContactNode>, GeometryError> {
+    ) -> Result<Vec<ContactNode>, inpact_geometry::Error> {
         let SurfaceKind::Faces(master) = &self.surfaces[pair.master].kind else { return Ok(Vec::new()) };
         let tree = Master::new(Placed::new(&master.surface, points)?);
         let mut found = match &self.surfaces[pair.slave].kind {

@@ -13,7 +13,7 @@ use crate::files;
 use crate::render::Format;
 use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
-use inpact_body::{BESIDE_BODIES, Body, BodyError, BodyField, Lumped, NEGATIVE_CONDUCTANCE, SolutionMethod};
+use inpact_body::{BESIDE_BODIES, Body, BodyField, Lumped, NEGATIVE_CONDUCTANCE, SolutionMethod};
 use inpact_diagnostics::Diagnostic;
 use inpact_diagnostics::visible::{visible, visible_json, visible_line};
 use inpact_parser::mesh::MeshNote;
@@ -158,7 +158,7 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
 /// Says every fault with its place.
 fn refused(
     meshed: &MeshedDeck,
-    error: &BodyError,
+    error: &inpact_body::Error,
     (messages, settings): (Messages<'_>, &Settings),
 ) -> Result<Outcome, Failure> {
     let found = error.faults().iter().map(|fault| meshed.finding(fault.rule, fault.span, &fault.message));

@@ -17,8 +17,9 @@ use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::{visible, visible_json};
+use inpact_evaluation::Evaluation;
 use inpact_evaluation::results::Output;
-use inpact_evaluation::{Evaluation, RunFailure};
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -137,7 +138,7 @@ fn evaluated(
     let unreadable = |error| Failure::read(deck, error);
     let mut rows = rows.give_back(&plan.selection).map_err(unreadable)?;
     let mut evaluation = Evaluation::on_all_threads(model, plan, choices);
-    let ran = evaluation.run::<Failure>(&mut rows, plan, |batch, results| {
+    let ran = evaluation.run::<Infallible>(&mut rows, plan, |batch, results| {
         for row in 0..batch.rows {
             for (column, place) in columns.iter_mut().zip(&places) {
                 column.push(place.and_then(|place| results.numbers[place].get(row)));
@@ -145,10 +146,7 @@ fn evaluated(
         }
         Ok(())
     });
-    ran.map_err(|failed| match failed {
-        RunFailure::Reading(error) => unreadable(error),
-        RunFailure::Writing(failure) => failure,
-    })?;
+    let Ok(()) = ran.map_err(unreadable)?;
     let tally = evaluation.finish();
     let mut findings = Findings::new(nodes_name);
     tally.report_user_faults(&mut findings);

@@ -18,9 +18,9 @@ use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::nodes::{Findings, GivenBack};
 use inpact_evaluation::plan::{Plan, Reason};
 use inpact_evaluation::results::{ResultWriter, TableFormat};
-use inpact_evaluation::{Evaluation, RunFailure, Tally};
+use inpact_evaluation::{Evaluation, Tally};
 use serde_json::json;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::time::Instant;
 
 #[derive(Debug, Args)]
@@ -97,15 +97,11 @@ fn evaluate(
     let mut rows_out = 0;
     let written = write(&mut rows, evaluation, plan, (&mut output, arguments.output.format()), &mut rows_out);
     *went_out = if output.is_stream() { rows_out } else { 0 };
-    let tally = match written {
-        Ok(tally) => tally,
-        Err(RunFailure::Reading(error)) => return Err(unreadable(error)),
+    let tally = written.map_err(unreadable)?.map_err(|error| match error.kind() {
         // A value that a column of the format cannot hold is a fault of the data, not of the file that is written.
-        Err(RunFailure::Writing(error)) if error.kind() == ErrorKind::InvalidData => {
-            return Err(Failure::Data(format!("`{nodes_name}` cannot be written in this format: {error}")));
-        }
-        Err(RunFailure::Writing(error)) => return Err(output.failure(error)),
-    };
+        ErrorKind::InvalidData => Failure::Data(format!("`{nodes_name}` cannot be written in this format: {error}")),
+        _ => output.failure(error),
+    })?;
     tally.report_user_faults(findings);
     if findings.has_errors() {
         let result = if output.is_stream() { "the rows it fails in have no result" } else { "no result is written" };
@@ -117,22 +113,24 @@ fn evaluate(
     Ok((tally, rows_out))
 }
 
+/// Writes all results; an error of reading rows, or within one of writing.
 fn write(
     rows: &mut GivenBack,
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
     (output, format): (&mut ResultFile, TableFormat),
     rows_out: &mut u64,
-) -> Result<Tally, RunFailure<std::io::Error>> {
-    let writer = ResultWriter::with_format(output, format, plan.keys(), &plan.outputs);
-    let mut writer = writer.map_err(RunFailure::Writing)?;
-    evaluation.run(rows, plan, |batch, results| {
+) -> io::Result<io::Result<Tally>> {
+    let mut writer = match ResultWriter::with_format(output, format, plan.keys(), &plan.outputs) {
+        Ok(writer) => writer,
+        Err(error) => return Ok(Err(error)),
+    };
+    let ran = evaluation.run(rows, plan, |batch, results| {
         writer.write(batch, results)?;
         *rows_out = writer.rows_written();
         Ok(())
     })?;
-    writer.finish().map_err(RunFailure::Writing)?;
-    Ok(evaluation.finish())
+    Ok(ran.and_then(|()| writer.finish()).map(|_| evaluation.finish()))
 }
 
 /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::input::{self, LocatedDeck};
 use crate::settings::Settings;
-use inpact_body::{Body, BodyError};
+use inpact_body::Body;
 use inpact_diagnostics::visible::visible_line;
 use inpact_diagnostics::{Diagnostic, Extent, Label, Rule};
 use inpact_parser::Problem;
@@ -92,7 +92,7 @@ impl MeshedDeck {
         path: &Path,
         settings: &Settings,
         terminals: &[Name],
-    ) -> Result<(Self, Result<Body, BodyError>), Failure> {
+    ) -> Result<(Self, Result<Body, inpact_body::Error>), Failure> {
         let (read, mut files) = Self::open(path, settings)?;
         let body = match files.as_mut() {
             Some(files) => Body::read(&read.deck, settings.grammar, terminals, files),

@@ -1,8 +1,9 @@
 //! Units of axes: the dimensions of the grammar, or the names that a user has for them.
 
 use super::Quantity;
+use crate::error::Error;
+use crate::failure::Failure;
 use inpact_parser::grammar::{Base, Dimension, Grammar};
-use std::fmt;
 use std::str::FromStr;
 
 /// The user's names of units, by base quantity or by column; Abaqus has none (O-2).
@@ -14,20 +15,8 @@ pub struct Units {
     columns: Vec<(String, String)>,
 }
 
-/// A text that names no units.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UnitsError(String);
-
-impl fmt::Display for UnitsError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for UnitsError {}
-
 impl FromStr for Units {
-    type Err = UnitsError;
+    type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let mut units = Self::default();
@@ -35,7 +24,7 @@ impl FromStr for Units {
             let named = entry.split_once('=').map(|(name, unit)| (name.trim(), unit.trim()));
             let Some((name, unit)) = named.filter(|(name, unit)| !name.is_empty() && !unit.is_empty()) else {
                 let message = format!("expected NAME=UNIT, found `{entry}`: L=mm,M=t,T=s,theta=K or pressure=MPa");
-                return Err(UnitsError(message));
+                return Err(Failure::Usage(message).into());
             };
             match base_named(name) {
                 Some(base) => units.bases[base as usize] = Some(unit.to_owned()),
@@ -44,7 +33,7 @@ impl FromStr for Units {
                     let message = format!(
                         "there is no quantity `{name}`; there are M, L, T, theta, phi, C and columns such as pressure, clearance, temp, fv1"
                     );
-                    return Err(UnitsError(message));
+                    return Err(Failure::Usage(message).into());
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
 
+use crate::error::Error;
 use crate::law::calculix::CalculixConductance;
 use crate::law::conductance::ConductanceTables;
 use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
@@ -7,7 +8,7 @@ use crate::law::thermal::ThermalConductance;
 use crate::plan::reason::Reason;
 use crate::plan::tables::field_variable;
 use crate::results::Along;
-use crate::table::{PiecewiseTable, TableError, Tail};
+use crate::table::{PiecewiseTable, Tail};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{GapConductance, GapRadiation, Interaction, Model, OptionKind, Table};
 
@@ -30,12 +31,12 @@ pub(crate) enum ConductanceRows {
     /// The tables of Abaqus, of which there is at least one.
     Tables {
         /// Against clearance.
-        clearance: Option<Result<PiecewiseTable, TableError>>,
+        clearance: Option<Result<PiecewiseTable, Error>>,
         /// Against contact pressure.
-        pressure: Option<Result<PiecewiseTable, TableError>>,
+        pressure: Option<Result<PiecewiseTable, Error>>,
     },
     /// The curves of CalculiX.
-    Calculix(Result<CalculixConductance, TableError>),
+    Calculix(Result<CalculixConductance, Error>),
 }
 
 /// Why *GAP RADIATION gives no law.
@@ -46,7 +47,7 @@ pub(crate) enum RadiationFault {
     /// The first row has no two emissivities from 0 to 1.
     BadEmissivities,
     /// The further rows form no table of view factors.
-    BrokenTable(TableError),
+    BrokenTable(Error),
     /// There are no rows.
     NoRows,
 }
@@ -94,7 +95,7 @@ impl ThermalTables {
             ConductanceRows::User | ConductanceRows::Nothing => None,
             ConductanceRows::Calculix(curves) => Some(ThermalConductance::Calculix(curves.as_ref().ok()?.clone())),
             ConductanceRows::Tables { clearance, pressure } => {
-                let table = |table: &Option<Result<PiecewiseTable, TableError>>| {
+                let table = |table: &Option<Result<PiecewiseTable, Error>>| {
                     table.as_ref().and_then(|table| table.as_ref().ok()).cloned()
                 };
                 ConductanceTables::of(table(clearance), table(pressure)).map(ThermalConductance::Tables)

@@ -2,11 +2,11 @@
 
 use super::super::evaluable::Evaluable;
 use super::super::findings::refuse_configured_errors;
-use super::super::picture::{Drawn, PictureWriter};
+use super::super::picture::PictureWriter;
 use crate::failure::Failure;
-use inpact_evaluation::nodes::{Column, Findings, GivenBack, Selection};
+use inpact_evaluation::nodes::{Column, Findings, Selection};
 use inpact_evaluation::plan::Plan;
-use inpact_evaluation::{Evaluation, RunFailure, Tally};
+use inpact_evaluation::{Evaluation, Tally};
 use std::path::Path;
 
 /// Evaluates the rows that were made of a mesh and draws them; gives the counts and the number of rows.
@@ -25,12 +25,15 @@ pub(super) fn evaluate_and_draw(
     let unreadable = |error| Failure::read(deck, error);
     let selection = with_all_that_was_read(plan);
     let mut rows = rows.give_back(&selection).map_err(unreadable)?;
-    let evaluation = Evaluation::on_all_threads(model, plan, choices);
-    let drawn = draw(&mut rows, evaluation, (plan, &selection), (&made.drawn, target));
-    let (tally, writer) = drawn.map_err(|failed| match failed {
-        RunFailure::Reading(error) => unreadable(error),
-        RunFailure::Writing(failure) => failure,
-    })?;
+    let mut evaluation = Evaluation::on_all_threads(model, plan, choices);
+    let numbers = &selection.numbers;
+    let given: Vec<usize> = (0..numbers.len()).filter(|place| numbers[*place] != Column::Time).collect();
+    let columns = given.iter().map(|place| numbers[*place].to_string());
+    let names = columns.chain(plan.outputs.iter().map(ToString::to_string)).collect();
+    let mut writer = PictureWriter::new(&made.drawn, target, names)?;
+    let take = |batch: &_, results: &mut _| writer.take(batch, &given, results, &plan.outputs);
+    evaluation.run(&mut rows, plan, take).map_err(unreadable)??;
+    let tally = evaluation.finish();
     tally.report_user_faults(findings);
     if findings.has_errors() {
         return Err(Failure::Data("the user subroutine fails, and no picture is drawn".to_owned()));
@@ -51,19 +54,4 @@ fn with_all_that_was_read(plan: &Plan) -> Selection {
         }
     }
     selection
-}
-
-fn draw<'a>(
-    rows: &mut GivenBack,
-    mut evaluation: Evaluation<'_>,
-    (plan, selection): (&Plan, &Selection),
-    (drawn, target): (&'a Drawn, &'a Path),
-) -> Result<(Tally, PictureWriter<'a>), RunFailure<Failure>> {
-    let numbers = &selection.numbers;
-    let given: Vec<usize> = (0..numbers.len()).filter(|place| numbers[*place] != Column::Time).collect();
-    let columns = given.iter().map(|place| numbers[*place].to_string());
-    let names = columns.chain(plan.outputs.iter().map(ToString::to_string)).collect();
-    let mut writer = PictureWriter::new(drawn, target, names).map_err(RunFailure::Writing)?;
-    evaluation.run(rows, plan, |batch, results| writer.take(batch, &given, results, &plan.outputs))?;
-    Ok((evaluation.finish(), writer))
 }

@@ -6,10 +6,10 @@ use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files::ResultFile;
 use inpact_diagnostics::{Cell, Diagnostic, Findings, Place};
+use inpact_evaluation::Evaluation;
 use inpact_evaluation::nodes::{CONTRADICTORY_RATE, KeptRows, NodeReader, Selection};
 use inpact_evaluation::plan::{make, survey_keeping};
 use inpact_evaluation::results::{ResultWriter, TableFormat};
-use inpact_evaluation::{Evaluation, RunFailure};
 use inpact_network::scene::Scene;
 use std::path::Path;
 
@@ -37,18 +37,14 @@ pub(super) fn write(
     let mut output = ResultFile::create(Some(target))?;
     let table_format = TableFormat::of_extension(target).unwrap_or_default();
     let mut evaluation = Evaluation::on_all_threads(model, &plan, choices);
-    let written = (|| {
-        let writing = RunFailure::Writing;
-        let writer = ResultWriter::with_format(&mut output, table_format, plan.keys(), &plan.outputs);
-        let mut writer = writer.map_err(writing)?;
-        evaluation.run(&mut rows, &plan, |batch, results| writer.write(batch, results))?;
-        writer.finish().map_err(writing)
-    })();
-    match written {
-        Ok(_) => {}
-        Err(RunFailure::Reading(error)) => return Err(unreadable(error)),
-        Err(RunFailure::Writing(error)) => return Err(output.failure(error)),
-    }
+    let written = match ResultWriter::with_format(&mut output, table_format, plan.keys(), &plan.outputs) {
+        Ok(mut writer) => {
+            let ran = evaluation.run(&mut rows, &plan, |batch, results| writer.write(batch, results));
+            ran.map_err(unreadable)?.and_then(|()| writer.finish())
+        }
+        Err(error) => Err(error),
+    };
+    written.map_err(|error| output.failure(error))?;
     let tally = evaluation.finish();
     tally.report_user_faults(&mut findings);
     tally.report(&plan, &mut findings);

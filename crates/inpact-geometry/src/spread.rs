@@ -1,0 +1,12 @@
+//! Work that is spread over the threads of rayon's current pool, where feature `threads` is on; otherwise it is done one after the other.
+
+#[cfg(feature = "threads")]
+use rayon::prelude::*;
+
+/// Results of `work` on each of some things, in their order.
+pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+    #[cfg(feature = "threads")]
+    return items.par_iter().map(work).collect();
+    #[cfg(not(feature = "threads"))]
+    items.iter().map(work).collect()
+}

@@ -1,0 +1,7 @@
+//! Sentences of ARCHITECTURE.md that a line of source could break, held by reading the source.
+
+#[path = "../support/libraries.rs"]
+mod libraries;
+
+mod source;
+mod uses;
