@@ -36,6 +36,8 @@ mod interfaces;
 mod json;
 mod limits;
 mod lumping;
+#[cfg(target_os = "linux")]
+mod memory;
 mod nodes;
 mod nodes_results;
 mod pictures;

@@ -113,8 +113,7 @@ impl<'a> Join<'a> {
     /// Nothing yet.
     pub fn new(mesh: &'a Mesh, model: &Model) -> Self {
         let without_motion = ["HEAT TRANSFER", "COUPLED THERMAL-ELECTRICAL", "MASS DIFFUSION"];
-        let moves =
-            model.procedures.iter().any(|procedure| !without_motion.contains(&procedure.option.keyword.as_str()));
+        let moves = model.procedures.iter().any(|procedure| !without_motion.contains(&&*procedure.option.keyword));
         let (slaves, shared) = frames::slave_nodes(mesh);
         Self {
             mesh,

@@ -24,7 +24,7 @@ pub use text::Source;
 use crate::grammar::KeywordId;
 use crate::span::{Position, SourceId, Span};
 use lines::{LineKind, line_kind, without_line_end};
-use parameter::PlacedParameter;
+use parameter::{AfterName, More, Place};
 use std::num::NonZeroU32;
 
 /// A deck: its source files, cut into blocks in reading order.
@@ -38,21 +38,26 @@ pub struct Deck {
 }
 
 /// A keyword line and everything up to the next one.
+///
+/// A deck may be nothing but keyword lines, so that a block takes little memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
     /// The keyword line; `None` for rows before the first keyword of a file, and for rows after an *INCLUDE.
     pub keyword: Option<KeywordLine>,
-    /// The lines after the keyword line: data, comments, blank lines.
-    pub rows: Span,
-    /// The text of `rows` is in the deck; mesh rows are not kept when a deck is only checked.
+    /// The number of bytes of its rows, which follow the keyword line.
+    rows_length: [u8; 6],
+    /// The text of the rows is in the deck; mesh rows are not kept when a deck is only checked.
     pub rows_kept: bool,
-    continued_in: Option<Box<ContinuedIn>>,
+    elsewhere: Option<Box<Elsewhere>>,
 }
 
-/// Rows of a block in other files.
+/// Rows of a block that do not follow its keyword line.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct ContinuedIn {
-    rows: Vec<Span>,
+struct Elsewhere {
+    /// The start of its rows, where it has no keyword line.
+    start: Option<Span>,
+    /// Its rows in other files.
+    continued_in: Vec<Span>,
 }
 
 /// `*KEYWORD, PARAMETER=VALUE, …`, with the lines that continue it.
@@ -60,15 +65,10 @@ struct ContinuedIn {
 pub struct KeywordLine {
     /// All of it, line ends included.
     pub span: Span,
-    /// The name after the asterisk.
-    pub name: Span,
     /// The keyword that the name resolves to (S-13).
     pub resolved: Resolved<KeywordId>,
-    parameters: Box<[PlacedParameter]>,
-    /// The offset in the line of the quote that does not close on it (S-41).
-    open_quote: Option<NonZeroU32>,
-    /// The offset in the line of the comma at its end, when the next line is not its continuation (S-19).
-    last_comma: Option<NonZeroU32>,
+    name: Place,
+    after_name: AfterName,
 }
 
 /// Something seen while lines were cut, in rows whose text may not be kept.
@@ -222,32 +222,60 @@ impl Deck {
     /// otherwise rows that were not kept are missing (see [`Source::is_complete`]).
     pub fn print(&self, source: SourceId) -> Vec<u8> {
         let mut printed = Vec::new();
-        for block in self.blocks.iter().filter(|block| block.rows.source() == source) {
+        for block in self.blocks.iter().filter(|block| block.rows().source() == source) {
             if let Some(keyword) = &block.keyword {
                 printed.extend_from_slice(self.text(keyword.span));
             }
-            printed.extend_from_slice(self.text(block.rows));
+            printed.extend_from_slice(self.text(block.rows()));
         }
         printed
     }
 }
 
 impl Block {
-    /// A block without a keyword, or with one whose rows are all in its file.
+    /// A block without a keyword, or with one right before its rows.
     fn new(keyword: Option<KeywordLine>, rows: Span, rows_kept: bool) -> Self {
-        Self { keyword, rows, rows_kept, continued_in: None }
+        let start = keyword.is_none().then(|| Span::new(rows.source(), rows.start(), rows.start()));
+        let elsewhere = start.map(|start| Box::new(Elsewhere { start: Some(start), continued_in: Vec::new() }));
+        let mut block = Self { keyword, rows_length: [0; 6], rows_kept, elsewhere };
+        block.set_rows_length(rows.len());
+        block
+    }
+
+    /// No span is longer than 2⁴⁸ bytes.
+    fn set_rows_length(&mut self, length: u64) {
+        let [bytes @ .., _, _] = length.to_le_bytes();
+        self.rows_length = bytes;
+    }
+
+    /// The lines after the keyword line: data, comments, blank lines.
+    pub fn rows(&self) -> Span {
+        let [b0, b1, b2, b3, b4, b5] = self.rows_length;
+        let length = u64::from_le_bytes([b0, b1, b2, b3, b4, b5, 0, 0]);
+        let start = self.start_of_rows();
+        Span::new(start.source(), start.end(), start.end() + length)
+    }
+
+    /// A span that ends where the rows begin.
+    fn start_of_rows(&self) -> Span {
+        let without_keyword = || self.elsewhere.as_ref().and_then(|elsewhere| elsewhere.start).unwrap_or_default();
+        self.keyword.as_ref().map_or_else(without_keyword, |keyword| keyword.span)
     }
 
     /// Rows of this block in another file: in a file that begins with rows, or after the *INCLUDE of one (S-51).
     ///
     /// They are blocks without a keyword as well.
     pub fn continued_in(&self) -> &[Span] {
-        self.continued_in.as_ref().map_or(&[], |continued| &continued.rows)
+        self.elsewhere.as_ref().map_or(&[], |elsewhere| &elsewhere.continued_in)
+    }
+
+    fn continue_in(&mut self, rows: Span) {
+        self.elsewhere.get_or_insert_default().continued_in.push(rows);
     }
 
     /// All its rows, in whatever files.
     pub fn all_rows(&self) -> impl Iterator<Item = Span> + Clone {
-        std::iter::once(self.rows).chain(self.continued_in().iter().copied())
+        std::iter::once(self.rows()).chain(self.continued_in().iter().copied())
     }
 
     /// The keyword, when its name is unambiguous.
@@ -257,13 +285,12 @@ impl Block {
 
     /// The keyword line; for rows before the first keyword an empty span at their start.
     pub fn span_of_keyword(&self) -> Span {
-        let start = Span::new(self.rows.source(), self.rows.start(), self.rows.start());
-        self.keyword.as_ref().map_or(start, |keyword| keyword.span)
+        self.start_of_rows()
     }
 
     /// Keyword line and rows.
     pub fn span(&self) -> Span {
-        self.keyword.as_ref().map_or(self.rows, |keyword| keyword.span.to(self.rows))
+        self.start_of_rows().to(self.rows())
     }
 }
 
@@ -273,14 +300,26 @@ impl KeywordLine {
         self.resolved.found()
     }
 
+    /// The name after the asterisk.
+    pub fn name(&self) -> Span {
+        self.name.span(self.span)
+    }
+
     /// Where a quote opens that does not close on its line (S-41).
     pub fn unterminated_quote(&self) -> Option<Span> {
-        self.open_quote.map(|at| self.byte(at))
+        self.more()?.open_quote.map(|at| self.byte(at))
     }
 
     /// The comma at the end of the line, when the next line is not its continuation (S-19).
     pub fn dangling_comma(&self) -> Option<Span> {
-        self.last_comma.map(|at| self.byte(at))
+        self.more()?.last_comma.map(|at| self.byte(at))
+    }
+
+    fn more(&self) -> Option<&More> {
+        match &self.after_name {
+            AfterName::More(more) => Some(more),
+            AfterName::Nothing | AfterName::OneParameter(_) => None,
+        }
     }
 
     fn byte(&self, at: NonZeroU32) -> Span {

@@ -48,11 +48,11 @@ pub fn format_edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edi
         // Blocks of other files count too: they may open or close the interaction.
         let definition = place.enter(block);
         let (Some(definition), Some(keyword)) = (definition, &block.keyword) else { continue };
-        if block.rows.source() != source {
+        if block.rows().source() != source {
             continue;
         }
         let line = keyword_line::format(deck, keyword, definition, grammar.dialect()).map(|line| (keyword.span, line));
-        let rows = rows::format(deck, block, definition).map(|rows| (block.rows, rows));
+        let rows = rows::format(deck, block, definition).map(|rows| (block.rows(), rows));
         let changed = line.into_iter().chain(rows).filter(|(span, formatted)| deck.text(*span) != formatted);
         edits.extend(changed.map(|(span, formatted)| Edit::new(span, formatted)));
     }

@@ -13,6 +13,7 @@ mod read;
 mod row_places;
 mod rows;
 mod table;
+mod text;
 
 pub use interactions::Interactions;
 pub use name::Name;
@@ -22,6 +23,7 @@ pub use print::print;
 pub use read::{MOST_FIELD_VARIABLES, read, read_watched};
 pub use row_places::RowPlaces;
 pub use table::{CellText, Table};
+pub use text::{SharedText, TextRows};
 
 use crate::expression::Parameters;
 use crate::span::Span;
@@ -145,24 +147,24 @@ impl HeatGeneration {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubOption {
     /// The keyword, in full and in upper case.
-    pub keyword: String,
+    pub keyword: SharedText,
     /// The keyword line.
     pub span: Span,
     /// Its parameters.
-    pub parameters: Vec<GivenParameter>,
+    pub parameters: Box<[GivenParameter]>,
     /// Its rows as numbers, where the grammar says they form a table.
-    pub table: Option<Table>,
+    pub table: Option<Box<Table>>,
     /// Its rows as texts otherwise: the items of every line.
-    pub rows: Vec<Vec<String>>,
+    pub rows: TextRows,
 }
 
 /// A parameter as it is given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenParameter {
     /// Its name: in full and in upper case when the keyword has it, as it is written otherwise.
-    pub name: String,
+    pub name: SharedText,
     /// Its value as it is written, without blanks around it; a parameter in it, `<name>`, stays a name.
-    pub value: Option<String>,
+    pub value: Option<Box<str>>,
     /// Its place.
     pub span: Span,
 }
@@ -175,9 +177,9 @@ pub struct ContactPair {
     /// INTERACTION.
     pub interaction: Option<Reference>,
     /// The other parameters.
-    pub parameters: Vec<GivenParameter>,
+    pub parameters: Box<[GivenParameter]>,
     /// The lines: slave and master; one surface alone is in contact with itself.
-    pub pairs: Vec<SurfacePair>,
+    pub pairs: Box<[SurfacePair]>,
 }
 
 /// A slave surface and its master.
@@ -356,21 +358,21 @@ impl Model {
     }
 
     /// Every table the deck defines, those that govern nothing too: a table is judged anywhere.
-    pub fn tables(&self) -> Vec<TableOf<'_>> {
-        let mut tables: Vec<_> = self.all_interactions().flat_map(Interaction::tables).collect();
-        tables.extend(self.set_aside.iter().filter_map(|aside| {
+    pub fn tables(&self) -> impl Iterator<Item = TableOf<'_>> {
+        let of_interactions = self.all_interactions().flat_map(Interaction::tables);
+        let set_aside = self.set_aside.iter().filter_map(|aside| {
             let (keyword, table) = match &aside.item {
                 SetAsideItem::Table(table) => (OptionKind::GapElectricalConductance.keyword(), Some(table)),
                 SetAsideItem::ContactPermeability(option) => {
                     (OptionKind::ContactPermeability.keyword(), option.table.as_ref())
                 }
-                SetAsideItem::SubOption(option) => (option.keyword.as_str(), option.table.as_ref()),
+                SetAsideItem::SubOption(option) => (&*option.keyword, option.table.as_deref()),
                 SetAsideItem::Interaction(_) | SetAsideItem::HeatGeneration(_) => return None,
             };
             let table = table?;
             Some(TableOf { kind: TableKind::of(keyword, table), keyword, interaction: None, table })
-        }));
-        tables
+        });
+        of_interactions.chain(set_aside)
     }
 }
 
@@ -401,7 +403,7 @@ impl Interaction {
         let electrical =
             electrical.flat_map(|option| [&option.clearance, &option.pressure]).flatten().map(|table| &**table);
         let permeability = self.contact_permeability.iter().filter_map(|option| option.table.as_ref());
-        let other = self.other.iter().filter_map(|option| Some((option.keyword.as_str(), option.table.as_ref()?)));
+        let other = self.other.iter().filter_map(|option| Some((&*option.keyword, option.table.as_deref()?)));
         let named = electrical.map(|table| (OptionKind::GapElectricalConductance.keyword(), table));
         let permeability = permeability.map(|table| (OptionKind::ContactPermeability.keyword(), table));
         let named = named.chain(permeability).chain(other);
@@ -425,7 +427,7 @@ impl Procedure {
     pub fn regime(&self) -> Option<Regime> {
         let flagged = |name| self.option.parameter(name).is_some();
         let steady_if = |steady| Some(if steady { Regime::SteadyState } else { Regime::Transient });
-        match self.option.keyword.as_str() {
+        match &*self.option.keyword {
             "COUPLED THERMAL-ELECTRICAL" | "COUPLED TEMPERATURE-DISPLACEMENT" | "HEAT TRANSFER" => {
                 steady_if(flagged("STEADY STATE"))
             }
@@ -437,7 +439,7 @@ impl Procedure {
 
     /// Whether the procedure conducts electric current across interfaces (section 9.2).
     pub fn solves_electrical(&self) -> bool {
-        match self.option.keyword.as_str() {
+        match &*self.option.keyword {
             "COUPLED THERMAL-ELECTRICAL" => true,
             "COUPLED TEMPERATURE-DISPLACEMENT" => self.option.parameter("ELECTRICAL").is_some(),
             _ => false,
@@ -446,6 +448,6 @@ impl Procedure {
 
     /// Whether the procedure solves pore pressure (section 9.2).
     pub fn solves_pore_pressure(&self) -> bool {
-        matches!(self.option.keyword.as_str(), "SOILS" | "GEOSTATIC")
+        matches!(&*self.option.keyword, "SOILS" | "GEOSTATIC")
     }
 }

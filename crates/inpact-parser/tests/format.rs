@@ -82,7 +82,7 @@ fn same_but_for_style(
         let is_same = old_text == new_text;
         return is_same.then_some(()).ok_or_else(|| format!("{} changes", before.shown(old.span())));
     }
-    let (old_rows, new_rows) = (before.text(old.rows), after.text(new.rows));
+    let (old_rows, new_rows) = (before.text(old.rows()), after.text(new.rows()));
     let (old_lines, new_lines) = (physical_lines(old_text), physical_lines(new_text));
     if old_lines.len() != new_lines.len() {
         return Err(format!("the lines of {} change", before.shown(old.span())));

@@ -15,7 +15,7 @@ fn every_example_is_read_without_a_problem() {
         let (_, problems) = read(&deck, grammar);
         assert!(problems.is_empty(), "*{name}: {problems:?}");
         for line in deck.blocks().iter().map(|block| block.keyword.as_ref().unwrap()) {
-            let written = deck.shown(line.name);
+            let written = deck.shown(line.name());
             let Resolved::Exact(id) = line.resolved else { panic!("*{name}: *{written} is not in full") };
             let known = grammar.keyword(id).definition().filter(|known| known.parameters_complete);
             for parameter in line.parameters().filter(|_| known.is_some()) {

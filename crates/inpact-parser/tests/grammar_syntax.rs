@@ -66,7 +66,7 @@ fn is_keyword_line(bytes: &[u8]) -> bool {
     let deck = deck(bytes);
     let [block] = deck.blocks() else { return false };
     let Some(keyword) = &block.keyword else { return false };
-    block.rows.is_empty() && keyword.unterminated_quote().is_none() && keyword.dangling_comma().is_none()
+    block.rows().is_empty() && keyword.unterminated_quote().is_none() && keyword.dangling_comma().is_none()
 }
 
 /// Whether `*X, ` and the example is a keyword line of exactly that parameter; its name and value.
@@ -93,7 +93,7 @@ fn is_word(example: &[u8]) -> bool {
     let line = [b"*", example].concat();
     let deck = deck(&line);
     let keyword = deck.blocks().first().and_then(|block| block.keyword.as_ref());
-    keyword.is_some_and(|keyword| deck.text(keyword.name) == example && keyword.parameters().len() == 0)
+    keyword.is_some_and(|keyword| deck.text(keyword.name()) == example && keyword.parameters().len() == 0)
         && one_parameter(example).is_some_and(|(name, value)| name == example && value.is_none())
 }
 

@@ -204,6 +204,7 @@ fn contact_pair() -> impl Strategy<Value = ContactPair> {
     let given = chosen(&[("TYPE", Some("SURFACE TO SURFACE")), ("ADJUST", Some("0.1")), ("SMALL SLIDING", None)]);
     let pair = (reference(), of(reference())).prop_map(|(slave, master)| SurfacePair { slave, master });
     (of(reference()), given, prop::collection::vec(pair, 0..4)).prop_map(|(interaction, parameters, pairs)| {
+        let (parameters, pairs) = (parameters.into(), pairs.into());
         ContactPair { span: Span::default(), interaction, parameters, pairs }
     })
 }
@@ -236,11 +237,12 @@ fn procedure() -> impl Strategy<Value = Procedure> {
 // Their parts.
 
 fn option(keyword: &str, parameters: Vec<GivenParameter>, table: Option<Table>, rows: Vec<Vec<String>>) -> SubOption {
-    SubOption { keyword: keyword.to_owned(), span: Span::default(), parameters, table, rows }
+    let (keyword, parameters, table) = (keyword.into(), parameters.into(), table.map(Box::new));
+    SubOption { keyword, span: Span::default(), parameters, table, rows: rows.into_iter().collect() }
 }
 
 fn parameter(name: &str, value: Option<&str>) -> GivenParameter {
-    GivenParameter { name: name.to_owned(), value: value.map(str::to_owned), span: Span::default() }
+    GivenParameter { name: name.into(), value: value.map(Into::into), span: Span::default() }
 }
 
 /// Some of these parameters.

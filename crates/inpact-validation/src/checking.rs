@@ -4,7 +4,7 @@ use crate::directives::{self, Directive};
 use crate::lost::{lost_lines, without_consequences};
 use crate::rule::{Check, Context, Report};
 use crate::rules::{CHECKS, s018_ignore_without_effect};
-use crate::tables::{all_tables, radiation_tables};
+use crate::tables::radiation_tables;
 use inpact_diagnostics::{Diagnostic, FixKind, Rule};
 use inpact_parser::Problem;
 use inpact_parser::deck::Deck;
@@ -111,7 +111,7 @@ fn with_context<T>(
     let lost_lines = lost_lines(deck, grammar);
     let caused = if lost_lines.is_empty() { Vec::new() } else { without_consequences(problems, &lost_lines) };
     let problems = if lost_lines.is_empty() { problems } else { &caused };
-    let context = Context { deck, grammar, model, problems, tables: all_tables(model, &radiation), lost_lines };
+    let context = Context { deck, grammar, model, problems, radiation, lost_lines };
     work(&context)
 }
 

@@ -41,12 +41,12 @@ pub(crate) fn read(deck: &Deck) -> Vec<Directive> {
     }
     let with_keyword = |block: &&Block| block.keyword.is_some();
     let mut blocks: Vec<&Block> = deck.blocks().iter().filter(with_keyword).collect();
-    blocks.sort_by_key(|block| (block.rows.source(), block.span_of_keyword().start()));
+    blocks.sort_by_key(|block| (block.rows().source(), block.span_of_keyword().start()));
     let next_block = |span: Span| {
         let next = blocks.partition_point(|block| {
-            (block.rows.source(), block.span_of_keyword().start()) < (span.source(), span.start())
+            (block.rows().source(), block.span_of_keyword().start()) < (span.source(), span.start())
         });
-        let block = blocks.get(next).filter(|block| block.rows.source() == span.source())?;
+        let block = blocks.get(next).filter(|block| block.rows().source() == span.source())?;
         Some(std::iter::once(block.span()).chain(block.continued_in().iter().copied()).collect())
     };
     deck.directives().iter().map(|span| read_one(deck, *span, next_block)).collect()

@@ -31,9 +31,9 @@ pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<
             continue;
         }
         let keyword = block.span_of_keyword();
-        let first = noted.partition_point(|span| *span < block.rows);
-        let of_block = noted[first..].iter().take_while(|span| block.rows.contains(**span));
-        let lines = deck.data_lines_in(block.rows).chain(of_block.flat_map(|span| deck.data_lines_in(*span)));
+        let first = noted.partition_point(|span| *span < block.rows());
+        let of_block = noted[first..].iter().take_while(|span| block.rows().contains(**span));
+        let lines = deck.data_lines_in(block.rows()).chain(of_block.flat_map(|span| deck.data_lines_in(*span)));
         let found = lost.len();
         lost.extend(
             lines.filter_map(|line| Some(LostLine { span: line.span, keyword, meant: meant_by(grammar, line)? })),

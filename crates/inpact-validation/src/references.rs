@@ -171,13 +171,13 @@ pub(crate) fn uses_of_interactions(context: &Context<'_>) -> Vec<Use> {
 }
 
 /// The surfaces that *CONTACT PAIR and *CONTACT PROPERTY ASSIGNMENT name.
-pub(crate) fn uses_of_surfaces(context: &Context<'_>) -> Vec<Use> {
+pub(crate) fn uses_of_surfaces(context: &Context<'_>) -> impl Iterator<Item = Use> {
     let pairs = context.model.contact_pairs.iter().flat_map(|pair| &pair.pairs);
     let pairs = pairs.flat_map(|pair| [Some(&pair.slave), pair.master.as_ref()]).flatten();
     let pairs = pairs.map(|reference| Use::of(reference, "CONTACT PAIR"));
     let assignments = context.model.property_assignments.iter();
     let assignments = assignments.flat_map(|line| [line.first.as_ref(), line.second.as_ref()]).flatten();
-    pairs.chain(assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT"))).collect()
+    pairs.chain(assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT")))
 }
 
 /// The parts of a dotted name, as many as it has periods outside quotes and one more (S-44).

@@ -7,7 +7,7 @@ use inpact_parser::Problem;
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Dialect, Grammar};
-use inpact_parser::model::{Model, Name, OptionKind, TableOf};
+use inpact_parser::model::{Model, Name, OptionKind, Table, TableKind, TableOf};
 use inpact_parser::span::Span;
 
 /// The most findings of one rule in one deck; more are counted, not shown.
@@ -45,8 +45,8 @@ pub(crate) struct Context<'a> {
     pub(crate) model: &'a Model,
     /// The problems that the reader found.
     pub(crate) problems: &'a [Problem],
-    /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
-    pub(crate) tables: Vec<TableOf<'a>>,
+    /// The view factors of every *GAP RADIATION.
+    pub(crate) radiation: Vec<Table>,
     /// The rows that read exactly as keyword lines (S021).
     pub(crate) lost_lines: Vec<LostLine<'a>>,
 }
@@ -72,6 +72,13 @@ impl DefinedBlock<'_> {
 }
 
 impl<'a> Context<'a> {
+    /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
+    pub(crate) fn tables(&self) -> impl Iterator<Item = TableOf<'_>> {
+        let keyword = OptionKind::GapRadiation.keyword();
+        let of = move |table| TableOf { kind: TableKind::ViewFactor, keyword, interaction: None, table };
+        self.model.tables().chain(self.radiation.iter().map(of))
+    }
+
     /// The keyword lines of the deck.
     pub(crate) fn keyword_lines(&self) -> impl Iterator<Item = &'a KeywordLine> {
         self.deck.blocks().iter().filter_map(|block| block.keyword.as_ref())
@@ -113,7 +120,7 @@ impl<'a> Context<'a> {
     }
 
     /// The span of cell `column` of row `row` of a table, found again in the deck's text; the row's span when it is not there.
-    pub(crate) fn cell(&self, of: &TableOf<'_>, row: usize, column: usize) -> Span {
+    pub(crate) fn cell(&self, of: TableOf<'_>, row: usize, column: usize) -> Span {
         let row_span = of.table.row_span(row);
         let mut lines = self.deck.data_lines_in(row_span).filter(|line| !line.is_blank());
         let (first_line, following) = self.items_on_lines(of);
@@ -130,7 +137,7 @@ impl<'a> Context<'a> {
     }
 
     /// The number of items on the first line of a row and on every further one (K-52).
-    fn items_on_lines(&self, of: &TableOf<'_>) -> (usize, usize) {
+    fn items_on_lines(&self, of: TableOf<'_>) -> (usize, usize) {
         let width = of.table.width();
         let definition = self.grammar.id_of(of.keyword).and_then(|id| self.grammar.keyword(id).definition());
         let counted = definition.and_then(|definition| definition.data.counted.as_ref());

@@ -9,15 +9,15 @@ use inpact_parser::ProblemKind;
 use inpact_parser::deck::{Deck, KeywordLine};
 use inpact_parser::expression::{Parameters, substitute};
 use inpact_parser::grammar::{Grammar, RowShape};
-use inpact_parser::model::{MOST_FIELD_VARIABLES, Model, OptionKind, Table, TableKind, TableOf};
+use inpact_parser::model::{MOST_FIELD_VARIABLES, Model, OptionKind, Table, TableOf};
 use inpact_parser::number::{read_float, read_integer};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 
 /// The tables whose rows were read as they were meant.
-pub(crate) fn sound_tables<'a, 'deck>(context: &'a Context<'deck>) -> impl Iterator<Item = &'a TableOf<'deck>> {
+pub(crate) fn sound_tables<'a>(context: &'a Context<'_>) -> impl Iterator<Item = TableOf<'a>> {
     let misread = misread(context);
-    context.tables.iter().filter(move |of| of.table.width() > 1 && !misread.contains(&of.table.keyword))
+    context.tables().filter(move |of| of.table.width() > 1 && !misread.contains(&of.table.keyword))
 }
 
 /// The keyword lines whose rows hold something else than their columns say.
@@ -54,7 +54,7 @@ pub(crate) fn has_unclear_parameters(keyword: &KeywordLine) -> bool {
 }
 
 /// Whether a group may start at that clearance or pressure (T-24, Q-11).
-pub(crate) fn starts_as_it_must(of: &TableOf<'_>, abscissa: f64) -> bool {
+pub(crate) fn starts_as_it_must(of: TableOf<'_>, abscissa: f64) -> bool {
     if of.kind.is_against_clearance() {
         abscissa == 0.0
     } else {
@@ -63,19 +63,10 @@ pub(crate) fn starts_as_it_must(of: &TableOf<'_>, abscissa: f64) -> bool {
 }
 
 /// Whether a cell is not empty; an empty one reads as 0.
-pub(crate) fn is_written(context: &Context<'_>, of: &TableOf<'_>, row: usize, column: usize) -> bool {
+pub(crate) fn is_written(context: &Context<'_>, of: TableOf<'_>, row: usize, column: usize) -> bool {
     let cell = context.cell(of, row, column);
     // The row itself marks a cell that is not there; but a row of one item is its first cell.
     !cell.is_empty() && (column == 0 || cell != of.table.row_span(row))
-}
-
-/// The tables of the model, and those of radiation.
-pub(crate) fn all_tables<'a>(model: &'a Model, radiation: &'a [Table]) -> Vec<TableOf<'a>> {
-    let mut tables = model.tables();
-    let keyword = OptionKind::GapRadiation.keyword();
-    let of = |table| TableOf { kind: TableKind::ViewFactor, keyword, interaction: None, table };
-    tables.extend(radiation.iter().map(of));
-    tables
 }
 
 /// The view factors of every *GAP RADIATION against clearance, read here because the model keeps its rows as text (2.6).

@@ -22,11 +22,11 @@ pub(crate) struct Trend {
 /// The tables of a kind in which some step inside a group `is_wrong`, with the first such step.
 ///
 /// Negative values and empty ones have findings of their own and are passed over.
-pub(crate) fn against<'a, 'deck>(
-    context: &'a Context<'deck>,
+pub(crate) fn against<'a>(
+    context: &'a Context<'_>,
     is_meant: impl Fn(TableKind) -> bool,
     is_wrong: impl Fn(f64, f64) -> bool,
-) -> impl Iterator<Item = (&'a TableOf<'deck>, Trend)> {
+) -> impl Iterator<Item = (TableOf<'a>, Trend)> {
     sound_tables(context).filter(move |of| is_meant(of.kind)).filter_map(move |of| {
         let table = of.table;
         let mut trend = None;

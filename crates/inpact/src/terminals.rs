@@ -84,7 +84,7 @@ pub(crate) fn procedure(model: &Model, step: usize) -> Option<&Procedure> {
 
 /// The length of the step of a procedure, the second number of its row; 1 where the row leaves it out.
 fn period_of(procedure: &Procedure) -> Option<f64> {
-    match procedure.option.rows.first().and_then(|row| row.get(1)).map(|text| text.trim()) {
+    match procedure.option.rows.iter().next().and_then(|row| row.get(1).map(|text| text.trim())) {
         None | Some("") => Some(1.0),
         Some(text) => read_float(text.as_bytes()).ok(),
     }

@@ -122,7 +122,7 @@ impl Planner<'_> {
             outputs.insert(Output::Status);
         }
         for option in &self.interaction.other {
-            if matches!(option.keyword.as_str(), "GAP DIFFUSIVITY" | "GAP CONVECTION") {
+            if matches!(&*option.keyword, "GAP DIFFUSIVITY" | "GAP CONVECTION") {
                 let what = format!("*{}", option.keyword);
                 if !left_out.0.iter().any(|left_out| left_out.what == what) {
                     left_out.push(what, Reason::NotEvaluated);

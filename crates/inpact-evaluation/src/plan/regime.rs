@@ -50,7 +50,7 @@ pub(crate) fn regime(model: &Model, chosen: Option<Regime>, solves: impl Fn(&Pro
         return RegimeInForce { regime: Regime::SteadyState, reason: RegimeReason::NoProcedure };
     };
     let others = found.iter().filter(|(_, other)| other != regime).count();
-    let reason = RegimeReason::Procedure { step: last.step, keyword: last.option.keyword.clone(), others };
+    let reason = RegimeReason::Procedure { step: last.step, keyword: last.option.keyword.to_string(), others };
     RegimeInForce { regime: *regime, reason }
 }
 

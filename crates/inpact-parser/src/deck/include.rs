@@ -164,8 +164,8 @@ impl Assembly<'_> {
                 self.push(block);
                 continue;
             }
-            let rows = block.rows;
-            block.rows = Span::new(rows.source(), rows.start(), rows.start());
+            let rows = block.rows();
+            block.set_rows_length(0);
             let keyword = block.keyword.clone();
             // Not `push`: the block that was open before stays open.
             self.deck.blocks.push(block);
@@ -183,7 +183,7 @@ impl Assembly<'_> {
         let index = self.deck.blocks.len();
         match (&block.keyword, self.open) {
             (Some(_), _) => self.open = Some(index),
-            (None, Some(open)) => self.deck.blocks[open].continued_in.get_or_insert_default().rows.push(block.rows),
+            (None, Some(open)) => self.deck.blocks[open].continue_in(block.rows()),
             (None, None) => {}
         }
         self.deck.blocks.push(block);

@@ -5,7 +5,7 @@
 use super::KeywordLine;
 use crate::grammar::{Dialect, Lookup};
 use crate::span::Span;
-use std::num::NonZeroU32;
+use std::num::{NonZeroU16, NonZeroU32};
 use std::ops::Range;
 
 /// The most bytes of a keyword line with the lines that continue it: what follows is read as rows.
@@ -100,32 +100,130 @@ impl PlacedParameter {
 
 /// Some bytes of a keyword line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Place {
+pub(super) struct Place {
     at: NonZeroU32,
     length: u32,
 }
 
 impl Place {
-    fn of(range: Range<usize>) -> Self {
+    /// Those bytes; an asterisk stands before them.
+    pub(super) fn of(range: Range<usize>) -> Self {
         // No line is longer than LONGEST_KEYWORD_LINE and one line more.
         let number = |bytes: usize| u32::try_from(bytes).unwrap_or(u32::MAX);
         Self { at: NonZeroU32::new(number(range.start)).unwrap_or(NonZeroU32::MIN), length: number(range.len()) }
     }
 
-    fn span(self, line: Span) -> Span {
+    pub(super) fn span(self, line: Span) -> Span {
         let start = line.start() + u64::from(self.at.get());
         Span::new(line.source(), start, start + u64::from(self.length))
     }
 }
 
+/// What follows the name on a keyword line: nothing or one parameter on nearly every line, which are kept in place.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum AfterName {
+    Nothing,
+    OneParameter(ShortParameter),
+    More(Box<More>),
+}
+
+/// Parameters and faults of a line that has more than one of either.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct More {
+    parameters: Box<[PlacedParameter]>,
+    /// The offset in the line of the quote that does not close on it (S-41).
+    pub(super) open_quote: Option<NonZeroU32>,
+    /// The offset in the line of the comma at its end, when the next line is not its continuation (S-19).
+    pub(super) last_comma: Option<NonZeroU32>,
+}
+
+/// A parameter within the first 64 KiB of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ShortParameter {
+    name: ShortPlace,
+    value: Option<ShortPlace>,
+    resolved: Resolved<u16>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ShortPlace {
+    at: NonZeroU16,
+    length: u16,
+}
+
+impl ShortPlace {
+    fn of(place: Place) -> Option<Self> {
+        Some(Self { at: place.at.try_into().ok()?, length: u16::try_from(place.length).ok()? })
+    }
+
+    fn whole(self) -> Place {
+        Place { at: self.at.into(), length: self.length.into() }
+    }
+}
+
+impl ShortParameter {
+    fn of(parameter: PlacedParameter) -> Option<Self> {
+        let value = match parameter.value {
+            Some(value) => Some(ShortPlace::of(value)?),
+            None => None,
+        };
+        Some(Self { name: ShortPlace::of(parameter.name)?, value, resolved: parameter.resolved })
+    }
+
+    fn whole(self) -> PlacedParameter {
+        PlacedParameter { name: self.name.whole(), value: self.value.map(ShortPlace::whole), resolved: self.resolved }
+    }
+}
+
+impl AfterName {
+    /// The parameters of a line, the offsets of a quote that does not close, and of a comma that nothing follows.
+    pub(super) fn new(
+        parameters: impl ExactSizeIterator<Item = PlacedParameter>,
+        open_quote: Option<NonZeroU32>,
+        last_comma: Option<NonZeroU32>,
+    ) -> Self {
+        let mut parameters = parameters.peekable();
+        if open_quote.is_none() && last_comma.is_none() {
+            match (parameters.len(), parameters.peek().copied().and_then(ShortParameter::of)) {
+                (0, _) => return Self::Nothing,
+                (1, Some(only)) => return Self::OneParameter(only),
+                _ => {}
+            }
+        }
+        Self::More(Box::new(More { parameters: parameters.collect(), open_quote, last_comma }))
+    }
+
+    fn count(&self) -> usize {
+        match self {
+            Self::Nothing => 0,
+            Self::OneParameter(_) => 1,
+            Self::More(more) => more.parameters.len(),
+        }
+    }
+
+    fn get(&self, index: usize) -> Option<PlacedParameter> {
+        match self {
+            Self::Nothing => None,
+            Self::OneParameter(only) => (index == 0).then(|| only.whole()),
+            Self::More(more) => more.parameters.get(index).copied(),
+        }
+    }
+}
+
 impl KeywordLine {
     /// The parameters in the order of the line.
+    ///
+    /// # Panics
+    /// Never.
     pub fn parameters(&self) -> impl DoubleEndedIterator<Item = Parameter> + ExactSizeIterator + Clone {
         let line = self.span;
-        self.parameters.iter().map(move |kept| Parameter {
-            name: kept.name.span(line),
-            value: kept.value.map(|value| value.span(line)),
-            resolved: kept.resolved,
+        (0..self.after_name.count()).map(move |index| {
+            let kept = self.after_name.get(index).expect("fewer than counted");
+            Parameter {
+                name: kept.name.span(line),
+                value: kept.value.map(|value| value.span(line)),
+                resolved: kept.resolved,
+            }
         })
     }
 }
@@ -139,7 +237,7 @@ mod tests {
     #[test]
     fn blocks_and_parameters_take_little_memory() {
         assert_eq!(size_of::<PlacedParameter>(), 20);
-        assert!(size_of::<KeywordLine>() <= 64 && size_of::<Block>() <= 96, "{}", size_of::<Block>());
+        assert_eq!((size_of::<KeywordLine>(), size_of::<Block>()), (48, 64));
     }
 
     #[test]
@@ -153,5 +251,28 @@ mod tests {
             .collect();
         assert_eq!(shown, [("USER".to_owned(), None), ("name".to_owned(), Some("A b".to_owned()))]);
         assert!(parameters.iter().all(|found| matches!(found.resolved, Resolved::Exact(_))));
+    }
+
+    /// One parameter is kept in another form than several, and than one far behind.
+    #[test]
+    fn a_parameter_comes_back_from_anywhere() {
+        for blanks in [0, 65_510, 65_520, 65_535, 65_536, 70_000] {
+            for value in ["", "= v", "= \"v", "=v,"] {
+                let text = format!("*SURFACE INTERACTION,{}NAME{value}\n", " ".repeat(blanks));
+                let deck = scan("d", text.as_bytes(), Grammar::builtin());
+                let keyword = deck.blocks()[0].keyword.as_ref().expect("a keyword");
+                let mut parameters = keyword.parameters();
+                let only = parameters.next_back().expect("a parameter");
+                assert!(parameters.next().is_none());
+                assert_eq!(
+                    (deck.shown(keyword.name()), deck.shown(only.name)),
+                    ("SURFACE INTERACTION".into(), "NAME".into())
+                );
+                let expected = value.strip_prefix('=').map(|value| value.trim_matches([' ', ',']).to_owned());
+                assert_eq!(only.value.map(|value| deck.shown(value)), expected);
+                assert_eq!(keyword.unterminated_quote().is_some(), value.contains('"'));
+                assert_eq!(keyword.dangling_comma().is_some(), value.ends_with(','));
+            }
+        }
     }
 }

@@ -14,7 +14,7 @@ use super::survey::Survey;
 use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, Source, byte_order_mark, items, keyword_line};
 use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape};
 use crate::span::{SourceId, Span};
-use keyword::{NextLine, after_comma, id_of, resolve};
+use keyword::{LastComma, NextLine, after_comma, id_of, resolve};
 use std::ops::Range;
 
 /// The most characters of a keyword or data line (S-06).
@@ -386,10 +386,8 @@ impl<'grammar> Scanner<'grammar> {
     fn close_keyword(&mut self) {
         let Some(open) = self.open_keyword.take() else { return };
         let text = &open.text[..open.accepted];
-        let mut keyword = resolve(text, self.id, open.start, self.options.grammar);
-        if open.is_answered {
-            keyword.last_comma = None;
-        }
+        let last_comma = if open.is_answered { LastComma::Answered } else { LastComma::Dangling };
+        let keyword = resolve(text, (self.id, open.start), last_comma, self.options.grammar);
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
         self.block = OpenBlock {
             rows_start: keyword.span.end(),

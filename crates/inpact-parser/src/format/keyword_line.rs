@@ -20,9 +20,9 @@ pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition
         return None;
     }
     let mut line = Line { written: deck.text(keyword.span), offset: keyword.span.start(), formatted: b"*".to_vec() };
-    let name = line.piece(keyword.name)?;
+    let name = line.piece(keyword.name())?;
     line.formatted.extend_from_slice(definition.name.as_bytes());
-    let mut after = keyword.name.start() + name.len() as u64;
+    let mut after = keyword.name().start() + name.len() as u64;
     for parameter in keyword.parameters() {
         let piece = line.piece(parameter.span())?;
         line.take_comma(line.at(after, parameter.name.start()))?;

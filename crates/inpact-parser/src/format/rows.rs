@@ -17,7 +17,7 @@ use std::ops::Range;
 /// line would grow too long: then the rows of the block cannot occur below one another.
 pub(super) fn format(deck: &Deck, block: &Block, definition: &Definition) -> Option<Vec<u8>> {
     let order = Order::of(deck, block, definition)?;
-    let text = deck.text(block.rows);
+    let text = deck.text(block.rows());
     let rows = Rows::read(text, order, definition.rows())?;
     let mut formatted = Vec::with_capacity(text.len());
     for line in &rows.lines {

@@ -104,7 +104,7 @@ struct ByteLine {
 pub fn write(deck: &Deck, grammar: &Grammar) -> String {
     let mut blocks_of: Vec<Vec<&Block>> = vec![Vec::new(); deck.sources().len()];
     for block in deck.blocks() {
-        blocks_of[block.rows.source().0 as usize].push(block);
+        blocks_of[block.rows().source().0 as usize].push(block);
     }
     let files = deck.sources().iter().zip(blocks_of).map(|(source, blocks)| {
         let line_end = usual_line_end(deck, &blocks);
@@ -179,7 +179,7 @@ fn block_document(deck: &Deck, grammar: &Grammar, block: &Block, line_end: &str)
         keyword: block.keyword_id().map(|id| grammar.keyword(id).name.clone()),
         parameters: parameters.collect(),
         keyword_lines: keyword.map_or_else(Vec::new, |keyword| line_documents(deck.text(keyword.span), line_end)),
-        rows: line_documents(deck.text(block.rows), line_end),
+        rows: line_documents(deck.text(block.rows()), line_end),
     }
 }
 
@@ -192,7 +192,7 @@ fn usual_line_end(deck: &Deck, blocks: &[&Block]) -> &'static str {
     let (mut line_feeds, mut pairs, mut returns) = (0_u64, 0_u64, 0_u64);
     for block in blocks {
         let keyword = block.keyword.as_ref().map_or(&[][..], |keyword| deck.text(keyword.span));
-        for text in [keyword, deck.text(block.rows)] {
+        for text in [keyword, deck.text(block.rows())] {
             for line in lines(text) {
                 match &text[line] {
                     [.., b'\r', b'\n'] => pairs += 1,

@@ -260,7 +260,7 @@ impl<'deck> Reader<'deck, '_> {
             self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.sections.clone()).collect();
         let mut sections = Vec::new();
         for entry in entries {
-            if canonical(entry.deck.text(entry.keyword.name)) != "SOLIDSECTION" {
+            if canonical(entry.deck.text(entry.keyword.name())) != "SOLIDSECTION" {
                 continue;
             }
             let span = entry.span();

@@ -119,7 +119,7 @@ impl<'deck> Reader<'deck, '_> {
             },
         };
         let is_of_elements =
-            canonical(set.deck.text(set.keyword.name)).starts_with("NSET") && set.parameter("ELSET").is_some();
+            canonical(set.deck.text(set.keyword.name())).starts_with("NSET") && set.parameter("ELSET").is_some();
         if is_of_elements {
             self.note(set.span(), "a node set made of an element set (ELSET) is not read".to_owned());
             return Ok(());

@@ -10,12 +10,21 @@ use std::sync::Arc;
 /// Unquoted, case and blanks carry no meaning: `SteelGap`, `STEEL GAP` and `steelgap` are one name.
 /// Quoted, both are kept: `"Steel Gap"` differs from each of them, while `"STEELGAP"` is the same as they.
 ///
-/// Both forms are one text where they are the same, and a copy of a name shares it: a deck may be nothing but names.
+/// A short name is kept where it is, and copies of a long one share it: a deck may be nothing but names.
 #[derive(Debug, Clone)]
 pub struct Name {
-    written: Arc<str>,
-    canonical: Arc<str>,
+    forms: Forms,
 }
+
+/// The canonical form, then the written one where that is another.
+#[derive(Debug, Clone)]
+enum Forms {
+    Short { canonical: u8, written: u8, bytes: [u8; SHORT] },
+    Long { both: Arc<str>, canonical: u32 },
+}
+
+/// The most bytes of both forms of a name that is kept in place.
+const SHORT: usize = 21;
 
 impl Name {
     /// The name that `text` writes; quotes around it make it a quoted one.
@@ -37,9 +46,8 @@ impl Name {
     }
 
     fn of(written: &str, canonical: &str) -> Self {
-        let canonical: Arc<str> = canonical.into();
-        let written = if *written == *canonical { Arc::clone(&canonical) } else { written.into() };
-        Self { written, canonical }
+        let written = Some(written).filter(|written| *written != canonical);
+        Self { forms: Forms::short(written, canonical).unwrap_or_else(|| Forms::long(written, canonical)) }
     }
 
     /// The name that `text` writes in a deck of a dialect: for CalculiX quotes are letters, and case and blanks count nowhere (CX-02).
@@ -56,32 +64,78 @@ impl Name {
 
     /// The name as it is written, quotes included.
     pub fn written(&self) -> &str {
-        &self.written
+        self.forms.written()
     }
 
     /// The form that is compared: upper case without blanks, or the text between the quotes.
     pub fn canonical(&self) -> &str {
-        &self.canonical
+        self.forms.canonical()
     }
 
     /// Whether any part of it is quoted.
     pub fn is_quoted(&self) -> bool {
-        self.written.contains('"')
+        self.written().contains('"')
     }
 
     /// Whether two names differ, but only by case or blanks that a quote protects on one side (S-41).
     pub fn differs_by_quotes_only(&self, other: &Self) -> bool {
         let folded = |name: &Self| {
-            let kept = name.canonical.chars().filter(|character| !character.is_ascii_whitespace() && *character != '"');
+            let kept =
+                name.canonical().chars().filter(|character| !character.is_ascii_whitespace() && *character != '"');
             kept.map(|character| character.to_ascii_uppercase()).collect::<String>()
         };
         self != other && self.is_quoted() != other.is_quoted() && folded(self) == folded(other)
     }
 }
 
+impl Forms {
+    fn short(written: Option<&str>, canonical: &str) -> Option<Self> {
+        let written = written.unwrap_or("");
+        let mut bytes = [0; SHORT];
+        let (first, rest) = bytes.split_at_mut_checked(canonical.len())?;
+        first.copy_from_slice(canonical.as_bytes());
+        rest.get_mut(..written.len())?.copy_from_slice(written.as_bytes());
+        let length = |text: &str| u8::try_from(text.len()).ok();
+        Some(Self::Short { canonical: length(canonical)?, written: length(written)?, bytes })
+    }
+
+    fn long(written: Option<&str>, canonical: &str) -> Self {
+        let both = written.map_or_else(|| canonical.into(), |written| format!("{canonical}{written}").into());
+        // No line of a deck is so long that its length does not fit.
+        Self::Long { both, canonical: u32::try_from(canonical.len()).unwrap_or(u32::MAX) }
+    }
+
+    /// Both forms; the written one is empty where it is the canonical one.
+    fn both(&self) -> (&str, &str) {
+        match self {
+            Self::Short { canonical, written, bytes } => {
+                let (canonical, rest) = bytes.split_at(usize::from(*canonical));
+                (text(canonical), text(&rest[..usize::from(*written)]))
+            }
+            Self::Long { both, canonical } => both.split_at_checked(*canonical as usize).unwrap_or((both, "")),
+        }
+    }
+
+    fn canonical(&self) -> &str {
+        self.both().0
+    }
+
+    fn written(&self) -> &str {
+        match self.both() {
+            (canonical, "") => canonical,
+            (_, written) => written,
+        }
+    }
+}
+
+/// The text of bytes that were one.
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap_or_default()
+}
+
 impl PartialEq for Name {
     fn eq(&self, other: &Self) -> bool {
-        self.canonical == other.canonical
+        self.canonical() == other.canonical()
     }
 }
 
@@ -89,13 +143,13 @@ impl Eq for Name {}
 
 impl Hash for Name {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        self.canonical.hash(state);
+        self.canonical().hash(state);
     }
 }
 
 impl fmt::Display for Name {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.written)
+        formatter.write_str(self.written())
     }
 }
 
@@ -123,6 +177,26 @@ mod tests {
         assert_eq!(name("s\tI"), name("SI"));
         assert_ne!(name("\"SI\""), name("SI"));
         assert!(name("\"SI\"").differs_by_quotes_only(&name("SI")));
+    }
+
+    #[test]
+    fn names_of_any_length_come_back() {
+        assert_eq!((size_of::<Name>(), size_of::<Option<Name>>()), (24, 24));
+        for length in 0..30 {
+            let upper = "A".repeat(length);
+            let lower = format!("{}é", "b".repeat(length));
+            let quoted = format!("\"{} c\"", "d".repeat(length));
+            for (written, canonical) in [
+                (&upper, upper.clone()),
+                (&lower, format!("{}é", "B".repeat(length))),
+                (&quoted, quoted.replace('"', "")),
+            ] {
+                let name = Name::new(written);
+                assert_eq!((name.written(), name.canonical()), (&written[..], &canonical[..]));
+                assert_eq!(name, name.clone());
+            }
+        }
+        assert_eq!((Name::new("\"\"").written(), Name::new("\"\"").canonical()), ("\"\"", ""));
     }
 
     #[test]

@@ -151,7 +151,7 @@ impl Interaction {
         let options = || self.options_of(OptionKind::GapConductance);
         let spans: Vec<Span> = options().map(|option| option.span).collect();
         let users = options().filter(|option| option.parameter("USER").is_some()).map(|option| option.span);
-        let tables = options().filter_map(|option| option.table.as_ref());
+        let tables = options().filter_map(|option| option.table.as_deref());
         (!spans.is_empty()).then(|| GapConductance { users: users.collect(), tables: tables.collect(), spans })
     }
 

@@ -53,7 +53,7 @@ impl SubOption {
     fn forget_places(&mut self) {
         self.span = Span::default();
         self.parameters.iter_mut().for_each(GivenParameter::forget_place);
-        self.table.iter_mut().for_each(Table::forget_places);
+        self.table.iter_mut().for_each(|table| table.forget_places());
     }
 }
 

@@ -109,11 +109,8 @@ fn print_parameters(out: &mut String, definitions: &[expression::Definition]) {
 
 /// The interaction with its sub-options; in a deck with an Explicit step its rows are properties alone (K-03).
 fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_step: bool, grammar: &Grammar) {
-    let name = GivenParameter {
-        name: "NAME".to_owned(),
-        value: Some(interaction.name.written().to_owned()),
-        span: interaction.span,
-    };
+    let name =
+        GivenParameter { name: "NAME".into(), value: Some(interaction.name.written().into()), span: interaction.span };
     let named = !interaction.name.written().is_empty();
     let name = named.then_some(&name);
     let parameters = match grammar.dialect() {
@@ -202,7 +199,7 @@ fn print_permeability(out: &mut String, permeability: &ContactPermeability, gram
 }
 
 fn parameter(name: &str, value: Option<String>) -> GivenParameter {
-    GivenParameter { name: name.to_owned(), value, span: crate::span::Span::default() }
+    GivenParameter { name: name.into(), value: value.map(Into::into), span: crate::span::Span::default() }
 }
 
 /// A keyword with a table; DEPENDENCIES follows from the columns unless it is given.
@@ -243,10 +240,10 @@ fn print_rows(out: &mut String, table: &Table, definition: Option<&Definition>) 
 
 fn print_option(out: &mut String, option: &SubOption, grammar: &Grammar) {
     match &option.table {
-        Some(table) => print_table_option(out, &option.keyword, option.parameters.clone(), table, grammar),
+        Some(table) => print_table_option(out, &option.keyword, option.parameters.to_vec(), table, grammar),
         None => print_keyword(out, &option.keyword, &option.parameters),
     }
-    for row in &option.rows {
+    for row in option.rows.iter() {
         // A line without an item would be a blank line, which is not the same (S-08).
         let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
     }
@@ -301,7 +298,7 @@ fn print_procedures(out: &mut String, procedures: &[Procedure]) {
             (steps, is_open) = (steps + 1, true);
         }
         print_keyword(out, &procedure.option.keyword, &procedure.option.parameters);
-        for row in &procedure.option.rows {
+        for row in procedure.option.rows.iter() {
             let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
         }
     }
@@ -318,7 +315,7 @@ fn print_keyword<'a>(out: &mut String, keyword: &str, parameters: impl IntoItera
     for parameter in first.into_iter().chain(last) {
         let text = match &parameter.value {
             Some(value) => format!("{}={value}", parameter.name),
-            None => parameter.name.clone(),
+            None => parameter.name.to_string(),
         };
         line.push(',');
         // A flag alone on a continuation line is taken for data by some readers, a value is not (S-19).

@@ -9,13 +9,14 @@ mod interaction;
 mod parameters;
 mod uses;
 
-use super::{Interaction, Model};
+use super::{Interaction, Model, SharedText};
 use crate::deck::{Block, Deck, KeywordLine};
 use crate::expression::Parameters;
 use crate::grammar::{Grammar, KeywordId, Level};
 use crate::problem::{Problem, ProblemKind};
 use crate::span::Span;
 use entry::Entry;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// The most field variables a table may depend on here; a larger DEPENDENCIES is read as this.
@@ -37,6 +38,7 @@ pub fn read_watched(deck: &Deck, grammar: &Grammar, watch: &dyn Fn()) -> (Model,
         problems: Vec::new(),
         interaction: None,
         columns: Vec::new(),
+        names: HashSet::new(),
         parent: None,
         closed_by: None,
         levels: Vec::new(),
@@ -66,6 +68,8 @@ struct Reader<'a> {
     interaction: Option<Interaction>,
     /// The names of the columns of tables so far, each list once.
     columns: Vec<Arc<[String]>>,
+    /// The names of keywords and parameters so far, as the grammar has them.
+    names: HashSet<SharedText>,
     /// The last keyword that is no sub-option of an interaction.
     parent: Option<KeywordId>,
     /// The keyword line that closed the last interaction.
@@ -93,7 +97,7 @@ impl<'a> Reader<'a> {
         // An unknown keyword leaves an interaction open: it is more often a typing error in a sub-option than the end of the block.
         let Some(keyword) = &block.keyword else { return };
         let Some(id) = keyword.id() else {
-            if is_likely_interaction(self.deck.text(keyword.name)) {
+            if is_likely_interaction(self.deck.text(keyword.name())) {
                 self.close_interaction(Some(keyword.visible_span(self.deck)));
             }
             return;

@@ -53,7 +53,7 @@ pub(super) fn read_table(
         texts: Vec::new(),
         places: RowPlaces::default(),
     };
-    reader.reserve(deck.text(block.rows));
+    reader.reserve(deck.text(block.rows()));
     let mut line_of_row = 0;
     for line in deck.data_lines(block) {
         if line.is_blank() {
@@ -203,14 +203,14 @@ impl SubOption {
     ///
     /// A row has as many numbers as it has items up to the last that is not empty.
     pub fn numbers(&self, parameters: &Parameters) -> Vec<Vec<f64>> {
-        let number = |item: &String| {
+        let number = |item: &str| {
             let text = substitute(item, parameters).ok()?;
             match text.trim() {
                 "" => Some(0.0),
                 text => read_float(text.as_bytes()).ok(),
             }
         };
-        let numbers = |row: &Vec<String>| row.iter().map(|item| number(item).unwrap_or(f64::NAN)).collect();
+        let numbers = |row: Vec<&str>| row.into_iter().map(|item| number(item).unwrap_or(f64::NAN)).collect();
         self.rows.iter().map(numbers).collect()
     }
 }

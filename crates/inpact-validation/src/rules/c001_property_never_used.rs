@@ -112,7 +112,7 @@ fn solves_temperature(procedure: &Procedure) -> bool {
         let heat = procedure.option.parameter("HEAT").and_then(|heat| heat.value.as_deref());
         heat.is_some_and(|value| value.eq_ignore_ascii_case("NO"))
     };
-    match procedure.option.keyword.as_str() {
+    match &*procedure.option.keyword {
         "HEAT TRANSFER"
         | "COUPLED TEMPERATURE-DISPLACEMENT"
         | "COUPLED THERMAL-ELECTRICAL"

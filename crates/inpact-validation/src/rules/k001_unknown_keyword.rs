@@ -62,7 +62,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         if keyword_of_other_release(context, keyword).is_some() {
             continue;
         }
-        let name = context.shown(keyword.name);
+        let name = context.shown(keyword.name());
         let found = if let Some(found) = say_hidden(context, report, keyword) {
             found
         } else if name.is_empty() {
@@ -77,7 +77,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 None => help(context, keyword, &name),
             };
             let what = stranger.map_or_else(|| "no keyword".to_owned(), |stranger| stranger.what);
-            report.at(keyword.name, format!("`*{name}` is {what}")).label("unknown keyword").help(help)
+            report.at(keyword.name(), format!("`*{name}` is {what}")).label("unknown keyword").help(help)
         };
         if dialect == Dialect::Calculix {
             found.severity(Severity::Warning);
@@ -91,7 +91,7 @@ fn say_hidden<'r>(
     report: &'r mut Report<'_>,
     keyword: &KeywordLine,
 ) -> Option<&'r mut Diagnostic> {
-    let written = context.deck.text(keyword.name);
+    let written = context.deck.text(keyword.name());
     let first = invisible::first(written)?;
     let plain = invisible::plain(written);
     if !matches!(context.grammar.keyword_named(&plain), Lookup::Exact(_) | Lookup::Abbreviated(_)) {
@@ -99,7 +99,7 @@ fn say_hidden<'r>(
     }
     let place = |hidden: &invisible::Hidden| {
         let (start, end) = (hidden.start as u64, hidden.end as u64);
-        Span::new(keyword.name.source(), keyword.name.start() + start, keyword.name.start() + end)
+        Span::new(keyword.name().source(), keyword.name().start() + start, keyword.name().start() + end)
     };
     let edits = invisible::all(written).map(|hidden| Edit::new(place(&hidden), hidden.plain)).collect();
     let plain = String::from_utf8_lossy(&plain).into_owned();
@@ -119,8 +119,8 @@ struct Stranger {
 
 fn stranger(context: &Context<'_>, keyword: &KeywordLine) -> Option<Stranger> {
     let grammar = context.grammar;
-    let written = context.deck.text(keyword.name);
-    let of_abaqus = grammar.id_of(&context.deck.shown(keyword.name));
+    let written = context.deck.text(keyword.name());
+    let of_abaqus = grammar.id_of(&context.deck.shown(keyword.name()));
     match (grammar.dialect(), of_abaqus) {
         (Dialect::Abaqus, None) if grammar.is_calculix_keyword(written) => Some(Stranger {
             what: "a keyword of CalculiX that Abaqus does not have".to_owned(),
@@ -142,7 +142,7 @@ fn help(context: &Context<'_>, keyword: &KeywordLine, name: &str) -> String {
     if let Some((known, rest)) = split_after_keyword(grammar, name) {
         return format!("put a comma after the keyword: `*{known}, {rest}`");
     }
-    let near = grammar.nearest_keywords(&context.deck.shown(keyword.name), 8);
+    let near = grammar.nearest_keywords(&context.deck.shown(keyword.name()), 8);
     let there = near.into_iter().filter(|name| grammar.id_of(name).is_some_and(|id| grammar.has(id)));
     let there: Vec<String> = there.take(3).map(|name| format!("*{name}")).collect();
     did_you_mean(there.iter().map(String::as_str)).unwrap_or_else(|| format!("check the spelling; {COMMENT}"))

@@ -33,7 +33,7 @@ pub(crate) fn candidates(context: &Context<'_>, keyword: &KeywordLine) -> Vec<Ke
     if keyword.resolved != Resolved::Ambiguous {
         return Vec::new();
     }
-    match context.grammar.keyword_named(context.deck.text(keyword.name)) {
+    match context.grammar.keyword_named(context.deck.text(keyword.name())) {
         Lookup::Ambiguous(candidates) => candidates,
         _ => Vec::new(),
     }
@@ -45,14 +45,14 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         if candidates.is_empty() {
             continue;
         }
-        let name = context.shown(keyword.name);
+        let name = context.shown(keyword.name());
         let full: Vec<String> = candidates.iter().map(|id| format!("*{}", context.grammar.keyword(*id).name)).collect();
         let names = alternatives(full.iter().map(String::as_str));
         let count = candidates.len();
         // `*load,1,1000`: a row that was put aside with one asterisk.
         let first = keyword.parameters().next().map(|parameter| context.deck.text(parameter.name));
         let is_row = first.is_some_and(|text| read_float(text).is_ok());
-        let found = report.at(keyword.name, format!("`*{name}` may mean {count} keywords"));
+        let found = report.at(keyword.name(), format!("`*{name}` may mean {count} keywords"));
         found.label("the beginning of several");
         found.help(if is_row {
             "if it is a comment, begin it with two asterisks: `**`".to_owned()

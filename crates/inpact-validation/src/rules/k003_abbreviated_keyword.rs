@@ -38,19 +38,19 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for keyword in context.keyword_lines() {
         let Resolved::Abbreviated(id) = keyword.resolved else { continue };
-        let full = in_case_of(&context.grammar.keyword(id).name, context.deck.text(keyword.name));
-        let name = context.shown(keyword.name);
-        let found = report.at(keyword.name, format!("`*{name}` is short for `*{full}`"));
+        let full = in_case_of(&context.grammar.keyword(id).name, context.deck.text(keyword.name()));
+        let name = context.shown(keyword.name());
+        let found = report.at(keyword.name(), format!("`*{name}` is short for `*{full}`"));
         found.label("cut short").help(format!("write `*{full}`"));
         // Without certainty there is no fix.
-        if context.grammar.is_calculix_keyword(context.deck.text(keyword.name)) {
+        if context.grammar.is_calculix_keyword(context.deck.text(keyword.name())) {
             found.note(format!("CalculiX has a keyword `*{name}` of its own"));
         } else if let Some(singular) = singular(context.grammar, &name) {
             found.help(format!("write `*{full}`, or `*{singular}` if that is meant"));
         } else {
             found
                 .note("what it begins depends on the release: a later one may have another keyword that begins so")
-                .fix(FixSafety::Safe, format!("write `*{full}`"), vec![Edit::new(keyword.name, full)]);
+                .fix(FixSafety::Safe, format!("write `*{full}`"), vec![Edit::new(keyword.name(), full)]);
         }
     }
 }

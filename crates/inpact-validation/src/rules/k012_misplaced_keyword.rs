@@ -84,7 +84,7 @@ fn may_be_interaction(context: &Context<'_>, keyword: &KeywordLine) -> bool {
             candidates(context, keyword).into_iter().any(|id| is_interaction(&context.grammar.keyword(id).name))
         }
         Resolved::Unknown => {
-            let near = context.grammar.nearest_keywords(&context.deck.shown(keyword.name), 3);
+            let near = context.grammar.nearest_keywords(&context.deck.shown(keyword.name()), 3);
             near.into_iter().any(is_interaction)
         }
     }

@@ -31,7 +31,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let Some(entry) = keyword_of_other_release(context, keyword) else { continue };
         let bounds = entry.definition().map_or((None, None), |definition| (definition.since, definition.until));
         report
-            .at(keyword.name, format!("`*{}` is not in release {release}", entry.name))
+            .at(keyword.name(), format!("`*{}` is not in release {release}", entry.name))
             .label(since_until(bounds))
             .help("leave it out, or check for the release that has it with `--release`");
     }
@@ -55,7 +55,7 @@ pub(crate) fn keyword_of_other_release<'a>(context: &Context<'a>, keyword: &Keyw
     if keyword.resolved != Resolved::Unknown || grammar.dialect() != Dialect::Abaqus {
         return None;
     }
-    grammar.id_of(&context.deck.shown(keyword.name)).map(|id| grammar.keyword(id))
+    grammar.id_of(&context.deck.shown(keyword.name())).map(|id| grammar.keyword(id))
 }
 
 /// The parameter that is meant, in full, when only another release of Abaqus has it.

@@ -61,7 +61,7 @@ fn check_options(context: &Context<'_>, report: &mut Report<'_>) {
     for interaction in context.model.all_interactions() {
         for given in &interaction.parameters {
             let Some(known) = definition.parameter(&given.name) else { continue };
-            for option in interaction.other.iter().filter(|option| known.excludes_options.contains(&option.keyword)) {
+            for option in interaction.other.iter().filter(|option| known.excludes_options.iter().any(|excluded| option.keyword == **excluded)) {
                 let (keyword, name) = (&option.keyword, &given.name);
                 report
                     .at(option.span, format!("`*{keyword}` conflicts with `{name}` of its interaction"))

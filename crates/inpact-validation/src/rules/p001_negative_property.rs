@@ -59,7 +59,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
 }
 
-fn name<'a>(of: &'a TableOf<'_>) -> std::borrow::Cow<'a, str> {
+fn name(of: TableOf<'_>) -> std::borrow::Cow<'_, str> {
     if of.kind == TableKind::ViewFactor { column_name(&of.table.columns[0]) } else { value_name(of.kind).into() }
 }
 

@@ -47,9 +47,11 @@ declare_rule! {
 const FACTOR: f64 = 10.0;
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    let tables: Vec<&TableOf<'_>> = sound_tables(context).filter(|of| of.interaction.is_some()).collect();
-    for of_interaction in tables.chunk_by(|a, b| is_same(a.interaction, b.interaction)) {
-        let of_kind = |kind: TableKind| of_interaction.iter().rfind(|of| of.kind == kind);
+    let mut tables = sound_tables(context).filter(|of| of.interaction.is_some()).peekable();
+    while let Some(first) = tables.next() {
+        let mut of_interaction = vec![first];
+        of_interaction.extend(std::iter::from_fn(|| tables.next_if(|of| is_same(of.interaction, first.interaction))));
+        let of_kind = |kind: TableKind| of_interaction.iter().copied().rfind(|of| of.kind == kind);
         let branches = [
             (TableKind::ElectricalClearance, TableKind::ElectricalPressure),
             (TableKind::ThermalClearance, TableKind::ThermalPressure),
@@ -67,7 +69,7 @@ fn is_same(a: Option<&Interaction>, b: Option<&Interaction>) -> bool {
 }
 
 /// Reports the first group in which the branches are far apart.
-fn check_branches(context: &Context<'_>, report: &mut Report<'_>, clearance: &TableOf<'_>, pressure: &TableOf<'_>) {
+fn check_branches(context: &Context<'_>, report: &mut Report<'_>, clearance: TableOf<'_>, pressure: TableOf<'_>) {
     let (open, closed) = (clearance.table, pressure.table);
     let jump = groups_in_both(open, closed).find_map(|(open_rows, closed_rows)| {
         let at_zero = open.row(open_rows.start);

@@ -42,13 +42,13 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    let mut uses = uses_of_surfaces(context);
-    if uses.is_empty() || context.has_unread_files() || !says_what_its_surfaces_are(context) {
+    let has_uses = uses_of_surfaces(context).next().is_some();
+    if !has_uses || context.has_unread_files() || !says_what_its_surfaces_are(context) {
         return;
     }
     let definitions = Definitions::surfaces(context);
     let assembly = Assembly::of(context);
-    uses.retain(|used| !assembly.has(&used.name, &definitions));
+    let uses: Vec<_> = uses_of_surfaces(context).filter(|used| !assembly.has(&used.name, &definitions)).collect();
     for (index, (first, more)) in missing(&uses, &definitions).into_iter().enumerate() {
         let found = report.at(first.span, format!("surface `{}` is not defined", first.name));
         let more = and_more(more, "place names it", "places name it");

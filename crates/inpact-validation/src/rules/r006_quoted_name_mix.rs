@@ -34,15 +34,20 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let interactions = uses_of_interactions(context);
     if !interactions.is_empty() {
-        check_uses(context, report, &interactions, &Definitions::interactions(context));
+        check_uses(context, report, interactions, &Definitions::interactions(context));
     }
-    let surfaces = uses_of_surfaces(context);
-    if !surfaces.is_empty() {
-        check_uses(context, report, &surfaces, &Definitions::surfaces(context));
+    let mut surfaces = uses_of_surfaces(context).peekable();
+    if surfaces.peek().is_some() {
+        check_uses(context, report, surfaces, &Definitions::surfaces(context));
     }
 }
 
-fn check_uses(context: &Context<'_>, report: &mut Report<'_>, uses: &[Use], definitions: &Definitions) {
+fn check_uses(
+    context: &Context<'_>,
+    report: &mut Report<'_>,
+    uses: impl IntoIterator<Item = Use>,
+    definitions: &Definitions,
+) {
     for used in uses {
         let Found::QuotedOtherwise(defined, span) = definitions.find(&used.name) else { continue };
         let (here, there) = if used.name.is_quoted() { ("quoted", "unquoted") } else { ("unquoted", "quoted") };

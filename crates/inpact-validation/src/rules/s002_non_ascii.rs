@@ -85,7 +85,7 @@ fn first_non_ascii(context: &Context<'_>, note: &LineNote) -> Option<NonAscii> {
 
 /// The names with such characters that another rule finds wrong as a whole, in order.
 fn judged_elsewhere(context: &Context<'_>) -> Vec<Span> {
-    let unknown_names = context.keyword_lines().filter(|line| line.resolved == Resolved::Unknown).map(|line| line.name);
+    let unknown_names = context.keyword_lines().filter(|line| line.resolved == Resolved::Unknown).map(|line| line.name());
     let blocks = context.defined_blocks().filter(|block| block.definition.parameters_complete);
     let parameters = blocks.flat_map(|block| block.keyword.parameters());
     let unknown_parameters = parameters.filter(|parameter| parameter.index().is_none()).map(|parameter| parameter.name);

@@ -61,7 +61,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let word_end = before.iter().rposition(|byte| !matches!(byte, b',' | b' ' | b'\t')).map_or(0, |last| last + 1);
         let first = before[word_end..].iter().position(|byte| *byte == b',').map_or(before.len(), |at| word_end + at);
         let commas = Span::new(comma.source(), keyword.span.start() + first as u64, comma.end());
-        let name = context.shown(keyword.name);
+        let name = context.shown(keyword.name());
         report
             .at(comma, format!("the keyword line of `*{name}` ends in a comma, and nothing continues it"))
             .label("this comma")

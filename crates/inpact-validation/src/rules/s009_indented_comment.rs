@@ -56,12 +56,12 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     if context.is_for_calculix() || notes().next().is_none() {
         return;
     }
-    let mut blocks: Vec<&Block> = context.deck.blocks().iter().filter(|block| !block.rows.is_empty()).collect();
-    blocks.sort_by_key(|block| block.rows);
+    let mut blocks: Vec<&Block> = context.deck.blocks().iter().filter(|block| !block.rows().is_empty()).collect();
+    blocks.sort_by_key(|block| block.rows());
     for note in notes() {
         let later = blocks
-            .partition_point(|block| (block.rows.source(), block.rows.start()) <= (note.span.source(), note.span.start()));
-        let block = later.checked_sub(1).map(|last| blocks[last]).filter(|block| block.rows.contains(note.span));
+            .partition_point(|block| (block.rows().source(), block.rows().start()) <= (note.span.source(), note.span.start()));
+        let block = later.checked_sub(1).map(|last| blocks[last]).filter(|block| block.rows().contains(note.span));
         let place = Place::of(context, block);
         if matches!(place, Place::Title) {
             continue;
@@ -100,7 +100,7 @@ impl Place {
         match definition {
             Some(definition) if definition.name == "PARAMETER" => Self::Unclear,
             Some(definition) if definition.rows() == RowShape::Text => Self::Title,
-            None if block.keyword.is_none() && block.rows.source() != SourceId::ROOT => Self::Unclear,
+            None if block.keyword.is_none() && block.rows().source() != SourceId::ROOT => Self::Unclear,
             _ => Self::Rows,
         }
     }
@@ -113,7 +113,7 @@ fn indentation(line: &[u8]) -> usize {
 /// Takes the blanks away before every such comment of the block, or before the first where the rows are not kept.
 fn edits(context: &Context<'_>, note: &LineNote, block: Option<&Block>) -> Vec<Edit> {
     let (source, first) = (note.span.source(), note.span.start());
-    let end = block.filter(|block| block.rows_kept).map_or(note.span.end(), |block| block.rows.end());
+    let end = block.filter(|block| block.rows_kept).map_or(note.span.end(), |block| block.rows().end());
     let text = context.deck.text(Span::new(source, first, end));
     let comments = lines(text).filter(|line| line_kind(&text[line.clone()]) == LineKind::IndentedComment);
     let blanks = comments.map(|line| {

@@ -71,7 +71,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         }
         found.help(format!("add a row with the {axis} up to which the value holds"));
     }
-    for of in sound_tables(context).filter(|of| of.table.row_count() > 1 && is_thermal_clearance(of)) {
+    for of in sound_tables(context).filter(|of| of.table.row_count() > 1 && is_thermal_clearance(*of)) {
         // Out of order the second row may occur elsewhere (T003), and a cell without a number may be in it (S006).
         if of.table.values.iter().any(|value| value.is_nan()) || falls(of.table, |column| column > 1).is_some() {
             continue;
@@ -89,7 +89,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 }
 
 /// Whether every group of the table needs two rows.
-pub(crate) fn is_thermal_clearance(of: &TableOf<'_>) -> bool {
+pub(crate) fn is_thermal_clearance(of: TableOf<'_>) -> bool {
     of.kind == TableKind::ThermalClearance
 }
 

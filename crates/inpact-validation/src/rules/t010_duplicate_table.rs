@@ -92,7 +92,7 @@ fn find_among_others<'a>(interaction: &'a Interaction, duplicates: &mut Vec<(&'a
             None if option.kind() == OptionKind::GapRadiation => TableKind::ViewFactor,
             None => continue,
         };
-        match seen.iter_mut().find(|(keyword, of_kind, _)| *keyword == option.keyword && *of_kind == kind) {
+        match seen.iter_mut().find(|(keyword, of_kind, _)| option.keyword == *keyword && *of_kind == kind) {
             Some((_, _, earlier)) => {
                 duplicates.push((&option.keyword, option.span, *earlier));
                 *earlier = option.span;

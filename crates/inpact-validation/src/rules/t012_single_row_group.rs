@@ -39,7 +39,7 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     let with_fields = |table: &Table| table.dependencies() > 0 && table.row_count() > 1;
     // Of a thermal conductance against clearance that is an error: T008.
-    for of in sound_tables(context).filter(|of| with_fields(of.table) && !is_thermal_clearance(of)) {
+    for of in sound_tables(context).filter(|of| with_fields(of.table) && !is_thermal_clearance(*of)) {
         let table = of.table;
         // A row that takes no part may be the second one (S006), and out of order it may occur elsewhere (T003).
         let is_clear = !table.values.iter().any(|value| value.is_nan()) && falls(table, |column| column > 1).is_none();

@@ -57,7 +57,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     if context.grammar.dialect() != Dialect::Calculix {
         return;
     }
-    for of in context.tables.iter().filter(|of| of.kind.is_thermal_conductance()) {
+    for of in context.tables().filter(|of| of.kind.is_thermal_conductance()) {
         for group in of.table.groups().filter(|group| group.len() > ROWS) {
             let first_too_many = of.table.row_span(group.start + ROWS);
             report

@@ -132,7 +132,7 @@ fn options(interaction: &Interaction) -> Vec<String> {
     }
     options.extend(interaction.parameters.iter().map(|given| match &given.value {
         Some(value) => format!("{}={value}", given.name),
-        None => given.name.clone(),
+        None => given.name.to_string(),
     }));
     if let Some(permeability) = &interaction.contact_permeability {
         let cutoffs = [
@@ -154,7 +154,7 @@ fn options(interaction: &Interaction) -> Vec<String> {
         });
         let head = format!("*{}{}", option.keyword, parameters.collect::<String>());
         let lines: Vec<String> = option.rows.iter().take(MOST_LINES).map(|row| row.join(", ")).collect();
-        let more = if MOST_LINES < option.rows.len() { "; …" } else { "" };
+        let more = if MOST_LINES < option.rows.iter().count() { "; …" } else { "" };
         let rows = if lines.is_empty() { String::new() } else { format!(": {}{more}", lines.join("; ")) };
         options.push(head + &rows);
     }

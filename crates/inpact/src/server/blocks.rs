@@ -65,7 +65,7 @@ pub(super) fn entries(analysis: &Analysis) -> impl Iterator<Item = Entry<'_>> {
 
 /// The block that a byte of a document lies in; at the border of two the one that begins there.
 pub(super) fn block_at(analysis: &Analysis, source: SourceId, offset: u64) -> Option<&Block> {
-    let blocks = analysis.deck.blocks().iter().filter(|block| block.rows.source() == source);
+    let blocks = analysis.deck.blocks().iter().filter(|block| block.rows().source() == source);
     blocks.take_while(|block| block.span().start() <= offset).last()
 }
 
@@ -75,7 +75,7 @@ pub(super) fn owner_at(analysis: &Analysis, source: SourceId, offset: u64) -> Op
     if block.keyword.is_some() {
         return Entry::of(analysis, block);
     }
-    let owner = analysis.deck.blocks().iter().find(|owner| owner.continued_in().contains(&block.rows))?;
+    let owner = analysis.deck.blocks().iter().find(|owner| owner.continued_in().contains(&block.rows()))?;
     Entry::of(analysis, owner)
 }
 

@@ -149,5 +149,5 @@ pub(super) fn table_of<'a>(analysis: &'a Analysis, entry: &Entry<'_>) -> Option<
     let opens = |table: &Table| {
         table.keyword.source() == entry.keyword.span.source() && table.keyword.start() == entry.keyword.span.start()
     };
-    analysis.model.tables().into_iter().map(|of| of.table).find(|table| opens(table))
+    analysis.model.tables().map(|of| of.table).find(|table| opens(table))
 }

@@ -201,7 +201,8 @@ impl<'a> Place<'a> {
             return self.on_keyword_line(start, &text);
         }
         // A keyword line that ends in a comma goes on here as soon as there is something.
-        if entry.keyword.dangling_comma().is_some() && entry.block.rows.start() == self.start && self.after.is_empty() {
+        if entry.keyword.dangling_comma().is_some() && entry.block.rows().start() == self.start && self.after.is_empty()
+        {
             return Some(self.parameters(&entry, &self.before));
         }
         let index = memchr::memchr_iter(b',', &self.before).count();

@@ -109,7 +109,7 @@ fn on_keyword_line(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<(Sp
     if let Some(given) = given {
         return interaction(view, offset).or_else(|| on_parameter(entry, given));
     }
-    let span = entry.keyword.name;
+    let span = entry.keyword.name();
     if !touches(span, view, offset) && offset + 1 != span.start() {
         return None;
     }

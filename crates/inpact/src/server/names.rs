@@ -252,10 +252,10 @@ fn occurrences_of_parameter(view: View<'_>, name: &Name) -> Vec<Occurrence> {
             }
         }
         let is_parameter = entry.is_some_and(|entry| entry.name == "PARAMETER");
-        if !is_parameter && memchr::memchr(b'<', &view.text(block.rows)).is_none() {
+        if !is_parameter && memchr::memchr(b'<', &view.text(block.rows())).is_none() {
             continue;
         }
-        for (line, text) in view.lines(block.rows) {
+        for (line, text) in view.lines(block.rows()) {
             if is_parameter {
                 let mut names =
                     names_of_statement(&text).filter(|range| &text[range.clone()] == name.written().as_bytes());

@@ -197,8 +197,8 @@ fn selection_at(view: View<'_>, tree: &[Node<'_>], offset: u64) -> SelectionRang
         let block = node.entry.block;
         if node.children.iter().all(|child| offset < child.span.start() || child.span.end() < offset) {
             spans.push(trimmed(view, block.span()));
-            if block.rows.start() <= offset {
-                spans.push(trimmed(view, block.rows));
+            if block.rows().start() <= offset {
+                spans.push(trimmed(view, block.rows()));
                 spans.extend(group_at(view, &node.entry, offset));
             }
             break;

@@ -67,7 +67,7 @@ fn tokens(view: View<'_>, shown: Span) -> SemanticTokens {
 }
 
 fn on_keyword_line(entry: &Entry<'_>, found: &mut Vec<(Span, u32)>) {
-    let name = entry.keyword.name;
+    let name = entry.keyword.name();
     // With its asterisk, where that stands right before it.
     let start = name.start().saturating_sub(1).max(entry.keyword.span.start());
     found.push((Span::new(name.source(), start, name.end()), KEYWORD));

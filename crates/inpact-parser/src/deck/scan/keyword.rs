@@ -1,12 +1,11 @@
 //! Keyword lines of a scan: their keyword, their parameters, and the lines that continue them (S-19).
 
 use crate::deck::lines::{LineKind, line_kind};
-use crate::deck::parameter::PlacedParameter;
+use crate::deck::parameter::{AfterName, Place, PlacedParameter};
 use crate::deck::{KeywordLine, items, keyword_line};
 use crate::grammar::{Dialect, Grammar, KeywordId, Lookup, RowShape, ValueUse};
 use crate::span::{SourceId, Span};
 use std::num::NonZeroU32;
-use std::ops::Range;
 
 /// Readings of a line after a keyword line that ends in a comma (S-19).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,13 +76,26 @@ pub(super) fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {
     }
 }
 
+/// Comma at the end of a keyword line (S-19).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LastComma {
+    /// Nothing follows it.
+    Dangling,
+    /// Something follows that it may belong to.
+    Answered,
+}
+
 /// Resolves the pieces of a keyword line that begins at `start` in the file.
-pub(super) fn resolve(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) -> KeywordLine {
+pub(super) fn resolve(
+    text: &[u8],
+    (id, start): (SourceId, u64),
+    last_comma: LastComma,
+    grammar: &Grammar,
+) -> KeywordLine {
     let pieces = match grammar.dialect() {
         Dialect::Abaqus => keyword_line::parse(text),
         Dialect::Calculix => keyword_line::parse_unprotected(text),
     };
-    let span = |range: Range<usize>| Span::new(id, start + range.start as u64, start + range.end as u64);
     // An asterisk stands before both.
     let point = |at: usize| u32::try_from(at).ok().and_then(NonZeroU32::new);
     let resolved = grammar.keyword_named(&text[pieces.name.clone()]);
@@ -96,12 +108,11 @@ pub(super) fn resolve(text: &[u8], id: SourceId, start: u64, grammar: &Grammar) 
             definition.map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()]));
         PlacedParameter::new(parameter.name, parameter.value, resolved)
     });
+    let final_comma = pieces.final_comma.filter(|_| last_comma == LastComma::Dangling);
     KeywordLine {
-        span: span(0..text.len()),
-        name: span(pieces.name),
+        span: Span::new(id, start, start + text.len() as u64),
+        name: Place::of(pieces.name),
         resolved: resolved.into(),
-        parameters: parameters.collect(),
-        open_quote: pieces.unterminated_quote.and_then(point),
-        last_comma: pieces.final_comma.and_then(point),
+        after_name: AfterName::new(parameters, pieces.unterminated_quote.and_then(point), final_comma.and_then(point)),
     }
 }

@@ -141,7 +141,11 @@ fn written((place, cell): (usize, Cell)) -> Option<CellText> {
 }
 
 fn given_parameters(parameters: GivenDocuments) -> Vec<GivenParameter> {
-    parameters.0.into_iter().map(|(name, value)| GivenParameter { name, value, span: Span::default() }).collect()
+    parameters
+        .0
+        .into_iter()
+        .map(|(name, value)| GivenParameter { name: name.into(), value: value.map(Into::into), span: Span::default() })
+        .collect()
 }
 
 impl ElectricalDocument {
@@ -188,11 +192,11 @@ impl PermeabilityDocument {
 impl SubOptionDocument {
     fn into_model(self, path: &str) -> Result<SubOption, Error> {
         Ok(SubOption {
-            keyword: self.keyword,
+            keyword: self.keyword.into(),
             span: Span::default(),
-            parameters: given_parameters(self.parameters),
-            table: self.table.map(|table| table.into_model(&format!("{path}.table"), &[])).transpose()?,
-            rows: self.rows,
+            parameters: given_parameters(self.parameters).into(),
+            table: self.table.map(|table| table.into_model(&format!("{path}.table"), &[])).transpose()?.map(Box::new),
+            rows: self.rows.into_iter().collect(),
         })
     }
 }
@@ -254,7 +258,7 @@ impl ContactPairDocument {
         ContactPair {
             span: Span::default(),
             interaction: self.interaction.map(reference_to),
-            parameters: given_parameters(self.parameters),
+            parameters: given_parameters(self.parameters).into(),
             pairs: pairs.collect(),
         }
     }
@@ -274,11 +278,11 @@ impl AssignmentDocument {
 impl ProcedureDocument {
     fn into_model(self, index: usize) -> Result<Procedure, Error> {
         let option = SubOption {
-            keyword: self.keyword,
+            keyword: self.keyword.into(),
             span: Span::default(),
-            parameters: given_parameters(self.parameters),
+            parameters: given_parameters(self.parameters).into(),
             table: None,
-            rows: self.rows,
+            rows: self.rows.into_iter().collect(),
         };
         if self.step > MOST_STEPS {
             let message = format!("expected the number of a step from 0 to {MOST_STEPS}, found {}", self.step);

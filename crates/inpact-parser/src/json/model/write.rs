@@ -10,7 +10,7 @@ use crate::expression::{self, Value};
 use crate::json::layout;
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction,
-    Model, Procedure, PropertyAssignment, Reference, Regime, SubOption, Table,
+    Model, Procedure, PropertyAssignment, Reference, Regime, SubOption, Table, TextRows,
 };
 
 /// The model view of a deck as pretty-printed JSON; `source` is the name of the deck.
@@ -60,7 +60,16 @@ impl From<&expression::Definition> for ParameterDocument {
 }
 
 fn given_documents(parameters: &[GivenParameter]) -> GivenDocuments {
-    Unique(parameters.iter().map(|parameter| (parameter.name.clone(), parameter.value.clone())).collect())
+    Unique(
+        parameters
+            .iter()
+            .map(|parameter| (parameter.name.to_string(), parameter.value.as_deref().map(str::to_owned)))
+            .collect(),
+    )
+}
+
+fn text_documents(rows: &TextRows) -> Vec<Vec<String>> {
+    rows.iter().map(|row| row.into_iter().map(str::to_owned).collect()).collect()
 }
 
 impl From<&ElectricalConductance> for ElectricalDocument {
@@ -95,10 +104,10 @@ impl From<&ContactPermeability> for PermeabilityDocument {
 impl From<&SubOption> for SubOptionDocument {
     fn from(option: &SubOption) -> Self {
         Self {
-            keyword: option.keyword.clone(),
+            keyword: option.keyword.to_string(),
             parameters: given_documents(&option.parameters),
-            table: option.table.as_ref().map(Into::into),
-            rows: option.rows.clone(),
+            table: option.table.as_deref().map(Into::into),
+            rows: text_documents(&option.rows),
         }
     }
 }
@@ -153,9 +162,9 @@ impl From<&Procedure> for ProcedureDocument {
     fn from(procedure: &Procedure) -> Self {
         Self {
             step: procedure.step,
-            keyword: procedure.option.keyword.clone(),
+            keyword: procedure.option.keyword.to_string(),
             parameters: given_documents(&procedure.option.parameters),
-            rows: procedure.option.rows.clone(),
+            rows: text_documents(&procedure.option.rows),
             regime: procedure.regime().map(|regime| match regime {
                 Regime::SteadyState => RegimeDocument::Steady,
                 Regime::Transient => RegimeDocument::Transient,

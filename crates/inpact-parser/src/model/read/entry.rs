@@ -5,7 +5,7 @@ use crate::deck::lines::lines;
 use crate::deck::{Block, KeywordLine, Parameter};
 use crate::grammar::{Definition, KeywordId, RowShape};
 use crate::model::rows::{most_written, read_table};
-use crate::model::{GivenParameter, MOST_FIELD_VARIABLES, Name, Reference, SubOption, Table};
+use crate::model::{GivenParameter, MOST_FIELD_VARIABLES, Name, Reference, SharedText, SubOption, Table, TextRows};
 use crate::number::{read_float, read_integer};
 use crate::span::Span;
 use std::sync::Arc;
@@ -75,18 +75,18 @@ impl Reader<'_> {
         self.check_constants(option);
         let is_table = matches!(option.definition.rows(), RowShape::Table) && !option.is_given("USER");
         let table = if is_table { self.table(option) } else { None };
-        let rows = if table.is_some() || is_table { Vec::new() } else { self.texts(option.block) };
+        let rows = if table.is_some() || is_table { TextRows::default() } else { self.texts(option.block) };
         SubOption {
-            keyword: option.name.to_owned(),
+            keyword: self.shared(option.name),
             span: option.keyword.visible_span(self.deck),
-            parameters: self.given_parameters(option),
-            table,
+            parameters: self.given_parameters(option).into(),
+            table: table.map(Box::new),
             rows,
         }
     }
 
     /// The items of every line; empty ones at the end of a line left out.
-    pub(super) fn texts(&self, block: &Block) -> Vec<Vec<String>> {
+    pub(super) fn texts(&self, block: &Block) -> TextRows {
         let lines = self.deck.data_lines(block).filter(|line| !line.is_blank());
         let items = lines.map(|line| {
             let mut items: Vec<String> = line.items().map(|item| self.deck.shown(item)).collect();
@@ -105,13 +105,23 @@ impl Reader<'_> {
         read_float(self.value_of(option, name)?.as_bytes()).ok()
     }
 
-    pub(super) fn given_parameters(&self, option: Entry<'_>) -> Vec<GivenParameter> {
+    /// A name of the grammar, kept once.
+    fn shared(&mut self, name: &str) -> SharedText {
+        if let Some(shared) = self.names.get(name) {
+            return shared.clone();
+        }
+        let shared = SharedText::from(name);
+        self.names.insert(shared.clone());
+        shared
+    }
+
+    pub(super) fn given_parameters(&mut self, option: Entry<'_>) -> Vec<GivenParameter> {
         let given = option.keyword.parameters().map(|parameter| GivenParameter {
             name: match parameter.index() {
-                Some(index) => option.definition.parameters[index].name.clone(),
-                None => on_one_line(&self.deck.shown(parameter.name)),
+                Some(index) => self.shared(&option.definition.parameters[index].name),
+                None => on_one_line(&self.deck.shown(parameter.name)).into(),
             },
-            value: parameter.value.map(|value| on_one_line(&self.deck.shown(value))),
+            value: parameter.value.map(|value| on_one_line(&self.deck.shown(value)).into()),
             span: parameter.span(),
         });
         given.collect()

@@ -122,7 +122,8 @@ impl Reader<'_> {
     }
 
     pub(super) fn close_interaction(&mut self, closed_by: Option<Span>) {
-        let Some(interaction) = self.interaction.take() else { return };
+        let Some(mut interaction) = self.interaction.take() else { return };
+        interaction.other.shrink_to_fit();
         self.closed_by = closed_by;
         let span = interaction.span;
         // In CalculiX a contact pair takes the first of one name (K-06, CX-11).

@@ -26,7 +26,7 @@ impl Reader<'_> {
         let pair = ContactPair {
             span: option.keyword.visible_span(self.deck),
             interaction: interaction.and_then(|value| self.reference(value)),
-            parameters,
+            parameters: parameters.into(),
             pairs: pairs.collect(),
         };
         self.model.contact_pairs.push(pair);

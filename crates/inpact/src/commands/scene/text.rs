@@ -188,7 +188,7 @@ impl SceneText {
 /// The length of every increment, where the deck says one: DIRECT.
 fn given_increment(procedure: &Procedure) -> Option<f64> {
     procedure.option.parameter("DIRECT")?;
-    let first = procedure.option.rows.first()?.first()?;
+    let first = procedure.option.rows.iter().next()?.into_iter().next()?;
     read_float(first.trim().as_bytes()).ok().filter(|step| 0.0 < *step)
 }
 

@@ -95,7 +95,7 @@ pub(super) fn unread(deck: &Deck, grammar: &Grammar, last_step: usize) -> Vec<Me
     let mut step = 0;
     let mut notes = Vec::new();
     for keyword in deck.blocks().iter().filter_map(|block| block.keyword.as_ref()) {
-        let written = deck.shown(keyword.name).trim().to_ascii_uppercase();
+        let written = deck.shown(keyword.name()).trim().to_ascii_uppercase();
         let name = keyword.id().map_or(written.as_str(), |id| grammar.keyword(id).name.as_str());
         step += usize::from(name == "STEP");
         let is_known = [&READ[..], &OF_MECHANICS[..]].iter().any(|names| names.contains(&name));
