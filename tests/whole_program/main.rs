@@ -34,6 +34,7 @@ mod hooks;
 mod includes;
 mod interfaces;
 mod json;
+mod kinds;
 mod limits;
 mod lumping;
 #[cfg(target_os = "linux")]

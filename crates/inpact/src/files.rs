@@ -4,7 +4,7 @@
 
 mod access;
 mod holders;
-mod inputs;
+pub(crate) mod inputs;
 mod result;
 mod temporary;
 pub(crate) mod transaction;

@@ -1,8 +1,10 @@
 //! Reading a deck with everything it includes.
 
 mod held;
+mod kind;
 
 pub(crate) use held::{Held, HeldFiles};
+pub(crate) use kind::{Kind, kind_of};
 
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
@@ -45,6 +47,9 @@ pub(crate) fn read_located_deck(
 ) -> Result<LocatedDeck, Failure> {
     if let Some(reason) = reach::leads_astray(path, &settings.include_roots) {
         return Err(Failure::Usage(format!("`{}` is not read: {reason}", path.display())));
+    }
+    if settings.known_content(path).is_none() {
+        kind::refuse_scene(path)?;
     }
     let options = ScanOptions { grammar: settings.grammar, keep };
     let mut scanner = Scanner::new(&path.display().to_string(), options);

@@ -13,7 +13,7 @@ use super::meshed::mesh_of;
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::fixing::{self, FixReach, FixSelection, Need, Purpose};
-use crate::input::{self, HeldFiles, LocatedDeck};
+use crate::input::{self, HeldFiles, Kind, LocatedDeck, kind_of};
 use crate::progress::Progress;
 use crate::render::{self, Format, Sources, Style};
 use crate::settings::{DeckArguments, Settings};
@@ -82,15 +82,6 @@ pub(crate) struct CheckArguments {
     reading: DeckArguments,
     #[command(flatten, next_help_heading = "Laws of scenes")]
     laws: LawArguments,
-}
-
-/// What is checked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    /// A deck or a fragment of one.
-    Deck,
-    /// A scene.
-    Scene,
 }
 
 /// Result of checking one deck or scene.
@@ -257,7 +248,7 @@ fn check_one<'a>(
     style: Style,
     progress: &Progress,
 ) -> Result<Checked<'a>, Failure> {
-    match scene::kind_of(path) {
+    match kind_of(path) {
         Kind::Deck => check_deck(path, arguments, selection, style, progress),
         Kind::Scene => scene::check(path, arguments, style).inspect(|_| progress.advance(path)),
     }
@@ -321,7 +312,7 @@ fn judge(
 fn time_rules(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     let mut text = String::new();
     for path in &arguments.decks {
-        if scene::kind_of(path) == Kind::Scene {
+        if kind_of(path) == Kind::Scene {
             return Err(Failure::Usage(format!(
                 "`--timings`: `{}` is a scene, and rules of decks are timed",
                 path.display()

@@ -9,6 +9,7 @@ pub(crate) use changed::Changed;
 
 use crate::failure::Failure;
 use crate::files;
+use crate::files::inputs::Identity;
 use crate::settings::{DeckArguments, FILE_NAME};
 use ignore::WalkBuilder;
 use std::collections::BTreeMap;
@@ -32,19 +33,43 @@ pub(crate) enum Origin {
 
 /// The decks of some paths, in the order of the paths; each once.
 pub(crate) fn find(paths: &[PathBuf], reading: &DeckArguments) -> Result<Vec<Named>, Failure> {
-    let mut decks: Vec<Named> = Vec::new();
+    let mut decks = Each::default();
     for path in paths {
         if path.as_os_str() == files::STANDARD_STREAM || !path.is_dir() {
-            decks.push(Named { path: path.clone(), origin: Origin::Argument });
+            decks.add(path.clone(), Origin::Argument);
             continue;
         }
         for path in in_folder(path, reading)? {
-            if !decks.iter().any(|deck| deck.path == path) {
-                decks.push(Named { path, origin: Origin::Folder });
-            }
+            decks.add(path, Origin::Folder);
         }
     }
-    Ok(decks)
+    Ok(decks.decks)
+}
+
+/// Decks, each file once, whatever names lead to it.
+#[derive(Default)]
+struct Each {
+    decks: Vec<Named>,
+    /// The deck that each file is.
+    places: BTreeMap<Identity, usize>,
+}
+
+impl Each {
+    fn add(&mut self, path: PathBuf, origin: Origin) {
+        let is_named = path.as_os_str() != files::STANDARD_STREAM;
+        if let Some(identity) = Identity::at(&path).filter(|_| is_named) {
+            let next = self.decks.len();
+            let place = *self.places.entry(identity).or_insert(next);
+            if let Some(earlier) = self.decks.get_mut(place) {
+                // What somebody names is judged by itself, though it is in a folder as well.
+                if origin == Origin::Argument {
+                    earlier.origin = origin;
+                }
+                return;
+            }
+        }
+        self.decks.push(Named { path, origin });
+    }
 }
 
 /// The decks below a folder.

@@ -1,62 +1,20 @@
 //! Scenes among what is checked: judged as `solve` judges them, with their tables and the part of their deck that they need, and not solved.
 
 use super::tally::Tally;
-use super::{CheckArguments, Checked, Kind};
+use super::{CheckArguments, Checked};
 use crate::commands::findings::{Governing, Reporter, as_one, errors_elsewhere, has_errors, shown_of};
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
-use crate::files::{self, STANDARD_STREAM};
+use crate::files;
 use crate::fixing::Need;
+use crate::input::Kind;
 use crate::render::{self, Format, Sources, Style};
 use crate::settings::Settings;
 use inpact_diagnostics::{Diagnostic, FixSafety};
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::Model;
-use std::fs::File;
-use std::io::{BufRead, Read, stdin};
 use std::path::{Path, PathBuf};
-
-/// The number of bytes by which a file without `.toml` is recognised.
-const LOOKED_AT: u64 = 8 * 1024;
-
-/// What a file is: a scene by its name, or by what it begins with where its name says nothing.
-pub(super) fn kind_of(path: &Path) -> Kind {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
-    let begins_as_scene = || match beginning(path) {
-        Some(bytes) => is_scene(&bytes),
-        // What cannot be read is said by who reads it.
-        None => false,
-    };
-    match extension.as_deref() {
-        Some("toml") => Kind::Scene,
-        Some("inp") => Kind::Deck,
-        _ if begins_as_scene() => Kind::Scene,
-        _ => Kind::Deck,
-    }
-}
-
-/// The first bytes of a file; those of standard input stay to be read.
-fn beginning(path: &Path) -> Option<Vec<u8>> {
-    if path.as_os_str() == STANDARD_STREAM {
-        return stdin().lock().fill_buf().ok().map(<[u8]>::to_vec);
-    }
-    // What is no regular file can be read only once.
-    path.metadata().ok().filter(std::fs::Metadata::is_file)?;
-    let mut bytes = Vec::new();
-    File::open(path).ok()?.take(LOOKED_AT).read_to_end(&mut bytes).ok()?;
-    Some(bytes)
-}
-
-/// Whether a text begins as TOML does: with a table, or a key and a value; and has no keyword line.
-fn is_scene(bytes: &[u8]) -> bool {
-    let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
-    let Some(first) = lines.by_ref().find(|line| !line.is_empty() && !line.starts_with(b"#")) else { return false };
-    let is_of_key = |byte: &u8| byte.is_ascii_alphanumeric() || b"_-\"'. ".contains(byte);
-    let key = first.iter().take_while(|byte| is_of_key(byte)).count();
-    let is_first = first.starts_with(b"[") || (0 < key && first.get(key) == Some(&b'='));
-    is_first && !lines.any(|line| line.starts_with(b"*"))
-}
 
 /// Receives what is found in a scene, and in its deck, and makes a text of it.
 struct Judge<'a> {
@@ -169,21 +127,4 @@ pub(super) fn check<'a>(path: &'a Path, arguments: &CheckArguments, style: Style
         need: Need::Nothing,
         held: None,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_scene;
-
-    #[test]
-    fn a_scene_is_known_by_its_beginning() {
-        for scene in ["deck = \"a.inp\"\n", "# made\n\n[time]\nend = 1.0\n", "[[node]]\n", " deck='a'"] {
-            assert!(is_scene(scene.as_bytes()), "{scene}");
-        }
-        for other in
-            ["", "*NODE\n1, 0.\n", "** A\n", "1., 2.\n", "a = 3\n*NODE\n", "version https://git-lfs\n", "# only\n"]
-        {
-            assert!(!is_scene(other.as_bytes()), "{other}");
-        }
-    }
 }
