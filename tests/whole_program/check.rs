@@ -1,6 +1,6 @@
 //! `inpact check`: what a person sees, in every format, and the exit codes.
 
-use crate::program::{inpact, inpact_with_input};
+use crate::program::{Folder, inpact, inpact_with_input};
 
 const FAULTY: &str = "decks/faulty/first-mistakes.inp";
 
@@ -34,10 +34,12 @@ fn a_clean_deck_ends_with_0() {
 
 #[test]
 fn several_decks_are_checked_in_the_order_given() {
-    let run = inpact(&["check", "--format", "concise", FAULTY, "decks/fragments/minimal.inp", FAULTY]);
-    let once = inpact(&["check", "--format", "concise", FAULTY]);
-    assert_eq!(run.output, once.output.repeat(2));
-    assert_eq!(run.code, 1);
+    let folder =
+        Folder::with(&[("b.inp", "*GAP CONDUCTNCE\n1., 0.\n"), ("c.inp", "*HEADING\n"), ("a.inp", "*FRICTIN\n")]);
+    let of = |decks: &[&str]| folder.inpact(&[&["check", "--format", "concise"], decks].concat());
+    let all = of(&["b.inp", "c.inp", "a.inp"]);
+    assert!(all.output.starts_with("b.inp:1:2: error[K001] "), "{}", all.shown());
+    assert_eq!((all.output, all.code), (of(&["b.inp"]).output + &of(&["a.inp"]).output, 1));
 }
 
 #[test]

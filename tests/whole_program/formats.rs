@@ -103,7 +103,7 @@ fn fingerprints_outlive_lines_inserted_above_and_tell_findings_apart() {
 
 #[test]
 fn statistics() {
-    let decks = [FAULTY, FAULTY, "decks/fragments/user.inp"];
+    let decks = [FAULTY, "decks/fragments/user.inp"];
     let run = inpact(&[&["check", "--statistics"], &decks[..]].concat());
     assert_eq!(run.code, 1);
     insta::assert_snapshot!(run.shown());

@@ -20,7 +20,7 @@ fn no_command_takes_a_scene_for_a_deck() {
         &["scene", "{}"],
         &["plot", "{}"],
         &["plot", "{}", "--nodes", "n.csv"],
-        &["body", "{}", "--terminal", "S"],
+        &["body", "{}", "--terminals", "S"],
         &["compare", "{}", "--results", "n.csv"],
         &["json", "{}"],
         &["json", "--view", "syntax", "{}"],
@@ -70,6 +70,25 @@ fn a_file_is_judged_once_under_whatever_names() {
             assert_eq!(twice.shown(), once.shown(), "{others}");
         }
     }
+    let folder = Folder::with(&[("a.inp", "*HEADING\n"), ("d/b.inp", "*STEP\n")]);
     let all = folder.inpact(&["check", "--format", "concise", "d/b.inp", "d", "."]);
     assert!(all.errors.contains("2 decks"), "{}", all.shown());
+}
+
+/// A file that is replaced is linked no more, so that each name of it has to be written.
+#[cfg(unix)]
+#[test]
+fn hard_links_are_mended_each() {
+    let short = "*SURFACE INTERACTION, NAME=A\n*GAP COND\n1., 0.\n0., 1.\n";
+    for command in [&["check", "--fix", "--exit-zero"][..], &["fmt"]] {
+        let folder = Folder::with(&[("a.inp", &short.replace("COND", "cond"))]);
+        let link = |name: &str| std::fs::hard_link(folder.path().join("a.inp"), folder.path().join(name));
+        link("b.inp").expect("a link");
+        std::os::unix::fs::symlink(folder.path().join("a.inp"), folder.path().join("c.inp")).expect("a link");
+        let run = folder.inpact(&[command, &["a.inp", "b.inp", "c.inp"]].concat());
+        assert_eq!(run.code, 0, "{}", run.shown());
+        assert!(folder.read("a.inp") != short.replace("COND", "cond"), "{}", run.shown());
+        assert_eq!(folder.read("a.inp"), folder.read("b.inp"), "{}", run.shown());
+        assert!(folder.path().join("c.inp").is_symlink());
+    }
 }

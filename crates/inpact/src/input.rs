@@ -4,7 +4,7 @@ mod held;
 mod kind;
 
 pub(crate) use held::{Held, HeldFiles};
-pub(crate) use kind::{Kind, kind_of};
+pub(crate) use kind::{Kind, kind_of, refuse_scene};
 
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
@@ -49,7 +49,7 @@ pub(crate) fn read_located_deck(
         return Err(Failure::Usage(format!("`{}` is not read: {reason}", path.display())));
     }
     if settings.known_content(path).is_none() {
-        kind::refuse_scene(path)?;
+        refuse_scene(path)?;
     }
     let options = ScanOptions { grammar: settings.grammar, keep };
     let mut scanner = Scanner::new(&path.display().to_string(), options);

@@ -4,7 +4,7 @@ use super::s011_not_a_deck::{Reading, reading};
 use crate::parameter;
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::ProblemKind;
-use inpact_parser::deck::{LineNote, LineNoteKind, Resolved};
+use inpact_parser::deck::{KeywordLine, LineNote, LineNoteKind, Resolved};
 use inpact_parser::grammar::ParameterKind;
 use inpact_parser::span::Span;
 
@@ -85,7 +85,7 @@ fn first_non_ascii(context: &Context<'_>, note: &LineNote) -> Option<NonAscii> {
 
 /// The names with such characters that another rule finds wrong as a whole, in order.
 fn judged_elsewhere(context: &Context<'_>) -> Vec<Span> {
-    let unknown_names = context.keyword_lines().filter(|line| line.resolved == Resolved::Unknown).map(|line| line.name());
+    let unknown_names = context.keyword_lines().filter(|line| line.resolved == Resolved::Unknown).map(KeywordLine::name);
     let blocks = context.defined_blocks().filter(|block| block.definition.parameters_complete);
     let parameters = blocks.flat_map(|block| block.keyword.parameters());
     let unknown_parameters = parameters.filter(|parameter| parameter.index().is_none()).map(|parameter| parameter.name);

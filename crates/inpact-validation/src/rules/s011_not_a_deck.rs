@@ -53,7 +53,7 @@ pub(super) fn leading_lines<'a>(context: &Context<'a>) -> impl Iterator<Item = D
     let is_leading = move |block: &&Block| block.keyword.is_none() || block.keyword_id().is_some_and(is_include);
     let blocks = deck.blocks().iter().take_while(is_leading).filter(|block| block.keyword.is_none());
     let looked_at =
-        blocks.map(|block| block.rows()).map(|rows| Span::new(rows.source(), rows.start(), rows.end().min(rows.start() + LOOKED_AT)));
+        blocks.map(Block::rows).map(|rows| Span::new(rows.source(), rows.start(), rows.end().min(rows.start() + LOOKED_AT)));
     looked_at.flat_map(|rows| deck.data_lines_in(rows)).filter(|line| !line.is_blank())
 }
 

@@ -7,7 +7,7 @@ mod watch;
 
 use self::mending::Mending;
 use self::tally::Tally;
-use super::decks::{self, Changed, Named};
+use super::decks::{self, Changed, Named, Same};
 use super::laws::LawArguments;
 use super::meshed::mesh_of;
 use crate::failure::{Failure, Outcome, say};
@@ -107,6 +107,10 @@ impl CheckArguments {
         if self.geometry && (!is_file || self.selection().is_some()) { Keep::Everything } else { Keep::Interpreted }
     }
 
+    fn same(&self) -> Same {
+        if self.selection().is_some() { Same::Place } else { Same::Content }
+    }
+
     /// The fixes to apply; `None` without `--fix` and `--diff`.
     fn selection(&self) -> Option<FixSelection> {
         let is_wanted = self.fix || self.diff || self.fix_included || !self.fix_also.is_empty();
@@ -136,7 +140,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     if arguments.watch {
         return watch::watch(arguments);
     }
-    let decks = decks::find(&arguments.decks, &arguments.reading)?;
+    let decks = decks::find(&arguments.decks, arguments.same(), &arguments.reading)?;
     if decks.is_empty() {
         let folders: Vec<String> = arguments.decks.iter().map(|path| format!("`{}`", path.display())).collect();
         say(&format!("warning: there is no deck in {}", folders.join(", ")));

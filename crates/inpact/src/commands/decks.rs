@@ -31,9 +31,18 @@ pub(crate) enum Origin {
     Folder,
 }
 
+/// When two names are those of one file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Same {
+    /// They lead to the same bytes.
+    Content,
+    /// They lead to the same place, links followed: of two hard links each is written, since a file that is replaced is linked no more.
+    Place,
+}
+
 /// The decks of some paths, in the order of the paths; each once.
-pub(crate) fn find(paths: &[PathBuf], reading: &DeckArguments) -> Result<Vec<Named>, Failure> {
-    let mut decks = Each::default();
+pub(crate) fn find(paths: &[PathBuf], same: Same, reading: &DeckArguments) -> Result<Vec<Named>, Failure> {
+    let mut decks = Each { decks: Vec::new(), same, contents: BTreeMap::new(), places: BTreeMap::new() };
     for path in paths {
         if path.as_os_str() == files::STANDARD_STREAM || !path.is_dir() {
             decks.add(path.clone(), Origin::Argument);
@@ -47,20 +56,24 @@ pub(crate) fn find(paths: &[PathBuf], reading: &DeckArguments) -> Result<Vec<Nam
 }
 
 /// Decks, each file once, whatever names lead to it.
-#[derive(Default)]
 struct Each {
     decks: Vec<Named>,
-    /// The deck that each file is.
-    places: BTreeMap<Identity, usize>,
+    same: Same,
+    /// The number of the deck that each file is.
+    contents: BTreeMap<Identity, usize>,
+    places: BTreeMap<PathBuf, usize>,
 }
 
 impl Each {
     fn add(&mut self, path: PathBuf, origin: Origin) {
+        let next = self.decks.len();
         let is_named = path.as_os_str() != files::STANDARD_STREAM;
         if let Some(identity) = Identity::at(&path).filter(|_| is_named) {
-            let next = self.decks.len();
-            let place = *self.places.entry(identity).or_insert(next);
-            if let Some(earlier) = self.decks.get_mut(place) {
+            let number = match self.same {
+                Same::Content => *self.contents.entry(identity).or_insert(next),
+                Same::Place => *self.places.entry(files::whole_path(&path)).or_insert(next),
+            };
+            if let Some(earlier) = self.decks.get_mut(number) {
                 // What somebody names is judged by itself, though it is in a folder as well.
                 if origin == Origin::Argument {
                     earlier.origin = origin;

@@ -2,11 +2,12 @@
 //!
 //! A file is formatted by itself; what it includes is formatted only when it is named as well.
 
-use super::decks;
+use super::decks::{self, Same};
 use crate::difference;
 use crate::failure::{Failure, Outcome, say};
 use crate::files::transaction::{self, Change, Snapshot};
 use crate::files::{self, STANDARD_STREAM};
+use crate::input;
 use crate::settings::DeckArguments;
 use crate::threads::with_threads;
 use clap::Args;
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     let mut tally = Tally::default();
     // Files are formatted even when standard output is closed.
     let mut unwritten = None;
-    let decks = decks::find(&arguments.decks, &arguments.reading)?;
+    let decks = decks::find(&arguments.decks, Same::Place, &arguments.reading)?;
     // Many at a time are read and formatted; they are written one by one, in their order.
     let formatted = decks.chunks(AT_A_TIME).flat_map(|decks| {
         with_threads(0, || decks.par_iter().map(|deck| (&deck.path, read(&deck.path, arguments))).collect::<Vec<_>>())
@@ -119,6 +120,7 @@ impl Before {
 
 /// A file before, and its bytes after.
 fn read(path: &Path, arguments: &FormatArguments) -> Result<(Before, Vec<u8>), Failure> {
+    input::refuse_scene(path)?;
     let settings = arguments.reading.settings(path)?;
     let before = if path.as_os_str() == STANDARD_STREAM {
         Before::Standard(files::read_lines(path)?)

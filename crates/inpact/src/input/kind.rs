@@ -35,7 +35,7 @@ pub(crate) fn kind_of(path: &Path) -> Kind {
 }
 
 /// Refuses a scene where a deck is expected: read as one it is rows without a keyword, and nothing would be said of them.
-pub(super) fn refuse_scene(path: &Path) -> Result<(), Failure> {
+pub(crate) fn refuse_scene(path: &Path) -> Result<(), Failure> {
     if kind_of(path) == Kind::Deck {
         return Ok(());
     }

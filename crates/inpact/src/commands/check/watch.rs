@@ -25,7 +25,7 @@ pub(super) fn watch(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     let mut known: BTreeMap<PathBuf, Watched> = BTreeMap::new();
     let mut is_first = true;
     loop {
-        let decks = decks::find(&arguments.decks, &arguments.reading)?;
+        let decks = decks::find(&arguments.decks, arguments.same(), &arguments.reading)?;
         known.retain(|path, _| decks.iter().any(|deck| deck.path == *path));
         let has_changed = |deck: &&Named| {
             known
