@@ -22,9 +22,14 @@ LOWER, UPPER
 ";
 
 fn reported(deck: &str, more: &[&str]) -> String {
+    reported_with(0, deck, more)
+}
+
+/// The page of a deck with which the command ends so.
+fn reported_with(code: i32, deck: &str, more: &[&str]) -> String {
     let folder = Folder::with(&[("a.inp", deck)]);
     let run = folder.inpact(&[&["report", "a.inp", "-o", "a.html"], more].concat());
-    assert_eq!((run.code, run.output.as_str()), (0, ""), "{}", run.errors);
+    assert_eq!((run.code, run.output.as_str()), (code, ""), "{}", run.errors);
     folder.read("a.html")
 }
 
@@ -64,7 +69,8 @@ fn every_sample_deck_has_a_report() {
         let has_nodes = root().join(&nodes).exists() && !deck.contains("user-law");
         let more: &[&str] = if has_nodes { &["--nodes", &nodes] } else { &[] };
         let run = inpact(&[&["report", &deck], dialect_of(&deck), more].concat());
-        assert_eq!(run.code, 0, "{deck}: {}", run.errors);
+        let code = i32::from(deck.contains("faulty"));
+        assert_eq!(run.code, code, "{deck}: {}", run.errors);
         check_page(&run.output);
         assert!(run.output.len() < 500_000, "{deck}: {} bytes", run.output.len());
         assert_eq!(has_nodes, run.output.contains("<h2 id=\"results\">"), "{deck}");
@@ -157,7 +163,7 @@ fn curves_and_sliders_have_the_values_of_eval() {
 #[test]
 fn findings_have_their_excerpt_and_lead_to_their_rows() {
     let deck = DECK.replace("65., 100., 300.\n", "65., -100., 300.\n");
-    let html = reported(&deck, &[]);
+    let html = reported_with(1, &deck, &[]);
     check_page(&html);
     assert!(html.contains("<span class=\"word\">error T001</span>"), "no finding");
     assert!(html.contains("row 2 of a table of JOINT"));
@@ -175,7 +181,7 @@ fn nothing_of_a_deck_runs() {
          *SURFACE INTERACTION, NAME=B\n*FRICTION, X=\"{hostile}\"\n{hostile}\n*GAP ELECTRICAL CONDUCTANCE\n2., 0.\n0., 1.\n\
          *CONTACT PAIR, INTERACTION=B\n\"{hostile}\", \"{hostile}\"\n"
     );
-    let html = reported(&deck, &["--units", "L=</script><b>,C=\"'&"]);
+    let html = reported_with(1, &deck, &["--units", "L=</script><b>,C=\"'&"]);
     check_page(&html);
     let page = html.split("<script>/*! https").next().expect("a page");
     assert!(!page.contains('\u{202e}'));
@@ -213,6 +219,24 @@ fn results_are_histories_and_totals() {
         assert!(run.output.contains(row), "{row}");
     }
     assert!(run.output.contains("4 rows: 0 closed, 4 open; 0 beyond the table (0.0 %)"));
+}
+
+/// A deck with errors has a page that shows them, and the command says so at its end; so does one without an interaction.
+#[test]
+fn a_page_of_errors_is_no_success() {
+    let deck = root().join("decks/faulty/first-mistakes.inp").display().to_string();
+    let folder = Folder::with(&[("n.inp", "*NODE\n1, 0., 0., 0.\n"), ("a.inp", DECK), ("a.csv", "clearance\n0\n")]);
+    let run = folder.inpact(&["report", &deck, "-o", "a.html"]);
+    assert_eq!(run.code, 1, "{}", run.errors);
+    assert!(run.errors.starts_with("6 errors in the deck: see the page, or `inpact check "), "{}", run.errors);
+    check_page(&folder.read("a.html"));
+    let run = folder.inpact(&["report", "n.inp", "-o", "n.html"]);
+    let note = "note: `n.inp` defines no *SURFACE INTERACTION: the page has its findings alone\n";
+    assert_eq!((run.code, run.errors.as_str()), (0, note));
+    // Rows on which what is wrong with the deck leaves nothing to evaluate.
+    folder.write("a.inp", &DECK.replace("*GAP ELECTRICAL", "*GAP ELECTRIKAL"));
+    let run = folder.inpact(&["report", "a.inp", "--nodes", "a.csv", "-o", "b.html"]);
+    assert_eq!(run.code, 1, "{}", run.errors);
 }
 
 #[test]

@@ -5,16 +5,18 @@ use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice};
 use super::findings::Messages;
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
+use super::mesh_rows::counted;
 use super::node_sample::{Gathered, gather};
 use super::plot::DrawingArguments;
 use super::tradeoff;
 use crate::curves::{self, Detail, Probing};
 use crate::deck::Deck;
-use crate::failure::{Failure, Outcome};
+use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::report::{Evaluation, Input, Report, Tradeoff, VALUES};
 use crate::settings::DeckArguments;
 use clap::Args;
+use inpact_diagnostics::Severity;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -82,7 +84,16 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
     let report =
         Report { deck: &deck, findings: &findings, figure: &figure, evaluation, inputs, command: command(arguments) };
     files::write_result(arguments.output.as_deref(), report.html().as_bytes())?;
-    Ok(Outcome::Clean)
+    if deck.model().interactions.is_empty() {
+        say(&format!("note: `{}` defines no *SURFACE INTERACTION: the page has its findings alone", deck.name()));
+    }
+    let errors = findings.iter().filter(|found| found.severity == Severity::Error).count() as u64;
+    if 0 < errors {
+        let errors = counted(errors, "error");
+        say(&format!("{errors} in the deck: see the page, or `inpact check {}`", deck.name()));
+    }
+    let is_sound = errors == 0 && evaluated.is_none_or(|evaluated| evaluated.is_sound());
+    Ok(if is_sound { Outcome::Clean } else { Outcome::HasErrors })
 }
 
 /// A node table that was evaluated; a deck that is wrong where the table needs it gives a plan alone.
@@ -90,6 +101,8 @@ struct Evaluated {
     prepared: Evaluable,
     gathered: Option<Gathered>,
     tradeoff: Option<Tradeoff>,
+    /// Whether the node table has errors, which were said.
+    rows_have_errors: bool,
 }
 
 /// Evaluates the node table; `None` after saying what is wrong with it.
@@ -102,11 +115,11 @@ fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> 
     let messages = Messages::LINES;
     let Some(mut prepared) = evaluable.prepare(&arguments.laws, &arguments.reading, messages)? else { return Ok(None) };
     if prepared.deck_has_errors {
-        return Ok(Some(Evaluated { prepared, gathered: None, tradeoff: None }));
+        return Ok(Some(Evaluated { prepared, gathered: None, tradeoff: None, rows_have_errors: false }));
     }
     let again = if arguments.tradeoff { Some(prepared.rows_again(&evaluable)?) } else { None };
     let gathered = gather(&evaluable, &mut prepared)?;
-    messages.data(gathered.findings.list().to_vec(), &prepared.settings);
+    let rows_have_errors = messages.data(gathered.findings.list().to_vec(), &prepared.settings);
     let tradeoff = match again {
         Some(rows) => {
             prepared.rows = rows;
@@ -115,10 +128,15 @@ fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> 
         }
         None => None,
     };
-    Ok(Some(Evaluated { prepared, gathered: Some(gathered), tradeoff }))
+    Ok(Some(Evaluated { prepared, gathered: Some(gathered), tradeoff, rows_have_errors }))
 }
 
 impl Evaluated {
+    /// Whether everything was evaluated, on rows without errors.
+    fn is_sound(&self) -> bool {
+        self.gathered.is_some() && !self.rows_have_errors
+    }
+
     fn in_words(&mut self) -> Evaluation {
         let (nodes, plan) = (self.prepared.nodes_name.clone(), self.prepared.plan.to_string());
         match &mut self.gathered {
