@@ -90,7 +90,7 @@ proptest! {
         rows in prop::collection::vec(row(), 1..60),
         there in prop::collection::vec(prop::bool::weighted(0.8), OPTIONAL.len()),
         calculix in prop::bool::weighted(0.2),
-        slopes in prop::bool::weighted(0.2),
+        slopes in prop::bool::weighted(0.4),
     ) {
         let choices = Choices {
             dialect: if calculix { Dialect::Calculix } else { Dialect::Abaqus },

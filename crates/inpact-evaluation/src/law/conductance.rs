@@ -134,29 +134,21 @@ impl ConductanceTables {
     /// Slope of the containing segment, right-hand at an abscissa, zero outside the table (semantics 4.4).
     /// So it is zero in overclosure and where a closed point has a clearance, which does not count, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it ([`Self::jumps_at`]).
     pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
-        let (branch, table) = self.branch(point.state);
-        let Some(table) = table else {
-            let nothing = value_without_table(point.state);
-            variables.fill(nothing);
-            return ConductanceSlopes { clearance: nothing, pressure: nothing };
-        };
-        let first = abscissa(branch, point);
         for (variable, slope) in variables.iter_mut().enumerate() {
-            *slope = table.slope_at(variable + 1, first, point.variables);
+            *slope = self.slope(SlopeAlong::Variable(variable), point);
         }
-        let along = |branch_of_slope| {
-            let is_moot = match point.state {
-                // Of a closed point the clearance counts at d = 0 alone, where it opens.
-                ContactState::Closed => point.clearance.0 != 0.0,
-                _ => point.clearance.0 < 0.0,
-            };
-            if branch_of_slope != branch || (branch == Branch::Clearance && is_moot) {
-                0.0
-            } else {
-                table.slope_at(0, first, point.variables)
-            }
-        };
-        ConductanceSlopes { clearance: along(Branch::Clearance), pressure: along(Branch::Pressure) }
+        ConductanceSlopes {
+            clearance: self.slope(SlopeAlong::Contact(Branch::Clearance), point),
+            pressure: self.slope(SlopeAlong::Contact(Branch::Pressure), point),
+        }
+    }
+
+    /// One of the [`slopes`](Self::slopes).
+    pub(crate) fn slope(&self, along: SlopeAlong, point: &ContactPoint<'_>) -> f64 {
+        let (branch, table) = self.branch(point.state);
+        let Some(table) = table else { return value_without_table(point.state) };
+        let axis = along.axis_of(branch, point.state, point.clearance.0);
+        axis.map_or(0.0, |axis| table.slope_at(axis, abscissa(branch, point), point.variables))
     }
 
     /// Whether the conductance jumps at this very point: at d = 0 between branches of different value, or at the last clearance of a table that is zero beyond it.
@@ -216,6 +208,32 @@ pub struct ConductanceSlopes {
     pub clearance: f64,
     /// Per unit of contact pressure.
     pub pressure: f64,
+}
+
+/// A quantity along which a conductance has a slope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SlopeAlong {
+    /// The first quantity of this branch, clearance or contact pressure.
+    Contact(Branch),
+    /// A variable behind it, by its place.
+    Variable(usize),
+}
+
+impl SlopeAlong {
+    /// The axis of the table of the branch in force along which the slope is; `None` where there is none to speak of.
+    #[inline]
+    pub(crate) fn axis_of(self, branch: Branch, state: ContactState, clearance: f64) -> Option<usize> {
+        let is_moot = || match state {
+            // Of a closed point the clearance counts at d = 0 alone, where it opens.
+            ContactState::Closed => clearance != 0.0,
+            _ => clearance < 0.0,
+        };
+        match self {
+            Self::Variable(variable) => Some(variable + 1),
+            Self::Contact(of) if of != branch || (branch == Branch::Clearance && is_moot()) => None,
+            Self::Contact(_) => Some(0),
+        }
+    }
 }
 
 /// The coordinate of axis 0 of a branch's table ([`ContactState::table_clearance`]).

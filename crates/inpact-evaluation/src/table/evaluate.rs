@@ -71,6 +71,22 @@ impl PiecewiseTable {
         found.map_or(f64::NAN, |(_, slope)| slope)
     }
 
+    /// [`Self::slope_at`] at the points of columns, one an axis, empty along axes that the value does not depend on; `axis` says for each row along which, `None` for no slope.
+    pub(crate) fn slopes_in_columns(
+        &self,
+        columns: &[&[f64]],
+        axis: impl Iterator<Item = Option<usize>>,
+        mut take: impl FnMut(usize, f64),
+    ) {
+        let coordinate = |column: &[f64], row: usize| column.get(row).copied().unwrap_or(f64::NAN);
+        let (first, others) = columns.split_first().map_or((&[][..], &[][..]), |(first, others)| (*first, others));
+        let mut point = vec![f64::NAN; others.len()];
+        for (row, axis) in axis.enumerate() {
+            point.iter_mut().zip(others).for_each(|(x, column)| *x = coordinate(column, row));
+            take(row, axis.map_or(0.0, |axis| self.slope_at(axis, coordinate(first, row), &point)));
+        }
+    }
+
     /// The value at a point to 2⁻⁹⁸ of the exact one for values of one sign, otherwise of the largest that take part in it.
     ///
     /// `first` is the coordinate of axis 0, `others` are those of the following axes.

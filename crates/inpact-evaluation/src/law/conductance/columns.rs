@@ -1,16 +1,17 @@
 //! A conductance over the rows of a part: its rows are gathered by the table that they read, each table is evaluated over columns, and the values go back to their rows.
 
-use super::{Branch, ConductanceTables, value_without_table};
+use super::{Branch, ConductanceTables, ContactPoint, SlopeAlong, value_without_table};
 use crate::accuracy::Wanted;
 use crate::evaluate::{Binder, Part, Row, mean_mass_flow_of};
 use crate::evaluator::{Evaluator, SeenError, TableValues};
-use crate::law::contact::ContactState;
+use crate::law::contact::{Clearance, ContactPressure, ContactState};
 use crate::nodes::{Cells, Column};
 use crate::numbers::mean;
 use crate::plan::{MassFlow, Source, TablePlan};
-use crate::results::Along;
+use crate::results::{Along, Output, ResultBatch};
 use crate::table::{PiecewiseTable, Sides};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// The two branches of a conductance with the columns they read.
 #[derive(Clone, Debug)]
@@ -39,6 +40,13 @@ pub(crate) enum Variable {
     Mean(Source<usize>),
     /// The mean of the magnitudes of the mass flow rates of both sides (K-32).
     MassFlow(MassFlow<usize>),
+}
+
+/// A slope of a conductance that is a result.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WantedSlope {
+    pub(crate) slot: usize,
+    pub(crate) along: SlopeAlong,
 }
 
 /// A conductance, row by row.
@@ -276,6 +284,77 @@ impl BranchColumns {
     }
 }
 
+impl BranchColumns {
+    /// Slopes in every row, a column for each that is wanted: the bits of [`ConductanceTables::slopes`] where a row has all that its table needs.
+    pub(crate) fn slopes(&self, part: &Part<'_>, wanted: &[WantedSlope]) -> Vec<Vec<f64>> {
+        if wanted.is_empty() {
+            return Vec::new();
+        }
+        let (reads, gathered) = self.gather(part);
+        let clearances = part.clearances();
+        let slopes_along = |along: SlopeAlong| {
+            let without = reads.iter().zip(&part.states).map(|(read, state)| match (read, state) {
+                (Reads::Branch(Branch::Neither), Some(state)) => value_without_table(*state),
+                _ => f64::NAN,
+            });
+            let mut slopes: Vec<f64> = without.collect();
+            for (branch, gathered) in [Branch::Clearance, Branch::Pressure].into_iter().zip(&gathered) {
+                let Some(table) = self.tables.table(branch).filter(|_| gathered.count > 0) else { continue };
+                let row = |place: usize| gathered.rows.as_ref().map_or(place, |rows| rows[place] as usize);
+                let axes = (0..gathered.count).map(|place| {
+                    let row = row(place);
+                    along.axis_of(branch, part.states[row]?, clearances[row])
+                });
+                table.slopes_in_columns(&gathered.slices(), axes, |place, slope| slopes[row(place)] = slope);
+            }
+            slopes
+        };
+        wanted.iter().map(|wanted| slopes_along(wanted.along)).collect()
+    }
+
+    /// The slopes in one row, which has all that its table needs.
+    pub(crate) fn set_slopes(&self, row: Row<'_, '_>, wanted: &[WantedSlope], results: &mut ResultBatch) {
+        if wanted.is_empty() {
+            return;
+        }
+        let variables = in_row(&self.variables, row);
+        let point = ContactPoint::of_row(row, &variables);
+        for wanted in wanted {
+            results.set(Some(wanted.slot), row.to, Some(self.tables.slope(wanted.along, &point)));
+        }
+    }
+}
+
+impl ContactPoint<'_> {
+    /// A row as a conductance sees it.
+    pub(crate) fn of_row<'v>(row: Row<'_, '_>, variables: &'v [f64]) -> ContactPoint<'v> {
+        ContactPoint {
+            clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
+            pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
+            state: row.state,
+            variables,
+        }
+    }
+}
+
+/// Writes some rows of columns of slopes.
+pub(crate) fn write_slopes(
+    wanted: &[WantedSlope],
+    slopes: &[Vec<f64>],
+    rows: &Range<usize>,
+    results: &mut ResultBatch,
+) {
+    for (wanted, column) in wanted.iter().zip(slopes) {
+        let column = &column[rows.clone()];
+        results.set_rows(Some(wanted.slot), rows, |row| column[row]);
+    }
+}
+
+/// The variables of a row, NaN where there is none.
+pub(crate) fn in_row(variables: &[Option<Variable>], row: Row<'_, '_>) -> Vec<f64> {
+    variables.iter().map(|of| of.and_then(|of| of.in_row(row)).unwrap_or(f64::NAN)).collect()
+}
+
 impl ConductanceColumn {
     fn make_room(&mut self, rows: usize) {
         self.values.resize(rows, f64::NAN);
@@ -316,6 +395,24 @@ impl Binder<'_> {
     /// Where the mean temperature and the field variables of a conductance stand in a batch.
     pub(crate) fn means(self, sources: &[Option<Source<Column>>]) -> Vec<Option<Variable>> {
         sources.iter().map(|source| self.source(*source).map(Variable::Mean)).collect()
+    }
+
+    /// The slopes of a conductance that are results; `along` says which output is one, and `variable` the place of what it is along among `count` variables.
+    pub(crate) fn slopes_of_conductance(
+        self,
+        along: impl Fn(Output) -> Option<Along>,
+        count: usize,
+        variable: impl Fn(Along) -> Option<usize>,
+    ) -> Vec<WantedSlope> {
+        let wanted = self.slopes(along).into_iter().filter_map(|(slot, along)| {
+            let along = match along {
+                Along::Clearance => SlopeAlong::Contact(Branch::Clearance),
+                Along::Pressure => SlopeAlong::Contact(Branch::Pressure),
+                along => SlopeAlong::Variable(variable(along).filter(|place| *place < count)?),
+            };
+            Some(WantedSlope { slot, along })
+        });
+        wanted.collect()
     }
 }
 

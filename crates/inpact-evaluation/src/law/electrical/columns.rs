@@ -6,9 +6,9 @@ use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, contact_stat
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::kernel::InstructionSet;
 use crate::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs};
-use crate::law::conductance::columns::{BranchColumns, ConductanceColumn};
-use crate::law::conductance::{Branch, ContactPoint};
-use crate::law::contact::{Clearance, ContactPressure, PotentialJump};
+use crate::law::conductance::Branch;
+use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, WantedSlope, write_slopes};
+use crate::law::contact::PotentialJump;
 use crate::law::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
 use crate::law::user::columns::UserColumns;
 use crate::nodes::Cells;
@@ -38,7 +38,7 @@ pub(crate) struct ElectricalColumns {
     area: Option<usize>,
     pub(crate) history: History,
     slots: Slots,
-    slopes: Vec<(usize, Along)>,
+    slopes: Vec<WantedSlope>,
     set: InstructionSet,
 }
 
@@ -103,6 +103,20 @@ impl ElectricalColumns {
             }
         };
         let slot = |output| binder.slot(output);
+        let of_conductance = |output| match output {
+            Output::ConductanceSlope(along) => Some(along),
+            _ => None,
+        };
+        let variables = match &conductance {
+            ConductanceSource::Tables(tables) => tables.variables.len(),
+            // A routine gives the slope along the temperature.
+            ConductanceSource::User(_) => 1,
+        };
+        let slopes = binder.slopes_of_conductance(of_conductance, variables, |along| match along {
+            Along::Temperature => Some(0),
+            Along::FieldVariable(number) => Some(number as usize),
+            _ => None,
+        });
         Some(Self {
             conductance,
             heat_generation: plan.heat.unwrap_or(HeatGeneration { fraction: 0.0, slave_weight: 0.0 }),
@@ -125,10 +139,7 @@ impl ElectricalColumns {
                 heat_slave: slot(Output::HeatSlave),
                 heat_master: slot(Output::HeatMaster),
             },
-            slopes: binder.slopes(|output| match output {
-                Output::ConductanceSlope(along) => Some(along),
-                _ => None,
-            }),
+            slopes,
             set: InstructionSet::best(),
         })
     }
@@ -163,8 +174,8 @@ impl ElectricalColumns {
             (ConductanceSource::User(routine), _) => match routine.conductance(row, tally) {
                 Some(Ok(value)) => {
                     // The plan asks for no other slope.
-                    for (slot, _) in &self.slopes {
-                        results.set(Some(*slot), row.to, Some(value.slope_along_mean_temperature()));
+                    for wanted in &self.slopes {
+                        results.set(Some(wanted.slot), row.to, Some(value.slope_along_mean_temperature()));
                     }
                     (value.conductance, 0.0, Sides::default())
                 }
@@ -206,6 +217,7 @@ impl ElectricalColumns {
         if takes_heat {
             heats.reserve(count);
         }
+        let mut slopes: Option<Vec<Vec<f64>>> = None;
         let mut first = 0;
         while first < count {
             let rows = first..count.min(first + CHUNK);
@@ -240,14 +252,17 @@ impl ElectricalColumns {
             if let (Some(jump), Some(source)) = (&jump, &self.jump) {
                 tally.lost_digits += lost_digits(source, part, rows.clone().map(|row| (row, jump.values[row])));
             }
+            if let Some(tables) = self.tables() {
+                let slopes = slopes.get_or_insert_with(|| tables.slopes(part, &self.slopes));
+                write_slopes(&self.slopes, slopes, &rows, results);
+            }
             for index in rows {
                 let sides = found.sides[index];
-                if self.slopes.is_empty() && sides.is_within() {
+                if sides.is_within() {
                     outcomes.push(Outcome::Evaluated(part.states[index].and_then(contact_status)));
                     continue;
                 }
                 let Some(row) = part.row(index, index) else { continue };
-                self.set_slopes(row, results);
                 outcomes.push(Outcome::Evaluated(self.status(row, sides, tally)));
             }
         }
@@ -338,28 +353,10 @@ impl ElectricalColumns {
         }
     }
 
-    /// The slopes of the conductance by tables, one column each.
+    /// The slopes of the conductance by tables in a row.
     fn set_slopes(&self, row: Row<'_, '_>, results: &mut ResultBatch) {
-        let Some(tables) = self.tables().filter(|_| !self.slopes.is_empty()) else { return };
-        let variables: Vec<f64> =
-            tables.variables.iter().map(|of| of.and_then(|of| of.in_row(row)).unwrap_or(f64::NAN)).collect();
-        let mut slopes = vec![0.0; variables.len()];
-        let point = ContactPoint {
-            clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
-            pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
-            state: row.state,
-            variables: &variables,
-        };
-        let along_contact = tables.tables.slopes(&point, &mut slopes);
-        for (slot, along) in &self.slopes {
-            let slope = match along {
-                Along::Clearance => Some(along_contact.clearance),
-                Along::Pressure => Some(along_contact.pressure),
-                Along::Temperature => slopes.first().copied(),
-                Along::FieldVariable(number) => slopes.get(*number as usize).copied(),
-                Along::PorePressure | Along::MassFlow => None,
-            };
-            results.set(Some(*slot), row.to, slope);
+        if let Some(tables) = self.tables() {
+            tables.set_slopes(row, &self.slopes, results);
         }
     }
 

@@ -108,7 +108,9 @@ impl PoreColumns {
                 q_master: slot(Output::QMaster),
             },
             slopes: binder.slopes(|output| match output {
-                Output::PermeabilitySlope(along) => Some(along),
+                Output::PermeabilitySlope(along) => {
+                    Some(along).filter(|along| axis_of(*along).is_some_and(|axis| axis <= plan.variables.len() + 1))
+                }
                 _ => None,
             }),
         }
@@ -143,6 +145,23 @@ impl PoreColumns {
             form.evaluate(&gathered.slices(), gathered.count, &mut found);
         }
         found
+    }
+
+    /// The slopes of the permeability by the table in every row, a column for each that is wanted; whether fluid crosses is not looked at.
+    pub(super) fn slope_columns(&self, part: &Part<'_>) -> Vec<Vec<f64>> {
+        let points = self.points(part).filter(|_| !self.slopes.is_empty());
+        let Some((form, gathered)) = points else { return Vec::new() };
+        let (table, columns) = (form.table(), gathered.slices());
+        let column = |(_, along): &(usize, Along)| {
+            let axes = part.states.iter().map(|state| match (along, state) {
+                (Along::Pressure, Some(ContactState::Open)) => None,
+                _ => axis_of(*along),
+            });
+            let mut slopes = vec![f64::NAN; part.rows()];
+            table.slopes_in_columns(&columns, axes, |row, slope| slopes[row] = slope);
+            slopes
+        };
+        self.slopes.iter().map(column).collect()
     }
 
     /// The law in a row; gives its status.
@@ -233,12 +252,9 @@ impl PoreColumns {
         let mut slopes = vec![0.0; variables.len()];
         let along_pressure = self.law.permeability_slopes(&PorePoint { variables: &variables, ..point }, &mut slopes);
         for (slot, along) in &self.slopes {
-            let slope = match along {
-                Along::Pressure => Some(along_pressure),
-                Along::PorePressure => slopes.first().copied(),
-                Along::Temperature => slopes.get(1).copied(),
-                Along::FieldVariable(number) => slopes.get(*number as usize + 1).copied(),
-                Along::Clearance | Along::MassFlow => None,
+            let slope = match axis_of(*along) {
+                Some(0) => Some(along_pressure),
+                axis => axis.and_then(|axis| slopes.get(axis - 1).copied()),
             };
             // Without a permeability there is no slope of it either.
             results.set(Some(*slot), row.to, slope.filter(|_| has_permeability));
@@ -270,6 +286,17 @@ impl PoreColumns {
             set(slots.ptl, history.volume());
             set(slots.ptla, history.volume_of_area());
         }
+    }
+}
+
+/// The axis of the table of permeabilities along which a slope is.
+fn axis_of(along: Along) -> Option<usize> {
+    match along {
+        Along::Pressure => Some(0),
+        Along::PorePressure => Some(1),
+        Along::Temperature => Some(2),
+        Along::FieldVariable(number) => Some(number as usize + 2),
+        Along::Clearance | Along::MassFlow => None,
     }
 }
 

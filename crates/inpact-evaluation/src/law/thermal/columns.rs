@@ -6,9 +6,9 @@ use super::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat_amou
 use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, contact_status};
 use crate::history::ThermalHistory;
 use crate::law::calculix::CalculixConductance;
-use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, Needs, Variable};
-use crate::law::conductance::{Branch, ContactPoint};
-use crate::law::contact::{Clearance, ContactPressure, ContactState};
+use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, Needs, Variable, WantedSlope, in_row};
+use crate::law::conductance::{Branch, ContactPoint, SlopeAlong};
+use crate::law::contact::ContactState;
 use crate::law::friction::columns::FrictionColumns;
 use crate::law::heat::HeatAmounts;
 use crate::law::radiation::columns::RadiationColumns;
@@ -41,7 +41,7 @@ pub(crate) struct ThermalColumns {
 #[derive(Debug, Clone)]
 struct Conduction {
     source: ConductionSource,
-    slopes: Vec<(usize, Along)>,
+    slopes: Vec<WantedSlope>,
 }
 
 /// Sources of the conductance.
@@ -265,39 +265,34 @@ impl Conduction {
                 ConductionSource::Calculix { needs: Needs::of(curves.rows()), curves, variables }
             }
         };
-        let slopes = binder.slopes(|output| match output {
+        let of_conductance = |output| match output {
             Output::ThermalConductanceSlope(along) => Some(along),
+            _ => None,
+        };
+        let slopes = binder.slopes_of_conductance(of_conductance, source.variables().len(), |along| match along {
+            Along::Temperature => Some(0),
+            Along::MassFlow => Some(MASS_FLOW),
+            Along::FieldVariable(number) => Some(number as usize + MASS_FLOW),
             _ => None,
         });
         Some(Self { source, slopes })
     }
 
-    fn variables(&self) -> &[Option<Variable>] {
-        match &self.source {
-            ConductionSource::Tables(columns) => &columns.variables,
-            ConductionSource::Calculix { variables, .. } => variables,
-        }
-    }
-
-    /// The variables of a row, NaN where there is none.
-    fn variables_in_row(&self, row: Row<'_, '_>) -> Vec<f64> {
-        self.variables().iter().map(|of| of.and_then(|of| of.in_row(row)).unwrap_or(f64::NAN)).collect()
-    }
-
     fn conductances(&self, part: &Part<'_>) -> ConductanceColumn {
-        let (curves, needs) = match &self.source {
+        let (curves, needs, variables) = match &self.source {
             ConductionSource::Tables(columns) => return columns.evaluate(part, None),
-            ConductionSource::Calculix { curves, needs, .. } => (curves, needs),
+            ConductionSource::Calculix { curves, needs, variables } => (curves, needs, variables),
         };
+        let lacks = |row, variable: usize| variables[variable].and_then(|of| of.in_row(row)).is_none();
         ConductanceColumn::of_rows((0..part.rows()).map(|index| {
             let row = part.row(index, index)?;
-            let variables = self.variables_in_row(row);
+            let variables = in_row(variables, row);
             let lacks_variable =
-                || needs.variables.iter().any(|index| variables[*index].is_nan() && self.lacks(row, *index));
+                || needs.variables.iter().any(|index| variables[*index].is_nan() && lacks(row, *index));
             if row.state == ContactState::Closed && (needs.abscissa && row.pressure.is_none() || lacks_variable()) {
                 return None;
             }
-            let found = curves.conductance(&point(row, &variables));
+            let found = curves.conductance(&ContactPoint::of_row(row, &variables));
             Some((found.value, found.sides))
         }))
     }
@@ -313,47 +308,61 @@ impl Conduction {
         }
     }
 
-    /// Whether slopes of the conductance are wanted.
-    fn has_slopes(&self) -> bool {
-        !self.slopes.is_empty()
-    }
-
-    /// Whether a row has no number for a variable.
-    fn lacks(&self, row: Row<'_, '_>, variable: usize) -> bool {
-        self.variables()[variable].and_then(|of| of.in_row(row)).is_none()
+    /// Slopes in every row, a column for each that is wanted; of a row that lacks a number they are of no meaning.
+    fn slopes(&self, part: &Part<'_>) -> Vec<Vec<f64>> {
+        let (curves, variables) = match &self.source {
+            ConductionSource::Tables(columns) => return columns.slopes(part, &self.slopes),
+            ConductionSource::Calculix { curves, variables, .. } => (curves, variables),
+        };
+        let mut columns = vec![vec![f64::NAN; part.rows()]; self.slopes.len()];
+        if columns.is_empty() {
+            return columns;
+        }
+        for index in 0..part.rows() {
+            let Some(row) = part.row(index, index) else { continue };
+            let slopes = self.slopes_of_curves(curves, variables, row);
+            columns.iter_mut().zip(slopes).for_each(|(column, slope)| column[index] = slope);
+        }
+        columns
     }
 
     fn set_slopes(&self, row: Row<'_, '_>, results: &mut ResultBatch) {
-        if self.slopes.is_empty() {
-            return;
+        match &self.source {
+            ConductionSource::Tables(columns) => columns.set_slopes(row, &self.slopes, results),
+            ConductionSource::Calculix { .. } if self.slopes.is_empty() => {}
+            ConductionSource::Calculix { curves, variables, .. } => {
+                let slopes = self.slopes_of_curves(curves, variables, row);
+                for (wanted, slope) in self.slopes.iter().zip(slopes) {
+                    results.set(Some(wanted.slot), row.to, Some(slope));
+                }
+            }
         }
-        let variables = self.variables_in_row(row);
+    }
+
+    /// The slopes of CalculiX' curves in a row.
+    fn slopes_of_curves(
+        &self,
+        curves: &CalculixConductance,
+        variables: &[Option<Variable>],
+        row: Row<'_, '_>,
+    ) -> Vec<f64> {
+        let variables = in_row(variables, row);
         let mut slopes = vec![0.0; variables.len()];
-        let point = point(row, &variables);
-        let along_contact = match &self.source {
-            ConductionSource::Tables(columns) => columns.tables.slopes(&point, &mut slopes),
-            ConductionSource::Calculix { curves, .. } => curves.slopes(&point, &mut slopes),
-        };
-        for (slot, along) in &self.slopes {
-            let slope = match along {
-                Along::Clearance => Some(along_contact.clearance),
-                Along::Pressure => Some(along_contact.pressure),
-                Along::Temperature => slopes.first().copied(),
-                Along::MassFlow => slopes.get(MASS_FLOW).copied(),
-                Along::FieldVariable(number) => slopes.get(*number as usize + MASS_FLOW).copied(),
-                Along::PorePressure => None,
-            };
-            results.set(Some(*slot), row.to, slope);
-        }
+        let along_contact = curves.slopes(&ContactPoint::of_row(row, &variables), &mut slopes);
+        let wanted = self.slopes.iter().map(|wanted| match wanted.along {
+            SlopeAlong::Contact(Branch::Pressure) => along_contact.pressure,
+            SlopeAlong::Contact(_) => along_contact.clearance,
+            SlopeAlong::Variable(place) => slopes[place],
+        });
+        wanted.collect()
     }
 }
 
-/// A row as a conductance sees it.
-fn point<'v>(row: Row<'_, '_>, variables: &'v [f64]) -> ContactPoint<'v> {
-    ContactPoint {
-        clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
-        pressure: ContactPressure(row.pressure.unwrap_or(f64::NAN)),
-        state: row.state,
-        variables,
+impl ConductionSource {
+    fn variables(&self) -> &[Option<Variable>] {
+        match self {
+            Self::Tables(columns) => &columns.variables,
+            Self::Calculix { variables, .. } => variables,
+        }
     }
 }

@@ -52,6 +52,7 @@ impl PoreColumns {
         let inputs = self.inputs(part, found, &clearances);
         let mut flows = Flows { permeability: [0.0; CHUNK], crossing: [0.0; CHUNK], is_cut_off: [false; CHUNK] };
         let mut outcomes = Vec::with_capacity(part.rows());
+        let mut slopes: Option<Vec<Vec<f64>>> = None;
         let mut first = 0;
         while first < part.rows() {
             let rows = first..part.rows().min(first + CHUNK);
@@ -59,6 +60,11 @@ impl PoreColumns {
             let plain = inputs.filter(|inputs| self.find_flows(*inputs, part, rows.clone(), &mut flows));
             if let Some(inputs) = plain {
                 self.write_flows(inputs, &flows, rows.clone(), results);
+                let slopes = slopes.get_or_insert_with(|| self.slope_columns(part));
+                for ((slot, _), column) in self.slopes.iter().zip(&*slopes) {
+                    let (column, is_cut_off) = (&column[rows.clone()], &flows.is_cut_off);
+                    results.set_rows(Some(*slot), &rows, |row| if is_cut_off[row] { 0.0 } else { column[row] });
+                }
                 outcomes.extend(rows.clone().map(|index| {
                     let sides = found.sides[index];
                     Outcome::Evaluated(if flows.is_cut_off[index - rows.start] {
@@ -101,7 +107,7 @@ impl PoreColumns {
         let is_difference_known = inputs.pressures.is_some() || inputs.jump.is_some() && !needs_mean;
         let is_rounded = found.rests.is_empty() && found.values.len() == part.rows();
         // A gap that does not change is filled by nothing, whatever its shares, as long as they are numbers.
-        let is_plain = self.regime == Regime::SteadyState && self.bulk.is_none() && self.slopes.is_empty();
+        let is_plain = self.regime == Regime::SteadyState && self.bulk.is_none();
         (self.form.is_some() && is_plain && is_difference_known && is_rounded).then_some(inputs)
     }
 

@@ -2,6 +2,7 @@
 
 use super::{ThermalColumns, ThermalFound};
 use crate::evaluate::{InteractionTally, Outcome, Part, VIEW_FACTOR, contact_status};
+use crate::law::conductance::columns::write_slopes;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatAmounts;
 use crate::numbers::{are_moderate, compensated_sum};
@@ -46,6 +47,7 @@ impl ThermalColumns {
         let inputs = self.inputs(part, found, current);
         let mut heats = inputs.map(|_| Box::new(Heats::none()));
         let mut outcomes = Vec::with_capacity(part.rows());
+        let mut slopes: Option<Vec<Vec<f64>>> = None;
         let mut first = 0;
         while first < part.rows() {
             let rows = first..part.rows().min(first + CHUNK);
@@ -55,7 +57,11 @@ impl ThermalColumns {
             if let Some((inputs, heats)) = plain {
                 self.write_heats(inputs, heats, rows.clone(), results);
                 self.count_heats(inputs, heats, rows.clone(), tally);
-                outcomes.extend(rows.map(|index| self.outcome(part, found, index, results, tally)));
+                if let Some(conduction) = &self.conduction {
+                    let slopes = slopes.get_or_insert_with(|| conduction.slopes(part));
+                    write_slopes(&conduction.slopes, slopes, &rows, results);
+                }
+                outcomes.extend(rows.map(|index| self.outcome(part, found, index, tally)));
                 continue;
             }
             outcomes.extend(rows.map(|index| match part.row(index, index) {
@@ -174,16 +180,9 @@ impl ThermalColumns {
         }
     }
 
-    /// The status of a row whose heat is found, and what is left to do of it.
+    /// The status of a row whose heat is found.
     #[inline]
-    fn outcome(
-        &self,
-        part: &Part<'_>,
-        found: &ThermalFound,
-        index: usize,
-        results: &mut ResultBatch,
-        tally: &mut InteractionTally,
-    ) -> Outcome {
+    fn outcome(&self, part: &Part<'_>, found: &ThermalFound, index: usize, tally: &mut InteractionTally) -> Outcome {
         let Some(state) = part.states[index] else { return Outcome::Incomplete };
         let mut is_within = true;
         if let Some(conduction) = &self.conduction {
@@ -191,9 +190,6 @@ impl ThermalColumns {
             if !sides.is_within() {
                 conduction.count_sides(state, sides, tally);
                 is_within = false;
-            }
-            if let Some(row) = part.row(index, index).filter(|_| conduction.has_slopes()) {
-                conduction.set_slopes(row, results);
             }
         }
         if self.radiation.is_some() {
