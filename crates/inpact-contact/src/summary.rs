@@ -1,13 +1,23 @@
 //! Summary of a pair: counts and sources of its quantities.
 
 use crate::state::Source;
-use crate::values::Origin;
 use inpact_evaluation::law::ContactState;
 use inpact_evaluation::nodes::Column;
 use inpact_geometry::Shares;
 use inpact_parser::mesh::{Mesh, MeshPair, Sliding, SurfaceKind};
 use inpact_parser::model::Name;
 use std::fmt;
+
+/// The source of a number of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Origin<'a> {
+    /// The mesh of the deck.
+    Mesh,
+    /// The mesh, moved by displacements.
+    Moved(&'a Source),
+    /// A value given by a source.
+    Said(&'a Source),
+}
 
 /// Sources of the areas of slave nodes.
 #[derive(Debug, Clone, PartialEq)]

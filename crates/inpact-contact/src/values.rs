@@ -1,21 +1,11 @@
 //! The numbers of a row: what a result file says of the slave node, else the geometry, and fields of the master by the weights of its nodes.
 
 use crate::pair::{Pair, across, interpolated};
-use crate::state::{ContactQuantity, NodeQuantity, Source, State};
+use crate::state::{ContactQuantity, NodeQuantity, State};
+use crate::summary::Origin;
 use inpact_evaluation::nodes::{Column, Part};
 use inpact_geometry::{ContactNode, NodeId};
 use inpact_parser::mesh::Mesh;
-
-/// The source of a number of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Origin<'a> {
-    /// The mesh of the deck.
-    Mesh,
-    /// The mesh, moved by displacements.
-    Moved(&'a Source),
-    /// A value given by a source.
-    Said(&'a Source),
-}
 
 /// The columns that some of the states fill.
 pub(crate) fn columns(states: &[State]) -> Vec<Column> {

@@ -1,7 +1,6 @@
 //! A finding with its place, reason and help: the one source of every output format.
 
 use crate::fix::{Edit, Fix, FixSafety};
-use crate::lines::Lines;
 use crate::rule::Rule;
 use crate::severity::Severity;
 use crate::span::{Position, Span};
@@ -67,6 +66,19 @@ pub struct Cell {
     pub row: Option<u64>,
     /// The header of the column.
     pub field: Option<String>,
+}
+
+/// Some whole lines of a file: that of a finding, the one before and the one after it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lines {
+    /// The offset in the file of the first byte.
+    pub start: u64,
+    /// The number of the first line, from 1.
+    pub first: u64,
+    /// The line of the finding, in `bytes`, without its line end.
+    pub line: std::ops::Range<usize>,
+    /// The bytes, line ends included.
+    pub bytes: Vec<u8>,
 }
 
 impl Diagnostic {

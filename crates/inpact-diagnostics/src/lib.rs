@@ -25,9 +25,9 @@ pub mod span;
 pub mod visible;
 
 pub use columns::{ColumnUnit, column_width};
-pub use diagnostic::{Cell, Diagnostic, Extent, Label};
+pub use diagnostic::{Cell, Diagnostic, Extent, Label, Lines};
 pub use findings::{Findings, Place};
 pub use fix::{Edit, Fix, FixSafety, apply};
-pub use lines::{Lines, keep_lines};
+pub use lines::keep_lines;
 pub use rule::{FixKind, Rule};
 pub use severity::Severity;

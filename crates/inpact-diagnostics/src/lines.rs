@@ -1,22 +1,9 @@
 //! The lines around findings, kept with them where their file is not kept: node tables, scenes and the tables beside them.
 
-use crate::diagnostic::{Diagnostic, Extent};
+use crate::diagnostic::{Diagnostic, Extent, Lines};
 use std::collections::BTreeMap;
 use std::io::{self, BufRead};
 use std::sync::Arc;
-
-/// Some whole lines of a file: that of a finding, the one before and the one after it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Lines {
-    /// The offset in the file of the first byte.
-    pub start: u64,
-    /// The number of the first line, from 1.
-    pub first: u64,
-    /// The line of the finding, in `bytes`, without its line end.
-    pub line: std::ops::Range<usize>,
-    /// The bytes, line ends included.
-    pub bytes: Vec<u8>,
-}
 
 /// Keeps with every finding in a text the lines around it; those whose line is not known, or not there, have none.
 ///

@@ -16,10 +16,10 @@ mod text;
 
 pub use data_line::items;
 pub use edited::{EditedText, TextInParts};
-pub use include::{Excerpts, FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
+pub use include::{FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
 pub use parameter::{Parameter, Resolved};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
-pub use text::Source;
+pub use text::{Excerpts, Source};
 
 use crate::grammar::KeywordId;
 use crate::span::{Position, SourceId, Span};

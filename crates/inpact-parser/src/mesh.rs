@@ -15,19 +15,24 @@
 
 mod amplitudes;
 mod bodies;
+mod condition_keywords;
 mod conditions;
 mod elements;
 mod initial;
 mod labels;
 mod layout;
+mod located;
 mod materials;
 mod nodes;
 mod orientations;
 mod pairs;
 mod place;
+mod placement;
 mod reader;
+mod reading;
 mod rows;
 mod sections;
+mod selected;
 mod selection;
 mod surfaces;
 

@@ -8,12 +8,12 @@
 //! The total flux of heat through a surface (SURFACE_FLUX) is positive where heat leaves the body that the surface is of.
 
 use crate::collect::{self, PassedOver, Row};
-use crate::frames::{TakeFrame, Taker, read_whole};
+use crate::format::Format;
 use crate::lines::{Line, LineEnd, LineStream};
 use crate::number;
 use crate::problem::{Problem, Read, shown};
-use crate::recognise::Format;
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
+use crate::taker::{TakeFrame, Taker, read_whole};
 
 const CUT: &str = "the file is cut short, or the job has not ended yet; the part before is read";
 const DAMAGED: &str = "the file is damaged here, or is no .dat of CalculiX; the part before is read";

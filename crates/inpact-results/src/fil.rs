@@ -7,11 +7,11 @@ mod quantities;
 mod records;
 
 use crate::collect::{self, PassedOver, Row};
-use crate::frames::{TakeFrame, Taker, read_whole};
+use crate::format::Format;
 use crate::lines::LineStream;
 use crate::problem::{Place, Problem, Read};
-use crate::recognise::Format;
 use crate::results::{Field, Frame, Name, Region, Results, Surface, SurfaceFace};
+use crate::taker::{TakeFrame, Taker, read_whole};
 use quantities::{Kind, Quantity, quantity};
 use records::{CUT, Record, Records, Word};
 use std::collections::HashMap;

@@ -1,15 +1,13 @@
 //! Reading state by state: what of a file is in memory is what belongs to no state, and the state that is being read.
 
+use crate::format::Format;
 use crate::lines::LineStream;
-use crate::problem::{Problem, Read, ended};
-use crate::recognise::{Format, HEAD, recognise};
-use crate::results::{Frame, Results};
+use crate::problem::{Problem, Read};
+use crate::recognise::{HEAD, recognise};
+use crate::results::Results;
+use crate::taker::{ReadFrames, TakeFrame};
 use crate::{dat, fil, frd, rpt, vtu};
 use std::io::{self, Read as _};
-use std::ops::ControlFlow;
-
-/// Takes states one after the other, each with what the file has said before that belongs to none; may ask for no more.
-pub type TakeFrame<'a> = dyn FnMut(&Results, Frame) -> ControlFlow<()> + 'a;
 
 /// Why a file was not read to its end.
 #[derive(Debug, thiserror::Error)]
@@ -84,39 +82,4 @@ fn of_whole(source: &mut dyn io::Read, read: fn(&[u8]) -> Read, take: &mut TakeF
         }
     }
     problem.map_or(Ok(results), |problem| Err(Broken::Unsound(problem)))
-}
-
-/// How a format is read state by state.
-pub(crate) type ReadFrames = fn(&mut LineStream<'_>, &mut TakeFrame<'_>) -> (Results, Result<(), Problem>);
-
-/// Reads bytes that are at hand, all states of them.
-pub(crate) fn read_whole(mut bytes: &[u8], read: ReadFrames) -> Read {
-    let mut frames = Vec::new();
-    let mut take = |_: &Results, frame| {
-        frames.push(frame);
-        ControlFlow::Continue(())
-    };
-    let (mut results, outcome) = read(&mut LineStream::new(&mut bytes), &mut take);
-    results.frames = frames;
-    ended(results, outcome)
-}
-
-/// Hands states over until nobody wants more.
-pub(crate) struct Taker<'a, 'b> {
-    take: &'a mut TakeFrame<'b>,
-    /// Whether nobody wants more.
-    pub(crate) is_over: bool,
-}
-
-impl<'a, 'b> Taker<'a, 'b> {
-    pub(crate) fn new(take: &'a mut TakeFrame<'b>) -> Self {
-        Self { take, is_over: false }
-    }
-
-    /// Hands a state over, if there is one.
-    pub(crate) fn take(&mut self, results: &Results, frame: Option<Frame>) {
-        if let Some(frame) = frame.filter(|_| !self.is_over) {
-            self.is_over = (self.take)(results, frame).is_break();
-        }
-    }
 }

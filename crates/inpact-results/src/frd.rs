@@ -6,12 +6,12 @@
 //! COPEN is negative where surfaces overlap; some releases write contact for all nodes, 0 where a node is none of a slave surface.
 
 use crate::collect::{self, PassedOver, Row};
-use crate::frames::{TakeFrame, Taker, read_whole};
+use crate::format::Format;
 use crate::lines::{Line, LineEnd, LineStream};
 use crate::number;
 use crate::problem::{Place, Problem, Read, shown};
-use crate::recognise::Format;
 use crate::results::{Field, Frame, Region, Results};
+use crate::taker::{TakeFrame, Taker, read_whole};
 
 const CUT: &str = "the file is cut short, or the job has not ended yet; the part before is read";
 const DAMAGED: &str = "the file is damaged here, or is no .frd of CalculiX; the part before is read";

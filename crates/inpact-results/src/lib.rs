@@ -27,6 +27,7 @@
 //! ```
 
 mod collect;
+mod format;
 mod frames;
 mod lines;
 mod number;
@@ -34,6 +35,7 @@ mod number;
 mod problem;
 mod recognise;
 mod results;
+mod taker;
 
 mod dat;
 mod fil;
@@ -43,12 +45,14 @@ pub mod vtu;
 
 pub use dat::read_dat;
 pub use fil::read_fil;
-pub use frames::{Broken, TakeFrame, read_frames};
+pub use format::Format;
+pub use frames::{Broken, read_frames};
 pub use frd::read_frd;
 pub use problem::{Incomplete, Place, Problem, Read};
-pub use recognise::{Format, recognise};
+pub use recognise::recognise;
 pub use results::{Column, Field, Frame, Name, NotRead, Region, Results, Rows, Surface, SurfaceFace};
 pub use rpt::read_rpt;
+pub use taker::TakeFrame;
 pub use vtu::read_vtu;
 
 /// Reads a result file of any kind that is known, which is found out by what it holds.

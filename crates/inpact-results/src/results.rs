@@ -3,7 +3,7 @@
 //! Values are those of the file, in its units, in its order; nothing is interpolated, merged or sorted.
 //! Columns have the identifiers of Abaqus where the quantity has one, whichever program wrote it: `U1`, `NT11`, `COPEN`, `CPRESS`.
 
-use crate::recognise::Format;
+use crate::format::Format;
 use std::sync::Arc;
 
 /// A name that frames and fields share.

@@ -1,7 +1,6 @@
 //! Rules: what they see, and how they report.
 
 use crate::lost::LostLine;
-use crate::tables::trimmed;
 use inpact_diagnostics::{Diagnostic, Label, Rule};
 use inpact_parser::Problem;
 use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
@@ -223,4 +222,11 @@ impl<'a> Report<'a> {
             last.note(format!("{hidden} more findings of this rule in this deck are not shown"));
         }
     }
+}
+
+/// The span without blanks and line ends around it.
+pub(crate) fn trimmed(deck: &Deck, span: Span) -> Span {
+    let text = deck.text(span);
+    let start = span.start() + (text.len() - text.trim_ascii_start().len()) as u64;
+    Span::new(span.source(), start, start + text.trim_ascii().len() as u64)
 }

@@ -4,7 +4,7 @@
 //! misspelt parameter or an unreadable DEPENDENCIES has a finding of its own, and what follows from it has none.
 
 use crate::parameter::given;
-use crate::rule::{Context, DefinedBlock};
+use crate::rule::{Context, DefinedBlock, trimmed};
 use inpact_parser::ProblemKind;
 use inpact_parser::deck::{Deck, KeywordLine};
 use inpact_parser::expression::{Parameters, substitute};
@@ -103,11 +103,4 @@ pub(crate) fn number_in(deck: &Deck, parameters: &Parameters, item: Span) -> f64
     }
     let text = deck.shown(item);
     substitute(&text, parameters).ok().and_then(|text| read_float(text.trim().as_bytes()).ok()).unwrap_or(f64::NAN)
-}
-
-/// The span without blanks and line ends around it.
-pub(crate) fn trimmed(deck: &Deck, span: Span) -> Span {
-    let text = deck.text(span);
-    let start = span.start() + (text.len() - text.trim_ascii_start().len()) as u64;
-    Span::new(span.source(), start, start + text.trim_ascii().len() as u64)
 }

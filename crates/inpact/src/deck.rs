@@ -3,7 +3,6 @@
 use crate::curves::{self, Figure, Request};
 use crate::error::Error;
 use crate::failure::Failure;
-use crate::fixes::{Fixed, Fixes};
 use crate::input::{LocatedDeck, read_located_deck};
 use crate::json_deck;
 use crate::render::{self, Format, Sources, Style};
@@ -167,25 +166,6 @@ impl Deck {
         frame.head
             + &render::diagnostics(findings, Sources::Deck(&self.located.deck), format, Style::Plain)
             + &frame.tail
-    }
-
-    /// Applies the fixes of its findings, in memory.
-    ///
-    /// ```
-    /// use inpact::{Deck, Fixes, ReadOptions};
-    ///
-    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION, NAME=A\n  ** bare\n", &ReadOptions::new().isolated())?;
-    /// let fixed = deck.fix(&Fixes::safe())?;
-    /// assert_eq!(fixed.findings(), 1);
-    /// assert_eq!(fixed.files()[0].after(), b"*SURFACE INTERACTION, NAME=A\n** bare\n");
-    /// assert!(fixed.deck()?.check().is_empty());
-    /// # Ok::<(), inpact::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Files that cannot be read again, or a code that no rule has.
-    pub fn fix(&self, fixes: &Fixes) -> Result<Fixed, Error> {
-        Fixed::of(self, fixes)
     }
 
     /// Its model, as JSON of the schema `inpact/model/1`.

@@ -79,6 +79,27 @@ pub struct FixedFile {
     after: std::sync::Arc<[u8]>,
 }
 
+impl Deck {
+    /// Applies the fixes of its findings, in memory.
+    ///
+    /// ```
+    /// use inpact::{Deck, Fixes, ReadOptions};
+    ///
+    /// let deck = Deck::parse("a.inp", "*SURFACE INTERACTION, NAME=A\n  ** bare\n", &ReadOptions::new().isolated())?;
+    /// let fixed = deck.fix(&Fixes::safe())?;
+    /// assert_eq!(fixed.findings(), 1);
+    /// assert_eq!(fixed.files()[0].after(), b"*SURFACE INTERACTION, NAME=A\n** bare\n");
+    /// assert!(fixed.deck()?.check().is_empty());
+    /// # Ok::<(), inpact::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Files that cannot be read again, or a code that no rule has.
+    pub fn fix(&self, fixes: &Fixes) -> Result<Fixed, Error> {
+        Fixed::of(self, fixes)
+    }
+}
+
 impl Fixed {
     pub(crate) fn of(deck: &Deck, fixes: &Fixes) -> Result<Self, Error> {
         let selection = fixes.selection()?;

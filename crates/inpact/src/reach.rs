@@ -74,7 +74,7 @@ fn without_dots(path: &Path) -> PathBuf {
 /// The reason why a named deck is not read: it is a link that leads out of the roots, or to a file that the system makes up.
 pub(crate) fn leads_astray(deck: &Path, roots: &[PathBuf]) -> Option<String> {
     let (Ok(whole), Some(name)) = (deck.canonicalize(), deck.file_name()) else { return None };
-    let named = crate::settings::folder_of_deck(deck).join(name);
+    let named = folder_of_deck(deck).join(name);
     // A stream such as `/dev/stdin` is a link by nature, and whoever names it means it.
     let is_plain = whole == named || OF_THE_SYSTEM.iter().any(|folder| named.starts_with(folder));
     let found = deck.metadata().ok().filter(Metadata::is_file)?;
@@ -86,6 +86,12 @@ pub(crate) fn leads_astray(deck: &Path, roots: &[PathBuf]) -> Option<String> {
     }
     let root = roots.iter().find(|root| !whole.starts_with(root))?;
     Some(format!("it is a link that leads out of `{}`, outside of which nothing is read", root.display()))
+}
+
+/// The whole path of the folder that a deck is named in; the working folder for standard input.
+pub(crate) fn folder_of_deck(deck: &Path) -> PathBuf {
+    let folder = deck.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
 #[cfg(test)]

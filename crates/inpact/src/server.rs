@@ -19,6 +19,7 @@ mod long;
 mod names;
 mod navigation;
 mod outline;
+mod refusal;
 mod requests;
 mod session;
 mod shape;
@@ -28,7 +29,7 @@ mod transport;
 mod uri;
 mod workspace;
 
-use self::requests::Refusal;
+use self::refusal::Refusal;
 use self::session::Session;
 use self::transport::{Cancelled, Client, Incoming};
 use crate::failure::{Failure, Outcome};

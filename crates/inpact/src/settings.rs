@@ -6,7 +6,7 @@ pub(crate) use self::arguments::DeckArguments;
 
 use crate::failure::Failure;
 use crate::files;
-use crate::reach::irregular;
+use crate::reach::{folder_of_deck, irregular};
 use crate::rules;
 use crate::stop::Stop;
 use clap::ValueEnum;
@@ -332,12 +332,6 @@ fn repository_of(deck: &Path) -> PathBuf {
     let folder = folder_of_deck(deck);
     let repository = folder.ancestors().find(|folder| folder.join(".git").exists());
     repository.map_or_else(|| folder.clone(), Path::to_owned)
-}
-
-/// The whole path of the folder that a deck is named in; the working folder for standard input.
-pub(crate) fn folder_of_deck(deck: &Path) -> PathBuf {
-    let folder = deck.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
 fn read(path: &Path) -> Result<File, Failure> {

@@ -8,7 +8,7 @@ use super::core::{Core, Element, NONE, ROUNDING};
 use super::found::CoreFound;
 use super::network::LinearNetwork;
 use super::sets::{Sets, index};
-use super::solve::LinearSolution;
+use super::solution::LinearSolution;
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// Finds the flows through the infinite conductances of a network that is solved otherwise; `solve` solves a network of finite ones.

@@ -5,7 +5,7 @@
 //! open there (S-51). What could not be read is said in [`Include::outcome`], and the rest of the deck is read all the same.
 
 use super::scan::LeadingRows;
-use super::{Block, Deck, KeywordLine, ScanOptions, Scanner, Source};
+use super::{Block, Deck, Excerpts, KeywordLine, ScanOptions, Scanner, Source};
 use crate::grammar::Dialect;
 use crate::span::{SourceId, Span};
 use std::collections::HashMap;
@@ -86,16 +86,6 @@ pub trait IncludedFiles {
     /// # Errors
     /// The reason why they cannot be read, for users.
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String>;
-}
-
-/// Whether the lines of a source file may be quoted around findings in it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Excerpts {
-    /// They may.
-    #[default]
-    Shown,
-    /// They may not: the deck names a file that is none of its own, and its lines are nobody's business.
-    Withheld,
 }
 
 /// A file that an *INCLUDE names.

@@ -4,7 +4,6 @@
 
 use std::ops::Range;
 
-use super::include::Excerpts;
 use super::lines::count_line_ends;
 use crate::span::{Position, Span};
 
@@ -19,6 +18,16 @@ pub struct Source {
     stretches: Vec<Stretch>,
     /// The kept bytes, stretch after stretch.
     bytes: Vec<u8>,
+}
+
+/// Whether the lines of a source file may be quoted around findings in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Excerpts {
+    /// They may.
+    #[default]
+    Shown,
+    /// They may not: the deck names a file that is none of its own, and its lines are nobody's business.
+    Withheld,
 }
 
 /// A run of kept bytes without a gap.

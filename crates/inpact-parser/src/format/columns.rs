@@ -1,6 +1,6 @@
 //! Items below one another: numbers by their decimal points, everything else by its first character.
 
-use super::rows::is_number_or_symbol;
+use crate::number::read_float;
 use std::ops::Range;
 
 /// An item of a line.
@@ -102,4 +102,9 @@ impl Column {
 /// The number of characters, for UTF-8 text; other text only looks less tidy.
 fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| **byte & 0xC0 != 0x80).count()
+}
+
+/// Whether it is a number, or the name of one.
+pub(super) fn is_number_or_symbol(item: &[u8]) -> bool {
+    item.contains(&b'<') || read_float(item).is_ok()
 }

@@ -4,11 +4,11 @@
 //! are left out, since they mean what nothing means (S-33).
 
 use super::LINE_CHARACTERS;
-use super::columns::{Cell, Columns};
+use super::columns::{Cell, Columns, is_number_or_symbol};
 use crate::deck::lines::{LineKind, line_kind, lines, without_line_end};
 use crate::deck::{Block, Deck, items};
 use crate::grammar::{Definition, RowShape};
-use crate::number::{read_float, read_integer};
+use crate::number::read_integer;
 use std::ops::Range;
 
 /// The rows of a block; `None` when they are to stay as they are.
@@ -146,11 +146,6 @@ fn is_well_formed(line: &[u8], cells: &[Cell], text: &[u8], shape: RowShape) -> 
         return memchr::memchr_iter(b'"', line).count().is_multiple_of(2);
     }
     cells.iter().map(|cell| cell.text(text)).all(|item| item.is_empty() || is_number_or_symbol(item))
-}
-
-/// Whether it is a number, or the name of one.
-pub(super) fn is_number_or_symbol(item: &[u8]) -> bool {
-    item.contains(&b'<') || read_float(item).is_ok()
 }
 
 /// The number of cells of a row that are written.

@@ -1,8 +1,8 @@
 //! The rows of an option: their shape, their columns, and how a row lies on its lines (2.9).
 
-use super::definition::{first_repeated, is_description};
 use super::dimension::Dimension;
 use serde::Deserialize;
+use std::collections::HashSet;
 
 /// The most items on a data line (K-50).
 const ITEMS_ON_A_LINE: usize = 8;
@@ -215,6 +215,17 @@ impl Layout {
     pub fn lines_per_row(&self) -> usize {
         1 + self.width().saturating_sub(self.first_line).div_ceil(self.following)
     }
+}
+
+/// Whether a text is not empty and, being one sentence, ends without a full stop.
+pub(super) fn is_description(text: &str) -> bool {
+    !text.trim().is_empty() && !text.ends_with('.')
+}
+
+/// The first name that occurs a second time.
+pub(super) fn first_repeated<'name>(mut names: impl Iterator<Item = &'name str>) -> Option<&'name str> {
+    let mut seen = HashSet::new();
+    names.find(|name| !seen.insert(*name))
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
 //! Definition of a keyword: levels, parameters, rows. One TOML file each, read strictly.
 
-use super::data::{Data, Layout, RowShape};
+use super::data::{Data, Layout, RowShape, first_repeated, is_description};
 use super::dimension::Dimension;
 use super::lookup::{Lookup, begins_with_name, is_name, lookup_among, lookup_name};
 use super::nearest;
 use super::release::Release;
 use crate::Error;
 use serde::Deserialize;
-use std::collections::HashSet;
 
 /// The definition of a keyword.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -317,15 +316,4 @@ impl ParameterDefinition {
 
 fn complete() -> bool {
     true
-}
-
-/// Whether a text is not empty and, being one sentence, ends without a full stop.
-pub(super) fn is_description(text: &str) -> bool {
-    !text.trim().is_empty() && !text.ends_with('.')
-}
-
-/// The first name that occurs a second time.
-pub(super) fn first_repeated<'name>(mut names: impl Iterator<Item = &'name str>) -> Option<&'name str> {
-    let mut seen = HashSet::new();
-    names.find(|name| !seen.insert(*name))
 }

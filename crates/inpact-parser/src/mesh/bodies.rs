@@ -9,7 +9,7 @@ use super::nodes::Wanted;
 use super::orientations::MaterialAxes;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
-use super::selection::{Kind, Selection};
+use super::selected::{Kind, Selection};
 use super::surfaces::Picks;
 use super::{MeshNode, MeshNote};
 use crate::model::{Name, Reference};

@@ -6,7 +6,8 @@
 
 use super::MeshNote;
 use super::amplitudes::Amplitude;
-use super::layout::{Entry, canonical};
+use super::condition_keywords::{NOT_TAKEN, TAKEN};
+use super::layout::{Entry, StepEntry, canonical};
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use super::surfaces::{Found, Picks};
@@ -103,52 +104,6 @@ pub enum Target {
     Nodes(Reference),
     /// A face of the elements of a set, or of one element.
     Faces(Reference, FaceLabel),
-}
-
-/// A keyword of a step with the step's number.
-#[derive(Debug, Clone)]
-pub(super) struct StepEntry<'deck> {
-    pub(super) step: usize,
-    /// Upper case, without blanks.
-    pub(super) name: String,
-    pub(super) entry: Entry<'deck>,
-}
-
-/// The keywords that conditions are read of, without blanks, and as they are written.
-const TAKEN: [(&str, &str); 8] = [
-    ("BOUNDARY", "BOUNDARY"),
-    ("CFLUX", "CFLUX"),
-    ("CECURRENT", "CECURRENT"),
-    ("DFLUX", "DFLUX"),
-    ("DSFLUX", "DSFLUX"),
-    ("DSECURRENT", "DSECURRENT"),
-    ("FILM", "FILM"),
-    ("SFILM", "SFILM"),
-];
-
-/// The keywords of conditions on the same fields that are not read, without blanks, and as they are written.
-const NOT_TAKEN: [(&str, &str); 16] = [
-    ("CFILM", "CFILM"),
-    ("CFLOW", "CFLOW"),
-    ("CRADIATE", "CRADIATE"),
-    ("DECURRENT", "DECURRENT"),
-    ("DFLOW", "DFLOW"),
-    ("DSFLOW", "DSFLOW"),
-    ("FIELD", "FIELD"),
-    ("FLOW", "FLOW"),
-    ("MASSFLOWRATE", "MASS FLOW RATE"),
-    ("RADIATE", "RADIATE"),
-    ("RADIATIONVIEWFACTOR", "RADIATION VIEWFACTOR"),
-    ("CAVITYDEFINITION", "CAVITY DEFINITION"),
-    ("SFLOW", "SFLOW"),
-    ("SRADIATE", "SRADIATE"),
-    ("TEMPERATURE", "TEMPERATURE"),
-    ("MODELCHANGE", "MODEL CHANGE"),
-];
-
-/// Whether a keyword, in upper case and without blanks, may be a condition.
-pub(super) fn is_condition(name: &str) -> bool {
-    TAKEN.iter().chain(&NOT_TAKEN).any(|(of, _)| *of == name)
 }
 
 /// A row with its cells.

@@ -3,7 +3,8 @@
 use super::layout::Entry;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
-use super::selection::{Selection, unsigned};
+use super::selected::Selection;
+use super::selection::unsigned;
 use crate::span::Span;
 use inpact_geometry::{ElementShape, ElementSpace, ElementType, FaceLabel, FaceShape, FreeFaces, MAX_NODES, NodeId};
 use std::io;

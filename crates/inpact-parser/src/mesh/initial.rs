@@ -5,9 +5,10 @@
 
 use super::Mesh;
 use super::layout::{Entry, canonical};
-use super::reader::{Context, Located, Reader};
+use super::located::Located;
+use super::reader::{Context, Reader};
 use super::rows::data_lines;
-use super::selection::{Kind, Selected};
+use super::selected::{Kind, Selected};
 use crate::deck::items;
 use crate::number::read_float;
 use crate::span::Span;

@@ -1,6 +1,6 @@
 //! Structure of a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
 
-use super::conditions::{StepEntry, is_condition};
+use super::condition_keywords::is_condition;
 use crate::deck::{Block, Deck, KeywordLine};
 use crate::grammar::Grammar;
 use crate::model::Name;
@@ -12,6 +12,15 @@ pub(super) struct Entry<'deck> {
     pub(super) deck: &'deck Deck,
     pub(super) keyword: &'deck KeywordLine,
     pub(super) block: &'deck Block,
+}
+
+/// A keyword of a step with the step's number.
+#[derive(Debug, Clone)]
+pub(super) struct StepEntry<'deck> {
+    pub(super) step: usize,
+    /// Upper case, without blanks.
+    pub(super) name: String,
+    pub(super) entry: Entry<'deck>,
 }
 
 impl<'deck> Entry<'deck> {

@@ -4,7 +4,7 @@
 //! the second, where there is one, a local axis and the angle in degrees by which the system is turned about it.
 
 use super::layout::{Entry, canonical};
-use super::nodes::Placement;
+use super::placement::Placement;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use crate::deck::items;

@@ -4,7 +4,7 @@ use super::elements::RawFace;
 use super::layout::{Entry, canonical};
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
-use super::selection::{Kind, Selection};
+use super::selected::{Kind, Selection};
 use crate::deck::items;
 use crate::number::read_float;
 use std::io;

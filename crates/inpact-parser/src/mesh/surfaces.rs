@@ -2,10 +2,11 @@
 
 use super::elements::{Pick, RawFace};
 use super::layout::{Entry, canonical};
-use super::reader::{Context, Located, Reader};
+use super::located::Located;
+use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use super::sections::Section;
-use super::selection::{Kind, Selection};
+use super::selected::{Kind, Selection};
 use super::{FaceSurface, MeshNode, MeshSurface, NodeSurface, SurfaceKind};
 use crate::deck::items;
 use crate::model::{Name, Reference};

@@ -2,7 +2,7 @@
 
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::trimmed;
+use crate::rule::trimmed;
 use inpact_parser::model::{Interaction, OptionKind, Procedure};
 use inpact_parser::span::Span;
 use std::collections::HashSet;

@@ -86,7 +86,8 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
         let message = "the results say nothing that is computed here: expected COPEN or CNAREA, outputs of the interface such as HFL, ECD, SJD, PFL, the flux of heat in bodies, or area or heat of a pair";
         return Err(Failure::Data(message.to_owned()));
     }
-    let comparison = Comparison::new(quantities, &prepared, &geometry, arguments.tolerance);
+    let of_pairs = prepared.made.as_ref().map(|made| geometry.names_and_times(&made.drawn)).unwrap_or_default();
+    let comparison = Comparison::new(quantities, &prepared, of_pairs, arguments.tolerance);
     if let Some(target) = output.as_deref() {
         if is_picture(target) {
             draw(&comparison, &prepared, target)?;

@@ -4,7 +4,7 @@ use super::analysis::Analysis;
 use super::blocks;
 use super::findings;
 use super::navigation::workspace_edit;
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::workspace::{View, Workspace};
 use gen_lsp_types::{
     CodeAction, CodeActionKind, CodeActionParams, CodeActionResponse, Diagnostic, TextEdit, WorkspaceEdit,
@@ -27,7 +27,7 @@ pub(super) fn actions(
     workspace: &mut Workspace,
     params: &CodeActionParams,
 ) -> Result<Option<Vec<CodeActionResponse>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let only = params.context.only.as_ref();
     let is_wanted = |kind: &str| {
         only.is_none_or(|only| {

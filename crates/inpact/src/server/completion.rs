@@ -2,7 +2,7 @@
 
 use super::blocks::{self, Context, Entry};
 use super::names::{self, Kind};
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::snippets;
 use super::workspace::{View, Workspace};
 use crate::page;
@@ -23,7 +23,7 @@ pub(super) fn complete(
     params: &CompletionParams,
 ) -> Result<Option<CompletionResponse>, Refusal> {
     let at = &params.text_document_position_params;
-    let view = requests::view(workspace, &at.text_document)?;
+    let view = refusal::view(workspace, &at.text_document)?;
     let offset = view.offset(at.position);
     let items = items_at(view, offset).unwrap_or_default();
     Ok(Some(CompletionList { items, ..CompletionList::default() }.into()))

@@ -1,6 +1,6 @@
 //! Formatting: what `inpact fmt` makes of the document by itself, as edits.
 
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::workspace::{View, Workspace};
 use gen_lsp_types::{DocumentFormattingParams, DocumentRangeFormattingParams, TextEdit};
 use inpact_diagnostics::Edit;
@@ -12,7 +12,7 @@ pub(super) fn whole(
     workspace: &mut Workspace,
     params: &DocumentFormattingParams,
 ) -> Result<Option<Vec<TextEdit>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     Ok(Some(edits(view, super::findings::whole(view, view.source))))
 }
 
@@ -21,7 +21,7 @@ pub(super) fn range(
     workspace: &mut Workspace,
     params: &DocumentRangeFormattingParams,
 ) -> Result<Option<Vec<TextEdit>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let selected = view.bytes(params.range);
     Ok(Some(edits(view, selected)))
 }

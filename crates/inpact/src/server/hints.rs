@@ -2,7 +2,7 @@
 
 use super::blocks;
 use super::cells::{self, ColumnOf};
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::shape::shape;
 use super::workspace::{View, Workspace};
 use gen_lsp_types::{
@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 const MOST_BYTES: u64 = 1 << 20;
 
 pub(super) fn hints(workspace: &mut Workspace, params: &InlayHintParams) -> Result<Option<Vec<InlayHint>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let shown = view.bytes(params.range);
     let mut hints = Vec::new();
     for entry in blocks::entries(view.analysis) {
@@ -99,7 +99,7 @@ fn hint_at(position: Position) -> InlayHint {
 
 /// The shape of each table above it.
 pub(super) fn lenses(workspace: &mut Workspace, params: &CodeLensParams) -> Result<Option<Vec<CodeLens>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let mut lenses = Vec::new();
     for of in view.analysis.model.tables() {
         let keyword = of.table.keyword;

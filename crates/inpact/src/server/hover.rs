@@ -2,22 +2,21 @@
 
 use super::blocks::{self, Entry};
 use super::cells::{self, Cell};
-use super::names::{self, Kind};
-use super::requests::{self, Refusal};
+use super::names::{self, Kind, parameter_at};
+use super::refusal::{self, Refusal};
 use super::shape::shape;
 use super::workspace::View;
 use super::workspace::Workspace;
 use crate::{page, rules};
 use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind};
 use inpact_parser::deck::Parameter;
-use inpact_parser::expression::references;
 use inpact_parser::model::{Table, TableKind};
 use inpact_parser::number::float_text;
 use inpact_parser::span::Span;
 
 pub(super) fn hover(workspace: &mut Workspace, params: &HoverParams) -> Result<Option<Hover>, Refusal> {
     let at = &params.text_document_position_params;
-    let view = requests::view(workspace, &at.text_document)?;
+    let view = refusal::view(workspace, &at.text_document)?;
     let offset = view.offset(at.position);
     let Some((span, text)) = page_at(view, offset) else { return Ok(None) };
     let contents = MarkupContent { kind: MarkupKind::Markdown, value: text };
@@ -76,23 +75,6 @@ fn parameter_reference(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     let place = place_of(view, definition.span);
     let text = format!("`<{name}>` is **{value}**\n\n`{name} = {}`, at {place}", definition.expression);
     Some((span, text))
-}
-
-/// The `<name>` at a place: its bytes, brackets included, and the name.
-pub(super) fn parameter_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
-    let text = view.text_of(view.source)?;
-    let (_, start) = text.line_of(offset);
-    let (line_number, _) = text.line_of(offset);
-    let (_, line) = text.line(line_number);
-    if line.trim_ascii_start().starts_with(b"**") {
-        return None;
-    }
-    let found = references(line).find(|reference| {
-        let (from, to) = (start + reference.range.start as u64, start + reference.range.end as u64);
-        from <= offset && offset <= to
-    })?;
-    let span = Span::new(view.source, start + found.range.start as u64, start + found.range.end as u64);
-    Some((span, found.name.to_owned()))
 }
 
 /// A place in words: file and line.

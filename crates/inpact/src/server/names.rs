@@ -5,7 +5,6 @@
 //! that inpact interprets. An item that could be a surface or a set of either kind is taken for whatever the deck defines by that name.
 
 use super::blocks::{self, Entry, LEVELS};
-use super::hover::parameter_at;
 use super::workspace::View;
 use inpact_parser::deck::items;
 use inpact_parser::expression::{names as names_of_statement, references};
@@ -401,4 +400,21 @@ pub(super) fn kinds_of_value(keyword: &str, parameter: &[u8]) -> &'static [Kind]
 /// The kinds of things that an item of a row may name.
 pub(super) fn kinds_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> &'static [Kind] {
     meaning_of_item(entry, view, item).map_or(&[], |meaning| meaning.kinds)
+}
+
+/// The `<name>` at a place: its bytes, brackets included, and the name.
+pub(super) fn parameter_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
+    let text = view.text_of(view.source)?;
+    let (_, start) = text.line_of(offset);
+    let (line_number, _) = text.line_of(offset);
+    let (_, line) = text.line(line_number);
+    if line.trim_ascii_start().starts_with(b"**") {
+        return None;
+    }
+    let found = references(line).find(|reference| {
+        let (from, to) = (start + reference.range.start as u64, start + reference.range.end as u64);
+        from <= offset && offset <= to
+    })?;
+    let span = Span::new(view.source, start + found.range.start as u64, start + found.range.end as u64);
+    Some((span, found.name.to_owned()))
 }

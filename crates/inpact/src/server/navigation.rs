@@ -1,7 +1,7 @@
 //! From a name to its definition, to its uses, to another name; and from *INCLUDE to the file.
 
 use super::names::{self, Kind, Occurrence};
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::workspace::{View, Workspace};
 use gen_lsp_types::{
     Definition, DefinitionParams, DefinitionResponse, DocumentChange, DocumentHighlight, DocumentHighlightKind,
@@ -20,7 +20,7 @@ pub(super) fn definition(
     params: &DefinitionParams,
 ) -> Result<Option<DefinitionResponse>, Refusal> {
     let at = &params.text_document_position_params;
-    let view = requests::view(workspace, &at.text_document)?;
+    let view = refusal::view(workspace, &at.text_document)?;
     let offset = view.offset(at.position);
     if let Some(target) = included_at(view, offset) {
         return Ok(Some(Definition::Location(Location { uri: view.uri(target), range: Range::default() }).into()));
@@ -73,7 +73,7 @@ fn found_at<'a>(
     workspace: &'a mut Workspace,
     at: &TextDocumentPositionParams,
 ) -> Result<(View<'a>, Option<Occurrence>), Refusal> {
-    let view = requests::view(workspace, &at.text_document)?;
+    let view = refusal::view(workspace, &at.text_document)?;
     let found = names::at(view, view.offset(at.position));
     Ok((view, found))
 }
@@ -190,7 +190,7 @@ pub(super) fn links(
     workspace: &mut Workspace,
     params: &DocumentLinkParams,
 ) -> Result<Option<Vec<DocumentLink>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let links = view.analysis.deck.includes().iter().filter_map(|include| {
         let name = include.name.filter(|name| name.source() == view.source)?;
         let IncludeOutcome::Read(source) = include.outcome else { return None };

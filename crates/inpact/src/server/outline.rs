@@ -3,7 +3,7 @@
 use super::blocks::{self, Entry, LEVELS};
 use super::cells;
 use super::names;
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::shape::shape;
 use super::workspace::{View, Workspace};
 use gen_lsp_types::{
@@ -92,7 +92,7 @@ pub(super) fn symbols(
     workspace: &mut Workspace,
     params: &DocumentSymbolParams,
 ) -> Result<Option<DocumentSymbolResponse>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let symbols: Vec<DocumentSymbol> = tree(view).iter().map(|node| symbol(view, node)).collect();
     Ok(Some(symbols.into()))
 }
@@ -135,7 +135,7 @@ pub(super) fn folding(
     workspace: &mut Workspace,
     params: &FoldingRangeParams,
 ) -> Result<Option<Vec<FoldingRange>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let mut ranges = Vec::new();
     for node in &tree(view) {
         fold(view, node, &mut ranges);
@@ -182,7 +182,7 @@ pub(super) fn selection(
     workspace: &mut Workspace,
     params: &SelectionRangeParams,
 ) -> Result<Option<Vec<SelectionRange>>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let tree = tree(view);
     let of = |position: &Position| selection_at(view, &tree, view.offset(*position));
     Ok(Some(params.positions.iter().map(of).collect()))

@@ -1,38 +1,12 @@
-//! Requests by their methods, and the answers to those that cannot be answered.
+//! Requests by their methods.
 
-use super::workspace::{View, Workspace};
+use super::refusal::Refusal;
+use super::workspace::Workspace;
 use super::{actions, completion, formatting, hints, hover, navigation, outline, tokens};
 use crate::stop::Stopped;
 use gen_lsp_types as lsp;
-use lsp_server::{ErrorCode, Request, RequestId, Response, ResponseError};
+use lsp_server::{ErrorCode, Request, Response};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// Why a request has no answer.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) struct Refusal {
-    code: i32,
-    message: String,
-}
-
-impl Refusal {
-    pub(super) fn new(code: ErrorCode, message: impl Into<String>) -> Self {
-        Self { code: code as i32, message: message.into() }
-    }
-
-    pub(super) fn cancelled() -> Self {
-        Self::new(ErrorCode::RequestCanceled, "the request was cancelled")
-    }
-
-    /// The request was understood and cannot be done.
-    pub(super) fn failed(message: impl Into<String>) -> Self {
-        Self::new(ErrorCode::RequestFailed, message)
-    }
-
-    pub(super) fn answer(self, id: RequestId) -> Response {
-        let Self { code, message } = self;
-        Response { id, response_result: Err(ResponseError { code, message, data: None }) }
-    }
-}
 
 /// Answers a request.
 pub(super) fn answer(workspace: &mut Workspace, request: Request) -> Response {
@@ -89,18 +63,6 @@ fn by<R: lsp::Request>(
             Refusal::new(ErrorCode::InternalError, message).answer(id)
         }
     }
-}
-
-/// The document of a request, where it stands in its deck.
-///
-/// # Errors
-/// For a document that is not open.
-pub(super) fn view<'a>(
-    workspace: &'a mut Workspace,
-    document: &lsp::TextDocumentIdentifier,
-) -> Result<View<'a>, Refusal> {
-    let message = format!("`{}` is not open", document.uri.0);
-    workspace.view(&document.uri).ok_or_else(|| Refusal::new(ErrorCode::InvalidParams, message))
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use super::capabilities::{self, ClientTraits};
 use super::findings;
-use super::requests::{self, Refusal};
+use super::refusal::Refusal;
+use super::requests;
 use super::transport::Client;
 use super::workspace::Workspace;
 use crate::settings::{ReadOptions, RelativeTo};

@@ -4,7 +4,7 @@
 
 use super::blocks::{self, Entry};
 use super::cells;
-use super::requests::{self, Refusal};
+use super::refusal::{self, Refusal};
 use super::workspace::{View, Workspace};
 use gen_lsp_types::{
     SemanticToken, SemanticTokens, SemanticTokensLegend, SemanticTokensParams, SemanticTokensRangeParams,
@@ -33,7 +33,7 @@ pub(super) fn full(
     workspace: &mut Workspace,
     params: &SemanticTokensParams,
 ) -> Result<Option<SemanticTokens>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     Ok(Some(tokens(view, super::findings::whole(view, view.source))))
 }
 
@@ -41,7 +41,7 @@ pub(super) fn range(
     workspace: &mut Workspace,
     params: &SemanticTokensRangeParams,
 ) -> Result<Option<SemanticTokens>, Refusal> {
-    let view = requests::view(workspace, &params.text_document)?;
+    let view = refusal::view(workspace, &params.text_document)?;
     let shown = view.bytes(params.range);
     Ok(Some(tokens(view, shown)))
 }

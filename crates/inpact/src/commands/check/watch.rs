@@ -60,7 +60,7 @@ pub(super) fn watch(arguments: &CheckArguments) -> Result<Outcome, Failure> {
 
 /// Where a configuration that counts for a deck may be: one that comes or goes changes what is found as well.
 fn configurations(deck: &Path) -> Vec<PathBuf> {
-    let folder = crate::settings::folder_of_deck(deck);
+    let folder = crate::reach::folder_of_deck(deck);
     folder.ancestors().map(|folder| folder.join(crate::settings::FILE_NAME)).collect()
 }
 

@@ -1,6 +1,5 @@
 //! Differences of both values of each quantity.
 
-use super::geometry::Geometry;
 use crate::commands::evaluable::Evaluable;
 use inpact_evaluation::results::Output;
 
@@ -46,6 +45,9 @@ pub(super) struct Largest {
     pub(super) relative: f64,
 }
 
+/// The name and the time of each row.
+pub(super) type NamesAndTimes = (Vec<String>, Vec<Option<f64>>);
+
 /// All quantities, and what rows are called.
 #[derive(Debug)]
 pub(super) struct Comparison {
@@ -54,8 +56,8 @@ pub(super) struct Comparison {
     pub(super) quantities: Vec<Quantity>,
     pub(super) tolerance: Option<f64>,
     /// The names of the rows of nodes, and their times; then those of pairs.
-    of_nodes: (Vec<String>, Vec<Option<f64>>),
-    of_pairs: (Vec<String>, Vec<Option<f64>>),
+    of_nodes: NamesAndTimes,
+    of_pairs: NamesAndTimes,
 }
 
 impl Quantity {
@@ -105,12 +107,10 @@ impl Comparison {
     pub(super) fn new(
         quantities: Vec<Quantity>,
         prepared: &Evaluable,
-        geometry: &Geometry,
+        of_pairs: NamesAndTimes,
         tolerance: Option<f64>,
     ) -> Self {
-        let (of_nodes, of_pairs) = prepared.made.as_ref().map_or_else(Default::default, |made| {
-            (made.drawn.names_and_times(), geometry.names_and_times(&made.drawn))
-        });
+        let of_nodes = prepared.made.as_ref().map(|made| made.drawn.names_and_times()).unwrap_or_default();
         Self { made_of: prepared.nodes_name.clone(), quantities, tolerance, of_nodes, of_pairs }
     }
 

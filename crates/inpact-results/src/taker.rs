@@ -1,0 +1,44 @@
+//! Handing over the states of a file, one after the other: what readers of formats have in common.
+
+use crate::lines::LineStream;
+use crate::problem::{Problem, Read, ended};
+use crate::results::{Frame, Results};
+use std::ops::ControlFlow;
+
+/// Takes states one after the other, each with what the file has said before that belongs to none; may ask for no more.
+pub type TakeFrame<'a> = dyn FnMut(&Results, Frame) -> ControlFlow<()> + 'a;
+
+/// How a format is read state by state.
+pub(crate) type ReadFrames = fn(&mut LineStream<'_>, &mut TakeFrame<'_>) -> (Results, Result<(), Problem>);
+
+/// Reads bytes that are at hand, all states of them.
+pub(crate) fn read_whole(mut bytes: &[u8], read: ReadFrames) -> Read {
+    let mut frames = Vec::new();
+    let mut take = |_: &Results, frame| {
+        frames.push(frame);
+        ControlFlow::Continue(())
+    };
+    let (mut results, outcome) = read(&mut LineStream::new(&mut bytes), &mut take);
+    results.frames = frames;
+    ended(results, outcome)
+}
+
+/// Hands states over until nobody wants more.
+pub(crate) struct Taker<'a, 'b> {
+    take: &'a mut TakeFrame<'b>,
+    /// Whether nobody wants more.
+    pub(crate) is_over: bool,
+}
+
+impl<'a, 'b> Taker<'a, 'b> {
+    pub(crate) fn new(take: &'a mut TakeFrame<'b>) -> Self {
+        Self { take, is_over: false }
+    }
+
+    /// Hands a state over, if there is one.
+    pub(crate) fn take(&mut self, results: &Results, frame: Option<Frame>) {
+        if let Some(frame) = frame.filter(|_| !self.is_over) {
+            self.is_over = (self.take)(results, frame).is_break();
+        }
+    }
+}
