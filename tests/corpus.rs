@@ -49,11 +49,18 @@ fn every_file_is_checked() {
     let grammar = Grammar::builtin();
     for path in corpus() {
         let bytes = std::fs::read(&path).expect("readable");
-        let mut scanner = Scanner::new("x", ScanOptions { grammar, keep: Keep::Interpreted });
-        bytes.chunks(4096).for_each(|piece| scanner.push(piece));
-        let deck = scanner.finish();
-        let (model, problems) = model::read(&deck, grammar);
-        for found in inpact_validation::check(&deck, grammar, &model, &problems) {
+        let findings = |keep| {
+            let mut scanner = Scanner::new("x", ScanOptions { grammar, keep });
+            bytes.chunks(4096).for_each(|piece| scanner.push(piece));
+            let deck = scanner.finish();
+            let (model, problems) = model::read(&deck, grammar);
+            let found = inpact_validation::check(&deck, grammar, &model, &problems);
+            (found, deck.lacks_rows())
+        };
+        let (found, _) = findings(Keep::Interpreted);
+        let (by_ends, lacks) = findings(Keep::Ends);
+        assert!(lacks || by_ends == found, "{}", path.display());
+        for found in found {
             let length = bytes.len() as u64;
             assert!(found.primary.span.end() <= length, "{}: {}", path.display(), found.message);
             let lines = bytes.iter().filter(|byte| matches!(byte, b'\n' | b'\r')).count() as u64 + 1;

@@ -33,7 +33,7 @@ pub fn scan_and_print(bytes: &[u8]) {
         assert!(deck.print(SourceId::ROOT) == bytes, "the deck gives other bytes back");
         // The first byte says where the cuts are, so that the fuzzer can move them.
         let any_size = usize::from(bytes.first().copied().unwrap_or(0)) + 2;
-        for keep in [Keep::Everything, Keep::Interpreted] {
+        for keep in [Keep::Everything, Keep::Interpreted, Keep::Ends] {
             let options = ScanOptions { grammar, keep };
             let whole = in_pieces(bytes, bytes.len().max(1), options);
             for size in [1, any_size] {
@@ -82,15 +82,19 @@ pub fn mesh(bytes: &[u8]) {
     }
 }
 
-/// Any bytes as decks with includes: every finding lies in its file, and safe fixes come to an end without changing what
-/// the deck says.
+/// Any bytes as decks with includes: every finding lies in its file, the ends of tables have the findings of all rows or
+/// miss some, and safe fixes come to an end without changing what the deck says.
 pub fn check(bytes: &[u8]) {
     for grammar in &*DIALECTS {
         let options = ScanOptions { grammar, keep: Keep::Interpreted };
         let deck = deck_of(bytes, options);
-        for found in findings(&deck, grammar) {
-            assert_in_its_file(&deck, &found);
+        let of_all = findings(&deck, grammar);
+        for found in &of_all {
+            assert_in_its_file(&deck, found);
         }
+        let ends = deck_of(bytes, ScanOptions { grammar, keep: Keep::Ends });
+        let of_ends = findings(&ends, grammar);
+        assert!(ends.lacks_rows() || of_ends == of_all, "the findings depend on what is kept");
         // Fixes of included files are the same fixes, so one file is enough.
         let mut text = bytes.to_vec();
         let before = said(&model::read(&scan("deck", &text, grammar), grammar).0);

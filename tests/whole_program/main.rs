@@ -4,6 +4,7 @@ mod body;
 mod bytes;
 mod calculix;
 mod check;
+mod check_ends;
 mod check_geometry;
 mod check_scenes;
 mod columns;

@@ -7,10 +7,12 @@
 //! The generator holds no more in memory than the interfaces of a node table, whatever the size of the output.
 //! [`network`] makes networks of nodes, and measures how exact and how fast they are solved.
 //! [`bodies`] measures what bodies take beside one linear solution.
+//! [`checking`] measures `check` on large decks of tables.
 //! [`editing`] measures the language server as an editor sees it.
 //! [`extremes`] runs the other crates and writes the page of what they make of extreme numbers.
 
 pub mod bodies;
+pub mod checking;
 pub mod deck;
 pub mod editing;
 pub mod extremes;

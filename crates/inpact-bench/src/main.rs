@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use inpact_bench::bodies;
+use inpact_bench::checking;
 use inpact_bench::deck::{self, Content, DeckRequest};
 use inpact_bench::editing;
 use inpact_bench::extremes;
@@ -63,6 +64,20 @@ enum Command {
     Extremes,
     /// Print the page of networks: how exact their solvers are at all contrasts (docs/network.md).
     Network,
+    /// Print the page of checking: time and memory of `check` on large decks of tables (docs/check-speed.md).
+    Decks {
+        /// The program `inpact`, built for release.
+        program: PathBuf,
+        /// Number of interactions of each deck of tables.
+        #[arg(long, default_value_t = 10_000, value_parser = at_least::<1>)]
+        interactions: usize,
+        /// Rows of each table.
+        #[arg(long, default_value_t = 100, value_parser = at_least::<4>)]
+        rows: usize,
+        /// Runs of each deck; the best counts.
+        #[arg(long, default_value_t = 5, value_parser = at_least::<1>)]
+        rounds: usize,
+    },
     /// Print the page of speed in editors: the latency of the language server of a program (docs/editor-speed.md).
     Editing {
         /// The program `inpact`, built for release.
@@ -221,6 +236,9 @@ fn run(command: Command) -> io::Result<()> {
         }
         Command::Extremes => io::stdout().lock().write_all(extremes::page().as_bytes()),
         Command::Network => io::stdout().lock().write_all(accuracy::page().as_bytes()),
+        Command::Decks { program, interactions, rows, rounds } => {
+            io::stdout().lock().write_all(checking::page(&program, interactions, rows, rounds)?.as_bytes())
+        }
         Command::Editing { program, rounds } => {
             io::stdout().lock().write_all(editing::page(&program, rounds)?.as_bytes())
         }

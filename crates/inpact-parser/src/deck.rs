@@ -6,18 +6,22 @@
 
 mod data_line;
 mod edited;
+mod ends;
 mod include;
 mod keyword_line;
 pub mod lines;
 mod parameter;
+mod plain_row;
 mod scan;
 mod survey;
 mod text;
 
 pub use data_line::items;
 pub use edited::{EditedText, TextInParts};
+pub(crate) use ends::RowEnds;
 pub use include::{FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
 pub use parameter::{Parameter, Resolved};
+pub(crate) use plain_row::{MOST_CELLS, plain_row};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::{Excerpts, Source};
 
@@ -46,9 +50,20 @@ pub struct Block {
     pub keyword: Option<KeywordLine>,
     /// The number of bytes of its rows, which follow the keyword line.
     rows_length: [u8; 6],
-    /// The text of the rows is in the deck; mesh rows are not kept when a deck is only checked.
-    pub rows_kept: bool,
+    /// The rows whose text is in the deck.
+    pub rows_kept: RowsKept,
     elsewhere: Option<Box<Elsewhere>>,
+}
+
+/// The rows of a block whose text is in the deck.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowsKept {
+    /// All of them.
+    All,
+    /// The first and the last of a table in order; the model has the first and the last row of each group ([`Keep::Ends`]).
+    Ends,
+    /// None: they are those of a mesh.
+    None,
 }
 
 /// Rows of a block that do not follow its keyword line.
@@ -162,6 +177,23 @@ impl Deck {
         &self.notes
     }
 
+    /// Whether anybody has looked for rows that were dropped because they are in order ([`Keep::Ends`]).
+    ///
+    /// What was found in the deck then counts for nothing: it has to be read again, with [`Keep::Interpreted`].
+    pub fn lacks_rows(&self) -> bool {
+        self.sources.iter().any(Source::have_missed)
+    }
+
+    /// The ends of the groups of a table whose other rows were dropped.
+    pub(crate) fn ends_of(&self, block: &Block) -> Option<&RowEnds> {
+        self.source(block.rows().source()).ends_of(block.rows())
+    }
+
+    /// Takes down that somebody needs the rows of a block that were dropped.
+    pub(crate) fn miss_rows(&self, block: &Block) {
+        self.source(block.rows().source()).miss();
+    }
+
     /// The bytes of a span; empty where the scan did not keep them.
     pub fn text(&self, span: Span) -> &[u8] {
         self.source(span.source()).text(span.start()..span.end())
@@ -171,7 +203,7 @@ impl Deck {
     ///
     /// They begin at the start of a line.
     pub fn surroundings(&self, span: Span) -> (u64, &[u8]) {
-        self.source(span.source()).surroundings(span.start())
+        self.source(span.source()).surroundings(span.start()..span.end())
     }
 
     /// The text of a span for a person to read; bytes that are not UTF-8 are replaced.
@@ -234,7 +266,7 @@ impl Deck {
 
 impl Block {
     /// A block without a keyword, or with one right before its rows.
-    fn new(keyword: Option<KeywordLine>, rows: Span, rows_kept: bool) -> Self {
+    fn new(keyword: Option<KeywordLine>, rows: Span, rows_kept: RowsKept) -> Self {
         let start = keyword.is_none().then(|| Span::new(rows.source(), rows.start(), rows.start()));
         let elsewhere = start.map(|start| Box::new(Elsewhere { start: Some(start), continued_in: Vec::new() }));
         let mut block = Self { keyword, rows_length: [0; 6], rows_kept, elsewhere };

@@ -3,8 +3,10 @@
 //! Reading is exact: the result is the f64 nearest to the decimal that is written.
 
 mod fortran;
+mod plain;
 
 pub use fortran::{FortranNumber, read_fortran};
+pub(crate) use plain::read_plain;
 
 /// Reasons why a text is no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +32,15 @@ pub const INTEGER_DIGITS: usize = 9;
 /// # Errors
 /// `nan`, `inf`, hexadecimal digits, digit separators and an exponent without a letter are refused, and so is a
 /// magnitude above the largest f64.
+#[inline]
 pub fn read_float(text: &[u8]) -> Result<f64, NumberError> {
+    match read_plain(text) {
+        Some((value, length)) if length == text.len() => Ok(value),
+        _ => read_any_float(text),
+    }
+}
+
+fn read_any_float(text: &[u8]) -> Result<f64, NumberError> {
     let unsigned = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
     // Keeps out `nan` and `inf`, which the standard library would read.
     if !matches!(unsigned.first(), Some(b'0'..=b'9' | b'.')) {

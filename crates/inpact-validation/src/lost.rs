@@ -4,7 +4,7 @@
 
 use crate::invisible;
 use inpact_parser::Problem;
-use inpact_parser::deck::{DataLine, Deck, LineNoteKind, items};
+use inpact_parser::deck::{DataLine, Deck, LineNoteKind, RowsKept, items};
 use inpact_parser::grammar::{Grammar, Lookup, RowShape};
 use inpact_parser::span::Span;
 
@@ -27,7 +27,9 @@ pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<
     let mut lost = Vec::new();
     for block in deck.blocks() {
         let definition = block.keyword_id().and_then(|id| grammar.keyword(id).definition());
-        if definition.is_some_and(|definition| definition.rows() == RowShape::Text) {
+        // The rows of a table in order are numbers.
+        if block.rows_kept == RowsKept::Ends || definition.is_some_and(|definition| definition.rows() == RowShape::Text)
+        {
             continue;
         }
         let keyword = block.span_of_keyword();

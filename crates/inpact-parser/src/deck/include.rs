@@ -5,7 +5,7 @@
 //! open there (S-51). What could not be read is said in [`Include::outcome`], and the rest of the deck is read all the same.
 
 use super::scan::LeadingRows;
-use super::{Block, Deck, Excerpts, KeywordLine, ScanOptions, Scanner, Source};
+use super::{Block, Deck, Excerpts, KeywordLine, RowsKept, ScanOptions, Scanner, Source};
 use crate::grammar::Dialect;
 use crate::span::{SourceId, Span};
 use std::collections::HashMap;
@@ -164,7 +164,7 @@ impl Assembly<'_> {
                 self.deck.includes.push(include);
             }
             if !rows.is_empty() {
-                self.push(Block::new(None, rows, true));
+                self.push(Block::new(None, rows, RowsKept::All));
             }
         }
     }
@@ -236,8 +236,8 @@ impl Assembly<'_> {
         }
         let id = SourceId(u32::try_from(self.deck.sources.len()).unwrap_or(u32::MAX));
         let keeps_leading = match self.open {
-            Some(open) if self.deck.blocks[open].rows_kept => LeadingRows::All,
-            Some(_) => LeadingRows::None,
+            Some(open) if self.deck.blocks[open].rows_kept == RowsKept::None => LeadingRows::None,
+            Some(_) => LeadingRows::All,
             None => LeadingRows::Some,
         };
         let mut scanner = Scanner::for_source(id, &found.name, self.options, keeps_leading);

@@ -6,12 +6,13 @@
 
 mod keyword;
 
+use super::ends::{Trend, thin, trend_of};
 use super::lines::{
     LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
 };
 use super::parameter::LONGEST_KEYWORD_LINE;
 use super::survey::Survey;
-use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, Source, byte_order_mark, items, keyword_line};
+use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, RowsKept, Source, byte_order_mark, items, keyword_line};
 use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape};
 use crate::span::{SourceId, Span};
 use keyword::{LastComma, NextLine, after_comma, id_of, resolve};
@@ -34,6 +35,10 @@ pub enum Keep {
     /// Those of keywords whose rows somebody interprets: the deck can be checked and evaluated, in memory that follows the interpreted blocks and not the file.
     #[default]
     Interpreted,
+    /// Those, without the rows of large tables in order: of these the model has the first and the last row of each group alone, in which rules find what they find in all.
+    ///
+    /// The deck can be checked and nothing else, and only while [`Deck::lacks_rows`] says no.
+    Ends,
 }
 
 /// Options of a scan.
@@ -114,6 +119,16 @@ struct OpenBlock {
     likes_of_keywords: usize,
     /// The rows are free text, in which any byte may occur (S-70).
     free_text: bool,
+    /// The rows may be a table in order, of which not all is to be kept.
+    may_be_thinned: Option<MayBeThinned>,
+}
+
+/// A table that is kept whole if anything is noted of its lines.
+#[derive(Debug)]
+struct MayBeThinned {
+    trend: Trend,
+    /// The notes and directives before it.
+    noted: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,7 +169,14 @@ impl<'grammar> Scanner<'grammar> {
             offset: 0,
             line: 1,
             open_keyword: None,
-            block: OpenBlock { keyword: None, rows_start: 0, keeps_rows, likes_of_keywords: 0, free_text: false },
+            block: OpenBlock {
+                keyword: None,
+                rows_start: 0,
+                keeps_rows,
+                likes_of_keywords: 0,
+                free_text: false,
+                may_be_thinned: None,
+            },
         }
     }
 
@@ -389,7 +411,12 @@ impl<'grammar> Scanner<'grammar> {
         let last_comma = if open.is_answered { LastComma::Answered } else { LastComma::Dangling };
         let keyword = resolve(text, (self.id, open.start), last_comma, self.options.grammar);
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
+        // CalculiX has a limit of rows (T016), and a reading of its own of numbers.
+        let thins = self.options.keep == Keep::Ends && self.options.grammar.dialect() == Dialect::Abaqus;
+        let trend = definition.filter(|_| thins).and_then(|definition| trend_of(definition, &keyword));
+        let noted = self.noted();
         self.block = OpenBlock {
+            may_be_thinned: trend.map(|trend| MayBeThinned { trend, noted }),
             rows_start: keyword.span.end(),
             keeps_rows: keeps_rows(definition, self.options.keep),
             likes_of_keywords: 0,
@@ -402,9 +429,26 @@ impl<'grammar> Scanner<'grammar> {
         let rows = Span::new(self.id, self.block.rows_start, self.offset);
         let keyword = self.block.keyword.take();
         if keyword.is_some() || !rows.is_empty() {
-            let rows_kept = self.block.keeps_rows != KeepsRows::None;
+            let rows_kept = match self.block.keeps_rows {
+                KeepsRows::None => RowsKept::None,
+                KeepsRows::All | KeepsRows::UpTo(_) => self.thin(rows),
+            };
             self.blocks.push(Block::new(keyword, rows, rows_kept));
         }
+    }
+
+    /// Drops the rows of a table in order but those at its ends.
+    fn thin(&mut self, rows: Span) -> RowsKept {
+        let Some(MayBeThinned { trend, noted }) = self.block.may_be_thinned.take() else { return RowsKept::All };
+        let text = self.source.kept_from(rows.start()).filter(|text| text.len() as u64 == rows.len());
+        let thinned = text.filter(|_| noted == self.noted()).and_then(|text| thin(text, rows.start(), self.id, trend));
+        let Some(thinned) = thinned else { return RowsKept::All };
+        self.source.thin(thinned, self.line);
+        RowsKept::Ends
+    }
+
+    fn noted(&self) -> usize {
+        self.notes.len() + self.directives.len()
     }
 
     fn advance(&mut self, line: &[u8]) {

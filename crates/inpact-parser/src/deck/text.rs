@@ -4,11 +4,13 @@
 
 use std::ops::Range;
 
+use super::ends::{RowEnds, Thinned};
 use super::lines::count_line_ends;
 use crate::span::{Position, Span};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// One source file: its name, its size, and the stretches of it that were kept.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     name: String,
     length: u64,
@@ -18,6 +20,32 @@ pub struct Source {
     stretches: Vec<Stretch>,
     /// The kept bytes, stretch after stretch.
     bytes: Vec<u8>,
+    /// The tables of which only ends of groups were kept, in the order of the file.
+    ends: Vec<RowEnds>,
+    looks: Looks,
+}
+
+/// Traces of looks into the bytes.
+#[derive(Debug, Default)]
+struct Looks {
+    /// Somebody has looked for rows that are lost.
+    have_missed: AtomicBool,
+    /// The stretch that was looked into last: the next look is mostly there or in the one after it.
+    last: AtomicUsize,
+}
+
+impl Clone for Looks {
+    fn clone(&self) -> Self {
+        let (have_missed, last) = (self.have_missed.load(Ordering::Relaxed), self.last.load(Ordering::Relaxed));
+        Self { have_missed: have_missed.into(), last: last.into() }
+    }
+}
+
+impl PartialEq for Looks {
+    /// A source is no other one for having been looked into.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Whether the lines of a source file may be quoted around findings in it.
@@ -39,6 +67,9 @@ struct Stretch {
     kept_at: usize,
     /// Number of the line that `start` lies in, from 1; `start` is the first byte of it.
     first_line: u64,
+    /// The bytes at its beginning and at its end that are parts of lost rows: they are for excerpts of the lines beside them.
+    lost_before: u32,
+    lost_after: u32,
 }
 
 impl Source {
@@ -81,7 +112,13 @@ impl Source {
             return;
         }
         if end_of_last != Some(start) {
-            self.stretches.push(Stretch { start, kept_at: self.bytes.len(), first_line });
+            self.stretches.push(Stretch {
+                start,
+                kept_at: self.bytes.len(),
+                first_line,
+                lost_before: 0,
+                lost_after: 0,
+            });
         }
         self.bytes.extend_from_slice(bytes);
     }
@@ -90,8 +127,71 @@ impl Source {
         self.length = length;
     }
 
+    /// The bytes from `start` on, where they are kept up to the end of what was scanned.
+    pub(super) fn kept_from(&self, start: u64) -> Option<&[u8]> {
+        let last = self.stretches.last()?;
+        let at = last.kept_at + usize::try_from(start.checked_sub(last.start)?).ok()?;
+        self.bytes.get(at..)
+    }
+
+    /// Drops rows of a table from what [`kept_from`](Self::kept_from) gives; `next_line` is the number of the line after all.
+    pub(super) fn thin(&mut self, Thinned { lost, dropped, ends }: Thinned, next_line: u64) {
+        let as_u32 = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+        let (start, end) = (ends.block.start(), ends.block.end());
+        let length = usize::try_from(end - start).unwrap_or(usize::MAX);
+        let Some(rows_at) = self.bytes.len().checked_sub(length) else { return };
+        let after = self.bytes[rows_at + dropped.end..].to_vec();
+        self.bytes.truncate(rows_at + dropped.start);
+        if let Some(before) = self.stretches.last_mut() {
+            before.lost_after = as_u32(dropped.start - lost.start);
+        }
+        self.stretches.push(Stretch {
+            start: start + dropped.end as u64,
+            kept_at: self.bytes.len(),
+            first_line: next_line - count_line_ends(&after),
+            lost_before: as_u32(lost.end - dropped.end),
+            lost_after: 0,
+        });
+        self.bytes.extend_from_slice(&after);
+        self.ends.push(ends);
+    }
+
+    /// The ends of the groups of the table with those rows.
+    pub(super) fn ends_of(&self, rows: Span) -> Option<&RowEnds> {
+        let found = self.ends.binary_search_by_key(&rows.start(), |ends| ends.block.start()).ok()?;
+        Some(&self.ends[found])
+    }
+
+    /// Takes down that somebody needs rows that are lost.
+    pub(super) fn miss(&self) {
+        self.looks.have_missed.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether somebody has looked for rows that are lost.
+    pub(super) fn have_missed(&self) -> bool {
+        self.looks.have_missed.load(Ordering::Relaxed)
+    }
+
     /// The kept bytes at the beginning of `range`; empty when the scan kept none of them.
     pub(super) fn text(&self, range: Range<u64>) -> &[u8] {
+        self.look(&range);
+        self.kept(range)
+    }
+
+    /// Takes down a look at lost rows.
+    fn look(&self, range: &Range<u64>) {
+        let Some(index) = self.index_at(range.start) else { return };
+        let stretch = &self.stretches[index];
+        let length = (self.end_of(index) - stretch.kept_at) as u64;
+        let is_before = range.start < stretch.start + u64::from(stretch.lost_before);
+        let sound_end = stretch.start + length - u64::from(stretch.lost_after);
+        if is_before || (0 < stretch.lost_after && sound_end < range.end.max(range.start + 1)) {
+            self.miss();
+        }
+    }
+
+    /// The same as [`text`](Self::text), whatever the bytes are for.
+    fn kept(&self, range: Range<u64>) -> &[u8] {
         let Some((stretch, kept)) = self.stretch_at(range.start) else { return &[] };
         let kept_range =
             range.start - stretch.start..(range.end.max(range.start) - stretch.start).min(kept.len() as u64);
@@ -99,9 +199,10 @@ impl Source {
         kept.get(as_index(kept_range.start)..as_index(kept_range.end)).unwrap_or(&[])
     }
 
-    /// The kept bytes around `offset` without a gap, and where they begin in the file.
-    pub(super) fn surroundings(&self, offset: u64) -> (u64, &[u8]) {
-        self.stretch_at(offset).map_or((offset, &[]), |(stretch, kept)| (stretch.start, kept))
+    /// The kept bytes around the start of `range` without a gap, and where they begin in the file.
+    pub(super) fn surroundings(&self, range: Range<u64>) -> (u64, &[u8]) {
+        self.look(&range);
+        self.stretch_at(range.start).map_or((range.start, &[]), |(stretch, kept)| (stretch.start, kept))
     }
 
     /// Line and column of every offset in `offsets`, which must be ascending; one sweep over the kept bytes.
@@ -109,7 +210,11 @@ impl Source {
     /// An offset in bytes that were not kept gets the line reached so far.
     pub(super) fn positions(&self, offsets: &[u64]) -> Vec<Position> {
         let mut sweep = Sweep { offset: 0, line: 1, line_start: 0 };
-        offsets.iter().map(|offset| self.advance(&mut sweep, *offset)).collect()
+        let position = |offset: &u64| {
+            self.look(&(*offset..*offset));
+            self.advance(&mut sweep, *offset)
+        };
+        offsets.iter().map(position).collect()
     }
 
     fn advance(&self, sweep: &mut Sweep, offset: u64) -> Position {
@@ -119,23 +224,46 @@ impl Source {
         if sweep.offset < stretch.start || (sweep.offset == 0 && stretch.start == 0) {
             *sweep = Sweep { offset: stretch.start, line: stretch.first_line, line_start: stretch.start };
         }
-        let passed = self.text(sweep.offset..offset);
+        let passed = self.kept(sweep.offset..offset);
         sweep.line += count_line_ends(passed);
         if let Some(last) = passed.iter().rposition(|byte| matches!(byte, b'\n' | b'\r')) {
             sweep.line_start = sweep.offset + last as u64 + 1;
         }
         sweep.offset = sweep.offset.max(offset);
-        let column = self.text(sweep.line_start..offset).iter().filter(|byte| **byte & 0xC0 != 0x80).count();
+        let column = self.kept(sweep.line_start..offset).iter().filter(|byte| **byte & 0xC0 != 0x80).count();
         Position { line: sweep.line, column: column as u64 + 1 }
     }
 
     /// The stretch that holds `offset`, or ends there, and its bytes.
     fn stretch_at(&self, offset: u64) -> Option<(&Stretch, &[u8])> {
-        let index = self.stretches.partition_point(|stretch| stretch.start <= offset).checked_sub(1)?;
+        let index = self.index_at(offset)?;
         let stretch = &self.stretches[index];
-        let end = self.stretches.get(index + 1).map_or(self.bytes.len(), |next| next.kept_at);
-        let kept = &self.bytes[stretch.kept_at..end];
+        let kept = &self.bytes[stretch.kept_at..self.end_of(index)];
         (offset - stretch.start <= kept.len() as u64).then_some((stretch, kept))
+    }
+
+    /// The last stretch that begins at `offset` or before.
+    fn index_at(&self, offset: u64) -> Option<usize> {
+        let begins = |index: usize| self.stretches.get(index).is_some_and(|stretch| stretch.start <= offset);
+        let last = self.looks.last.load(Ordering::Relaxed);
+        let near = (last..last + 2).find(|index| begins(*index) && !begins(index + 1));
+        if near.is_some() {
+            return near;
+        }
+        let index = self.stretches.partition_point(|stretch| stretch.start <= offset).checked_sub(1)?;
+        self.looks.last.store(index, Ordering::Relaxed);
+        Some(index)
+    }
+
+    /// The end of the bytes of a stretch.
+    fn end_of(&self, index: usize) -> usize {
+        self.stretches.get(index + 1).map_or(self.bytes.len(), |next| next.kept_at)
+    }
+
+    /// The number of bytes that are kept.
+    #[cfg(test)]
+    pub(super) fn kept_bytes(&self) -> usize {
+        self.bytes.len()
     }
 
     fn end_of_last_stretch(&self) -> Option<u64> {

@@ -5,7 +5,7 @@
 use super::SubOption;
 use super::row_places::RowPlaces;
 use super::table::{CellText, Table};
-use crate::deck::{Block, DataLine, Deck, items};
+use crate::deck::{Block, DataLine, Deck, MOST_CELLS, items, plain_row};
 use crate::expression::{Parameters, SubstitutionError, substitute};
 use crate::grammar::{Dialect, Layout};
 use crate::number::{FLOAT_CHARACTERS, FortranNumber, read_float, read_fortran};
@@ -30,6 +30,23 @@ pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: u
     let on_lines = layout.first_line + lines.saturating_sub(1).saturating_mul(layout.following);
     let lead = layout.columns.len();
     count.min(on_lines.max(commas + 1).saturating_sub(lead))
+}
+
+/// The table of a block of which only the ends of groups were kept; `None` where its layout needs more than numbers.
+pub(super) fn table_of_ends(deck: &Deck, block: &Block, layout: Layout) -> Option<Table> {
+    let ends = deck.ends_of(block)?;
+    let is_whole = block.continued_in().is_empty() && layout.lines_per_row() == 1;
+    let missing = layout.defaults.get(ends.width..).filter(|_| is_whole)?;
+    let keyword = block.span_of_keyword();
+    let rows = ends.values.chunks_exact(ends.width);
+    Some(Table {
+        values: rows.flat_map(|row| row.iter().chain(missing)).copied().collect(),
+        places: RowPlaces::of(ends.places.iter().copied(), keyword),
+        columns: layout.columns.into(),
+        texts: Box::default(),
+        keyword,
+        unwritten: layout.unwritten,
+    })
 }
 
 /// Reads the rows of a block.
@@ -109,6 +126,9 @@ impl RowReader<'_> {
 
     /// Takes line number `line_of_row` of a row; gives the number of the next line, 0 when the row is complete.
     fn take_line(&mut self, line: &DataLine<'_>, line_of_row: usize) -> usize {
+        if self.lines == 1 && self.take_plain_row(line) {
+            return 0;
+        }
         let width = self.layout.columns.len();
         // K-53: too much for a first line, but exactly a whole row.
         let whole_row = self.lines > 1 && line_of_row == 0 && count_items(line) == self.layout.width();
@@ -137,6 +157,17 @@ impl RowReader<'_> {
             _ => self.places.extend_last(content, self.keyword),
         }
         if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
+    }
+
+    /// Takes a row of numbers alone, if it is one that fits on a line.
+    fn take_plain_row(&mut self, line: &DataLine<'_>) -> bool {
+        let mut cells = [0.0; MOST_CELLS];
+        let Some(row) = plain_row(line.text, 0, &mut cells) else { return false };
+        let Some(missing) = self.layout.defaults.get(row.width..) else { return false };
+        self.values.extend_from_slice(&cells[..row.width]);
+        self.values.extend_from_slice(missing);
+        self.places.push(line.part(row.content), self.keyword);
+        true
     }
 
     fn take_item(&mut self, line: &DataLine<'_>, item: Range<usize>, column: usize) {

@@ -1,6 +1,7 @@
 //! S005: quotes that do not close.
 
 use crate::rule::{Context, Report, declare_rule};
+use inpact_parser::deck::RowsKept;
 use inpact_parser::grammar::RowShape;
 use inpact_parser::span::Span;
 
@@ -37,7 +38,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     for block in context.defined_blocks() {
         let is_interpreted =
-            !matches!(block.definition.rows(), RowShape::None | RowShape::Text | RowShape::Uninterpreted);
+            !matches!(block.definition.rows(), RowShape::None | RowShape::Text | RowShape::Uninterpreted)
+                // The rows of a table in order are numbers.
+                && block.block.rows_kept != RowsKept::Ends;
         // Almost no table has a quote, and then no line is cut.
         let mut rows = block.block.all_rows();
         if !is_interpreted || !rows.any(|rows| context.deck.text(rows).contains(&b'"')) {

@@ -3,7 +3,7 @@
 use inpact_diagnostics::{Edit, FixSafety};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::deck::lines::{LineKind, line_kind, lines};
-use inpact_parser::deck::{Block, LineNote, LineNoteKind};
+use inpact_parser::deck::{Block, LineNote, LineNoteKind, RowsKept};
 use inpact_parser::grammar::RowShape;
 use inpact_parser::span::{SourceId, Span};
 
@@ -113,7 +113,7 @@ fn indentation(line: &[u8]) -> usize {
 /// Takes the blanks away before every such comment of the block, or before the first where the rows are not kept.
 fn edits(context: &Context<'_>, note: &LineNote, block: Option<&Block>) -> Vec<Edit> {
     let (source, first) = (note.span.source(), note.span.start());
-    let end = block.filter(|block| block.rows_kept).map_or(note.span.end(), |block| block.rows().end());
+    let end = block.filter(|block| block.rows_kept == RowsKept::All).map_or(note.span.end(), |block| block.rows().end());
     let text = context.deck.text(Span::new(source, first, end));
     let comments = lines(text).filter(|line| line_kind(&text[line.clone()]) == LineKind::IndentedComment);
     let blanks = comments.map(|line| {

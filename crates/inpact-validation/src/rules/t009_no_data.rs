@@ -1,5 +1,6 @@
 //! T009: options that need rows and have none.
 
+use inpact_parser::deck::RowsKept;
 use inpact_parser::model::OptionKind;
 use crate::constants::behavior;
 use inpact_diagnostics::Severity;
@@ -66,7 +67,7 @@ fn needs_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
 
 fn has_rows(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     let mut kept = context.deck.data_lines(block.block);
-    !block.block.rows_kept || kept.any(|line| !line.is_blank())
+    block.block.rows_kept != RowsKept::All || kept.any(|line| !line.is_blank())
 }
 
 fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>) {

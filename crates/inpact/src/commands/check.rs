@@ -101,10 +101,15 @@ struct Checked<'a> {
 }
 
 impl CheckArguments {
-    /// Rows of a mesh are kept where they cannot be read a second time: those of a stream, and of files that are changed.
+    /// Rows are kept where they cannot be read a second time: those of a stream, and of files that are changed.
     fn keep(&self, path: &Path) -> Keep {
         let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
-        if self.geometry && (!is_file || self.selection().is_some()) { Keep::Everything } else { Keep::Interpreted }
+        let can_be_read_again = is_file && self.selection().is_none();
+        match (self.geometry, can_be_read_again) {
+            (true, false) => Keep::Everything,
+            (true, true) | (false, false) => Keep::Interpreted,
+            (false, true) => Keep::Ends,
+        }
     }
 
     fn same(&self) -> Same {
@@ -275,10 +280,16 @@ fn check_deck<'a>(
         return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));
     }
     let held = selection.map(|_| HeldFiles::default());
-    let deck = input::read_located_deck(path, arguments.keep(path), &settings, held.as_ref())?;
+    let mut deck = input::read_located_deck(path, arguments.keep(path), &settings, held.as_ref())?;
     progress.advance(path);
     let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, selection));
-    let (text, tally) = judge(path, &deck, &settings, arguments, style)?;
+    let (mut text, mut tally) = judge(path, &deck, &settings, arguments, style)?;
+    if deck.deck.lacks_rows() {
+        // Something is to be said of a table of which not all was kept.
+        drop(deck);
+        deck = input::read_located_deck(path, Keep::Interpreted, &settings, None)?;
+        (text, tally) = judge(path, &deck, &settings, arguments, style)?;
+    }
     let held = held.filter(|_| need == Need::Mending);
     let (kind, remarks, places) = (Kind::Deck, Vec::new(), deck.places().to_vec());
     Ok(Checked { path, kind, settings, text, tally, remarks, places, need, held })

@@ -2,9 +2,9 @@
 
 use super::Reader;
 use crate::deck::lines::lines;
-use crate::deck::{Block, KeywordLine, Parameter};
+use crate::deck::{Block, KeywordLine, Parameter, RowsKept};
 use crate::grammar::{Definition, KeywordId, RowShape};
-use crate::model::rows::{most_written, read_table};
+use crate::model::rows::{most_written, read_table, table_of_ends};
 use crate::model::{GivenParameter, MOST_FIELD_VARIABLES, Name, Reference, SharedText, SubOption, Table, TextRows};
 use crate::number::{read_float, read_integer};
 use crate::span::Span;
@@ -51,8 +51,16 @@ impl Reader<'_> {
         let without = data.layout(|name| option.is_given(name), 0)?;
         let written = most_written(self.deck, option.block, &without, dependencies);
         let layout = data.layout_of(|name| option.is_given(name), dependencies, written)?;
-        let in_dialect = (layout, self.grammar.dialect());
-        let mut table = read_table(self.deck, option.block, in_dialect, &self.model.parameters, &mut self.problems);
+        let mut table = if option.block.rows_kept == RowsKept::Ends {
+            let table = table_of_ends(self.deck, option.block, layout);
+            table.or_else(|| {
+                self.deck.miss_rows(option.block);
+                None
+            })?
+        } else {
+            let in_dialect = (layout, self.grammar.dialect());
+            read_table(self.deck, option.block, in_dialect, &self.model.parameters, &mut self.problems)
+        };
         if table.row_count() == 0 {
             return None;
         }
