@@ -3,5 +3,6 @@
 #[path = "../support/libraries.rs"]
 mod libraries;
 
+mod circles;
 mod source;
 mod uses;

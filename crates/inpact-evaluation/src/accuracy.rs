@@ -15,12 +15,12 @@ mod vertices;
 mod wanted;
 mod work;
 
-pub use choose::{Candidate, Choice, Method, choose};
+pub use choose::{Candidate, Choice, choose};
 pub use grid::{Grid, commensurate_cells};
 pub use refusal::Refusal;
 pub(crate) use wanted::FAST_TOLERANCE;
 pub use wanted::{Tolerance, Wanted};
-pub use work::Shape;
+pub use work::{Method, Shape};
 
 use crate::table::{AxisSummary, PiecewiseTable};
 

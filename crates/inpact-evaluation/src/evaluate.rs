@@ -10,7 +10,9 @@
 //! the next increment then begins at the last row that had them all.
 //! Opens no file: batches in, batches out.
 
+mod binder;
 mod coordinates;
+mod found;
 mod laws;
 mod part;
 mod pipeline;
@@ -23,7 +25,7 @@ pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
 pub use tally::{AxisTally, InteractionTally, RemarkedRows, Tally, UserFaultInRow};
 pub use totals::Totals;
 
-pub(crate) use laws::Binder;
+pub(crate) use binder::Binder;
 pub(crate) use part::{Part, Row, mean_mass_flow_of};
 pub(crate) use tally::{PERMEABILITY, THERMAL_CONDUCTANCE, VIEW_FACTOR};
 
@@ -73,7 +75,7 @@ impl<'a> Evaluation<'a> {
     pub fn shared_by(shares: usize, model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
         let laws = Laws::of(model, plan, choices);
         let shares = if laws.asks_user { 1 } else { shares.max(1) };
-        let tally = Tally::new(plan, &laws, model.interactions.len());
+        let tally = Tally::new(plan, laws.summed_outputs(), model.interactions.len());
         Self {
             workers: (0..shares).map(|_| Worker::new(model, plan, &laws, tally.clone())).collect(),
             shards: (0..shares).map(|_| Shard::new(plan, tally.clone())).collect(),

@@ -12,6 +12,7 @@ pub(crate) mod arrays;
 mod batch;
 mod cells;
 mod column;
+mod column_name;
 #[cfg(feature = "columnar")]
 mod columnar;
 mod contract;
@@ -30,6 +31,7 @@ mod rules;
 #[cfg(feature = "columnar")]
 mod soundness;
 mod spill;
+mod stored;
 mod wait;
 
 #[cfg(feature = "columnar")]
@@ -47,9 +49,10 @@ pub use kept::{GivenBack, KeptRows, MakeSpillFile, SpillFile};
 pub use made::MadeBatches;
 pub use node_index::{HistoryOrder, HistorySlot, NodeIndex, NodeRuns};
 pub use places::locate;
-pub use reader::{ColumnStatistics, NodeReader, ReadSeek, Selection};
+pub use reader::{NodeReader, Selection};
 pub(crate) use rules::{BEYOND_TABLE, HEAT_OF_CLOSING, NEGATIVE_AREA, NEGATIVE_PROPERTY, TIME_NOT_ASCENDING};
 pub use rules::{
     CONTRADICTORY_RATE, DATA_RULES, DUPLICATE_COLUMN, MALFORMED_CELL, MISSING_COLUMN, NON_FINITE, UNKNOWN_INTERACTION,
     USER_FAULT,
 };
+pub use stored::{ColumnStatistics, ReadSeek};

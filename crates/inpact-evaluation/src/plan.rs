@@ -17,16 +17,21 @@ mod concern;
 mod cost;
 pub(crate) mod folding;
 mod governing;
-pub(crate) mod make;
+pub(crate) mod law_columns;
+mod make;
 mod outline;
+pub(crate) mod output_groups;
+pub(crate) mod planner;
 mod print;
 pub(crate) mod reason;
 pub(crate) mod regime;
-pub(crate) mod requested;
+mod requested;
 pub(crate) mod source;
 mod survey;
+mod surveyed;
+mod table_plan;
 pub(crate) mod tables;
-pub(crate) mod wanted;
+mod wanted;
 
 pub use crate::law::electrical::plan::ElectricalPlan;
 pub use crate::law::friction::plan::{FrictionPlan, SlipRateSource};
@@ -43,19 +48,16 @@ pub use outline::{Cut, Dropped, Node, Outline};
 pub use reason::{LeftOut, Missing, Reason};
 pub use regime::{RegimeInForce, RegimeReason};
 pub use source::{Presence, Source};
-pub use survey::{ColumnSurvey, InteractionSurvey, Survey, survey, survey_keeping};
+pub use survey::{survey, survey_keeping};
+pub use surveyed::{ColumnSurvey, InteractionSurvey, Survey};
+pub use table_plan::{AxisPlan, ContactColumns, FormPlan, History, TablePlan};
 
-pub(crate) use make::generation_of;
+pub(crate) use planner::generation_of;
 pub(crate) use survey::ContactPlaces;
 pub(crate) use tables::{BuiltTables, InteractionTables};
 
-use crate::accuracy::{ErrorBound, Method, Shape, Wanted};
-use crate::error::Error;
-use crate::evaluator::Evaluator;
-use crate::law::contact::ContactState;
 use crate::nodes::{Batch, Column, Findings, HistoryOrder, MISSING_COLUMN, Place, Selection};
-use crate::results::{Along, Output};
-use crate::table::Tail;
+use crate::results::Output;
 use inpact_parser::model::Name;
 use std::sync::Arc;
 
@@ -113,91 +115,6 @@ pub struct InteractionPlan {
     pub dropped: Vec<Dropped>,
     /// Notes.
     pub notes: Vec<String>,
-}
-
-/// The columns that tell clearance, contact pressure and contact, those that have numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ContactColumns {
-    /// `clearance`.
-    pub clearance: Option<Column>,
-    /// `pressure`.
-    pub pressure: Option<Column>,
-    /// `closed`.
-    pub closed: Option<Column>,
-    /// The state of every row, where there is only one: then the columns are read for the tables alone.
-    pub state: Option<ContactState>,
-}
-
-/// Whether the rows of a node are increments of a history.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum History {
-    /// They are: `node` and `time` are there.
-    ByTime,
-    /// Every row stands for itself.
-    None,
-}
-
-/// A table in use.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TablePlan {
-    /// The first of its variables.
-    pub against: Along,
-    /// How many rows it has.
-    pub rows: usize,
-    /// The continuation beyond its last row.
-    pub tail: Tail,
-    /// Whether the last value of every group is zero, so that no choice of tail makes a difference.
-    pub ends_in_zero: bool,
-    /// Its variables.
-    pub axes: Vec<AxisPlan>,
-    /// How many rows are left of it once it is folded.
-    pub folded_rows: usize,
-    /// The variables that have one value and along which it could not be folded.
-    pub not_folded: Vec<(Along, Error)>,
-    /// The properties that decide how fast the whole table is evaluated.
-    pub shape: Shape,
-    /// The form in which it is evaluated; `None` for a table that no row reaches.
-    pub form: Option<FormPlan>,
-}
-
-/// The form in which a table is evaluated.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FormPlan {
-    /// How its values are found.
-    pub method: Method,
-    /// How exactly they were to be found.
-    pub wanted: Wanted,
-    /// The bound of their error, where there is one.
-    pub bound: Option<ErrorBound>,
-    /// A tolerance that the bound is above, as no form keeps it.
-    pub missed: Option<f64>,
-    /// The cost of a value by the shape of the table, in about a nanosecond.
-    pub cost: f64,
-    /// The cost by the table's own kernel.
-    pub full_cost: f64,
-    /// The other ways that were considered, and why they were not chosen.
-    pub refused: Vec<(String, String)>,
-    /// The table, folded, ready to be evaluated in that form.
-    pub(crate) evaluator: Evaluator,
-}
-
-/// A variable of a table in use.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AxisPlan {
-    /// Which one it is.
-    pub along: Along,
-    /// Its smallest abscissa.
-    pub least: f64,
-    /// Its largest abscissa.
-    pub greatest: f64,
-    /// How many different abscissae there are.
-    pub points: usize,
-    /// Whether the table's value depends on it; otherwise nothing of the node table is read for it.
-    pub matters: bool,
-    /// Its value in every row, along which the table is folded.
-    pub fold: Option<f64>,
-    /// Whether the table no longer depends on it once others are folded.
-    pub is_idle: bool,
 }
 
 /// A column of the node table and its role.

@@ -8,6 +8,8 @@ mod batch;
 mod columnar;
 mod contract;
 mod format;
+mod heading;
+mod number;
 mod output;
 #[cfg(feature = "columnar")]
 mod parquet;
@@ -18,8 +20,9 @@ mod writer;
 pub use batch::{ResultBatch, Status, StatusByLaw};
 pub use contract::{OUTPUT_PAGES, OutputPage};
 pub use format::TableFormat;
+pub(crate) use number::number_text;
+pub use number::{push_number, rounded_up};
 pub use output::{Along, Output};
 #[cfg(feature = "columnar")]
 pub use records::{ResultRecords, node_record_batch};
-pub(crate) use writer::number_text;
-pub use writer::{ResultWriter, push_number, rounded_up};
+pub use writer::ResultWriter;

@@ -2,42 +2,12 @@
 //!
 //! The choice depends on the table and the tolerance alone, never on a measurement: what is cheaper follows from the shape of the table ([`Shape`]).
 
-use std::fmt;
-
 use super::grid::Grid;
 use super::{
-    Accuracy, ErrorBound, FAST_TOLERANCE, Refusal, Shape, Tolerance, Wanted, commensurate_cells, full_bound,
+    Accuracy, ErrorBound, FAST_TOLERANCE, Method, Refusal, Shape, Tolerance, Wanted, commensurate_cells, full_bound,
     reference_bound,
 };
 use crate::table::PiecewiseTable;
-
-/// A way to evaluate a table.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Method {
-    /// Double-double, rounded once.
-    Reference,
-    /// The table itself in f64.
-    Full,
-    /// The table resampled on a regular grid, interpolated multilinearly in f64.
-    Grid {
-        /// How many cells the grid has along each axis the value depends on, fastest first.
-        cells: Vec<usize>,
-    },
-}
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Reference => write!(f, "reference"),
-            Self::Full => write!(f, "full"),
-            Self::Grid { cells } => {
-                let cells: Vec<String> = cells.iter().map(usize::to_string).collect();
-                write!(f, "grid {}", cells.join("x"))
-            }
-        }
-    }
-}
 
 /// One way that was considered.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,8 +9,8 @@
 //!
 //! `cargo bench -p inpact-bench --bench kernels` shows the times of all of them beside each other.
 
-use super::Method;
 use crate::table::PiecewiseTable;
+use std::fmt;
 
 /// One search in a batch for all rows, and one that each row makes in a group of its own.
 const SEARCH: f64 = 1.0;
@@ -23,6 +23,34 @@ const CELL: f64 = 0.7;
 const FUSED: f64 = 0.5;
 /// An interpolation in double-double, row by row.
 const DOUBLE_DOUBLE: f64 = 40.0;
+
+/// A way to evaluate a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// Double-double, rounded once.
+    Reference,
+    /// The table itself in f64.
+    Full,
+    /// The table resampled on a regular grid, interpolated multilinearly in f64.
+    Grid {
+        /// How many cells the grid has along each axis the value depends on, fastest first.
+        cells: Vec<usize>,
+    },
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reference => write!(f, "reference"),
+            Self::Full => write!(f, "full"),
+            Self::Grid { cells } => {
+                let cells: Vec<String> = cells.iter().map(usize::to_string).collect();
+                write!(f, "grid {}", cells.join("x"))
+            }
+        }
+    }
+}
 
 /// The properties of a table that decide the cost of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

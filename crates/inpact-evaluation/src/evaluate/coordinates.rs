@@ -53,7 +53,7 @@ impl<'a> Coordinates<'a> {
     /// Begins with no row, for a plan that was made from this model and these choices.
     pub fn new(model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
         let laws = Laws::of(model, plan, choices);
-        let tally = Tally::new(plan, &laws, model.interactions.len());
+        let tally = Tally::new(plan, laws.summed_outputs(), model.interactions.len());
         let worker = Worker::new(model, plan, &laws, tally);
         Self { laws, worker, reads: Vec::new() }
     }

@@ -1,12 +1,13 @@
 //! The laws of a plan with the columns of a batch that they read and fill.
 
+use super::binder::{Binder, numbers};
 use crate::history::{ClosingHeat, HistoryStart};
 use crate::law::electrical::columns::ElectricalColumns;
 use crate::law::pore::columns::PoreColumns;
 use crate::law::thermal::columns::ThermalColumns;
 use crate::nodes::Column;
-use crate::plan::{Choices, ContactPlaces, History, InteractionPlan, Plan, Source};
-use crate::results::{Along, Output};
+use crate::plan::{Choices, ContactPlaces, History, Plan};
+use crate::results::Output;
 use inpact_parser::model::Model;
 
 /// The laws of a plan.
@@ -43,13 +44,6 @@ pub(super) struct InteractionLaws {
     pub(super) keeps_history: bool,
 }
 
-/// Finds the places of columns and results for the laws of one interaction.
-#[derive(Clone, Copy)]
-pub(crate) struct Binder<'a> {
-    plan: &'a Plan,
-    of: &'a InteractionPlan,
-}
-
 impl Laws {
     /// The laws of a plan that was made from this model and these choices.
     pub(super) fn of(model: &Model, plan: &Plan, choices: &Choices) -> Self {
@@ -69,6 +63,11 @@ impl Laws {
             closing_heat: choices.closing_heat,
             asks_user: choices.user_conductance.is_some(),
         }
+    }
+
+    /// The outputs that are added up over an interface.
+    pub(super) fn summed_outputs(&self) -> Vec<Output> {
+        self.summed.iter().map(|(output, _)| *output).collect()
     }
 
     /// The columns of texts that laws read of a part.
@@ -102,49 +101,4 @@ impl InteractionLaws {
 fn has_known_times(plan: &Plan) -> bool {
     let is_there = plan.columns.iter().any(|column| column.column == Some(Column::Time));
     !is_there || plan.selection.number(Column::Time).is_some()
-}
-
-/// The outputs that are numbers.
-fn numbers(plan: &Plan) -> impl Iterator<Item = Output> {
-    plan.outputs.iter().copied().filter(|output| output.is_number())
-}
-
-impl Binder<'_> {
-    fn contact(self) -> ContactPlaces {
-        let place = |column: Option<Column>| self.place(column?);
-        let columns = self.of.contact;
-        ContactPlaces {
-            clearance: place(columns.clearance),
-            pressure: place(columns.pressure),
-            closed: place(columns.closed),
-            state: columns.state,
-        }
-    }
-
-    /// The place of a column among the numbers of a batch.
-    pub(crate) fn place(self, column: Column) -> Option<usize> {
-        self.plan.selection.number(column)
-    }
-
-    /// The place of a column among the texts of a batch.
-    pub(crate) fn label(self, column: Column) -> Option<usize> {
-        self.plan.selection.label(column)
-    }
-
-    /// Where an output goes, if this interaction gives it.
-    pub(crate) fn slot(self, output: Output) -> Option<usize> {
-        let is_given = self.of.outputs.contains(&output);
-        numbers(self.plan).position(|planned| planned == output).filter(|_| is_given)
-    }
-
-    /// Where the slopes of a law go, and along what they are.
-    pub(crate) fn slopes(self, along: impl Fn(Output) -> Option<Along>) -> Vec<(usize, Along)> {
-        self.of.outputs.iter().filter_map(|output| Some((self.slot(*output)?, along(*output)?))).collect()
-    }
-
-    /// A source in terms of places.
-    pub(crate) fn source(self, source: Option<Source<Column>>) -> Option<Source<usize>> {
-        // The plan reads every column it names.
-        source.map(|source| source.map(|column| self.place(column).unwrap_or_default()))
-    }
 }

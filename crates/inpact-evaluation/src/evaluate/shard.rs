@@ -1,7 +1,7 @@
 //! The histories of some of the nodes: their rows are gone through in their order, one after the other.
 
+use super::found::Found;
 use super::laws::{InteractionLaws, Laws};
-use super::worker::Found;
 use super::{Part, Row, Tally};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::electrical::columns::increments::Increments;

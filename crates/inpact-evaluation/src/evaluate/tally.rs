@@ -1,6 +1,5 @@
 //! Counts of an evaluation: rows in and out, contact, rows beyond tables, and what a user should know of them.
 
-use super::laws::Laws;
 use super::{Row, Totals};
 use crate::evaluator::SeenError;
 use crate::nodes::{BEYOND_TABLE, CONTRADICTORY_RATE, Findings, HEAT_OF_CLOSING, Place, USER_FAULT};
@@ -131,11 +130,11 @@ pub struct AxisTally {
 }
 
 impl Tally {
-    pub(super) fn new(plan: &Plan, laws: &Laws, interactions: usize) -> Self {
+    pub(super) fn new(plan: &Plan, summed: Vec<Output>, interactions: usize) -> Self {
         let mut tally = Self {
             rows: 0,
             interactions: vec![InteractionTally::default(); interactions],
-            summed: laws.summed.iter().map(|(output, _)| *output).collect(),
+            summed,
             user_faults: Vec::new(),
         };
         for interaction in &plan.interactions {

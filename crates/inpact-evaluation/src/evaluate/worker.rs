@@ -1,12 +1,11 @@
 //! The work of one thread on a batch: its rows by their interaction, all tables in columns, and every law in the rows that stand alone.
 
+use super::found::Found;
 use super::laws::{InteractionLaws, Laws};
 use super::shard::{Shard, Waiting};
 use super::{InteractionTally, Outcome, Part, Tally, UserFaultInRow};
-use crate::evaluator::TableValues;
-use crate::law::conductance::columns::ConductanceColumn;
 use crate::law::contact::ContactState;
-use crate::law::thermal::columns::{ThermalColumns, ThermalFound};
+use crate::law::thermal::columns::ThermalColumns;
 use crate::nodes::Batch;
 use crate::plan::{Plan, RowInteractions};
 use crate::results::{ResultBatch, Status};
@@ -18,14 +17,6 @@ pub(super) struct Worker<'a> {
     interactions: RowInteractions<'a>,
     pub(super) tally: Tally,
     asks_user: bool,
-}
-
-/// Results of a part in columns, before its rows are gone through.
-#[derive(Debug, Default)]
-pub(super) struct Found {
-    pub(super) conductances: Option<ConductanceColumn>,
-    pub(super) thermal: ThermalFound,
-    pub(super) permeabilities: TableValues,
 }
 
 impl<'a> Worker<'a> {

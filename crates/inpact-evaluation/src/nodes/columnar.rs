@@ -6,9 +6,9 @@
 use super::arrays;
 use super::batch::{Batch, LabelColumn, NumberColumn};
 use super::header::Header;
-use super::reader::{ColumnStatistics, ReadSeek};
 use super::rules::MALFORMED_CELL;
 use super::soundness::{self, caught, unsound};
+use super::stored::{ColumnStatistics, ReadSeek};
 use super::wait::{begin, wait_for};
 use crate::arrow::array::{ArrayRef, AsArray, RecordBatch};
 use crate::arrow::datatypes::{DataType, Float64Type, SchemaRef};

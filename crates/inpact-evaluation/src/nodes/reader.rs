@@ -11,6 +11,7 @@ use super::csv::CsvReader;
 use super::foreign;
 use super::header::Header;
 use super::made::{MadeBatches, MadeReader};
+use super::stored::{ColumnStatistics, ReadSeek};
 use inpact_diagnostics::Findings;
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -31,24 +32,6 @@ enum Table<'a> {
     #[cfg(feature = "columnar")]
     Columnar(Box<ColumnarReader>),
     Made(Box<MadeReader<'a>>),
-}
-
-/// Sources of tables that are stored as columns.
-pub trait ReadSeek: Read + Seek + Send + 'static {}
-
-impl<T: Read + Seek + Send + 'static> ReadSeek for T {}
-
-/// Statistics of a column of numbers that a table itself has, without its rows being read.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ColumnStatistics {
-    /// The smallest number that is not NaN; infinity where there is none.
-    pub least: f64,
-    /// The largest number that is not NaN; minus infinity where there is none.
-    pub greatest: f64,
-    /// How many numbers are missing.
-    pub nulls: u64,
-    /// How many rows there are.
-    pub rows: u64,
 }
 
 /// Which columns of a node table to read.

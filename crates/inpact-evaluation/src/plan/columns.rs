@@ -2,7 +2,7 @@
 
 use super::choices::Choices;
 use super::reason::Reason;
-use super::survey::Survey;
+use super::surveyed::Survey;
 use super::{
     Bulk, CharacteristicLength, ColumnPlan, ColumnRole, GovernedBy, History, InteractionPlan, Rate, Source, TablePlan,
     UserPlan,

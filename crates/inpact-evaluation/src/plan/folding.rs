@@ -1,6 +1,6 @@
 //! Tables folded along the axes on which a scene has one value.
 
-use super::make::Planner;
+use super::planner::Planner;
 use super::source::Source;
 use super::{AxisPlan, FormPlan, TablePlan};
 use crate::accuracy::{Method, Shape, Wanted, choose};

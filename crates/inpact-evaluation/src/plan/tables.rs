@@ -76,7 +76,7 @@ pub(crate) fn electrical_axis(against: Along, axis: usize) -> Along {
     match axis {
         0 => against,
         1 => Along::Temperature,
-        _ => field_variable(axis - 2),
+        _ => Along::field_variable(axis - 2),
     }
 }
 
@@ -86,13 +86,8 @@ pub(crate) fn pore_axis(axis: usize) -> Along {
         0 => Along::Pressure,
         1 => Along::PorePressure,
         2 => Along::Temperature,
-        _ => field_variable(axis - 3),
+        _ => Along::field_variable(axis - 3),
     }
-}
-
-pub(crate) fn field_variable(index: usize) -> Along {
-    // A deck has at most a thousand (`MOST_FIELD_VARIABLES`).
-    Along::FieldVariable(u32::try_from(index + 1).unwrap_or(u32::MAX))
 }
 
 /// Whether a table's value depends on axis `axis`.

@@ -6,12 +6,11 @@
 //! The columns of a batch are made, and for Parquet encoded, on the threads of rayon's current pool; the bytes do not depend on how many there are.
 
 use super::format::TableFormat;
-use super::parquet::ParquetTable;
-use super::writer::{Heading, Values};
+use super::heading::{Heading, Values};
+use super::parquet::{ParquetTable, of_arrow};
 use crate::arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
 use crate::arrow::buffer::{NullBuffer, OffsetBuffer, ScalarBuffer};
 use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
-use crate::arrow::error::ArrowError;
 use crate::arrow::ipc::writer::FileWriter;
 use crate::nodes::{Batch, Column, LabelColumn, NumberColumn, without_dictionary};
 use crate::spread;
@@ -193,11 +192,4 @@ fn status_dictionary(statuses: &[Option<super::Status>]) -> ArrayRef {
 pub(super) fn number_array(column: &NumberColumn) -> ArrayRef {
     let nulls = column.presence().filter(|present| present.contains(&false)).map(NullBuffer::from);
     Arc::new(Float64Array::new(ScalarBuffer::from(column.values().to_vec()), nulls))
-}
-
-pub(super) fn of_arrow(error: ArrowError) -> io::Error {
-    match error {
-        ArrowError::IoError(_, error) => error,
-        error => io::Error::other(error),
-    }
 }

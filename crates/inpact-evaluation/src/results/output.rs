@@ -239,6 +239,14 @@ impl fmt::Display for Output {
     }
 }
 
+impl Along {
+    /// The field variable at a place among them, counted from zero.
+    pub(crate) fn field_variable(index: usize) -> Self {
+        // A deck has at most a thousand (`MOST_FIELD_VARIABLES`).
+        Self::FieldVariable(u32::try_from(index + 1).unwrap_or(u32::MAX))
+    }
+}
+
 impl fmt::Display for Along {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

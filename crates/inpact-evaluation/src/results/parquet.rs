@@ -3,7 +3,6 @@
 //! Floats are stored plain and nothing is compressed, which is fastest; row groups are bounded, and so is memory.
 //! A row group is written once its rows are complete, column after column: the file does not depend on the number of threads that encoded them.
 
-use super::columnar::of_arrow;
 use crate::arrow::array::{Array, ArrayRef};
 use crate::arrow::datatypes::{DataType, Schema, SchemaRef};
 use crate::arrow::error::ArrowError;
@@ -112,6 +111,14 @@ fn of_parquet(error: ParquetError) -> io::Error {
             Ok(error) => *error,
             Err(error) => of_arrow(ArrowError::ExternalError(error)),
         },
+        error => io::Error::other(error),
+    }
+}
+
+/// An error of Arrow as one of the stream.
+pub(super) fn of_arrow(error: ArrowError) -> io::Error {
+    match error {
+        ArrowError::IoError(_, error) => error,
         error => io::Error::other(error),
     }
 }

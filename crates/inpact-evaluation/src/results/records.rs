@@ -1,8 +1,9 @@
 //! Results in memory as Arrow record batches.
 
 use super::batch::ResultBatch;
-use super::columnar::{key_array, number_array, of_arrow, status_array};
+use super::columnar::{key_array, number_array, status_array};
 use super::output::Output;
+use super::parquet::of_arrow;
 use crate::arrow::array::{ArrayRef, Float64Array, RecordBatch};
 use crate::arrow::buffer::{NullBuffer, ScalarBuffer};
 use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};

@@ -1,9 +1,9 @@
 //! The plan of the heat of friction of one interaction.
 
 use crate::law::heat::HeatGeneration;
-use crate::law::thermal::plan::Planned;
+use crate::law::thermal::planned::Planned;
 use crate::nodes::Column;
-use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, OptionKind};

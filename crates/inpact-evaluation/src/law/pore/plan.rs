@@ -3,12 +3,12 @@
 use crate::law::pore::Cutoffs;
 use crate::nodes::{Column, Part};
 use crate::plan::folding::{fold_and_choose, table_plan};
-use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::law_columns::{columns_of, want_of_any_law, want_variables};
+use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::regime::regime;
 use crate::plan::source::{Source, cell, whole_or_sides};
 use crate::plan::tables::{InteractionTables, matters, pore_axis};
-use crate::plan::wanted::{columns_of, want_of_any_law, want_variables};
 use crate::plan::{AxisPlan, Choices, Derivatives, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;

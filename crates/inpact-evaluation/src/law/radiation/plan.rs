@@ -1,11 +1,11 @@
 //! The plan of the heat radiated across one interaction.
 
-use crate::law::thermal::plan::{Planned, temperatures};
+use crate::law::thermal::planned::{Planned, temperatures};
 use crate::law::thermal::tables::ThermalTables;
 use crate::nodes::Column;
 use crate::plan::TablePlan;
 use crate::plan::folding::table_plan;
-use crate::plan::make::Planner;
+use crate::plan::planner::Planner;
 use crate::plan::reason::Reason;
 use crate::plan::source::cell;
 use crate::results::Along;

@@ -1,14 +1,14 @@
 //! The plan of the heat conducted across one interaction.
 
-use crate::law::thermal::plan::Planned;
+use crate::law::thermal::planned::Planned;
 use crate::law::thermal::tables::{ConductanceRows, ThermalTables, thermal_axis};
 use crate::nodes::Column;
 use crate::plan::folding::{fold_and_choose, table_plan};
-use crate::plan::make::{LeftOuts, Planner};
+use crate::plan::law_columns::columns_of;
+use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::source::{Source, cell, whole_or_sides};
 use crate::plan::tables::matters;
-use crate::plan::wanted::columns_of;
 use crate::plan::{AxisPlan, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;

@@ -6,6 +6,7 @@
 //! Friction is another matter: most decks have *FRICTION and few node tables tell of slip, so HFL without it is given, and the plan says so.
 
 use super::conduction::{ConductionPlan, plan_conduction};
+use super::planned::temperatures;
 use super::tables::thermal_axis;
 use crate::accuracy::Wanted;
 use crate::law::electrical::plan::LAW as ELECTRICAL_LAW;
@@ -15,11 +16,11 @@ use crate::law::radiation::plan::{RadiationPlan, plan_radiation};
 use crate::law::thermal::tables::ThermalTables;
 use crate::nodes::{Column, Part};
 use crate::plan::Choices;
-use crate::plan::make::{LeftOuts, Planner};
-use crate::plan::reason::{Missing, Reason};
-use crate::plan::requested::SUMS_OF_HEAT;
+use crate::plan::law_columns::{want_of_any_law, want_variables};
+use crate::plan::output_groups::SUMS_OF_HEAT;
+use crate::plan::planner::{LeftOuts, Planner};
+use crate::plan::reason::Reason;
 use crate::plan::source::{Source, cell};
-use crate::plan::wanted::{want_of_any_law, want_variables};
 use crate::plan::{Currents, Derivatives, ElectricalPlan, History};
 use crate::results::Output;
 use inpact_parser::grammar::Dialect;
@@ -71,38 +72,6 @@ impl ThermalPlan {
             columns.extend((friction.slip_rate == SlipRateSource::Column).then_some(Column::SlipRate));
         }
         columns
-    }
-}
-
-/// Results of planning a part of the law.
-pub(crate) enum Planned<T> {
-    /// The deck has no such part.
-    Absent,
-    /// It was left out, for this reason.
-    LeftOut(Reason),
-    /// It is evaluated.
-    Part(T),
-}
-
-impl<T> Planned<T> {
-    pub(crate) fn of(planned: Result<T, Reason>) -> Self {
-        match planned {
-            Ok(part) => Self::Part(part),
-            Err(reason) => Self::LeftOut(reason),
-        }
-    }
-
-    /// The part; says what is left out, and remembers the first reason.
-    fn part(self, what: &str, left_out: &mut LeftOuts, first: &mut Option<Reason>) -> Option<T> {
-        match self {
-            Self::Absent => None,
-            Self::Part(part) => Some(part),
-            Self::LeftOut(reason) => {
-                left_out.push(what, reason.clone());
-                first.get_or_insert(reason);
-                None
-            }
-        }
     }
 }
 
@@ -203,17 +172,6 @@ fn current_heat(
     // The law said why there is none of it, or why there is no current.
     let mut said = left_out.0.iter().filter(|left| left.what == ELECTRICAL_LAW || left.outputs.contains(&Output::Ecd));
     Err(said.next().map_or(Reason::NotEvaluated, |left| left.reason.clone()))
-}
-
-/// The temperatures of both sides, which every flux across depends on.
-pub(crate) fn temperatures(planner: Planner<'_>) -> Result<[Column; 2], Missing> {
-    let sides = [Part::Slave, Part::Master].map(Column::Temperature);
-    let lacking: Vec<Column> = sides.into_iter().filter(|side| !planner.presence(*side).has_numbers()).collect();
-    match lacking.as_slice() {
-        [] => Ok(sides),
-        _ if lacking.iter().all(|side| planner.survey.columns.contains(side)) => Err(Missing::empty(lacking)),
-        _ => Err(Missing::absent(lacking)),
-    }
 }
 
 /// Plans the fluxes, their sum, its integrals and products with the area.

@@ -6,7 +6,6 @@ use crate::law::conductance::ConductanceTables;
 use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
 use crate::law::thermal::ThermalConductance;
 use crate::plan::reason::Reason;
-use crate::plan::tables::field_variable;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, Tail};
 use inpact_parser::grammar::Dialect;
@@ -142,6 +141,6 @@ pub(crate) fn thermal_axis(against: Along, axis: usize) -> Along {
         0 => against,
         1 => Along::Temperature,
         2 => Along::MassFlow,
-        _ => field_variable(axis - 3),
+        _ => Along::field_variable(axis - 3),
     }
 }

@@ -5,10 +5,10 @@
 
 use crate::law::user::{NAME_LENGTH, UserName, UserNames};
 use crate::nodes::{Column, Header, Part, coordinates};
-use crate::plan::make::Planner;
+use crate::plan::law_columns::columns_of;
+use crate::plan::planner::Planner;
 use crate::plan::reason::Missing;
 use crate::plan::source::{Source, cell, whole_or_sides};
-use crate::plan::wanted::columns_of;
 use crate::results::Along;
 use inpact_parser::model::{Model, Name, Reference};
 use std::collections::BTreeSet;

@@ -2,7 +2,7 @@
 
 use super::{most_unpacked, unsound};
 use crate::arrow::ipc::{FieldNode, Message, MessageHeader, RecordBatch, root_as_footer, root_as_message};
-use crate::nodes::reader::ReadSeek;
+use crate::nodes::stored::ReadSeek;
 use std::io::{self, SeekFrom};
 
 const KIND: &str = "Arrow";

@@ -1,0 +1,132 @@
+//! What the laws of an interaction are planned from, and what they share in planning.
+
+use super::choices::{Choices, Derivatives};
+use super::reason::{LeftOut, Missing, Reason};
+use super::source::{Presence, cell};
+use super::surveyed::{InteractionSurvey, Survey};
+use super::table_plan::ContactColumns;
+use super::tables::matters;
+use crate::law::heat::HeatGeneration;
+use crate::nodes::Column;
+use crate::results::{Along, Output};
+use crate::table::PiecewiseTable;
+use inpact_parser::model::{Interaction, Model};
+
+/// Sources of the plan of one interaction.
+#[derive(Clone, Copy)]
+pub(crate) struct Planner<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) interaction: &'a Interaction,
+    pub(crate) index: usize,
+    pub(crate) of: &'a InteractionSurvey,
+    pub(crate) survey: &'a Survey,
+    pub(crate) choices: &'a Choices,
+}
+
+/// Parts left out while a law is planned, by reason.
+#[derive(Debug, Default)]
+pub(crate) struct LeftOuts(pub(crate) Vec<LeftOut>);
+
+impl LeftOuts {
+    /// Leaves something out that has words of its own.
+    pub(crate) fn push(&mut self, what: impl Into<String>, reason: Reason) {
+        self.0.push(LeftOut { what: what.into(), outputs: Vec::new(), reason });
+    }
+
+    /// Leaves outputs out; those left out for one reason stand together.
+    pub(crate) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
+        let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
+        self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
+    }
+}
+
+impl Planner<'_> {
+    /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
+    pub(crate) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
+        if !self.choices.accuracy.allows_folding() {
+            return false;
+        }
+        let requested = self.choices.outputs.as_ref();
+        self.choices.derivatives == Derivatives::LeftOut
+            || requested.is_some_and(|requested| !requested.iter().any(is_slope))
+    }
+
+    pub(crate) fn presence(self, column: Column) -> Presence {
+        self.survey.presence(self.index, column)
+    }
+
+    /// Whether a column has numbers in the rows of the interaction, or may have: one that no law could use was not read.
+    pub(crate) fn may_have(self, column: Column) -> bool {
+        let was_read = self.survey.columns.contains(&column);
+        if was_read { self.presence(column).has_numbers() } else { self.survey.header.has(column) }
+    }
+
+    /// The columns that tell contact, as far as they have numbers.
+    pub(crate) fn contact(self) -> ContactColumns {
+        let found = |column| Some(column).filter(|column| self.presence(*column).has_numbers());
+        ContactColumns {
+            clearance: found(Column::Clearance),
+            pressure: found(Column::Pressure),
+            closed: found(Column::Closed),
+            state: None,
+        }
+    }
+
+    /// `area`.
+    pub(crate) fn area(self) -> Result<Column, Missing> {
+        cell(Column::Area, |column| self.presence(column))
+    }
+
+    /// Whether the rows of a node are a history: `node` and `time` are there.
+    pub(crate) fn history(self) -> Result<(), Missing> {
+        let header = &self.survey.header;
+        let columns: Vec<Column> =
+            [Column::Node, Column::Time].into_iter().filter(|column| !header.has(*column)).collect();
+        if !columns.is_empty() {
+            return Err(Missing::absent(columns));
+        }
+        cell(Column::Time, |column| self.presence(column)).map(drop)
+    }
+
+    /// Refuses a table whose first variable some row needs and none has: a closed row needs no clearance.
+    pub(crate) fn check_abscissa(self, against: Along, table: &PiecewiseTable) -> Result<(), Missing> {
+        let is_clearance = against == Along::Clearance;
+        if !matters(table, 0) || (is_clearance && self.never(self.of.open)) {
+            return Ok(());
+        }
+        let column = if is_clearance { Column::Clearance } else { Column::Pressure };
+        cell(column, |column| self.presence(column)).map(drop)
+    }
+
+    /// Why no row reads the table against clearance or pressure, one of `count` tables of a conductance.
+    pub(crate) fn unreached(self, against: Along, count: usize) -> Option<Reason> {
+        match against {
+            Along::Pressure if self.never(self.of.closed) => Some(Reason::NoRowClosed),
+            // The table against clearance holds for closed rows too when it is the only one (section 4.2).
+            Along::Clearance if count == 2 && self.never(self.of.open) => Some(Reason::NoRowOpen),
+            _ => None,
+        }
+    }
+
+    /// Conversion of dissipated energy into heat; `None` where it is switched off (K-05).
+    pub(crate) fn heat_generation(self) -> Option<HeatGeneration> {
+        generation_of(self.interaction)
+    }
+
+    /// Whether no row is closed, or none open; unknown for a table without rows.
+    pub(crate) fn never(self, count: u64) -> bool {
+        self.survey.rows > 0 && count == 0 && self.of.closed + self.of.open == self.of.rows
+    }
+}
+
+/// Conversion of the energy dissipated in an interaction into heat; `None` where a user subroutine switches that off (K-05).
+pub(crate) fn generation_of(interaction: &Interaction) -> Option<HeatGeneration> {
+    if interaction.has_parameter("USER") {
+        return None;
+    }
+    let given = interaction.gap_heat_generation.as_ref();
+    Some(given.map_or_else(HeatGeneration::default, |given| HeatGeneration {
+        fraction: given.fraction,
+        slave_weight: given.slave_weight,
+    }))
+}

@@ -1,0 +1,105 @@
+//! What a survey finds in a node table.
+
+use super::governing::GovernedBy;
+use super::source::Presence;
+use crate::nodes::{Column, Header, HistoryOrder};
+
+/// Findings of the first reading of a node table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Survey {
+    /// Its header.
+    pub header: Header,
+    /// How many rows it has.
+    pub rows: u64,
+    /// The source of the interaction that governs a row.
+    pub governed_by: GovernedBy,
+    /// In which order the rows of the nodes come, as far as it was looked at.
+    pub order: HistoryOrder,
+    /// The columns of numbers that were read: all that some law of the deck could use.
+    pub columns: Vec<Column>,
+    /// Contents of the rows of each interaction, in the order of the model.
+    pub interactions: Vec<InteractionSurvey>,
+}
+
+/// Contents of the rows of one interaction.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InteractionSurvey {
+    /// How many rows it governs.
+    pub rows: u64,
+    /// How many of them are closed.
+    pub closed: u64,
+    /// How many of them are open; where it cannot be told they are neither.
+    pub open: u64,
+    /// How many of them have a clearance above zero.
+    pub above_zero: u64,
+    /// How many nodes it has, where `node` and `time` are there.
+    pub histories: Option<u64>,
+    /// Contents of each of [`Survey::columns`]; empty where no row was met, so that interactions without rows cost nothing.
+    pub columns: Vec<ColumnSurvey>,
+}
+
+impl InteractionSurvey {
+    /// Contents of column number `place` of [`Survey::columns`].
+    pub fn column(&self, place: usize) -> ColumnSurvey {
+        self.columns.get(place).copied().unwrap_or_default()
+    }
+}
+
+/// Contents of a column of numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnSurvey {
+    /// How many cells have a number.
+    pub present: u64,
+    /// How many of these are NaN or infinite.
+    pub non_finite: u64,
+    /// The smallest of the finite ones; infinity where there is none.
+    pub least: f64,
+    /// The largest of the finite ones; minus infinity where there is none.
+    pub greatest: f64,
+}
+
+impl ColumnSurvey {
+    /// Takes a number; without branches, so that a column of them is taken in vectors.
+    #[inline]
+    pub(super) fn take(&mut self, value: f64) {
+        self.present += 1;
+        let is_finite = value.is_finite();
+        self.non_finite += u64::from(!is_finite);
+        self.least = if is_finite && value < self.least { value } else { self.least };
+        self.greatest = if is_finite && self.greatest < value { value } else { self.greatest };
+    }
+}
+
+impl Default for ColumnSurvey {
+    fn default() -> Self {
+        Self { present: 0, non_finite: 0, least: f64::INFINITY, greatest: f64::NEG_INFINITY }
+    }
+}
+
+impl Survey {
+    /// How far a column has numbers in the rows of interaction number `interaction`.
+    ///
+    /// A table without rows has numbers in every column of its header.
+    pub fn presence(&self, interaction: usize, column: Column) -> Presence {
+        let Some(place) = self.columns.iter().position(|read| *read == column) else { return Presence::Absent };
+        let of = &self.interactions[interaction];
+        match of.column(place).present {
+            _ if self.rows == 0 => Presence::Full,
+            0 => Presence::Empty,
+            present if present == of.rows => Presence::Full,
+            _ => Presence::Partial,
+        }
+    }
+
+    /// The smallest and the largest finite number of a column over all rows.
+    pub fn range(&self, column: Column) -> Option<(f64, f64)> {
+        let place = self.columns.iter().position(|read| *read == column)?;
+        let columns = self.interactions.iter().map(|of| of.column(place));
+        let whole = columns.fold(ColumnSurvey::default(), |whole, of| ColumnSurvey {
+            least: whole.least.min(of.least),
+            greatest: whole.greatest.max(of.greatest),
+            ..whole
+        });
+        (whole.least <= whole.greatest).then_some((whole.least, whole.greatest))
+    }
+}
