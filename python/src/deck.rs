@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[pyclass(module = "inpact", frozen)]
 pub(crate) struct Deck(pub(crate) Arc<inpact::Deck>);
 
-/// What fixing a deck came to.
+/// The outcome of fixing a deck.
 #[pyclass(module = "inpact", frozen)]
 pub(crate) struct Fixed(inpact::Fixed);
 

@@ -76,7 +76,7 @@ fn record_batch(columns: &Bound<'_, PyList>) -> PyResult<RecordBatch> {
         .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// What keyword arguments say of an evaluation.
+/// The choices of an evaluation, from keyword arguments.
 fn options(arguments: &Bound<'_, PyDict>) -> PyResult<EvaluateOptions> {
     let given = |name: &str| PyResult::Ok(arguments.get_item(name)?.filter(|value| !value.is_none()));
     let mut options = EvaluateOptions::new();
@@ -301,7 +301,7 @@ impl UserConductance for SharedAsked {
     }
 }
 
-/// What the function gave, in the order in which an evaluation asks: that of the rows.
+/// Results of the function, in the order in which an evaluation asks: that of the rows.
 struct Answers {
     values: Vec<UserConductanceValue>,
     next: Mutex<usize>,

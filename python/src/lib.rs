@@ -1,7 +1,7 @@
 //! The Python module `inpact._inpact`: the front door of inpact as Python classes.
 //!
 //! Thin: no rule, no law and no parser of its own.
-//! What Python users see, with docstrings and types, is the package `inpact` beside it; NumPy is imported there, when it is first needed.
+//! Python users see the package `inpact` beside it, with docstrings and types; NumPy is imported there, when it is first needed.
 
 mod deck;
 mod errors;

@@ -8,7 +8,7 @@ use std::time::Duration;
 /// How long the calling thread waits before it looks for signals again.
 const LOOK: Duration = Duration::from_millis(25);
 
-/// What work and calling thread know of each other.
+/// State shared by the work and the calling thread.
 #[derive(Debug, Default)]
 pub(crate) struct Watch {
     stop: AtomicBool,

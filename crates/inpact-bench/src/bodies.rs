@@ -1,4 +1,4 @@
-//! What it takes to lump a body with four terminals, beside one solution of the same equations with one right-hand side.
+//! Time and memory of lumping a body with four terminals, beside one solution of the same equations with one right-hand side.
 //!
 //! The body is a block of bricks whose inside is distorted; three of its terminals are parts of faces, so that the flow is nowhere even.
 
@@ -28,7 +28,7 @@ pub enum Work {
     Lumped,
 }
 
-/// What one run took.
+/// Time and memory of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// Seconds to read the deck and its bodies.
@@ -140,7 +140,7 @@ impl Measured {
         format!("{read} {solve} {unknowns} {iterations} {peak}")
     }
 
-    /// What [`line`](Self::line) wrote; `None` for anything else.
+    /// Reads back a line of [`line`](Self::line); `None` for anything else.
     pub fn of_line(line: &str) -> Option<Self> {
         let cells: Vec<&str> = line.split_whitespace().collect();
         let [read, solve, unknowns, iterations, peak] = cells[..] else { return None };

@@ -82,7 +82,7 @@ pub struct BodySummary {
     pub capacity: Option<f64>,
     /// The heat that a current makes in it.
     pub joule_heat: JouleHeat,
-    /// What lumping may cost: with even flows it conducts no less than this share below what it conducts with one temperature a terminal, whatever the temperatures
+    /// The cost of lumping at most: with even flows it conducts no less than this share below what it conducts with one temperature a terminal, whatever the temperatures
     /// of its terminals are. Exact with two terminals, a bound with more.
     pub relative: f64,
 }

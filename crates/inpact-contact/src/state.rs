@@ -21,7 +21,7 @@ pub struct State {
     pub outputs: Vec<OutputField>,
     /// The flux of heat inside the bodies, at their nodes.
     pub heat_flux: Option<HeatFlux>,
-    /// What a solver says of a pair as a whole.
+    /// Values of a pair as a whole, from a solver.
     pub totals: Vec<PairTotal>,
 }
 

@@ -9,7 +9,7 @@ pub(crate) const MOST_FOLDED_ROWS: usize = 1 << 20;
 
 /// Rows that do not form a table, or a table that cannot be folded or resampled.
 ///
-/// What is wrong with a node table is no error but a finding; streams that cannot be read or written are [`std::io::Error`]s.
+/// A fault of a node table is no error but a finding; streams that cannot be read or written are [`std::io::Error`]s.
 ///
 /// ```
 /// use inpact_evaluation::table::{PiecewiseTable, Tail};

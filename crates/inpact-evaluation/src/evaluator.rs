@@ -1,6 +1,6 @@
 //! A table and how it is evaluated: the accuracy that was asked for, over columns.
 //!
-//! What a law's tables mean stands in [`crate::table`]; how exactly and how fast their values are found is chosen once ([`choose`]).
+//! The meaning of a law's tables is in [`crate::table`]; how exactly and how fast their values are found is chosen once ([`choose`]).
 
 use std::sync::Arc;
 

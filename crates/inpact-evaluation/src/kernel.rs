@@ -3,7 +3,7 @@
 //! A [`TableKernel`] evaluates a [`PiecewiseTable`] over columns; [`electrical`] makes the whole electrical output set in one pass.
 //! Which instructions are used is decided when the program runs ([`InstructionSet`]); the results do not depend on it, nor on the number of threads.
 //!
-//! What the vectors hold is the same expression as in [`crate::numbers::interpolate`] and [`crate::numbers::between`], operation by operation.
+//! The vectors hold the same expression as in [`crate::numbers::interpolate`] and [`crate::numbers::between`], operation by operation.
 //! Where these take a longer way (a segment without kernel slope, extreme exponents), the vector gives NaN,
 //! and every row that is NaN is done again by [`PiecewiseTable::value_and_sides_at`].
 //!

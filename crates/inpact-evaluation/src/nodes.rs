@@ -3,7 +3,7 @@
 //! The columns and their other names are a contract with users; [`Column`] is its list.
 //! A table is read in batches of rows, so that its length costs no memory: [`NodeReader`] turns the cells that were asked for into [`Batch`]es,
 //! and everything else is passed over unread.
-//! What is wrong with a table is a value, a `Diagnostic` of rules D001 to D010 and D020 to D022; errors are those of reading only.
+//! A fault of a table is a value, a `Diagnostic` of rules D001 to D010 and D020 to D022; errors are those of reading only.
 //!
 //! Knows no law and no deck: what a column is needed for is the plan's business.
 

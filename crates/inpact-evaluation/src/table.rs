@@ -92,11 +92,6 @@ impl AxisSummary {
     pub fn matters(&self) -> bool {
         self.drops || self.group_count < self.knot_count
     }
-
-    /// Whether all groups have one and the same single abscissa, as a blank column has (T-02).
-    pub fn has_one_value(&self) -> bool {
-        self.distinct_count == 1
-    }
 }
 
 /// One axis the value depends on: the abscissae of all its groups in row order.

@@ -174,24 +174,6 @@ fn slopes_along_temperature_and_field_variables() {
 }
 
 #[test]
-fn jumps_are_at_contact_and_at_the_zero_tail() {
-    let jumps = |tables: &ConductanceTables, d, state| tables.jumps_at(&point(d, 0.0, state));
-    let tables = both(Tail::Zero);
-    assert!(jumps(&tables, 0.0, CLOSED));
-    assert!(jumps(&tables, 0.0, OPEN));
-    assert!(jumps(&tables, 0.1, OPEN));
-    assert!(!jumps(&tables, 0.05, OPEN));
-    assert!(!jumps(&tables, 0.2, OPEN));
-    assert!(!jumps(&tables, -0.1, CLOSED));
-    let clearance = ConductanceTables::Clearance(clearance_table(Tail::Constant));
-    assert!(!jumps(&clearance, 0.0, CLOSED));
-    assert!(!jumps(&clearance, 0.1, OPEN));
-    assert!(jumps(&ConductanceTables::Pressure(pressure_table()), 0.0, CLOSED));
-    let ends_in_zero = ConductanceTables::Clearance(table(&[[20.0, 0.0], [0.0, 0.1]], Tail::Zero));
-    assert!(!jumps(&ends_in_zero, 0.1, OPEN));
-}
-
-#[test]
 fn a_20_current_and_its_heat() {
     let law = ElectricalLaw {
         conductance: ConductanceTables::Clearance(PiecewiseTable::constant(10.0)),

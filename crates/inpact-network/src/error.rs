@@ -9,7 +9,7 @@ use std::fmt;
 /// A scene or a linear network without a solution.
 ///
 /// Nodes and rows are given by their numbers, counted from zero: those of the network that was solved, or in a scene those of the scene.
-/// What is wrong with a scene itself is no error but a finding.
+/// A fault of the scene itself is no error but a finding.
 ///
 /// ```
 /// use inpact_network::ErrorKind;

@@ -179,7 +179,7 @@ impl Deck {
 
     /// Whether anybody has looked for rows that were dropped because they are in order ([`Keep::Ends`]).
     ///
-    /// What was found in the deck then counts for nothing: it has to be read again, with [`Keep::Interpreted`].
+    /// The deck then has to be read again, with [`Keep::Interpreted`].
     pub fn lacks_rows(&self) -> bool {
         self.sources.iter().any(Source::have_missed)
     }

@@ -4,7 +4,7 @@ use thiserror::Error as ThisError;
 
 /// A text that is not what was expected: JSON of neither view, a model that no deck can hold, a definition of a keyword, a dimension, a release.
 ///
-/// What is wrong with a deck is no error but a [`Problem`](crate::Problem).
+/// A fault of a deck is no error but a [`Problem`](crate::Problem).
 ///
 /// ```
 /// let error = inpact_parser::json::view_of(r#"{"schema": "inpact/model/9"}"#).unwrap_err();

@@ -145,7 +145,7 @@ fn width_of_coordinates(head: &Line<'_>) -> Result<Width, Problem> {
     width(head, head.cells().nth(2).map_or(b"1".as_slice(), |(_, cell)| cell))
 }
 
-/// What the line `100C` says of a block of values.
+/// Time and width of numbers of a block of values, from its line `100C`.
 struct HeadOfValues {
     time: f64,
     /// An eigenvalue is no time.

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stop(Option<Arc<AtomicBool>>);
 
-/// What unwinding work carries.
+/// The payload of work that unwinds.
 #[derive(Debug)]
 pub(crate) struct Stopped;
 

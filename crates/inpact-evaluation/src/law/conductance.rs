@@ -132,7 +132,7 @@ impl ConductanceTables {
     /// The slope of the conductance along axis 0 of the branch in force, and along temperature and field variables in `variables`.
     ///
     /// Slope of the containing segment, right-hand at an abscissa, zero outside the table (semantics 4.4).
-    /// So it is zero in overclosure and where a closed point has a clearance, which does not count, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it ([`Self::jumps_at`]).
+    /// So it is zero in overclosure and where a closed point has a clearance, which does not count, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it.
     pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
         for (variable, slope) in variables.iter_mut().enumerate() {
             *slope = self.slope(SlopeAlong::Variable(variable), point);
@@ -149,29 +149,6 @@ impl ConductanceTables {
         let Some(table) = table else { return value_without_table(point.state) };
         let axis = along.axis_of(branch, point.state, point.clearance.0);
         axis.map_or(0.0, |axis| table.slope_at(axis, abscissa(branch, point), point.variables))
-    }
-
-    /// Whether the conductance jumps at this very point: at d = 0 between branches of different value, or at the last clearance of a table that is zero beyond it.
-    pub fn jumps_at(&self, point: &ContactPoint<'_>) -> bool {
-        let value_when = |state, clearance| {
-            let point = ContactPoint { clearance: Clearance(clearance), state, ..*point };
-            self.conductance(&point).value
-        };
-        let d = point.clearance.0;
-        if d == 0.0 && value_when(ContactState::Open, 0.0) != value_when(ContactState::Closed, 0.0) {
-            return true;
-        }
-        let here = self.conductance(point);
-        if here.branch != Branch::Clearance || here.value == 0.0 || d < 0.0 {
-            return false;
-        }
-        let beyond = ContactPoint { clearance: Clearance(d.next_up()), ..*point };
-        let next = self.conductance(&beyond);
-        let drops = match self {
-            Self::Clearance(table) | Self::Both { clearance: table, .. } => table.tail() == crate::table::Tail::Zero,
-            Self::Pressure(_) => false,
-        };
-        drops && !here.sides.is_above(0) && next.sides.is_above(0)
     }
 
     /// The table that holds in a state, if one does.

@@ -1,6 +1,6 @@
 //! Conductance by a user's own routine: *GAP ELECTRICAL CONDUCTANCE, USER.
 //!
-//! What Abaqus hands to its user subroutine GAPELECTR is a [`UserConductancePoint`], what comes back a [`UserConductanceValue`].
+//! Abaqus hands a [`UserConductancePoint`] to its user subroutine GAPELECTR and gets a [`UserConductanceValue`] back.
 //! Whatever answers the one with the other is a [`UserConductance`]: a Fortran library behind the command line's `--user-library`, or a type of a program that uses this crate.
 //!
 //! | symbol | meaning | unit | argument of GAPELECTR |

@@ -1,4 +1,4 @@
-//! What the laws of an interaction are planned from, and what they share in planning.
+//! Sources of the plan of an interaction, and the decisions that its laws share.
 
 use super::choices::{Choices, Derivatives};
 use super::reason::{LeftOut, Missing, Reason};

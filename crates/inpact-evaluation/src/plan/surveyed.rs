@@ -1,4 +1,4 @@
-//! What a survey finds in a node table.
+//! The contents of a node table as a survey finds them.
 
 use super::governing::GovernedBy;
 use super::source::Presence;

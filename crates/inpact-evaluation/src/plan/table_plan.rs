@@ -1,4 +1,4 @@
-//! What the plans of all laws are made of: columns that tell contact, histories, tables with their forms and axes.
+//! Parts of the plans of all laws: columns that tell contact, histories, tables with their forms and axes.
 
 use crate::accuracy::{ErrorBound, Method, Shape, Wanted};
 use crate::error::Error;

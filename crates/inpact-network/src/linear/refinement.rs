@@ -259,7 +259,7 @@ mod tests {
         refine(&core, &edges, &mut solver, LAST_DIGIT).map(|refined| refined.quality)
     }
 
-    /// What is missing when the corrections end is more than the rounding of any balance, and less than rounding may have done to the flows.
+    /// The flow that is missing when the corrections end is more than the rounding of any balance, and less than rounding may have done to the flows.
     #[test]
     fn a_solution_at_rounding_is_taken() {
         let network = grid(12, 1e-12);

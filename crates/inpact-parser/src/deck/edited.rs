@@ -185,12 +185,7 @@ impl EditedText {
         (start.line + line as u64, start.offset + line_starts[line] as u64)
     }
 
-    /// Pushes the text into a scanner; pieces of rows that nobody keeps are passed over.
-    pub fn push_into(&self, scanner: &mut Scanner<'_>) {
-        self.push_watched(scanner, &|| ());
-    }
-
-    /// The same, with a call of `watch` before each piece, which may unwind where nobody wants the deck any more.
+    /// Pushes the text into a scanner, passing over pieces of rows that nobody keeps; calls `watch` before each piece, which may unwind where nobody wants the deck any more.
     pub fn push_watched(&self, scanner: &mut Scanner<'_>, watch: &dyn Fn()) {
         for piece in &self.pieces {
             watch();
@@ -330,7 +325,7 @@ mod tests {
         let options = |keep| ScanOptions { grammar: Grammar::builtin(), keep };
         for keep in [Keep::Everything, Keep::Interpreted] {
             let mut in_pieces = Scanner::new("x", options(keep));
-            text.push_into(&mut in_pieces);
+            text.push_watched(&mut in_pieces, &|| ());
             let mut at_once = Scanner::new("x", options(keep));
             at_once.push(expected);
             assert_eq!(in_pieces.finish(), at_once.finish());

@@ -34,7 +34,7 @@ impl Parameter {
     }
 }
 
-/// What a name on a keyword line resolves to (S-13); the grammar says what an ambiguous one may mean.
+/// The parameter that a name on a keyword line resolves to (S-13); the grammar says what an ambiguous one may mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Resolved<T> {
     /// The name in full.
@@ -119,7 +119,7 @@ impl Place {
     }
 }
 
-/// What follows the name on a keyword line: nothing or one parameter on nearly every line, which are kept in place.
+/// The parameters of a keyword line: none or one on nearly every line, which are kept in place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum AfterName {
     Nothing,

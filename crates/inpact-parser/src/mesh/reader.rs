@@ -1,4 +1,4 @@
-//! What all readers of a mesh share: the options of each scope, where instances are, and notes.
+//! State that all readers of a mesh share: the options of each scope, where instances are, and notes.
 
 use super::MeshNote;
 use super::layout::{Definitions, Entry, Layout, MaterialEntries, StepEntry};

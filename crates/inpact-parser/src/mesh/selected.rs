@@ -1,4 +1,4 @@
-//! What sets select: numbers and whole options, in each instance.
+//! The content of sets: numbers and whole options, in each instance.
 
 use super::labels::Labels;
 use crate::span::Span;

@@ -123,7 +123,7 @@ pub struct Friction {
 }
 
 impl SubOption {
-    /// What it is.
+    /// Its kind.
     pub fn kind(&self) -> OptionKind {
         OptionKind::of(&self.keyword)
     }

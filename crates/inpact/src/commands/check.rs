@@ -91,7 +91,7 @@ struct Checked<'a> {
     settings: Settings,
     text: String,
     tally: Tally,
-    /// What else there is to say, a line each.
+    /// Further notes, a line each.
     remarks: Vec<String>,
     /// The paths of its files, itself first.
     places: Vec<PathBuf>,

@@ -230,7 +230,7 @@ pub(crate) fn as_one(failures: Vec<Failure>) -> Failure {
     }
 }
 
-/// What the check found that concerns some interactions, notes left out.
+/// Findings of the check that concern some interactions, notes left out.
 pub(crate) fn shown_of(
     found: &[Diagnostic],
     (deck, grammar, model): (&Deck, &Grammar, &Model),

@@ -48,7 +48,7 @@ pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, 
 /// A result file on disk.
 struct FileOnDisk<'a> {
     path: &'a Path,
-    /// What a stream gave, which gives nothing a second time.
+    /// The bytes of a stream, which gives nothing a second time.
     spooled: Option<Vec<u8>>,
 }
 

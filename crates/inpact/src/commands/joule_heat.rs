@@ -12,7 +12,7 @@ pub(super) const JOULE_HEAT_FRACTION: &str = "joule_heat_fraction";
 pub(super) struct JouleHeats {
     /// The share of each terminal's links; `None` where the deck gives none, or one field alone is wanted.
     shares: Vec<Option<f64>>,
-    /// What the deck does not say.
+    /// Data that the deck lacks.
     pub(super) missing: Vec<MeshNote>,
     /// Shares that links cannot have.
     pub(super) refused: Vec<MeshNote>,

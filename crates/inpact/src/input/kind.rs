@@ -9,7 +9,7 @@ use std::path::Path;
 /// The number of bytes by which a file without `.toml` is recognised.
 const LOOKED_AT: u64 = 8 * 1024;
 
-/// What a file is.
+/// Kinds of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// A deck or a fragment of one.
@@ -18,7 +18,7 @@ pub(crate) enum Kind {
     Scene,
 }
 
-/// What a file is: a scene by its name, or by what it begins with where its name says nothing.
+/// The kind of a file: a scene by its name, or by what it begins with where its name says nothing.
 pub(crate) fn kind_of(path: &Path) -> Kind {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     let begins_as_scene = || match beginning(path) {

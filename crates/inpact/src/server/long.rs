@@ -1,6 +1,6 @@
 //! Long messages, whose texts never stand in memory as a whole: a deck of 100 MB comes as one string of JSON.
 //!
-//! What surrounds the long strings of a message is kept as it is, with a mark in the place of each; their characters are decoded as they
+//! The text around the long strings of a message is kept as it is, with a mark in the place of each; their characters are decoded as they
 //! come and cut into the pieces that a document consists of.
 
 use inpact_parser::deck::{EditedText, TextInParts};

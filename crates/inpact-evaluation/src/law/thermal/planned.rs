@@ -1,4 +1,4 @@
-//! What the parts of the thermal law share in planning.
+//! Results of planning the parts of the thermal law, and the temperatures that several of them need.
 
 use crate::nodes::{Column, Part};
 use crate::plan::planner::{LeftOuts, Planner};

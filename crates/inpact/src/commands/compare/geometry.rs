@@ -1,4 +1,4 @@
-//! What is compared beside outputs: clearances and areas of the moved mesh, heat as the bodies conduct it, and sums over a pair.
+//! Quantities compared beside outputs: clearances and areas of the moved mesh, heat as the bodies conduct it, and sums over a pair.
 
 use super::CompareArguments;
 use super::measure::{Quantity, RowsOf};
@@ -20,7 +20,7 @@ struct PairOfRows {
     rows: std::ops::Range<usize>,
 }
 
-/// What the mesh says of the rows.
+/// Pairs, areas, contact and normals of the rows, from the mesh.
 #[derive(Debug, Default)]
 pub(super) struct Geometry {
     pairs: Vec<PairOfRows>,

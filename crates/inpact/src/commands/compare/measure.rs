@@ -16,7 +16,7 @@ pub(super) struct Quantity {
     pub(super) solvers: Vec<Option<f64>>,
 }
 
-/// What a quantity has a row of in each state.
+/// The things that a quantity has a row of in each state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RowsOf {
     /// Each slave node.

@@ -87,7 +87,7 @@ impl PoreColumns {
         outcomes
     }
 
-    /// What steady flow across a part follows from; `None` where it takes more than a product.
+    /// The inputs of steady flow across a part; `None` where it takes more than a product.
     fn inputs<'p>(&self, part: &'p Part<'_>, found: &'p TableValues, clearances: &'p [f64]) -> Option<Inputs<'p>> {
         let column = |place: usize| part.batch().numbers[place].values();
         let cutoff = match (self.law.cutoffs.flow_across, self.characteristic_length) {

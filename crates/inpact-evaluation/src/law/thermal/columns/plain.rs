@@ -73,7 +73,7 @@ impl ThermalColumns {
         outcomes
     }
 
-    /// What the heat of a part follows from; `None` where a column lacks, or where it is wanted in twice the precision of f64.
+    /// The inputs of the heat of a part; `None` where a column lacks, or where it is wanted in twice the precision of f64.
     fn inputs<'p>(
         &self,
         part: &'p Part<'_>,
