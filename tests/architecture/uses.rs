@@ -1,4 +1,4 @@
-//! Libraries read no clock, open no file, print nothing, and share work among threads only where a feature says so.
+//! Libraries depend on those below them alone, read no clock, open no file, print nothing, and share work among threads only where a feature says so.
 
 use super::libraries::{LIBRARIES, folder};
 use super::source::{modules, name};
@@ -75,13 +75,27 @@ fn uses(code: &str, path: &str) -> bool {
     has(code, path) || in_list()
 }
 
+#[test]
+fn libraries_depend_on_those_below_alone() {
+    for (place, library) in LIBRARIES.into_iter().enumerate() {
+        let manifest = manifest(library);
+        let (_, dependencies) = manifest.split_once("[dependencies]\n").unwrap_or_else(|| panic!("{library}"));
+        let dependencies = dependencies.split("\n[").next().unwrap_or_default();
+        let names = dependencies.lines().filter_map(|line| line.split(['.', ' ']).next());
+        for name in names.filter(|name| name.starts_with("inpact")) {
+            assert!(LIBRARIES[..place].contains(&name), "{library} depends on {name}, which is not below it");
+        }
+    }
+}
+
+fn manifest(library: &str) -> String {
+    let file = folder(library).join("Cargo.toml");
+    fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
 /// Rayon spawns threads: a library has it behind its feature `threads`, and the front door, which the program is made of, turns that on.
 #[test]
 fn threads_are_behind_a_feature_that_the_program_turns_on() {
-    let manifest = |library: &str| {
-        let file = folder(library).join("Cargo.toml");
-        fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
-    };
     let program = manifest("inpact");
     let mut with_threads = 0;
     for library in below_the_front_door() {

@@ -38,12 +38,15 @@ fn main() -> ExitCode {
     };
     let outcome = std::fs::read(path).and_then(|bytes| match inpact_results::read(&bytes) {
         Ok(results) => all(&results).map(|()| None),
-        Err(failure) => failure.read.as_ref().map_or(Ok(()), |read| all(read)).map(|()| Some(failure)),
+        Err(error) => {
+            let message = error.to_string();
+            error.into_read().as_ref().map_or(Ok(()), all).map(|()| Some(message))
+        }
     });
     match outcome {
         Ok(None) => ExitCode::SUCCESS,
-        Ok(Some(failure)) => {
-            eprintln!("{failure}");
+        Ok(Some(message)) => {
+            eprintln!("{message}");
             ExitCode::from(1)
         }
         Err(error) => {

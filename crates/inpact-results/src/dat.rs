@@ -8,10 +8,11 @@
 //! The total flux of heat through a surface (SURFACE_FLUX) is positive where heat leaves the body that the surface is of.
 
 use crate::collect::{self, PassedOver, Row};
+use crate::error::Read;
 use crate::format::Format;
 use crate::lines::{Line, LineEnd, LineStream};
 use crate::number;
-use crate::problem::{Problem, Read, shown};
+use crate::problem::{Problem, shown};
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 use crate::taker::{TakeFrame, Taker, read_whole};
 

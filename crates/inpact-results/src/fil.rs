@@ -7,9 +7,10 @@ mod quantities;
 mod records;
 
 use crate::collect::{self, PassedOver, Row};
+use crate::error::Read;
 use crate::format::Format;
 use crate::lines::LineStream;
-use crate::problem::{Place, Problem, Read};
+use crate::problem::{Place, Problem};
 use crate::results::{Field, Frame, Name, Region, Results, Surface, SurfaceFace};
 use crate::taker::{TakeFrame, Taker, read_whole};
 use quantities::{Kind, Quantity, quantity};

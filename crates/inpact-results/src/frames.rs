@@ -1,27 +1,13 @@
 //! Reading state by state: what of a file is in memory is what belongs to no state, and the state that is being read.
 
+use crate::error::{Error, Read};
 use crate::format::Format;
 use crate::lines::LineStream;
-use crate::problem::{Problem, Read};
 use crate::recognise::{HEAD, recognise};
 use crate::results::Results;
 use crate::taker::{ReadFrames, TakeFrame};
 use crate::{dat, fil, frd, rpt, vtu};
 use std::io::{self, Read as _};
-
-/// Why a file was not read to its end.
-#[derive(Debug, thiserror::Error)]
-pub enum Broken {
-    /// The source failed.
-    #[error(transparent)]
-    Source(#[from] io::Error),
-    /// The file is of no kind that is read.
-    #[error("{0}")]
-    Foreign(Problem),
-    /// The file is cut short, or damaged; the states before were handed over, the last of which may not be whole.
-    #[error("{0}")]
-    Unsound(Problem),
-}
 
 /// Reads a result file of any kind that is known, state by state.
 ///
@@ -40,15 +26,15 @@ pub enum Broken {
 ///     ControlFlow::Continue(())
 /// })?;
 /// assert_eq!(times, [Some(0.5)]);
-/// # Ok::<(), inpact_results::Broken>(())
+/// # Ok::<(), inpact_results::Error>(())
 /// ```
 ///
 /// # Errors
 /// The source fails, or holds a file of unknown kind, binary or in another encoding, or one that cannot be read to its end.
-pub fn read_frames(source: &mut dyn io::Read, take: &mut TakeFrame<'_>) -> Result<Results, Broken> {
+pub fn read_frames(source: &mut dyn io::Read, take: &mut TakeFrame<'_>) -> Result<Results, Error> {
     let mut head = Vec::new();
     io::Read::take(&mut *source, HEAD as u64).read_to_end(&mut head)?;
-    let format = recognise(&head).map_err(Broken::Foreign)?;
+    let format = recognise(&head).map_err(Error::foreign)?;
     let mut source = io::Read::chain(head.as_slice(), source);
     let read: ReadFrames = match format {
         Format::Fil => fil::frames,
@@ -63,16 +49,19 @@ pub fn read_frames(source: &mut dyn io::Read, take: &mut TakeFrame<'_>) -> Resul
     if let Some(failure) = lines.take_failure() {
         return Err(failure.into());
     }
-    outcome.map(|()| results).map_err(Broken::Unsound)
+    outcome.map(|()| results).map_err(|problem| Error::unsound(problem, None))
 }
 
 /// Reads a source to its end, then hands over the states.
-fn of_whole(source: &mut dyn io::Read, read: fn(&[u8]) -> Read, take: &mut TakeFrame<'_>) -> Result<Results, Broken> {
+fn of_whole(source: &mut dyn io::Read, read: fn(&[u8]) -> Read, take: &mut TakeFrame<'_>) -> Result<Results, Error> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;
-    let (results, problem) = match read(&bytes) {
+    let (results, failed) = match read(&bytes) {
         Ok(results) => (Some(results), None),
-        Err(incomplete) => (incomplete.read.map(|read| *read), Some(incomplete.problem)),
+        Err(error) => {
+            let (kind, read) = error.into_parts();
+            (read, Some(kind))
+        }
     };
     drop(bytes);
     let mut results = results.unwrap_or_else(|| Results::new(Format::Rpt));
@@ -81,5 +70,5 @@ fn of_whole(source: &mut dyn io::Read, read: fn(&[u8]) -> Read, take: &mut TakeF
             return Ok(results);
         }
     }
-    problem.map_or(Ok(results), |problem| Err(Broken::Unsound(problem)))
+    failed.map_or(Ok(results), |kind| Err(kind.into()))
 }

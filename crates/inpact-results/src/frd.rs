@@ -6,10 +6,11 @@
 //! COPEN is negative where surfaces overlap; some releases write contact for all nodes, 0 where a node is none of a slave surface.
 
 use crate::collect::{self, PassedOver, Row};
+use crate::error::Read;
 use crate::format::Format;
 use crate::lines::{Line, LineEnd, LineStream};
 use crate::number;
-use crate::problem::{Place, Problem, Read, shown};
+use crate::problem::{Place, Problem, shown};
 use crate::results::{Field, Frame, Region, Results};
 use crate::taker::{TakeFrame, Taker, read_whole};
 

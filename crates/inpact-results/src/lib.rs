@@ -12,7 +12,7 @@
 //! | `.vtu` | inpact, ParaView | | [`read_vtu`], [`vtu::read_grid`] |
 //!
 //! [`read`] finds out which of them bytes are, [`read_frames`] reads a source of any length state by state.
-//! A file that is cut short or damaged is an [`Incomplete`]: the problem with its place and what to do, and the part before it.
+//! A file that is cut short or damaged is an [`Error`]: the problem with its place and what to do, and the part before it.
 //!
 //! ```
 //! let text = "\n relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time 0.5\n\n    \
@@ -23,10 +23,11 @@
 //! let (field, opening) = frame.column("COPEN").expect("there");
 //! assert_eq!(field.rows.nodes(), Some(&[65][..]));
 //! assert_eq!(opening.values, [-1.0e-4]);
-//! # Ok::<(), Box<inpact_results::Incomplete>>(())
+//! # Ok::<(), inpact_results::Error>(())
 //! ```
 
 mod collect;
+mod error;
 mod format;
 mod frames;
 mod lines;
@@ -44,12 +45,12 @@ mod rpt;
 pub mod vtu;
 
 pub use dat::read_dat;
+pub use error::{Error, ErrorKind, Read};
 pub use fil::read_fil;
 pub use format::Format;
-pub use frames::{Broken, read_frames};
+pub use frames::read_frames;
 pub use frd::read_frd;
-pub use problem::{Incomplete, Place, Problem, Read};
-pub use recognise::recognise;
+pub use problem::{Place, Problem};
 pub use results::{Column, Field, Frame, Name, NotRead, Region, Results, Rows, Surface, SurfaceFace};
 pub use rpt::read_rpt;
 pub use taker::TakeFrame;
@@ -60,7 +61,7 @@ pub use vtu::read_vtu;
 /// # Errors
 /// A file of unknown kind, binary or in another encoding, or one that cannot be read to its end.
 pub fn read(bytes: &[u8]) -> Read {
-    match recognise(bytes).map_err(|problem| Box::new(Incomplete::nothing(problem)))? {
+    match recognise::recognise(bytes).map_err(Error::foreign)? {
         Format::Fil => read_fil(bytes),
         Format::Rpt => read_rpt(bytes),
         Format::Frd => read_frd(bytes),

@@ -1,6 +1,5 @@
 //! Problems of a result file: fault, place and remedy.
 
-use crate::Results;
 use std::fmt;
 
 /// A place in a file.
@@ -32,33 +31,6 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "line {} (byte {}): {}; {}", self.place.line, self.place.byte, self.message, self.help)
-    }
-}
-
-/// A file that could not be read to its end: the problem, and the part before it.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{problem}")]
-pub struct Incomplete {
-    /// The reason why reading ended.
-    pub problem: Problem,
-    /// The part read before; `None` where the file is of no kind that is read.
-    pub read: Option<Box<Results>>,
-}
-
-impl Incomplete {
-    pub(crate) fn nothing(problem: Problem) -> Self {
-        Self { problem, read: None }
-    }
-}
-
-/// Results, or what could be read and why it is not all.
-pub type Read = Result<Results, Box<Incomplete>>;
-
-/// Joins what a reader has gathered with how it ended.
-pub(crate) fn ended(results: Results, outcome: Result<(), Problem>) -> Read {
-    match outcome {
-        Ok(()) => Ok(results),
-        Err(problem) => Err(Box::new(Incomplete { problem, read: Some(Box::new(results)) })),
     }
 }
 

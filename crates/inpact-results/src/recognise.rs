@@ -10,11 +10,8 @@ pub(crate) const HEAD: usize = 1 << 16;
 /// The kinds that are read, for a message.
 const READ: &str = "expected .fil in ASCII or .rpt of Abaqus, .frd in ASCII or .dat of CalculiX, or .vtu of ParaView";
 
-/// The kind of a file, found by its first bytes.
-///
-/// # Errors
-/// A file of another kind: the kind it seems to be, and how to get one that is read.
-pub fn recognise(bytes: &[u8]) -> Result<Format, Problem> {
+/// The kind of a file, found by its first bytes. A file of another kind is refused with the kind it seems to be, and how to get one that is read.
+pub(crate) fn recognise(bytes: &[u8]) -> Result<Format, Problem> {
     let head = &bytes[..bytes.len().min(HEAD)];
     if let Some((message, help)) = foreign(head) {
         return Err(Problem::new(Place { byte: 0, line: 1 }, message, help));

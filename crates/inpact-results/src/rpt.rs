@@ -9,10 +9,11 @@ mod names;
 mod table;
 
 use crate::collect::{self, PassedOver, Row};
+use crate::error::{Read, ended};
 use crate::format::Format;
 use crate::lines::{Line, LineEnd, Lines};
 use crate::number;
-use crate::problem::{Problem, Read, ended, shown};
+use crate::problem::{Problem, shown};
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 use names::Variable;
 use std::collections::HashMap;

@@ -1,7 +1,8 @@
 //! Handing over the states of a file, one after the other: what readers of formats have in common.
 
+use crate::error::{Read, ended};
 use crate::lines::LineStream;
-use crate::problem::{Problem, Read, ended};
+use crate::problem::Problem;
 use crate::results::{Frame, Results};
 use std::ops::ControlFlow;
 

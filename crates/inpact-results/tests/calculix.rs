@@ -48,9 +48,9 @@ fn an_unfinished_frd_gives_what_it_has() {
     let text = frd();
     let text = text.strip_suffix(" 9999\n").expect("the end");
     let failure = read_frd(text.as_bytes()).expect_err("cut");
-    assert!(failure.problem.message.contains("9999"), "{failure}");
-    assert_eq!(failure.problem.place.byte, text.len() as u64);
-    assert_eq!(failure.read.expect("the part before").frames.len(), 2);
+    assert!(failure.problem().expect("a problem").message.contains("9999"), "{failure}");
+    assert_eq!(failure.problem().expect("a problem").place.byte, text.len() as u64);
+    assert_eq!(failure.into_read().expect("the part before").frames.len(), 2);
 }
 
 #[test]
@@ -66,8 +66,11 @@ fn a_wrong_number_in_a_frd_has_its_place() {
     let text = frd().replacen("-2.00000E-03", "-2.0000oE-03", 1);
     let failure = read_frd(text.as_bytes()).expect_err("damaged");
     let at = text.find("-2.0000oE-03").expect("there");
-    assert_eq!(failure.problem.place.byte, at as u64, "{failure}");
-    assert!(failure.problem.message.contains("value 2 of 3 of node 1, found `-2.0000oE-03`"), "{failure}");
+    assert_eq!(failure.problem().expect("a problem").place.byte, at as u64, "{failure}");
+    assert!(
+        failure.problem().expect("a problem").message.contains("value 2 of 3 of node 1, found `-2.0000oE-03`"),
+        "{failure}"
+    );
 }
 
 #[test]
@@ -103,8 +106,8 @@ fn dat_has_contact_by_nodes_and_by_points() {
 fn a_row_that_is_none_has_its_place() {
     let text = dat().replacen("-1.044770E-04", "-1.04477oE-04", 1);
     let failure = read_dat(text.as_bytes()).expect_err("damaged");
-    assert_eq!(failure.problem.place.byte, text.find("-1.04477oE-04").expect("there") as u64);
-    let read = failure.read.expect("the part before");
+    assert_eq!(failure.problem().expect("a problem").place.byte, text.find("-1.04477oE-04").expect("there") as u64);
+    let read = failure.into_read().expect("the part before");
     assert_eq!(values(&read.frames[0], "COPEN"), [-1.047_481e-4]);
 }
 

@@ -114,8 +114,8 @@ fn an_increment_without_an_end_is_a_problem_and_is_given() {
     let mut fil = Fil::default();
     fil.begin(1, 3, 1.0, 1.0).record(201, &[W::I(4), W::D(300.0)]);
     let failure = read_fil(&fil.bytes()).expect_err("cut");
-    assert!(failure.problem.message.contains("increment 3 of step 1 has no end"), "{failure}");
-    let read = failure.read.expect("the part before");
+    assert!(failure.problem().expect("a problem").message.contains("increment 3 of step 1 has no end"), "{failure}");
+    let read = failure.into_read().expect("the part before");
     assert_eq!(read.frames[0].column("NT11").expect("there").1.values, [300.0]);
 }
 
@@ -126,10 +126,10 @@ fn a_damaged_word_has_its_place() {
         .replace("D 1.000000000000000D+00A", "D 1.0000?0000000000D+00A");
     let text = text.replacen("D-3.333333333333333D-01", "D-3.3333x3333333333D-01", 1);
     let failure = read_fil(text.as_bytes()).expect_err("damaged");
-    let at = usize::try_from(failure.problem.place.byte).expect("small");
+    let at = usize::try_from(failure.problem().expect("a problem").place.byte).expect("small");
     assert_eq!(text.as_bytes()[at], b'D', "{failure}");
-    assert!(failure.problem.message.contains("expected a number"), "{failure}");
-    assert_eq!(failure.problem.place.line, 1 + text[..at].matches('\n').count() as u64);
+    assert!(failure.problem().expect("a problem").message.contains("expected a number"), "{failure}");
+    assert_eq!(failure.problem().expect("a problem").place.line, 1 + text[..at].matches('\n').count() as u64);
 }
 
 proptest! {

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{contact_fil, dat, frd, rpt};
-use inpact_results::{Broken, Frame, Results, read, read_frames};
+use inpact_results::{Error, ErrorKind, Frame, Results, read, read_frames};
 use std::io::{self, Read};
 use std::ops::ControlFlow;
 
@@ -24,7 +24,7 @@ fn files() -> [Vec<u8>; 4] {
 }
 
 /// All states of a source, and what is left of it.
-fn gathered(source: &mut dyn Read) -> (Vec<Frame>, Result<Results, Broken>) {
+fn gathered(source: &mut dyn Read) -> (Vec<Frame>, Result<Results, Error>) {
     let mut frames = Vec::new();
     let outcome = read_frames(source, &mut |head, frame| {
         assert_eq!(head.frames, [], "states are handed over, not kept");
@@ -60,14 +60,11 @@ fn a_file_cut_short_gives_the_states_before() {
             let (frames, outcome) = gathered(&mut Trickle(&file[..end], 113));
             match (read(&file[..end]), outcome) {
                 (Ok(expected), Ok(_)) => assert_eq!(text(&frames), text(&expected.frames)),
-                (Err(expected), Err(Broken::Unsound(problem))) => {
-                    assert_eq!(problem, expected.problem);
-                    assert_eq!(text(&frames), text(&expected.read.map(|read| read.frames).unwrap_or_default()));
-                }
-                // Too short to tell of which kind it is.
-                (Err(expected), Err(Broken::Foreign(problem))) => {
-                    assert_eq!((problem, None), (expected.problem, expected.read));
-                    assert_eq!(frames, []);
+                (Err(expected), Err(found)) => {
+                    assert_eq!(text(found.kind()), text(expected.kind()));
+                    // One that is too short to tell of which kind it is has nothing.
+                    let read = expected.into_read().map(|read| read.frames).unwrap_or_default();
+                    assert_eq!(text(&frames), text(&read));
                 }
                 (expected, found) => panic!("cut at {end}: {expected:?} and {found:?}"),
             }
@@ -109,7 +106,7 @@ fn a_source_that_fails_is_no_file_cut_short() {
     for bytes in [&file[..], &long] {
         let (_, outcome) = gathered(&mut Failing(bytes));
         assert!(
-            matches!(&outcome, Err(Broken::Source(error)) if error.to_string() == "the disk is gone"),
+            matches!(&outcome.as_ref().map_err(Error::kind), Err(ErrorKind::Source(error)) if error.to_string() == "the disk is gone"),
             "{outcome:?}"
         );
     }

@@ -14,8 +14,8 @@ fn by_all_readers(bytes: &[u8]) {
         match read(bytes) {
             Ok(results) => assert!(rectangular(&results)),
             Err(failure) => {
-                assert!(failure.read.is_none_or(|results| rectangular(&results)));
-                assert!(failure.problem.place.byte <= bytes.len() as u64);
+                assert!(failure.problem().expect("a problem").place.byte <= bytes.len() as u64);
+                assert!(failure.into_read().is_none_or(|results| rectangular(&results)));
             }
         }
     }
@@ -80,7 +80,10 @@ fn a_cut_changes_no_value() {
             let part = &whole[..end];
             let (found, problem) = match read(part) {
                 Ok(found) => (Some(found), None),
-                Err(failure) => (failure.read.map(|read| *read), Some(failure.problem)),
+                Err(failure) => {
+                    let problem = failure.problem().cloned();
+                    (failure.into_read(), problem)
+                }
             };
             if let Some(problem) = problem {
                 problems += 1;
@@ -113,7 +116,7 @@ fn real_files_may_be_cut_anywhere() {
             match read(&whole[..end]) {
                 Ok(found) => assert!(unchanged(&found, &expected), "{file} cut at {end}"),
                 Err(failure) => {
-                    assert!(failure.read.is_none_or(|read| unchanged(&read, &expected)), "{file} cut at {end}");
+                    assert!(failure.into_read().is_none_or(|read| unchanged(&read, &expected)), "{file} cut at {end}");
                 }
             }
         }
@@ -142,7 +145,7 @@ fn other_kinds_of_files_are_named() {
     for (bytes, part) in cases {
         let failure = read(bytes).expect_err("no results");
         assert!(failure.to_string().contains(part), "{part}: {failure}");
-        assert!(failure.read.is_none());
+        assert!(failure.into_read().is_none());
     }
 }
 

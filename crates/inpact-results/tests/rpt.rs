@@ -59,9 +59,9 @@ fn a_table_of_elements_is_named_as_not_read() {
 fn a_row_with_other_columns_has_its_place() {
     let text = rpt().replacen("        7.E+00              0.", "        7.E+00", 1);
     let failure = read_rpt(text.as_bytes()).expect_err("damaged");
-    assert!(failure.problem.message.contains("a row has 3 columns, its table 4"), "{failure}");
+    assert!(failure.problem().expect("a problem").message.contains("a row has 3 columns, its table 4"), "{failure}");
     let line = text.lines().position(|line| line.contains("1.09260E-03")).expect("there") as u64 + 1;
-    assert_eq!(failure.problem.place.line, line);
+    assert_eq!(failure.problem().expect("a problem").place.line, line);
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn a_high_head_over_a_wide_row_costs_no_product() {
     text.push_str(&"1 ".repeat(60_000));
     text.push_str("\n\n");
     let failure = read_rpt(text.as_bytes()).expect_err("no table");
-    assert!(failure.problem.message.contains("no table of nodes and no XY data"), "{failure}");
+    assert!(failure.problem().expect("a problem").message.contains("no table of nodes and no XY data"), "{failure}");
 }
 
 #[test]

@@ -3,8 +3,9 @@
 use super::numbers::{Encoding, NumberType, decoded, numbers_of};
 use super::xml::{CUT, DAMAGED, Tag, Tags};
 use super::{Array, Cell, CellKind, Grid, Values};
+use crate::error::{Read, ended};
 use crate::format::Format;
-use crate::problem::{Problem, Read, ended, shown};
+use crate::problem::{Problem, shown};
 use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 
 /// Columns that hold the labels of nodes or elements: our own, VTK's, and those of common converters.

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use inpact_contact::{FileSummary, Join, Joined, ResultFile, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
-use inpact_results::{Broken, Frame, Problem, Results, read_frames};
+use inpact_results::{ErrorKind, Frame, Problem, Results, read_frames};
 use serde_json::json;
 use std::io::Read;
 use std::ops::ControlFlow;
@@ -100,11 +100,12 @@ impl ResultFile for FileOnDisk<'_> {
             time = frame.total_time.or(frame.step_time).or(time);
             take(head, &frame)
         });
-        read.map_err(|broken| {
-            Unusable::Read(match broken {
-                Broken::Source(error) => Failure::read(self.path, error),
-                Broken::Foreign(problem) => unsound(self.path, &problem, ""),
-                Broken::Unsound(problem) => unsound(self.path, &problem, &before(states, time)),
+        read.map_err(|error| {
+            Unusable::Read(match error.into_kind() {
+                ErrorKind::Source(error) => Failure::read(self.path, error),
+                ErrorKind::Unsound(problem) => unsound(self.path, &problem, &before(states, time)),
+                ErrorKind::Foreign(problem) => unsound(self.path, &problem, ""),
+                other => Failure::Data(format!("{}: {}", self.path.display(), inpact_results::Error::from(other))),
             })
         })
     }
