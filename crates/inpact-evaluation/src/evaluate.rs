@@ -84,6 +84,14 @@ impl<'a> Evaluation<'a> {
         }
     }
 
+    /// Leaves out what only a summary says: the totals over each interface, and the errors of its conductances in a sample of rows.
+    #[must_use]
+    pub fn without_summary(mut self) -> Self {
+        self.laws.leave_out_summary();
+        self.tally.summed.clear();
+        self
+    }
+
     /// How many batches [`Self::evaluate_all`] should be given at a time to keep every share at work.
     pub fn batches_at_a_time(&self) -> usize {
         /// Of each share.
@@ -103,9 +111,6 @@ impl<'a> Evaluation<'a> {
     pub fn evaluate_all(&mut self, batches: &[Batch], results: &mut [ResultBatch]) {
         assert_eq!(batches.len(), results.len(), "results for every batch");
         let Self { laws, workers, shards, .. } = self;
-        for (batch, results) in batches.iter().zip(&mut *results) {
-            results.reset(batch.rows, laws.result_columns);
-        }
         match (&mut workers[..], &mut shards[..]) {
             ([worker], [shard]) => {
                 for (batch, results) in batches.iter().zip(&mut *results) {

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use crate::accuracy::{Choice, Grid, Method, Wanted, choose};
-use crate::kernel::TableKernel;
+use crate::kernel::{OnlyRange, TableKernel};
 use crate::numbers::Scaled;
 use crate::table::{PiecewiseTable, Sides};
 
@@ -47,8 +47,16 @@ pub struct TableValues {
     pub values: Vec<f64>,
     /// The part lost by rounding; empty unless the form knows it.
     pub rests: Vec<f64>,
-    /// Where each row lies outside the table.
+    /// Where each row lies outside the table; empty where all of them lie within.
     pub sides: Vec<Sides>,
+}
+
+impl TableValues {
+    /// Where a row lies outside the table.
+    #[inline]
+    pub fn sides_of(&self, row: usize) -> Sides {
+        self.sides.get(row).copied().unwrap_or_default()
+    }
 }
 
 /// The largest error met in a sample of rows, against the reference.
@@ -83,13 +91,20 @@ impl Evaluator {
     /// The values at some points, one column of coordinates for each axis; a column that the table does not depend on may be empty.
     pub fn evaluate(&self, columns: &[&[f64]], rows: usize, found: &mut TableValues) {
         found.values.resize(rows, f64::NAN);
-        found.sides.resize(rows, Sides::default());
+        found.sides.clear();
         found.rests.clear();
         let marked = self.0.grid.as_ref().and_then(|resampled| resampled.marked.as_ref());
-        match marked {
-            Some(marked) => marked.mark_sides(columns, &mut found.sides),
+        match (marked, self.0.kernel.only_range()) {
+            (Some(marked), _) => {
+                found.sides.resize(rows, Sides::default());
+                marked.mark_sides(columns, &mut found.sides);
+            }
+            (None, Some(range)) if !range.is_left_by(columns, rows) => self.0.kernel.values(columns, &mut found.values),
             // Without one range an axis only the table itself can tell which rows lie outside.
-            None => self.0.kernel.values_and_sides(columns, &mut found.values, &mut found.sides),
+            (None, _) => {
+                found.sides.resize(rows, Sides::default());
+                self.0.kernel.values_and_sides(columns, &mut found.values, &mut found.sides);
+            }
         }
         if let Some(resampled) = &self.0.grid {
             resampled.grid.values(columns, &mut found.values);
@@ -100,6 +115,14 @@ impl Evaluator {
                 found.rests.push(rest);
             }
         }
+    }
+
+    /// The table's kernel, where its values are those of the kernel and depend on the first coordinate alone: then a value costs less than to find out
+    /// which rows need it.
+    pub(crate) fn small_kernel(&self) -> Option<(&TableKernel, OnlyRange)> {
+        let is_plain = self.0.grid.is_none() && self.0.method == Method::Full;
+        let range = self.0.kernel.only_range().filter(|range| is_plain && range.axis == 0)?;
+        Some((&self.0.kernel, range))
     }
 
     /// The value at one point.
@@ -118,22 +141,26 @@ impl Evaluator {
 
     /// Compares some of the values found, evenly spread, with the reference.
     pub fn compare(&self, columns: &[&[f64]], values: &[f64], seen: &mut SeenError) {
-        /// How many rows of a batch are compared.
-        const SAMPLE: usize = 16;
-        let largest = self.0.table.values().iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        for row in (0..values.len()).step_by(values.len().div_ceil(SAMPLE).max(1)) {
-            let (reference, rest) = self.reference_in(columns, row);
-            if !reference.is_finite() {
-                continue;
-            }
-            // The rest decides between errors of less than an ulp.
-            let error = ((values[row] - reference) - rest).abs();
-            seen.rows += 1;
-            if error > 0.0 {
-                seen.pointwise = seen.pointwise.max(error / reference.abs());
-                seen.relative_to_largest = seen.relative_to_largest.max(error / largest);
-            }
+        let largest = self.largest();
+        for row in Self::compared(values.len()) {
+            seen.take(values[row], self.reference_in(columns, row), largest);
         }
+    }
+
+    /// Which of so many values are compared with the reference.
+    pub(crate) fn compared(count: usize) -> impl Iterator<Item = usize> {
+        /// How many values of a batch are compared.
+        const SAMPLE: usize = 16;
+        (0..count).step_by(count.div_ceil(SAMPLE).max(1))
+    }
+
+    /// Compares the value at one point of a table that depends on its first coordinate alone.
+    pub(crate) fn compare_one(&self, first: f64, value: f64, seen: &mut SeenError) {
+        seen.take(value, self.reference_at(first, &[]), self.largest());
+    }
+
+    fn largest(&self) -> f64 {
+        self.0.table.values().iter().fold(0.0_f64, |largest, value| largest.max(value.abs()))
     }
 
     /// The reference value in a row, rounded, and what rounding took away.
@@ -158,6 +185,20 @@ impl PartialEq for Evaluator {
 }
 
 impl SeenError {
+    /// Takes a value with the reference and what rounding took away from it.
+    fn take(&mut self, value: f64, (reference, rest): (f64, f64), largest: f64) {
+        if !reference.is_finite() {
+            return;
+        }
+        // The rest decides between errors of less than an ulp.
+        let error = ((value - reference) - rest).abs();
+        self.rows += 1;
+        if error > 0.0 {
+            self.pointwise = self.pointwise.max(error / reference.abs());
+            self.relative_to_largest = self.relative_to_largest.max(error / largest);
+        }
+    }
+
     /// Takes the errors of another sample as well.
     pub fn merge(&mut self, other: &Self) {
         self.rows += other.rows;

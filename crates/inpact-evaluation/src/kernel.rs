@@ -21,6 +21,7 @@ mod nested;
 mod pieces;
 #[cfg(target_arch = "x86_64")]
 mod registers;
+pub(crate) mod scan;
 mod search;
 
 pub use instruction_set::InstructionSet;
@@ -37,6 +38,35 @@ pub struct TableKernel {
     table: PiecewiseTable,
     shape: Shape,
     set: InstructionSet,
+}
+
+/// The range of the one axis that a table depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OnlyRange {
+    pub(crate) axis: usize,
+    /// Below and above these a point is outside the table; infinite for a table of one knot.
+    pub(crate) below: f64,
+    pub(crate) above: f64,
+}
+
+impl OnlyRange {
+    /// Whether one of so many rows lies outside the table; NaN lies nowhere.
+    pub(crate) fn is_left_by(&self, columns: &[&[f64]], rows: usize) -> bool {
+        scan::has_outside(column_of(columns, self.axis, rows), self.below, self.above)
+    }
+
+    /// On which sides a point lies.
+    #[inline(always)]
+    pub(crate) fn sides(&self, x: f64) -> Sides {
+        let mut sides = Sides::default();
+        if x < self.below {
+            sides.mark_below(self.axis);
+        }
+        if self.above < x {
+            sides.mark_above(self.axis);
+        }
+        sides
+    }
 }
 
 /// How the table is evaluated.
@@ -138,6 +168,21 @@ impl TableKernel {
                 }
             }
         }
+    }
+
+    /// The range of the only axis that the table depends on, where its rows say which points lie outside.
+    pub(crate) fn only_range(&self) -> Option<OnlyRange> {
+        let [level] = self.table.levels() else { return None };
+        if self.table.marks_sides() {
+            return None;
+        }
+        let (below, above) = match level.knots[..] {
+            [_] if !level.drops => (f64::NEG_INFINITY, f64::INFINITY),
+            [only] => (only, only),
+            [first, .., last] => (first, last),
+            [] => return None,
+        };
+        Some(OnlyRange { axis: level.axis, below, above })
     }
 
     /// How the rows' places in the table are found.

@@ -15,6 +15,8 @@ mod output;
 mod parquet;
 #[cfg(feature = "columnar")]
 mod records;
+#[cfg(feature = "columnar")]
+mod status_words;
 mod writer;
 
 pub use batch::{ResultBatch, Status, StatusByLaw};

@@ -66,7 +66,7 @@ fn the_same_rows_lie_outside_in_every_form() {
             for row in 0..12 {
                 let others: Vec<f64> = columns[1..].iter().map(|column| column[row]).collect();
                 let (value, sides) = table.value_and_sides_at(columns[0][row], &others);
-                assert_eq!(found.sides[row], sides, "{wanted:?}: row {row} of {columns:?} in {rows:?}");
+                assert_eq!(found.sides_of(row), sides, "{wanted:?}: row {row} of {columns:?} in {rows:?}");
                 let at = form.value_at(columns[0][row], &others);
                 assert_eq!(at.sides, sides);
                 assert_eq!(at.value.to_bits(), found.values[row].to_bits(), "{wanted:?}");

@@ -226,7 +226,7 @@ impl Deck {
             return Err(self.nothing_to_evaluate(&plan));
         }
         let mut rows = rows.give_back(&plan.selection).map_err(|error| unreadable(&error))?;
-        let mut evaluation = Evaluation::on_all_threads(&self.model, &plan, choices);
+        let mut evaluation = Evaluation::on_all_threads(&self.model, &plan, choices).without_summary();
         let mut records = ResultRecords::new(plan.keys(), &plan.outputs);
         let mut done = 0;
         let ran = evaluation.run::<Error>(&mut rows, &plan, |batch, results| {

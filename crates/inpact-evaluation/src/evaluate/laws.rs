@@ -29,8 +29,17 @@ pub(super) struct Laws {
     pub(super) history_start: HistoryStart,
     /// The jump in the heat of an increment that closes a circuit.
     pub(super) closing_heat: ClosingHeat,
+    /// Whether what only a summary says is found.
+    pub(super) summary: Summary,
     /// Whether a routine of the user's is asked, which sees the rows in their order and one at a time.
     pub(super) asks_user: bool,
+}
+
+/// What only a summary says: totals, and the errors of a sample of rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Summary {
+    Made,
+    LeftOut,
 }
 
 /// The laws of one interaction.
@@ -61,6 +70,7 @@ impl Laws {
             time: plan.selection.number(Column::Time),
             history_start: choices.history_start,
             closing_heat: choices.closing_heat,
+            summary: Summary::Made,
             asks_user: choices.user_conductance.is_some(),
         }
     }
@@ -68,6 +78,12 @@ impl Laws {
     /// The outputs that are added up over an interface.
     pub(super) fn summed_outputs(&self) -> Vec<Output> {
         self.summed.iter().map(|(output, _)| *output).collect()
+    }
+
+    /// The same without what only a summary says.
+    pub(super) fn leave_out_summary(&mut self) {
+        self.summary = Summary::LeftOut;
+        self.summed.clear();
     }
 
     /// The columns of texts that laws read of a part.

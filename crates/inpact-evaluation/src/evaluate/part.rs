@@ -2,6 +2,7 @@
 
 use crate::law::conductance::Branch;
 use crate::law::contact::ContactState;
+use crate::law::contact::columns::count_states;
 use crate::law::thermal::mean_mass_flow;
 use crate::nodes::{Batch, Place};
 use crate::plan::{ContactPlaces, MassFlow, Source};
@@ -19,6 +20,10 @@ pub(crate) struct Part<'a> {
     pub(crate) interaction: usize,
     /// Whether each row is closed; `None` where that cannot be told.
     pub(crate) states: Vec<Option<ContactState>>,
+    /// How many rows are closed.
+    pub(crate) closed: u64,
+    /// How many are open.
+    pub(crate) open: u64,
     contact: ContactPlaces,
     time: Option<usize>,
 }
@@ -47,11 +52,21 @@ impl<'a> Part<'a> {
         time: Option<usize>,
     ) -> Self {
         let gathered = numbers.as_ref().map(|numbers| whole.gather(numbers, labels));
-        let mut part = Self { whole, gathered, numbers, interaction, states: Vec::new(), contact, time };
-        let mut states = Vec::with_capacity(part.rows());
-        contact.for_each_state(part.batch(), 0..part.rows(), |state| states.push(state));
-        part.states = states;
-        part
+        let batch = gathered.as_ref().unwrap_or(whole);
+        let mut states = vec![None; batch.rows];
+        contact.states(batch, 0..batch.rows, &mut states);
+        let [closed, open] = [ContactState::Closed, ContactState::Open].map(|state| count_states(&states, Some(state)));
+        Self { whole, gathered, numbers, interaction, states, closed, open, contact, time }
+    }
+
+    /// Whether every row is closed or open, and some are of each.
+    pub(crate) fn is_mixed(&self) -> bool {
+        0 < self.closed && 0 < self.open && self.closed + self.open == self.states.len() as u64
+    }
+
+    /// Whether contact can be told in every row.
+    pub(crate) fn tells_contact(&self) -> bool {
+        self.closed + self.open == self.states.len() as u64 || self.states.iter().all(Option::is_some)
     }
 
     /// Its rows as a batch, without their lines.

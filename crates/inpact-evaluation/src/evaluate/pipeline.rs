@@ -26,12 +26,18 @@ impl Evaluation<'_> {
         mut write: impl FnMut(&Batch, &mut ResultBatch) -> Result<(), E> + Send,
     ) -> io::Result<Result<(), E>> {
         let (mut ready, mut next) = (Window::default(), Window::default());
+        if spread::threads() == 1 {
+            // One window, whose memory is still in the cache when it is filled again.
+            loop {
+                ready.fill(self, rows, plan)?;
+                let written = ready.write(&mut write);
+                if written.is_err() || ready.batches.is_empty() {
+                    return Ok(written);
+                }
+            }
+        }
         loop {
-            let write_ready = || {
-                let mut each = ready.batches.iter().zip(&mut ready.results);
-                each.try_for_each(|(batch, results)| write(batch, results))
-            };
-            let (written, filled) = spread::join(write_ready, || next.fill(self, rows, plan));
+            let (written, filled) = spread::join(|| ready.write(&mut write), || next.fill(self, rows, plan));
             if let Err(error) = written {
                 return Ok(Err(error));
             }
@@ -45,6 +51,12 @@ impl Evaluation<'_> {
 }
 
 impl Window {
+    /// Writes the batches one after the other.
+    fn write<E>(&mut self, write: &mut impl FnMut(&Batch, &mut ResultBatch) -> Result<(), E>) -> Result<(), E> {
+        let mut each = self.batches.iter().zip(&mut self.results);
+        each.try_for_each(|(batch, results)| write(batch, results))
+    }
+
     /// Takes the next batches and evaluates them.
     fn fill(&mut self, evaluation: &mut Evaluation<'_>, rows: &mut GivenBack, plan: &Plan) -> io::Result<()> {
         self.batches.clear();

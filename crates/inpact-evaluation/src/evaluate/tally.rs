@@ -351,7 +351,7 @@ impl InteractionTally {
     }
 
     #[inline]
-    pub(super) fn count_statuses(&mut self, statuses: [Option<Status>; 3]) {
+    pub(crate) fn count_statuses(&mut self, statuses: [Option<Status>; 3]) {
         // Most rows are within all tables.
         if statuses.iter().flatten().all(|status| *status <= Status::Closed) {
             return;

@@ -35,18 +35,41 @@ impl Totals {
         rows: Range<usize>,
     ) {
         let is_full = |(_, place): &(Output, usize)| results.numbers[*place].presence().is_none();
-        if times.is_none() && self.time.is_none() && summed.iter().all(is_full) {
-            self.sums.resize_with(summed.len(), UnboundedSum::default);
-            for (sum, (_, place)) in self.sums.iter_mut().zip(summed) {
-                results.numbers[*place].values()[rows.clone()].iter().for_each(|value| sum.add(*value));
+        let times = match times {
+            // A time that is missing counts with those of the latest only where there is none.
+            Some(times) if times.presence().is_some() => {
+                return rows.for_each(|row| self.take_row(times.get(row), summed, results, row));
             }
-            self.rows += rows.len() as u64;
-            return;
+            Some(times) => Some(times.values()),
+            None if self.time.is_some() => return,
+            None => None,
+        };
+        if !summed.iter().all(is_full) {
+            return rows.for_each(|row| self.take_row(times.map(|times| times[row]), summed, results, row));
         }
-        rows.for_each(|row| self.take_row(times.and_then(|times| times.get(row)), summed, results, row));
+        let mut first = rows.start;
+        while first < rows.end {
+            let time = times.map(|times| times[first]);
+            let is_other = |row: &usize| times.is_some_and(|times| Some(times[*row]) != time);
+            let some = first..(first + 1..rows.end).find(is_other).unwrap_or(rows.end);
+            first = some.end;
+            self.take_rows(time, summed, results, some);
+        }
     }
 
-    fn take_row(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, row: usize) {
+    /// Adds the results of some rows of one time, none of which lacks one.
+    fn take_rows(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, rows: Range<usize>) {
+        if !self.is_of_latest(time) {
+            return;
+        }
+        self.sums.resize_with(summed.len(), UnboundedSum::default);
+        let columns = summed.iter().map(|(_, place)| &results.numbers[*place].values()[rows.clone()]);
+        UnboundedSum::add_columns(&mut self.sums, &columns.collect::<Vec<_>>());
+        self.rows += rows.len() as u64;
+    }
+
+    /// Whether rows of this time are added up: those of a later one begin anew.
+    fn is_of_latest(&mut self, time: Option<f64>) -> bool {
         let is_later = match (time, self.time) {
             (Some(time), Some(latest)) => latest < time,
             (Some(_), None) => true,
@@ -54,7 +77,12 @@ impl Totals {
         };
         if is_later {
             *self = Self { time, ..Self::default() };
-        } else if time != self.time {
+        }
+        is_later || time == self.time
+    }
+
+    fn take_row(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, row: usize) {
+        if !self.is_of_latest(time) {
             return;
         }
         self.sums.resize_with(summed.len(), UnboundedSum::default);

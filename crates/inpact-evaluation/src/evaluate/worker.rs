@@ -1,14 +1,15 @@
 //! The work of one thread on a batch: its rows by their interaction, all tables in columns, and every law in the rows that stand alone.
 
 use super::found::Found;
-use super::laws::{InteractionLaws, Laws};
+use super::laws::{InteractionLaws, Laws, Summary};
 use super::shard::{Shard, Waiting};
 use super::{InteractionTally, Outcome, Part, Tally, UserFaultInRow};
-use crate::law::contact::ContactState;
+use crate::evaluator::SeenError;
+use crate::law::contact::columns::count_states;
 use crate::law::thermal::columns::ThermalColumns;
 use crate::nodes::Batch;
 use crate::plan::{Plan, RowInteractions};
-use crate::results::{ResultBatch, Status};
+use crate::results::ResultBatch;
 use inpact_parser::model::Model;
 
 /// The interactions that a thread has met, and what it counted.
@@ -66,28 +67,42 @@ impl<'a> Worker<'a> {
         results: &mut ResultBatch,
     ) -> Vec<Waiting<'b>> {
         let mut waiting = Vec::new();
-        for part in self.parts(laws, batch) {
+        let parts = self.parts(laws, batch);
+        if parts.iter().all(|part| part.numbers.is_some()) {
+            results.reset(batch.rows, laws.result_columns);
+        }
+        for part in parts {
             let Some(of) = &laws.interactions[part.interaction] else { continue };
             let tally = &mut self.tally.interactions[part.interaction];
             tally.count_contact(&part);
-            let found = of.find(&part, tally);
+            let seen = (laws.summary == Summary::Made).then_some(&mut tally.seen_error);
+            let found = of.find(&part, seen);
             let has_histories = of.keeps_history && laws.node.is_some() && laws.time.is_some();
             if has_histories && shard.is_none() {
+                if part.numbers.is_none() {
+                    results.reset(batch.rows, laws.result_columns);
+                }
                 waiting.push(Waiting::new(laws, part, found, shards));
                 continue;
             }
             let mut own = None;
             let results_of_part = match &part.numbers {
                 None => &mut *results,
-                Some(numbers) => {
-                    let own: &mut ResultBatch = own.insert(ResultBatch::default());
-                    own.reset(numbers.len(), laws.result_columns);
-                    own
-                }
+                Some(_) => own.insert(ResultBatch::default()),
             };
-            match &mut shard {
-                Some(shard) if has_histories => shard.evaluate_part(laws, &part, &found, results_of_part),
-                _ => of.evaluate_rows(&part, &found, results_of_part, tally, &mut self.tally.user_faults),
+            match (&of.electrical, &mut shard) {
+                (_, Some(shard)) if has_histories => {
+                    results_of_part.reset(part.rows(), laws.result_columns);
+                    shard.evaluate_part(laws, &part, &found, results_of_part);
+                }
+                (Some(law), _) if of.thermal.is_none() && of.pore.is_none() => {
+                    let (found, faults) = (found.conductances.as_ref(), &mut self.tally.user_faults);
+                    law.rows_alone(&part, found, laws.result_columns, results_of_part, tally, faults);
+                }
+                _ => {
+                    results_of_part.reset(part.rows(), laws.result_columns);
+                    of.evaluate_rows(&part, &found, results_of_part, tally, &mut self.tally.user_faults);
+                }
             }
             if let (Some(own), Some(numbers)) = (own, &part.numbers) {
                 own.scatter(numbers, results);
@@ -116,10 +131,10 @@ impl<'a> Worker<'a> {
 }
 
 impl InteractionLaws {
-    /// Evaluates the tables over a part.
-    pub(super) fn find(&self, part: &Part<'_>, tally: &mut InteractionTally) -> Found {
+    /// Evaluates the tables over a part; some conductances are compared with the reference, where that is wanted.
+    pub(super) fn find(&self, part: &Part<'_>, seen: Option<&mut SeenError>) -> Found {
         Found {
-            conductances: self.electrical.as_ref().and_then(|law| law.conductances(part, tally)),
+            conductances: self.electrical.as_ref().and_then(|law| law.conductances(part, seen)),
             thermal: self.thermal.as_ref().map(|law| law.find(part)).unwrap_or_default(),
             permeabilities: self.pore.as_ref().map(|law| law.permeabilities(part)).unwrap_or_default(),
         }
@@ -139,21 +154,6 @@ impl InteractionLaws {
             Some(law) => law.rows(part, found.conductances.as_ref(), takes_heat, results, tally),
             None => Default::default(),
         };
-        if self.thermal.is_none() && self.pore.is_none() {
-            for (index, outcome) in
-                electrical.into_iter().enumerate().filter(|(index, _)| part.states[*index].is_some())
-            {
-                match outcome {
-                    // Within all tables: nothing is counted, and the other laws have no status.
-                    Outcome::Evaluated(status) if status <= Some(Status::Closed) => {
-                        results.status[index] = status;
-                        results.status_by_law.electrical[index] = status;
-                    }
-                    outcome => tally.finish_row([Some(outcome), None, None], index, results, faults),
-                }
-            }
-            return;
-        }
         let mut thermal = self.thermal.as_ref().map(|law| law.rows(part, &found.thermal, &heats, results, tally));
         let mut pore = self.pore.as_ref().map(|law| law.rows(part, &found.permeabilities, results, tally));
         let taken =
@@ -172,16 +172,15 @@ impl InteractionLaws {
 impl InteractionTally {
     /// Counts the rows of a part, and how many are closed and open.
     fn count_contact(&mut self, part: &Part<'_>) {
-        let count = |state| part.states.iter().filter(|found| **found == state).count() as u64;
         self.rows += part.rows() as u64;
-        self.closed += count(Some(ContactState::Closed));
-        self.open += count(Some(ContactState::Open));
-        self.incomplete += count(None);
+        self.closed += part.closed;
+        self.open += part.open;
+        self.incomplete += count_states(&part.states, None);
     }
 
     /// Counts a row and sets its status: the outcomes of electrical, thermal and pore fluid law.
     #[inline]
-    pub(super) fn finish_row(
+    pub(crate) fn finish_row(
         &mut self,
         outcomes: [Option<Outcome>; 3],
         row: usize,

@@ -41,7 +41,14 @@ impl InstructionSet {
 
     /// The fastest set of this machine.
     pub fn best() -> Self {
-        Self::available().pop().unwrap_or(Self::Scalar)
+        #[cfg(target_arch = "x86_64")]
+        return match (V4::try_new(), V3::try_new()) {
+            (Some(_), _) => Self::Avx512,
+            (None, Some(_)) => Self::Avx2,
+            (None, None) => Self::Scalar,
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        return if cfg!(target_arch = "aarch64") { Self::Neon } else { Self::Scalar };
     }
 
     /// Runs `operation`, all of which must be inlined, compiled for this set; with plain instructions where the machine lacks it.

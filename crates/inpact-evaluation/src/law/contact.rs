@@ -1,5 +1,7 @@
 //! The quantities at one point of contact, each of its own type so that a clearance is not taken for a pressure, and whether the point is closed.
 
+pub(crate) mod columns;
+
 /// Clearance d between the surfaces (L): positive when open, negative in overclosure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Clearance(pub f64);

@@ -388,6 +388,16 @@ impl NumberColumn {
         self.present.resize(rows, false);
     }
 
+    /// Makes it a column of so many numbers, all of which are about to be set.
+    pub(crate) fn shape(&mut self, rows: usize) {
+        self.present.clear();
+        if let Values::Owned(values) = &mut self.values {
+            values.resize(rows, f64::NAN);
+        } else {
+            self.values = Values::Owned(vec![f64::NAN; rows]);
+        }
+    }
+
     /// How many bytes of memory it takes.
     fn size(&self) -> usize {
         self.values.size() + self.present.capacity()
@@ -398,11 +408,11 @@ impl NumberColumn {
         self.present.clear();
     }
 
-    /// Takes the numbers and their presence out, and leaves an empty column.
+    /// Takes the numbers and their presence out, and leaves memory of no meaning for others.
     #[cfg(feature = "columnar")]
-    pub(crate) fn take(&mut self) -> (Vec<f64>, Option<Vec<bool>>) {
+    pub(crate) fn take(&mut self, room: Vec<f64>) -> (Vec<f64>, Option<Vec<bool>>) {
         let present = std::mem::take(&mut self.present);
-        (std::mem::take(self.values.owned()), Some(present).filter(|present| !present.is_empty()))
+        (std::mem::replace(self.values.owned(), room), Some(present).filter(|present| !present.is_empty()))
     }
 }
 

@@ -60,11 +60,6 @@ pub(crate) fn is_moderate(value: f64) -> bool {
     value == 0.0 || (1023 - 120..=1023 + 120).contains(&biased)
 }
 
-/// Whether all numbers are moderate ([`is_moderate`]).
-pub(crate) fn are_moderate(values: &[f64]) -> bool {
-    values.iter().fold(true, |all, value| all & is_moderate(*value))
-}
-
 /// The exponent e of a finite `value` that is not zero: 2^e <= |value| < 2^(e+1).
 pub fn exponent_of(value: f64) -> i32 {
     let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;

@@ -97,6 +97,55 @@ impl UnboundedSum {
         self.add_plain(|sum| sum.add(term), || term.is_finite().then(|| Scaled::new(term)));
     }
 
+    /// Adds the terms of one column to each of some sums, row by row, as [`add`](Self::add) does.
+    ///
+    /// # Panics
+    /// Where there are fewer columns than sums, or one is shorter than the first.
+    pub(crate) fn add_columns(sums: &mut [Self], columns: &[&[f64]]) {
+        let count = columns.first().map_or(0, |column| column.len());
+        let mut first = 0;
+        while first < count {
+            let rows = first..count.min(first + Self::BLOCK);
+            first = rows.end;
+            // Two sums at a time: each addition waits for the one before it, and the other sum fills the wait.
+            for (pair, columns) in sums.chunks_mut(2).zip(columns.chunks(2)) {
+                match (pair, columns) {
+                    ([one, other], [a, b]) => {
+                        let (a, b) = (&a[rows.clone()], &b[rows.clone()]);
+                        if one.stays_within(a) && other.stays_within(b) {
+                            let (mut sums, terms) = ((one.plain, other.plain), a.iter().zip(b));
+                            terms.for_each(|(a, b)| (sums.0.add(*a), sums.1.add(*b)).0);
+                            (one.plain, other.plain) = sums;
+                        } else {
+                            a.iter().for_each(|term| one.add(*term));
+                            b.iter().for_each(|term| other.add(*term));
+                        }
+                    }
+                    (sums, columns) => {
+                        for (sum, column) in sums.iter_mut().zip(columns) {
+                            column[rows.clone()].iter().for_each(|term| sum.add(*term));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// How many terms are added together.
+    const BLOCK: usize = 512;
+
+    /// Whether [`Self::BLOCK`] terms no larger than these can be added without a look at what comes out: sum and terms are far from the end of the range.
+    fn stays_within(&self, terms: &[f64]) -> bool {
+        /// 2⁹⁰⁰ and 2¹⁰⁰⁰.
+        const SMALL: f64 = f64::from_bits((1023 + 900) << 52);
+        const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
+        let CompensatedSum { sum, compensation } = self.plain;
+        self.beyond.is_none()
+            && sum.abs() < LARGE
+            && compensation.abs() < LARGE
+            && terms.iter().fold(true, |all, term| all & (term.abs() < SMALL))
+    }
+
     /// Adds the product of `a` and `b` with the digits its rounding loses.
     #[inline]
     pub fn add_product(&mut self, a: f64, b: f64) {

@@ -8,7 +8,9 @@ use super::choices::Choices;
 use super::governing::{GovernedBy, NameFault, RowInteractions, find_interaction};
 use super::surveyed::{ColumnSurvey, InteractionSurvey, Survey};
 use super::wanted::wanted_columns;
+use crate::kernel::scan;
 use crate::law::contact::ContactState;
+use crate::law::contact::columns::{contact_states, count_states};
 use crate::nodes::{
     Batch, Column, Findings, Header, HistoryOrder, KeptRows, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY,
     NON_FINITE, NodeIndex, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
@@ -96,6 +98,9 @@ fn label_columns(governed_by: GovernedBy, histories: bool) -> Vec<Column> {
     node.into_iter().chain(interaction).collect()
 }
 
+/// Rows whose states are found together.
+const ROWS_OF_STATES: usize = 512;
+
 /// A survey in the making.
 struct Surveyor<'a> {
     survey: Survey,
@@ -142,32 +147,29 @@ impl ContactPlaces {
         ContactState::of(number(self.closed), number(self.clearance), number(self.pressure))
     }
 
-    /// The states of some rows, in their order.
-    pub(crate) fn for_each_state(&self, batch: &Batch, rows: Range<usize>, mut take: impl FnMut(Option<ContactState>)) {
+    /// The states of some rows, in their order, into as many places.
+    pub(crate) fn states(&self, batch: &Batch, rows: Range<usize>, states: &mut [Option<ContactState>]) {
         // A column is plain where none of its numbers is missing.
         let plain = |place: Option<usize>| {
             let column = &batch.numbers[place?];
             column.presence().is_none().then(|| &column.values()[rows.clone()])
         };
         if self.state.is_some() {
-            return rows.for_each(|_| take(self.state));
+            return states.fill(self.state);
         }
         match (self.closed, plain(self.closed), plain(self.clearance), self.pressure, plain(self.pressure)) {
             (_, Some(closed), ..) => {
-                for closed in closed {
-                    take(ContactState::of(Some(*closed), None, None));
+                for (state, closed) in states.iter_mut().zip(closed) {
+                    *state = ContactState::of(Some(*closed), None, None);
                 }
             }
-            (None, _, Some(clearance), _, Some(pressure)) => clearance
-                .iter()
-                .zip(pressure)
-                .for_each(|(clearance, pressure)| take(ContactState::of(None, Some(*clearance), Some(*pressure)))),
+            (None, _, Some(clearance), Some(_), Some(pressure)) => contact_states(clearance, pressure, states),
             (None, _, Some(clearance), None, _) => {
-                for clearance in clearance {
-                    take(ContactState::of(None, Some(*clearance), None));
+                for (state, clearance) in states.iter_mut().zip(clearance) {
+                    *state = ContactState::of(None, Some(*clearance), None);
                 }
             }
-            _ => rows.for_each(|row| take(self.state(batch, row))),
+            _ => states.iter_mut().zip(rows).for_each(|(state, row)| *state = self.state(batch, row)),
         }
     }
 }
@@ -239,17 +241,19 @@ impl<'a> Surveyor<'a> {
     fn take_contact(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
         let of = &mut self.survey.interactions[interaction];
         of.rows += rows.len() as u64;
-        let (mut closed, mut open) = (0, 0);
-        self.contact.for_each_state(batch, rows.clone(), |state| {
-            closed += u64::from(state == Some(ContactState::Closed));
-            open += u64::from(state == Some(ContactState::Open));
-        });
-        of.closed += closed;
-        of.open += open;
+        let mut states = [None; ROWS_OF_STATES];
+        let mut first = rows.start;
+        while first < rows.end {
+            let some = first..rows.end.min(first + ROWS_OF_STATES);
+            let states = &mut states[..some.len()];
+            first = some.end;
+            self.contact.states(batch, some, states);
+            of.closed += count_states(states, Some(ContactState::Closed));
+            of.open += count_states(states, Some(ContactState::Open));
+        }
         if let Some(place) = self.contact.clearance {
             // A missing number is NaN, which is not above zero.
-            let above = batch.numbers[place].values()[rows].iter().filter(|clearance| **clearance > 0.0);
-            of.above_zero += above.count() as u64;
+            of.above_zero += scan::count_above_zero(&batch.numbers[place].values()[rows]);
         }
     }
 
@@ -257,8 +261,7 @@ impl<'a> Surveyor<'a> {
     fn may_hold_what_it_must_not(&self, batch: &Batch) -> bool {
         let values = |place: usize| batch.numbers[place].values().iter();
         // What is missing is NaN, which is not below zero, and neither 0 nor 1.
-        let least = |least: f64, value: &f64| if *value < least { *value } else { least };
-        let below_zero = |place: usize| values(place).fold(0.0, least) < 0.0;
+        let below_zero = |place: usize| scan::has_below_zero(batch.numbers[place].values());
         self.contact.closed.is_some_and(|place| values(place).any(|value| *value != 0.0 && *value != 1.0))
             || self.area.is_some_and(below_zero)
             || self.properties.iter().any(|(place, _)| below_zero(*place))
@@ -266,7 +269,6 @@ impl<'a> Surveyor<'a> {
     }
 
     /// Contents of the cells of some rows of one interaction, column by column.
-    #[inline]
     fn take_cells(&mut self, interaction: usize, batch: &Batch, rows: Range<usize>) {
         let columns = &mut self.survey.interactions[interaction].columns;
         if columns.is_empty() {
@@ -274,14 +276,7 @@ impl<'a> Surveyor<'a> {
         }
         for (place, (column, of)) in batch.numbers.iter().zip(columns).enumerate() {
             let before = of.non_finite;
-            let values = &column.values()[rows.clone()];
-            match column.presence() {
-                None => values.iter().for_each(|value| of.take(*value)),
-                Some(present) => {
-                    let present = &present[rows.clone()];
-                    values.iter().zip(present).filter(|cell| *cell.1).for_each(|(value, _)| of.take(*value));
-                }
-            }
+            of.take(&column.values()[rows.clone()], column.presence().map(|present| &present[rows.clone()]));
             if before < of.non_finite && self.first_non_finite[place].is_none() {
                 let row = rows.clone().find(|row| column.get(*row).is_some_and(|value| !value.is_finite()));
                 let name = self.survey.header.name_of(self.survey.columns[place]);

@@ -2,6 +2,7 @@
 
 use super::governing::GovernedBy;
 use super::source::Presence;
+use crate::kernel::scan;
 use crate::nodes::{Column, Header, HistoryOrder};
 
 /// Findings of the first reading of a node table.
@@ -59,14 +60,14 @@ pub struct ColumnSurvey {
 }
 
 impl ColumnSurvey {
-    /// Takes a number; without branches, so that a column of them is taken in vectors.
-    #[inline]
-    pub(super) fn take(&mut self, value: f64) {
-        self.present += 1;
-        let is_finite = value.is_finite();
-        self.non_finite += u64::from(!is_finite);
-        self.least = if is_finite && value < self.least { value } else { self.least };
-        self.greatest = if is_finite && self.greatest < value { value } else { self.greatest };
+    /// Takes some cells: their numbers, NaN where one is missing, and which of them are there.
+    pub(super) fn take(&mut self, values: &[f64], present: Option<&[bool]>) {
+        let missing = present.map_or(0, |present| present.iter().filter(|is_there| !**is_there).count() as u64);
+        let found = scan::extremes(values);
+        self.present += values.len() as u64 - missing;
+        self.non_finite += found.non_finite - missing;
+        self.least = if found.least < self.least { found.least } else { self.least };
+        self.greatest = if self.greatest < found.greatest { found.greatest } else { self.greatest };
     }
 }
 

@@ -47,8 +47,30 @@ pub struct StatusByLaw {
 impl ResultBatch {
     /// Makes it a batch of so many rows and columns without a number.
     pub fn reset(&mut self, rows: usize, columns: usize) {
+        self.reset_numbers(rows, columns);
+        self.reset_statuses(rows);
+    }
+
+    /// Makes its numbers so many columns of so many rows without one.
+    pub(crate) fn reset_numbers(&mut self, rows: usize, columns: usize) {
         self.numbers.resize_with(columns, NumberColumn::default);
         self.numbers.iter_mut().for_each(|column| column.reset(rows));
+    }
+
+    /// The same where every number of the columns that are `written` is about to be set: what they hold until then is of no meaning.
+    pub(crate) fn shape(&mut self, rows: usize, columns: usize, is_written: impl Fn(usize) -> bool) {
+        self.numbers.resize_with(columns, NumberColumn::default);
+        for (place, column) in self.numbers.iter_mut().enumerate() {
+            if is_written(place) {
+                column.shape(rows);
+            } else {
+                column.reset(rows);
+            }
+        }
+    }
+
+    /// Makes it so many rows without a status.
+    pub(crate) fn reset_statuses(&mut self, rows: usize) {
         let StatusByLaw { electrical, thermal, pore } = &mut self.status_by_law;
         for statuses in [&mut self.status, electrical, thermal, pore] {
             statuses.clear();

@@ -8,8 +8,9 @@
 use super::format::TableFormat;
 use super::heading::{Heading, Values};
 use super::parquet::{ParquetTable, of_arrow};
+use super::status_words::StatusRoom;
 use crate::arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
-use crate::arrow::buffer::{NullBuffer, OffsetBuffer, ScalarBuffer};
+use crate::arrow::buffer::{NullBuffer, ScalarBuffer};
 use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use crate::arrow::ipc::writer::FileWriter;
 use crate::nodes::{Batch, Column, LabelColumn, NumberColumn, without_dictionary};
@@ -117,7 +118,7 @@ impl Source<'_> {
         match self {
             Self::Key(key, label) => key_array(key, label, batch),
             Self::Numbers(column) => Ok(number_array(column)),
-            Self::Statuses(statuses) => Ok(status_array(statuses)),
+            Self::Statuses(statuses) => Ok(StatusRoom::default().array(statuses)),
             Self::StatusesToEncode(statuses) => Ok(status_dictionary(statuses)),
             Self::Nothing => Ok(Arc::new(Float64Array::new_null(batch.rows))),
         }
@@ -151,32 +152,6 @@ fn no_key(batch: &Batch, row: usize, key: Column, text: &str) -> io::Error {
     let what = if key == Column::Time { "number" } else { "text of UTF-8" };
     let message = format!("`{key}` of row {row} is `{text}`, which is no {what}; comma-separated values can hold it");
     io::Error::new(io::ErrorKind::InvalidData, message)
-}
-
-/// The words of statuses, each copied with what follows it in a block of fixed size, which the next word covers: no call for a few bytes.
-pub(super) fn status_array(statuses: &[Option<super::Status>]) -> ArrayRef {
-    const BLOCK: usize = 16;
-    let blocks = super::Status::ALL.map(|status| {
-        let word = status.word().as_bytes();
-        let mut block = [0; BLOCK];
-        block[..word.len()].copy_from_slice(word);
-        (block, word.len())
-    });
-    let mut bytes = vec![0; statuses.len() * BLOCK];
-    let mut lengths = Vec::with_capacity(statuses.len());
-    let mut end = 0;
-    for status in statuses {
-        let (block, length) = status.map_or((&[0; BLOCK], 0), |status| {
-            let (block, length) = &blocks[status as usize];
-            (block, *length)
-        });
-        bytes[end..end + BLOCK].copy_from_slice(block);
-        end += length;
-        lengths.push(length);
-    }
-    bytes.truncate(end);
-    let nulls = statuses.contains(&None).then(|| statuses.iter().map(Option::is_some).collect::<NullBuffer>());
-    Arc::new(StringArray::new(OffsetBuffer::from_lengths(lengths), bytes.into(), nulls))
 }
 
 fn status_dictionary(statuses: &[Option<super::Status>]) -> ArrayRef {

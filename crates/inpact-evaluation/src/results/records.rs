@@ -1,11 +1,12 @@
 //! Results in memory as Arrow record batches.
 
 use super::batch::ResultBatch;
-use super::columnar::{key_array, number_array, status_array};
+use super::columnar::{key_array, number_array};
 use super::output::Output;
 use super::parquet::of_arrow;
+use super::status_words::{StatusRoom, buffers};
 use crate::arrow::array::{ArrayRef, Float64Array, RecordBatch};
-use crate::arrow::buffer::{NullBuffer, ScalarBuffer};
+use crate::arrow::buffer::{Buffer, NullBuffer, ScalarBuffer};
 use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use crate::nodes::{Batch, Column};
 use std::io;
@@ -17,12 +18,20 @@ pub struct ResultRecords {
     keys: Vec<Column>,
     outputs: Vec<Output>,
     schema: Option<SchemaRef>,
+    given: Given,
+}
+
+/// The memory of the record batch before: whoever got it may have dropped it, and then it is room for the next.
+#[derive(Debug, Default)]
+struct Given {
+    numbers: Vec<Buffer>,
+    statuses: Vec<(Buffer, Buffer)>,
 }
 
 impl ResultRecords {
     /// Begins with the key columns, which are those of the batches' labels, and the outputs.
     pub fn new(keys: &[Column], outputs: &[Output]) -> Self {
-        Self { keys: keys.to_vec(), outputs: outputs.to_vec(), schema: None }
+        Self { keys: keys.to_vec(), outputs: outputs.to_vec(), schema: None, given: Given::default() }
     }
 
     /// The rows of a batch with their results, whose numbers are taken out and not copied.
@@ -34,17 +43,24 @@ impl ResultRecords {
         for (key, label) in self.keys.iter().zip(&batch.labels) {
             arrays.push(key_array(*key, label, batch)?);
         }
+        let Given { numbers, statuses: words } = std::mem::take(&mut self.given);
+        let mut room = numbers.into_iter().filter_map(|buffer| buffer.into_vec::<f64>().ok());
+        let mut room_for_words = words.into_iter().map(|(ends, bytes)| StatusRoom::of(ends, bytes));
         let mut number = 0;
         for output in &self.outputs {
             if let Some(statuses) = results.statuses(*output) {
-                arrays.push(status_array(statuses));
+                let array = room_for_words.next().unwrap_or_default().array(statuses);
+                self.given.statuses.extend(buffers(&array));
+                arrays.push(array);
                 continue;
             }
             arrays.push(match results.numbers.get_mut(number) {
                 Some(column) => {
-                    let (values, present) = column.take();
+                    let (values, present) = column.take(room.next().unwrap_or_default());
                     let nulls = present.map(NullBuffer::from).filter(|nulls| nulls.null_count() > 0);
-                    Arc::new(Float64Array::new(ScalarBuffer::from(values), nulls))
+                    let values = ScalarBuffer::from(values);
+                    self.given.numbers.push(values.inner().clone());
+                    Arc::new(Float64Array::new(values, nulls))
                 }
                 None => Arc::new(Float64Array::new_null(batch.rows)),
             });

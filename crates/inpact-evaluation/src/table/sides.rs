@@ -28,7 +28,7 @@ impl Sides {
 
     /// The sides of either.
     #[must_use]
-    pub(super) fn or(self, other: Self) -> Self {
+    pub(crate) fn or(self, other: Self) -> Self {
         Self { below: self.below | other.below, above: self.above | other.above }
     }
 

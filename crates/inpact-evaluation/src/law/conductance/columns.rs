@@ -1,5 +1,7 @@
 //! A conductance over the rows of a part: its rows are gathered by the table that they read, each table is evaluated over columns, and the values go back to their rows.
 
+mod both;
+
 use super::{Branch, ConductanceTables, ContactPoint, SlopeAlong, value_without_table};
 use crate::accuracy::Wanted;
 use crate::evaluate::{Binder, Part, Row, mean_mass_flow_of};
@@ -55,7 +57,7 @@ pub(crate) struct ConductanceColumn {
     pub(crate) values: Vec<f64>,
     /// The rests that rounding took away; empty or NaN where that is not known.
     pub(crate) rests: Vec<f64>,
-    /// Where each row lies outside its table.
+    /// Where each row lies outside its table; empty where all of them lie within.
     pub(crate) sides: Vec<Sides>,
     /// Which rows have all that their table needs; empty where all of them do.
     known: Vec<bool>,
@@ -242,6 +244,9 @@ impl BranchColumns {
 
     /// The conductance of every row; some of the values are compared with the reference, where that is wanted.
     pub(crate) fn evaluate(&self, part: &Part<'_>, mut seen: Option<&mut SeenError>) -> ConductanceColumn {
+        if let Some(column) = self.evaluate_both(part, seen.as_deref_mut()) {
+            return column;
+        }
         let (reads, gathered) = self.gather(part);
         let mut column = ConductanceColumn::default();
         let mut found = TableValues::default();
@@ -256,17 +261,21 @@ impl BranchColumns {
                 let TableValues { values, rests, sides } = found;
                 return ConductanceColumn { values, rests, sides, known: Vec::new() };
             };
-            column.make_room(reads.len());
+            column.values.resize(reads.len(), f64::NAN);
+            if !found.sides.is_empty() {
+                column.sides.resize(reads.len(), Sides::default());
+                rows.iter().zip(&found.sides).for_each(|(row, sides)| column.sides[*row as usize] = *sides);
+            }
             for (place, row) in rows.iter().enumerate() {
                 let row = *row as usize;
-                (column.values[row], column.sides[row]) = (found.values[place], found.sides[place]);
+                column.values[row] = found.values[place];
                 if let Some(rest) = found.rests.get(place) {
                     column.rests.resize(reads.len(), f64::NAN);
                     column.rests[row] = *rest;
                 }
             }
         }
-        column.make_room(reads.len());
+        column.values.resize(reads.len(), f64::NAN);
         if gathered.iter().map(|gathered| gathered.count).sum::<usize>() == reads.len() {
             return column;
         }
@@ -356,9 +365,10 @@ pub(crate) fn in_row(variables: &[Option<Variable>], row: Row<'_, '_>) -> Vec<f6
 }
 
 impl ConductanceColumn {
-    fn make_room(&mut self, rows: usize) {
-        self.values.resize(rows, f64::NAN);
-        self.sides.resize(rows, Sides::default());
+    /// Where a row lies outside its table.
+    #[inline]
+    pub(crate) fn sides_of(&self, row: usize) -> Sides {
+        self.sides.get(row).copied().unwrap_or_default()
     }
 
     /// A conductance found row by row; `None` for a row that lacks a number.

@@ -3,22 +3,25 @@
 use super::{Dissipation, ExactFlow, flow};
 use crate::accuracy::Wanted;
 use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, contact_status};
+use crate::evaluator::SeenError;
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::kernel::InstructionSet;
 use crate::kernel::electrical::{ElectricalInputs, ElectricalOutputs, electrical_outputs};
+use crate::kernel::scan::are_moderate;
 use crate::law::conductance::Branch;
 use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, WantedSlope, write_slopes};
 use crate::law::contact::PotentialJump;
 use crate::law::heat::{GeneratedHeat, HeatAmounts, HeatGeneration};
 use crate::law::user::columns::UserColumns;
 use crate::nodes::Cells;
-use crate::numbers::{Amount, are_moderate, is_moderate};
+use crate::numbers::{Amount, is_moderate};
 use crate::plan::{Choices, ElectricalPlan, History, InteractionTables, Source};
 use crate::results::{Along, Output, ResultBatch, Status};
 use crate::table::Sides;
 use inpact_parser::model::Regime;
 use std::ops::Range;
 
+mod alone;
 pub(crate) mod increments;
 
 /// Below this share of the potentials their difference has lost its digits.
@@ -153,8 +156,8 @@ impl ElectricalColumns {
     }
 
     /// The conductances of a part by tables; none of a user's routine, which is asked row by row.
-    pub(crate) fn conductances(&self, part: &Part<'_>, tally: &mut InteractionTally) -> Option<ConductanceColumn> {
-        Some(self.tables()?.evaluate(part, Some(&mut tally.seen_error)))
+    pub(crate) fn conductances(&self, part: &Part<'_>, seen: Option<&mut SeenError>) -> Option<ConductanceColumn> {
+        Some(self.tables()?.evaluate(part, seen))
     }
 
     /// The law in a row; gives its status and the heat of the current, where the row has a jump of potential.
@@ -169,7 +172,7 @@ impl ElectricalColumns {
         let index = row.index;
         let (value, rest, sides) = match (&self.conductance, conductances) {
             (ConductanceSource::Tables(_), Some(found)) if found.is_known(index) => {
-                (found.values[index], found.rest(index).unwrap_or(0.0), found.sides[index])
+                (found.values[index], found.rest(index).unwrap_or(0.0), found.sides_of(index))
             }
             (ConductanceSource::User(routine), _) => match routine.conductance(row, tally) {
                 Some(Ok(value)) => {
@@ -210,7 +213,7 @@ impl ElectricalColumns {
         });
         let area = self.area.map(|place| Cells::at(part.batch(), place));
         let is_full = found.is_some_and(ConductanceColumn::is_full)
-            && part.states.iter().all(Option::is_some)
+            && part.tells_contact()
             && jump.as_ref().is_none_or(Cells::is_full)
             && area.as_ref().is_none_or(Cells::is_full);
         let (mut outcomes, mut heats, mut flows) = (Vec::with_capacity(count), Vec::new(), Vec::new());
@@ -257,7 +260,7 @@ impl ElectricalColumns {
                 write_slopes(&self.slopes, slopes, &rows, results);
             }
             for index in rows {
-                let sides = found.sides[index];
+                let sides = found.sides_of(index);
                 if sides.is_within() {
                     outcomes.push(Outcome::Evaluated(part.states[index].and_then(contact_status)));
                     continue;

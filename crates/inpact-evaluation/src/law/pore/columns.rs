@@ -233,7 +233,7 @@ impl PoreColumns {
         let flow = self.law.flow_with(&point, |_, _, _| FoundValue {
             value: found.values[row.index],
             rest: found.rests.get(row.index).copied(),
-            sides: found.sides[row.index],
+            sides: found.sides_of(row.index),
         });
         self.set_slopes(row, point, flow.permeability.is_some(), results);
         let history = history.map(|(history, _)| history).zip(increment);

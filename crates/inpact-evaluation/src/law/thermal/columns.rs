@@ -204,7 +204,7 @@ impl ThermalColumns {
         if !found.is_known(row.index) {
             return None;
         }
-        let (value, sides) = (found.values[row.index], found.sides[row.index]);
+        let (value, sides) = (found.values[row.index], found.sides_of(row.index));
         results.set(self.slots.conductance, row.to, Some(value));
         part.set_slopes(row, results);
         if !sides.is_within() {

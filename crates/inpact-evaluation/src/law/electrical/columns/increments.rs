@@ -4,12 +4,13 @@
 use super::{CHUNK, ElectricalColumns, FlowInputs, PlainFlow, lost_digits};
 use crate::evaluate::{InteractionTally, Outcome, Part, contact_status};
 use crate::history::{ElectricalHistory, ElectricalIncrement};
+use crate::kernel::scan::are_moderate;
 use crate::law::conductance::columns::ConductanceColumn;
 use crate::law::contact::PotentialJump;
 use crate::law::electrical::ElectricalFlow;
 use crate::law::heat::HeatAmounts;
 use crate::nodes::Cells;
-use crate::numbers::{are_moderate, is_moderate};
+use crate::numbers::is_moderate;
 use crate::results::ResultBatch;
 
 /// Rows of a part, none of which lacks a number, with the increments that they end.
@@ -40,10 +41,8 @@ impl ElectricalColumns {
         let (found, source, times) = (found?, self.jump?, part.times()?);
         let jump = Cells::of_source(part.batch(), &source, |slave, master| PotentialJump::between(slave, master).0);
         let area = self.area.map(|place| Cells::at(part.batch(), place));
-        let is_full = found.is_full()
-            && part.states.iter().all(Option::is_some)
-            && jump.is_full()
-            && area.as_ref().is_none_or(Cells::is_full);
+        let is_full =
+            found.is_full() && part.tells_contact() && jump.is_full() && area.as_ref().is_none_or(Cells::is_full);
         if !is_full || self.accuracy.is_reference() || !is_moderate(self.heat_generation.fraction) {
             return None;
         }
@@ -113,7 +112,7 @@ impl<'p> Increments<'p, '_> {
         tally: &mut InteractionTally,
     ) -> (Outcome, Option<HeatAmounts>) {
         let (law, index) = (self.law, self.rows[to]);
-        let (sides, state) = (self.found.sides[index], self.part.states[index]);
+        let (sides, state) = (self.found.sides_of(index), self.part.states[index]);
         let Some(flow) = self.flows[to] else { return self.finish_with_care(to, history, results, tally) };
         let (increment, jump) = (&self.begun[to], self.jump[to]);
         let area = self.area.as_ref().map(|area| area[to]);
@@ -154,7 +153,7 @@ impl<'p> Increments<'p, '_> {
         let rest = self.found.rest(index).unwrap_or(0.0);
         let history = Some((history, self.begun[to]));
         let heat = law.flow_of_increment(row, (value, rest), PotentialJump(self.jump[to]), history, results, tally);
-        (Outcome::Evaluated(law.status(row, self.found.sides[index], tally)), Some(heat))
+        (Outcome::Evaluated(law.status(row, self.found.sides_of(index), tally)), Some(heat))
     }
 
     /// Counts the rows whose jump has lost its digits, and says that no number of the rows is missing.

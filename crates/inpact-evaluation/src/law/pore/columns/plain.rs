@@ -3,9 +3,10 @@
 use super::{Length, PoreColumns};
 use crate::evaluate::{InteractionTally, Outcome, PERMEABILITY, Part, contact_status};
 use crate::evaluator::TableValues;
+use crate::kernel::scan::are_moderate;
 use crate::law::contact::ContactState;
 use crate::law::pore::CutoffBoundary;
-use crate::numbers::{are_moderate, is_moderate};
+use crate::numbers::is_moderate;
 use crate::results::{ResultBatch, Status};
 use inpact_parser::model::Regime;
 use std::ops::Range;
@@ -66,7 +67,7 @@ impl PoreColumns {
                     results.set_rows(Some(*slot), &rows, |row| if is_cut_off[row] { 0.0 } else { column[row] });
                 }
                 outcomes.extend(rows.clone().map(|index| {
-                    let sides = found.sides[index];
+                    let sides = found.sides_of(index);
                     Outcome::Evaluated(if flows.is_cut_off[index - rows.start] {
                         Some(Status::Cutoff)
                     } else if sides.is_within() {

@@ -2,10 +2,11 @@
 
 use super::{ThermalColumns, ThermalFound};
 use crate::evaluate::{InteractionTally, Outcome, Part, VIEW_FACTOR, contact_status};
+use crate::kernel::scan::are_moderate;
 use crate::law::conductance::columns::write_slopes;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatAmounts;
-use crate::numbers::{are_moderate, compensated_sum};
+use crate::numbers::compensated_sum;
 use crate::results::{ResultBatch, Status};
 use std::ops::Range;
 
@@ -186,7 +187,7 @@ impl ThermalColumns {
         let Some(state) = part.states[index] else { return Outcome::Incomplete };
         let mut is_within = true;
         if let Some(conduction) = &self.conduction {
-            let sides = found.conductances.sides[index];
+            let sides = found.conductances.sides_of(index);
             if !sides.is_within() {
                 conduction.count_sides(state, sides, tally);
                 is_within = false;

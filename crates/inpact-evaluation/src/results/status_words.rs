@@ -1,0 +1,83 @@
+//! Statuses as an Arrow array of words.
+
+use super::Status;
+use crate::arrow::array::{Array, ArrayRef, StringArray};
+use crate::arrow::buffer::{Buffer, NullBuffer, OffsetBuffer};
+use std::sync::Arc;
+
+/// As many bytes as are copied for a word, with what follows it, which the next word covers: no call for a few bytes.
+const BLOCK: usize = 16;
+
+/// Memory of an array before, for the next.
+#[derive(Debug, Default)]
+pub(super) struct StatusRoom {
+    ends: Vec<i32>,
+    bytes: Vec<u8>,
+}
+
+impl StatusRoom {
+    /// The memory of an array that nobody else has any longer; none where somebody has it.
+    pub(super) fn of(offsets: Buffer, bytes: Buffer) -> Self {
+        Self { ends: offsets.into_vec().unwrap_or_default(), bytes: bytes.into_vec().unwrap_or_default() }
+    }
+
+    /// The words of statuses, null where there is none.
+    pub(super) fn array(self, statuses: &[Option<Status>]) -> ArrayRef {
+        let Self { mut ends, mut bytes } = self;
+        let mut lengths = [0; Status::ALL.len() + 1];
+        let mut blocks = [[0; BLOCK]; Status::ALL.len() + 1];
+        for status in Status::ALL {
+            let word = status.word().as_bytes();
+            lengths[place(Some(status))] = i32::try_from(word.len()).unwrap_or_default();
+            blocks[place(Some(status))][..word.len()].copy_from_slice(word);
+        }
+        ends.clear();
+        ends.reserve(statuses.len() + 1);
+        ends.push(0);
+        let mut end = 0;
+        ends.extend(statuses.iter().map(|status| {
+            end += lengths[place(*status)];
+            end
+        }));
+        let length = usize::try_from(end).unwrap_or_default();
+        bytes.resize(length + BLOCK, 0);
+        for (status, start) in statuses.iter().zip(&ends) {
+            let start = usize::try_from(*start).unwrap_or_default();
+            bytes[start..start + BLOCK].copy_from_slice(&blocks[place(*status)]);
+        }
+        bytes.truncate(length);
+        let nulls = statuses.contains(&None).then(|| statuses.iter().map(Option::is_some).collect::<NullBuffer>());
+        Arc::new(StringArray::new(OffsetBuffer::new(ends.into()), bytes.into(), nulls))
+    }
+}
+
+/// The buffers of an array of words.
+pub(super) fn buffers(array: &ArrayRef) -> Option<(Buffer, Buffer)> {
+    let words = array.as_any().downcast_ref::<StringArray>()?;
+    Some((words.offsets().inner().inner().clone(), words.values().clone()))
+}
+
+/// The place of a status among all of them; that of none comes last.
+fn place(status: Option<Status>) -> usize {
+    status.map_or(Status::ALL.len(), |status| status as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arrow::array::AsArray;
+
+    #[test]
+    fn statuses_are_their_words_in_memory_of_any_size() {
+        let all: Vec<_> = Status::ALL.into_iter().map(Some).chain([None]).collect();
+        let mut before: Option<ArrayRef> = None;
+        for count in [0, 1, 5, 7, 300, 2, 1000] {
+            let statuses: Vec<_> = (0..count).map(|row| all[(row * row + row / 3) % all.len()]).collect();
+            let room = before.take().and_then(|array| buffers(&array)).map(|(ends, bytes)| StatusRoom::of(ends, bytes));
+            let array = room.unwrap_or_default().array(&statuses);
+            let words: Vec<_> = array.as_string::<i32>().iter().collect();
+            assert_eq!(words, statuses.iter().map(|status| status.map(Status::word)).collect::<Vec<_>>());
+            before = Some(array);
+        }
+    }
+}
