@@ -8,8 +8,10 @@
 //! One row takes two calls: `begin` gives what the law needs from the row before, `finish` adds what the law answered.
 //! The caller refuses times that do not ascend.
 
+mod steps;
 mod thermal;
 
+pub(crate) use steps::{ElectricalSteps, Step};
 pub use thermal::{FlowHistory, ThermalHistory};
 
 use crate::law::contact::{Clearance, ClearanceRate, PotentialJump};
@@ -116,6 +118,16 @@ impl ElectricalHistory {
             self.current.add(Amount::new(rest), increment.duration, area);
         }
         self.heat.add(Amount::new(flow.heat.total), increment.duration, area);
+    }
+
+    /// [`Self::finish`] for steps that were found in columns.
+    #[inline]
+    pub(crate) fn finish_steps(&mut self, increment: &ElectricalIncrement, steps: &ElectricalSteps) {
+        if increment.duration.is_some() {
+            self.current.add_steps(steps.current);
+            self.current.add_steps(steps.rest);
+            self.heat.add_steps(steps.heat);
+        }
     }
 
     /// Forgets the row before, as [`Self::begin`] must for the first row of another node; what was added up stays.
@@ -277,6 +289,13 @@ impl Integral {
                 }
             }
         }
+    }
+
+    /// Adds steps per area and of the node's area.
+    #[inline]
+    fn add_steps(&mut self, [per_unit, whole]: [Step; 2]) {
+        self.per_unit.add_exact_product(per_unit.product, per_unit.error);
+        self.whole.add_exact_product(whole.product, whole.error);
     }
 
     fn of_area(&self) -> Option<f64> {

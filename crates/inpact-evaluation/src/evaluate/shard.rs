@@ -4,7 +4,7 @@ use super::found::Found;
 use super::laws::{InteractionLaws, Laws};
 use super::{Part, Row, Tally};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
-use crate::law::electrical::columns::increments::Increments;
+use crate::law::electrical::columns::increments::{Chunk, Increments};
 use crate::nodes::{HistoryOrder, HistorySlot, NodeIndex};
 use crate::plan::Plan;
 use crate::results::ResultBatch;
@@ -21,6 +21,12 @@ pub(super) struct Shard {
 #[derive(Debug, Clone)]
 struct NodeHistory {
     electrical: ElectricalHistory,
+    /// Those of the other laws, once one of them has begun: without them the histories of more nodes fit into the cache.
+    others: Option<Box<OtherHistories>>,
+}
+
+#[derive(Debug, Clone)]
+struct OtherHistories {
     thermal: ThermalHistory,
     pore: PoreHistory,
 }
@@ -65,12 +71,27 @@ fn shard_of(interaction: usize, label: &[u8], shards: usize) -> u32 {
 impl NodeHistory {
     /// One that has not begun.
     fn of(laws: &Laws) -> Self {
-        Self {
-            electrical: ElectricalHistory::new(laws.history_start, laws.closing_heat),
-            thermal: ThermalHistory::new(laws.history_start),
-            pore: PoreHistory::new(laws.history_start),
-        }
+        Self { electrical: ElectricalHistory::new(laws.history_start, laws.closing_heat), others: None }
     }
+
+    /// The histories of the other laws.
+    fn others(&mut self, laws: &Laws) -> &mut OtherHistories {
+        self.others.get_or_insert_with(|| {
+            let start = laws.history_start;
+            Box::new(OtherHistories { thermal: ThermalHistory::new(start), pore: PoreHistory::new(start) })
+        })
+    }
+}
+
+/// The history of a row that has begun; that of a node's first row adds up from nothing.
+#[inline]
+fn entered(histories: &mut [NodeHistory], slot: HistorySlot) -> &mut NodeHistory {
+    let history = &mut histories[slot.number];
+    if slot.is_first {
+        history.electrical.clear_integrals();
+        history.others = None;
+    }
+    history
 }
 
 impl Shard {
@@ -119,9 +140,13 @@ impl Shard {
         results: &mut ResultBatch,
     ) {
         let electrical = of.electrical.as_ref();
-        let increments = electrical.and_then(|law| law.increments(part, found.conductances.as_ref(), rows));
+        let increments = electrical.and_then(|law| law.increments(part, found.conductances.as_ref()));
         if let Some((increments, node)) = increments.zip(laws.node) {
-            return self.evaluate_increments(laws, (part, of), found, (increments, node), results);
+            for (number, some) in rows.chunks(Increments::CHUNK).enumerate() {
+                let chunk = increments.chunk(some, number * Increments::CHUNK);
+                self.evaluate_chunk(laws, (part, of), found, (&increments, chunk, some, node), results);
+            }
+            return increments.end(rows, results, &mut self.tally.interactions[part.interaction]);
         }
         for (to, index) in rows.iter().enumerate() {
             if let Some(row) = part.row(*index, to) {
@@ -131,51 +156,50 @@ impl Shard {
     }
 
     /// The same where each row ends an increment of the electrical law, which goes through them in columns.
-    fn evaluate_increments(
+    fn evaluate_chunk(
         &mut self,
         laws: &Laws,
         (part, of): (&Part<'_>, &InteractionLaws),
         found: &Found,
-        (mut increments, node): (Increments<'_, '_>, usize),
+        (increments, mut chunk, rows, node): (&Increments<'_, '_>, Chunk<'_>, &[usize], usize),
         results: &mut ResultBatch,
     ) {
         let (labels, interaction) = (&part.batch().labels[node], part.interaction);
-        let mut slots: Vec<HistorySlot> = Vec::with_capacity(increments.rows().len());
-        for index in increments.rows() {
+        let mut slots: Vec<HistorySlot> = Vec::with_capacity(rows.len());
+        for index in rows {
             let slot = self.nodes.enter(interaction, labels.get(*index));
             if slot.number == self.histories.len() {
                 self.histories.push(NodeHistory::of(laws));
             } else if slot.is_first {
                 self.histories[slot.number].electrical.restart();
             }
-            increments.begin(&mut self.histories[slot.number].electrical);
+            chunk.begin(&mut self.histories[slot.number].electrical);
             slots.push(slot);
         }
-        increments.evaluate(results);
+        increments.evaluate(&mut chunk, results);
         let tally = &mut self.tally.interactions[interaction];
         let is_alone = of.thermal.is_none() && of.pore.is_none();
-        for (to, (slot, index)) in slots.iter().zip(increments.rows()).enumerate() {
-            let history = &mut self.histories[slot.number];
-            if slot.is_first {
-                history.electrical.clear_integrals();
-                (history.thermal, history.pore) =
-                    (ThermalHistory::new(laws.history_start), PoreHistory::new(laws.history_start));
+        if is_alone && increments.is_uniform(&chunk) {
+            for (at, slot) in slots.iter().enumerate() {
+                let history = &mut entered(&mut self.histories, *slot).electrical;
+                increments.finish_steps(&chunk, at, history, results, tally);
             }
-            let (outcome, heat) = increments.finish(to, &mut history.electrical, results, tally);
+            return increments.set_statuses(&chunk, results);
+        }
+        for (at, index) in rows.iter().enumerate() {
+            let history = entered(&mut self.histories, slots[at]);
+            let (outcome, heat) = increments.finish(&chunk, at, &mut history.electrical, results, tally);
+            let to = chunk.result_of(at);
             let row = if is_alone { None } else { part.row(*index, to) };
-            let thermal = of
-                .thermal
-                .as_ref()
-                .zip(row)
-                .map(|(law, row)| law.row(row, &found.thermal, heat, Some(&mut history.thermal), results, tally));
-            let pore = of
-                .pore
-                .as_ref()
-                .zip(row)
-                .map(|(law, row)| law.row(row, &found.permeabilities, Some(&mut history.pore), results, tally));
+            let thermal = of.thermal.as_ref().zip(row).map(|(law, row)| {
+                let history = Some(&mut history.others(laws).thermal);
+                law.row(row, &found.thermal, heat, history, results, tally)
+            });
+            let pore = of.pore.as_ref().zip(row).map(|(law, row)| {
+                law.row(row, &found.permeabilities, Some(&mut history.others(laws).pore), results, tally)
+            });
             tally.finish_row([Some(outcome), thermal, pore], to, results, &mut self.tally.user_faults);
         }
-        increments.end(results, tally);
     }
 
     fn evaluate_row(
@@ -208,11 +232,11 @@ impl Shard {
             outcome
         });
         let thermal = of.thermal.as_ref().map(|law| {
-            let history = history.as_mut().map(|history| &mut history.thermal);
+            let history = history.as_mut().map(|history| &mut history.others(laws).thermal);
             law.row(row, &found.thermal, heat, history, results, tally)
         });
         let pore = of.pore.as_ref().map(|law| {
-            let history = history.as_mut().map(|history| &mut history.pore);
+            let history = history.as_mut().map(|history| &mut history.others(laws).pore);
             law.row(row, &found.permeabilities, history, results, tally)
         });
         tally.finish_row([electrical, thermal, pore], row.to, results, &mut self.tally.user_faults);

@@ -2,6 +2,8 @@
 //!
 //! A running minimum waits for the one before it; here each of [`LANES`] places of a block has its own, which are put together at the end.
 
+#![expect(clippy::needless_bitwise_bool, reason = "a branch a number would keep a loop from its vectors")]
+
 use super::InstructionSet;
 use super::instruction_set::{Lanes, Operation};
 use crate::numbers::is_moderate;

@@ -78,6 +78,10 @@ pub(crate) fn compensated_sum<const N: usize>(terms: [f64; N]) -> f64 {
     terms.into_iter().collect::<CompensatedSum>().total()
 }
 
+/// 2⁹⁰⁰ and 2¹⁰⁰⁰: many terms below the one added to a sum below the other are far from the end of the range.
+const SMALL: f64 = f64::from_bits((1023 + 900) << 52);
+const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
+
 /// A [`CompensatedSum`] whose terms and partial sums may leave the range of f64: it is finite wherever the exact sum is.
 ///
 /// As long as all stay within the range it costs what a compensated sum costs; once one leaves it, the sum goes on in [`Scaled`] numbers,
@@ -95,6 +99,12 @@ impl UnboundedSum {
     #[inline]
     pub fn add(&mut self, term: f64) {
         self.add_plain(|sum| sum.add(term), || term.is_finite().then(|| Scaled::new(term)));
+    }
+
+    fn add_all(&mut self, terms: &[f64]) {
+        for term in terms {
+            self.add(*term);
+        }
     }
 
     /// Adds the terms of one column to each of some sums, row by row, as [`add`](Self::add) does.
@@ -117,13 +127,13 @@ impl UnboundedSum {
                             terms.for_each(|(a, b)| (sums.0.add(*a), sums.1.add(*b)).0);
                             (one.plain, other.plain) = sums;
                         } else {
-                            a.iter().for_each(|term| one.add(*term));
-                            b.iter().for_each(|term| other.add(*term));
+                            one.add_all(a);
+                            other.add_all(b);
                         }
                     }
                     (sums, columns) => {
                         for (sum, column) in sums.iter_mut().zip(columns) {
-                            column[rows.clone()].iter().for_each(|term| sum.add(*term));
+                            sum.add_all(&column[rows.clone()]);
                         }
                     }
                 }
@@ -131,14 +141,24 @@ impl UnboundedSum {
         }
     }
 
+    /// Adds a product, rounded, and what the rounding took away, both far from the ends of the range, as [`add_product`](Self::add_product) does.
+    #[inline]
+    pub(crate) fn add_exact_product(&mut self, product: f64, error: f64) {
+        let add = |sum: &mut CompensatedSum| {
+            sum.add(product);
+            sum.compensation += error;
+        };
+        if self.beyond.is_none() && self.plain.sum.abs() < LARGE {
+            return add(&mut self.plain);
+        }
+        self.add_plain(add, || Some(Scaled::new(product) + Scaled::new(error)));
+    }
+
     /// How many terms are added together.
     const BLOCK: usize = 512;
 
     /// Whether [`Self::BLOCK`] terms no larger than these can be added without a look at what comes out: sum and terms are far from the end of the range.
     fn stays_within(&self, terms: &[f64]) -> bool {
-        /// 2⁹⁰⁰ and 2¹⁰⁰⁰.
-        const SMALL: f64 = f64::from_bits((1023 + 900) << 52);
-        const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
         let CompensatedSum { sum, compensation } = self.plain;
         self.beyond.is_none()
             && sum.abs() < LARGE

@@ -4,22 +4,23 @@
     clippy::inline_always,
     reason = "what is not inlined is compiled without the instruction set that was asked for"
 )]
+#![expect(clippy::needless_bitwise_bool, reason = "a branch a number would keep a loop from its vectors")]
 
 use super::ContactState;
 use crate::kernel::{InstructionSet, Lanes, Operation};
 
 /// The states of rows by clearance and pressure ([`ContactState::from_clearance_and_pressure`]).
 pub(crate) fn contact_states(clearance: &[f64], pressure: &[f64], states: &mut [Option<ContactState>]) {
-    InstructionSet::best().run(States { clearance, pressure, states });
+    InstructionSet::best().run(FindStates { clearance, pressure, states });
 }
 
-struct States<'a> {
+struct FindStates<'a> {
     clearance: &'a [f64],
     pressure: &'a [f64],
     states: &'a mut [Option<ContactState>],
 }
 
-impl Operation for States<'_> {
+impl Operation for FindStates<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -56,7 +56,7 @@ impl BranchColumns {
             let of_clearance = &mut of_clearance[..rows.len()];
             let of_pressure = &mut of_pressure[..rows.len()];
             let open_values = &mut open_values[..rows.len()];
-            set.run(Abscissae {
+            set.run(FindAbscissae {
                 states,
                 given: [&clearances[rows.clone()], &pressures[rows.clone()]],
                 neutral: [clearance.neutral, pressure.neutral],
@@ -127,7 +127,7 @@ fn rows_of(
 }
 
 /// The abscissae of some rows in both tables.
-struct Abscissae<'a> {
+struct FindAbscissae<'a> {
     states: &'a [Option<ContactState>],
     /// Clearances and pressures.
     given: [&'a [f64]; 2],
@@ -135,7 +135,7 @@ struct Abscissae<'a> {
     abscissae: [&'a mut [f64]; 2],
 }
 
-impl Operation for Abscissae<'_> {
+impl Operation for FindAbscissae<'_> {
     type Output = ();
 
     #[inline(always)]

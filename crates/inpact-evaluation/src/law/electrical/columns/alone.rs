@@ -34,9 +34,8 @@ impl<'a> Jump<'a> {
     fn of(batch: &'a Batch, source: &Source<usize>) -> Option<Self> {
         let full = |place: usize| full_values(batch, place);
         match *source {
-            Source::Cell(cell) => Some(Self::Given(full(cell)?)),
+            Source::Cell(cell) | Source::CellOrSides(cell, ..) => Some(Self::Given(full(cell)?)),
             Source::Sides(slave, master) => Some(Self::Between(full(slave)?, full(master)?)),
-            Source::CellOrSides(cell, ..) => Some(Self::Given(full(cell)?)),
         }
     }
 
@@ -310,7 +309,7 @@ fn all_moderate(column: &[f64]) -> bool {
 }
 
 /// Sets the statuses of some rows that lie within all tables.
-fn set_contact(states: &[Option<ContactState>], rows: Range<usize>, results: &mut ResultBatch) {
+pub(super) fn set_contact(states: &[Option<ContactState>], rows: Range<usize>, results: &mut ResultBatch) {
     let statuses = &mut results.status[rows.clone()];
     for (status, state) in statuses.iter_mut().zip(states) {
         *status = state.and_then(contact_status);
