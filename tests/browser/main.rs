@@ -10,22 +10,27 @@ use devtools::{Browser, chromium};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 use std::time::Instant;
 
 fn inpact(folder: &Path, arguments: &[&str]) -> String {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let arguments = arguments.iter().map(|argument| argument.replace("ROOT", root.to_str().expect("text")));
-    let run = Command::new(env!("CARGO_BIN_EXE_inpact-under-test")).args(arguments).current_dir(folder).output();
-    let run = run.expect("the program runs");
+    let run = run(folder, arguments);
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     String::from_utf8(run.stdout).expect("text")
 }
 
-/// A report in a folder of its own.
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let arguments = arguments.iter().map(|argument| argument.replace("ROOT", root.to_str().expect("text")));
+    let run = Command::new(env!("CARGO_BIN_EXE_inpact-under-test")).args(arguments).current_dir(folder).output();
+    run.expect("the program runs")
+}
+
+/// A report in a folder of its own, also of a deck with errors, which ends with 1.
 fn report(arguments: &[&str]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
-    inpact(folder.path(), &[&["report"], arguments, &["-o", "report.html"]].concat());
+    let run = run(folder.path(), &[&["report"], arguments, &["-o", "report.html"]].concat());
+    assert!(matches!(run.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&run.stderr));
     let path = folder.path().join("report.html");
     (folder, path)
 }
