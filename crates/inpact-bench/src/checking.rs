@@ -66,7 +66,8 @@ fn measure_all(program: &Path, path: &PathBuf, size: (usize, usize), rounds: usi
     let mut page = format!(
         "# Speed of `check`\n\n\
         Made by `inpact-bench decks PROGRAM`: `inpact check --isolated -q` on decks of {} interactions, {} rows a table, the best of {rounds} runs each.\n\
-        Times are those on processors, user and system together; memory is the most that was resident, less that of a deck with nothing in it.\n\n\
+        Times are those on processors, user and system together; memory is the most that was resident, less that of a deck with nothing in it.\n\
+        Of a large table in order the first and the last row of each group stay in memory, and three lines of text at either end; a table with something wrong in it stays whole.\n\n\
         | deck | MB | CPU s | MB/s | memory MB | × the file |\n|---|---|---|---|---|---|\n",
         size.0, size.1
     );

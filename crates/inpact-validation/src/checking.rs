@@ -11,6 +11,7 @@ use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model::Model;
 use inpact_parser::span::SourceId;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
@@ -111,7 +112,7 @@ fn with_context<T>(
     let lost_lines = lost_lines(deck, grammar);
     let caused = if lost_lines.is_empty() { Vec::new() } else { without_consequences(problems, &lost_lines) };
     let problems = if lost_lines.is_empty() { problems } else { &caused };
-    let context = Context { deck, grammar, model, problems, radiation, lost_lines };
+    let context = Context { deck, grammar, model, problems, radiation, lost_lines, misread: OnceCell::new() };
     work(&context)
 }
 

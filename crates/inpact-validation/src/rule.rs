@@ -8,6 +8,8 @@ use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Dialect, Grammar};
 use inpact_parser::model::{Model, Name, OptionKind, Table, TableKind, TableOf};
 use inpact_parser::span::Span;
+use std::cell::OnceCell;
+use std::collections::HashSet;
 
 /// The most findings of one rule in one deck; more are counted, not shown.
 const MOST_OF_ONE_RULE: usize = 1000;
@@ -48,6 +50,8 @@ pub(crate) struct Context<'a> {
     pub(crate) radiation: Vec<Table>,
     /// The rows that read exactly as keyword lines (S021).
     pub(crate) lost_lines: Vec<LostLine<'a>>,
+    /// The keyword lines of tables whose rows hold something else than their columns say.
+    pub(crate) misread: OnceCell<HashSet<Span>>,
 }
 
 /// A block whose keyword the grammar defines.

@@ -19,6 +19,9 @@ const LEAST_ROWS: usize = 16;
 /// The rows at both ends of a table whose lines are kept: the first and the last, and those that an excerpt shows beside them.
 const ROWS_KEPT: usize = 3;
 
+/// The abscissae of a group for which room is made at once.
+const MANY_ROWS: usize = 128;
+
 /// The first and the last row of each group of a table, and where its other rows are.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RowEnds {
@@ -141,7 +144,7 @@ impl Groups {
             width: 0,
             before: [0.0; MOST_CELLS],
             place_before: 0..0,
-            abscissae: Vec::new(),
+            abscissae: Vec::with_capacity(MANY_ROWS),
             is_first_group: true,
             rows: 0,
             values: Vec::new(),

@@ -16,11 +16,17 @@ use std::ops::Range;
 /// Up to so many counted columns a table has them all, written or not.
 const ALWAYS_THERE: usize = 32;
 
-/// The number of the `count` columns after the first `lead` that the rows of a block can reach.
-pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: usize) -> usize {
+/// The number of the `count` counted columns that the rows of a block can reach; `lead` is the layout of those before them.
+pub(super) fn most_written(
+    deck: &Deck,
+    block: &Block,
+    count: usize,
+    lead: impl FnOnce() -> Option<Layout>,
+) -> Option<usize> {
     if count <= ALWAYS_THERE {
-        return count;
+        return Some(count);
     }
+    let layout = lead()?;
     let texts = block.all_rows().map(|rows| deck.text(rows));
     let (mut lines, mut commas) = (0, 0);
     for text in texts {
@@ -28,8 +34,7 @@ pub(super) fn most_written(deck: &Deck, block: &Block, layout: &Layout, count: u
         commas += memchr::memchr_iter(b',', text).count();
     }
     let on_lines = layout.first_line + lines.saturating_sub(1).saturating_mul(layout.following);
-    let lead = layout.columns.len();
-    count.min(on_lines.max(commas + 1).saturating_sub(lead))
+    Some(count.min(on_lines.max(commas + 1).saturating_sub(layout.columns.len())))
 }
 
 /// The table of a block of which only the ends of groups were kept; `None` where its layout needs more than numbers.

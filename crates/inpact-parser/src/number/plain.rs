@@ -26,7 +26,8 @@ pub(crate) fn read_plain(text: &[u8]) -> Option<(f64, usize)> {
         b'+' => (1.0, 1),
         _ => (1.0, 0),
     };
-    let (whole, mut at) = digits(text, start, 0);
+    // Mostly few digits stand before the point, and many behind it.
+    let (whole, mut at) = few_digits(text, start, 0);
     let (mut mantissa, mut count, mut exponent) = (whole, at - start, 0);
     if text.get(at) == Some(&b'.') {
         let from = at + 1;
@@ -57,7 +58,7 @@ fn power(text: &[u8], at: usize) -> Option<(i32, usize)> {
         b'+' => (1, at + 1),
         _ => (1, at),
     };
-    let (power, end) = digits(text, start, 0);
+    let (power, end) = few_digits(text, start, 0);
     // No exponent of more digits is in reach, and so many cannot overflow.
     let is_short = (1..=4).contains(&(end - start));
     is_short.then_some((sign * i32::try_from(power).ok()?, end))
@@ -70,6 +71,12 @@ fn digits(text: &[u8], mut at: usize, mut number: u64) -> (u64, usize) {
         number = number.wrapping_mul(100_000_000).wrapping_add(eight);
         at += 8;
     }
+    few_digits(text, at, number)
+}
+
+/// The same, digit by digit.
+#[inline]
+fn few_digits(text: &[u8], mut at: usize, mut number: u64) -> (u64, usize) {
     while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|digit| *digit < 10) {
         number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
         at += 1;

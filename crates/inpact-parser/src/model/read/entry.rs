@@ -48,9 +48,9 @@ impl Reader<'_> {
     pub(super) fn table(&mut self, option: Entry<'_>) -> Option<Table> {
         let dependencies = self.dependencies(option);
         let data = &option.definition.data;
-        let without = data.layout(|name| option.is_given(name), 0)?;
-        let written = most_written(self.deck, option.block, &without, dependencies);
-        let layout = data.layout_of(|name| option.is_given(name), dependencies, written)?;
+        let is_given = |name: &str| option.is_given(name);
+        let written = most_written(self.deck, option.block, dependencies, || data.layout(is_given, 0))?;
+        let layout = data.layout_of(is_given, dependencies, written)?;
         let mut table = if option.block.rows_kept == RowsKept::Ends {
             let table = table_of_ends(self.deck, option.block, layout);
             table.or_else(|| {
