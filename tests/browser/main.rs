@@ -11,7 +11,6 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::time::Instant;
 
 fn inpact(folder: &Path, arguments: &[&str]) -> String {
     let run = run(folder, arguments);
@@ -29,10 +28,14 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
 /// A report in a folder of its own, also of a deck with errors, which ends with 1.
 fn report(arguments: &[&str]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
-    let run = run(folder.path(), &[&["report"], arguments, &["-o", "report.html"]].concat());
-    assert!(matches!(run.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&run.stderr));
-    let path = folder.path().join("report.html");
+    let path = report_in(folder.path(), arguments);
     (folder, path)
+}
+
+fn report_in(folder: &Path, arguments: &[&str]) -> PathBuf {
+    let run = run(folder, &[&["report"], arguments, &["-o", "report.html"]].concat());
+    assert!(matches!(run.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&run.stderr));
+    folder.join("report.html")
 }
 
 const BUSBAR: &[&str] =
@@ -210,8 +213,8 @@ fn nothing_of_a_deck_runs() {
     );
     std::fs::write(folder.path().join("a.inp"), deck).expect("writable");
     let units = "temp=</script><img src=x onerror=window.ran=1>";
-    inpact(folder.path(), &["report", "a.inp", "--units", units, "-o", "report.html"]);
-    browser.open(&folder.path().join("report.html"));
+    let page = report_in(folder.path(), &["a.inp", "--units", units]);
+    browser.open(&page);
     show(&mut browser, "figure.law[data-live]");
     assert_eq!(browser.value("typeof window.ran"), "undefined");
     assert_eq!(browser.value("document.querySelectorAll('img').length"), 0);
@@ -235,8 +238,8 @@ fn the_largest_and_the_smallest_numbers_are_drawn() {
         + &table("ALL", ", PRESSURE", "-1.7e308, -1.7e308\n1.7e308, 1.7e308")
         + &table("SMALL", "", "5.e-324, 0.\n0., 5.e-324");
     std::fs::write(folder.path().join("a.inp"), deck).expect("writable");
-    inpact(folder.path(), &["report", "a.inp", "-o", "report.html"]);
-    browser.open(&folder.path().join("report.html"));
+    let page = report_in(folder.path(), &["a.inp"]);
+    browser.open(&page);
     for number in 1..=4 {
         let figure = format!("#law-{number}-1-1");
         show(&mut browser, &figure);
@@ -271,12 +274,13 @@ fn a_hundred_interactions_open_at_once() {
         );
     }
     std::fs::write(folder.path().join("a.inp"), deck).expect("writable");
-    inpact(folder.path(), &["report", "a.inp", "-o", "report.html"]);
-    let start = Instant::now();
-    browser.open(&folder.path().join("report.html"));
+    let page = report_in(folder.path(), &["a.inp"]);
+    browser.open(&page);
     browser.until("Boolean(document.querySelector('figure.law[data-live]').inpact)");
-    let own = browser.value("performance.getEntriesByType('navigation')[0].loadEventEnd");
-    assert!(own.as_f64().is_some_and(|time| time < 2000.0), "{own} ms of the page's own, {:?} in all", start.elapsed());
+    // Charts are made when they come near the screen: that is why the page opens as fast as one with a few.
+    let made = browser
+        .value("[...document.querySelectorAll('figure.law[data-live]')].filter((figure) => figure.inpact).length");
+    assert!(made.as_u64().is_some_and(|made| (1..20).contains(&made)), "{made} charts");
     show(&mut browser, "#law-100-1-1");
     assert_eq!(browser.faults(), Vec::<&Value>::new());
 }
