@@ -5,6 +5,7 @@ mod evaluate_support;
 use evaluate_support::evaluate_with;
 use inpact_evaluation::plan::{Choices, Derivatives};
 use inpact_parser::grammar::Dialect;
+use inpact_parser::model::Regime;
 use proptest::prelude::*;
 
 const DECK: &str = "\
@@ -42,7 +43,18 @@ const DECK: &str = "\
 ";
 
 /// Columns that a table may do without.
-const OPTIONAL: [&str; 7] = ["temp_jump", "por_jump", "shear", "slip_rate", "epot_s", "area", "char_length"];
+const OPTIONAL: [&str; 10] = [
+    "temp_jump",
+    "por_jump",
+    "shear",
+    "slip_rate",
+    "epot_s",
+    "clearance_rate",
+    "perm_s",
+    "perm_m",
+    "area",
+    "char_length",
+];
 const REQUIRED: [&str; 7] = ["interaction", "clearance", "pressure", "temp_s", "temp_m", "por_s", "por_m"];
 
 /// A number as it occurs, now and then nothing or one that is extreme.
@@ -59,9 +71,9 @@ fn row() -> impl Strategy<Value = Vec<String>> {
     (prop::bool::weighted(0.7), cells).prop_map(|(is_first, cells)| {
         let interaction = if is_first { "A" } else { "B" };
         let mut row: Vec<String> = std::iter::once(interaction.to_owned()).chain(cells).collect();
-        // Areas and lengths are not negative.
+        // Permeabilities, areas and lengths are not negative.
         let count = row.len();
-        row[count - 2..].iter_mut().for_each(|cell| *cell = cell.trim_start_matches('-').to_owned());
+        row[count - 4..].iter_mut().for_each(|cell| *cell = cell.trim_start_matches('-').to_owned());
         row
     })
 }
@@ -91,10 +103,12 @@ proptest! {
         there in prop::collection::vec(prop::bool::weighted(0.8), OPTIONAL.len()),
         calculix in prop::bool::weighted(0.2),
         slopes in prop::bool::weighted(0.4),
+        transient in prop::bool::weighted(0.4),
     ) {
         let choices = Choices {
             dialect: if calculix { Dialect::Calculix } else { Dialect::Abaqus },
             derivatives: if slopes { Derivatives::Given } else { Derivatives::LeftOut },
+            regime: transient.then_some(Regime::Transient),
             ..Choices::default()
         };
         let with_extremes: Vec<Vec<String>> = rows.iter().cloned().chain(["A", "B"].map(extreme_row)).collect();

@@ -310,7 +310,7 @@ impl PoreLaw {
     }
 
     /// The shares of slave and master in gap filling (P-42).
-    fn gap_shares(&self, bulk: Option<BulkPermeabilities>) -> (f64, f64) {
+    pub(crate) fn gap_shares(&self, bulk: Option<BulkPermeabilities>) -> (f64, f64) {
         match (&self.permeability, bulk) {
             (Permeability::Finite(_), Some(BulkPermeabilities { slave, master })) if slave != 0.0 || master != 0.0 => {
                 (ratio(slave, master), ratio(master, slave))
@@ -326,7 +326,7 @@ fn opening(clearance: Clearance) -> f64 {
 }
 
 /// The flow of a given rate of the clearance within the cutoff: an overclosed interface has no gap, and one at zero clearance only where it opens.
-fn given_rate(clearance: Clearance, rate: ClearanceRate) -> f64 {
+pub(crate) fn given_rate(clearance: Clearance, rate: ClearanceRate) -> f64 {
     let has_gap = 0.0 < clearance.0 || (0.0 <= clearance.0 && 0.0 < rate.0);
     if has_gap || clearance.0.is_nan() { rate.0 } else { 0.0 }
 }
