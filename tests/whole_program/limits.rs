@@ -64,6 +64,24 @@ fn statements_of_parameters() {
     );
 }
 
+/// Each text is short: all together are too long.
+#[test]
+fn texts_of_all_parameters() {
+    let texts = 16 * 1024;
+    let deck = |count: usize| {
+        let copies: String = (1..count).map(|number| format!("t{number} = t0\n")).collect();
+        format!("*PARAMETER\nt0 = '{}'\n{copies}", "x".repeat(1024))
+    };
+    let message = "the texts of all parameters are longer than the 16777216 bytes allowed";
+    check(
+        &[("a.inp", &deck(texts + 1))],
+        &["check", "--format", "json", "a.inp"],
+        &["S016", message, "leave out texts that nothing uses"],
+    );
+    let run = Folder::with(&[("a.inp", &deck(texts))]).inpact(&["check", "--format", "json", "a.inp"]);
+    assert!(!run.output.contains("S016"), "{}", run.shown().chars().take(2000).collect::<String>());
+}
+
 #[test]
 fn files_that_are_included_again() {
     let part = format!("*NODE\n{}", "1, 0., 0., 0.\n".repeat(40_000));

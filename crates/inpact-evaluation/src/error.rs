@@ -4,9 +4,6 @@ use crate::accuracy::Refusal;
 use std::error;
 use std::fmt;
 
-/// The most rows a folded table may have; groups without a common abscissa add up.
-pub(crate) const MOST_FOLDED_ROWS: usize = 1 << 20;
-
 /// Rows that do not form a table, or a table that cannot be folded or resampled.
 ///
 /// A fault of a node table is no error but a finding; streams that cannot be read or written are [`std::io::Error`]s.
@@ -42,8 +39,11 @@ pub enum ErrorKind {
     },
     /// A table is not folded: groups of axis 0 between which values are interpolated drop to zero at different abscissae.
     DropsDiffer,
-    /// A table is not folded: the folded one would have more than a million rows.
-    TooManyRows,
+    /// A table is not folded: the folded one would have too many rows.
+    TooManyRows {
+        /// The most that it may have.
+        most: usize,
+    },
     /// A table has no grid.
     Grid(Refusal),
 }
@@ -110,9 +110,7 @@ impl fmt::Display for Error {
             ErrorKind::Rows { row, fault } => fault.fmt(row + 1, formatter),
             ErrorKind::RangesDiffer { .. } => formatter.write_str("its groups have different ranges"),
             ErrorKind::DropsDiffer => formatter.write_str("its groups drop to zero at different abscissae"),
-            ErrorKind::TooManyRows => {
-                write!(formatter, "the folded table would have more than {MOST_FOLDED_ROWS} rows")
-            }
+            ErrorKind::TooManyRows { most } => write!(formatter, "the folded table would have more than {most} rows"),
             ErrorKind::Grid(refusal) => refusal.fmt(formatter),
         }
     }

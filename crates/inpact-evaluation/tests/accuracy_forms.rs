@@ -289,3 +289,25 @@ fn what_no_grid_can_hold_is_refused_with_the_reason() {
     assert_eq!(refusal(&with(f64::MAX, 1.0), 3), Refusal::TooLarge(f64::MAX));
     assert!(matches!(refusal(&with(2.0, f64::MAX), 3), Refusal::Slope(_)));
 }
+
+#[test]
+fn a_grid_beyond_a_limit_is_refused_with_both_numbers() {
+    let refusal = |cells: &[f64], along: &[usize]| {
+        let table = PiecewiseTable::from_rows(cells, along.len() + 1, Tail::Constant).unwrap();
+        Grid::new(&table, along).map(|made| made.bound()).unwrap_err().to_string()
+    };
+    // A corner of a cube in five dimensions a row, the first axis fastest.
+    let corner = |number: u32| (0..5).map(move |axis| f64::from(number >> axis & 1));
+    let cube: Vec<f64> = (0..32).flat_map(|number| std::iter::once(f64::from(number)).chain(corner(number))).collect();
+    assert_eq!(refusal(&cube, &[1; 5]), "the value depends on 5 axes, more than 4");
+    let square = [1.0, 0.0, 0.0, 2.0, 1.0, 0.0, 1.0, 0.0, 1.0, 3.0, 1.0, 1.0];
+    let most = "a grid of 32942 nodes would not stay in cache, as 32768 do";
+    assert_eq!(refusal(&square, &[180, 181]), most);
+    // No two groups have an abscissa in common, so that the table refined has all of them everywhere.
+    let group = |number: u32| (0..600).map(move |row| f64::from(row) + f64::from(number) / 1024.0);
+    let row = |number: u32| group(number).flat_map(move |x| [x * f64::from(number + 1), x, f64::from(number)]);
+    let ragged: Vec<f64> = (0..1000).flat_map(row).collect();
+    let message = refusal(&ragged, &[4, 4]);
+    assert!(message.starts_with("its error would have to be computed at "), "{message}");
+    assert!(message.ends_with(" vertices, more than 1048576"), "{message}");
+}

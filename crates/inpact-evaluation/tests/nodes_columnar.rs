@@ -14,7 +14,7 @@ use inpact_evaluation::results::{Output, ResultBatch, ResultWriter, Status, Tabl
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, GzipLevel, ZstdLevel};
-use parquet::file::properties::{WriterProperties, WriterVersion};
+use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterVersion};
 use proptest::prelude::*;
 use std::io::{self, Cursor};
 use std::path::Path;
@@ -284,10 +284,15 @@ fn packed(compression: Compression, version: WriterVersion) -> Vec<u8> {
 }
 
 fn clearances(bytes: Vec<u8>) -> Result<Vec<Option<f64>>, String> {
+    clearances_with(bytes, Vec::new())
+}
+
+/// The same, with columns of labels that are read as well.
+fn clearances_with(bytes: Vec<u8>, labels: Vec<Column>) -> Result<Vec<Option<f64>>, String> {
     let mut findings = Findings::new("nodes");
     let mut reader =
         NodeReader::open_any(Box::new(Cursor::new(bytes)), &mut findings).map_err(|error| error.to_string())?;
-    reader.select(&Selection { labels: Vec::new(), numbers: vec![Column::Clearance] });
+    reader.select(&Selection { labels, numbers: vec![Column::Clearance] });
     let mut batch = Batch::default();
     reader.read_batch(&mut batch, &mut findings).map_err(|error| error.to_string())?;
     Ok((0..batch.rows).map(|row| batch.numbers[0].get(row)).collect())
@@ -316,6 +321,46 @@ fn compressed_parquet_is_read_or_refused_by_the_name_of_its_codec() {
         );
         assert_eq!(clearances(bytes), Err(said));
     }
+}
+
+/// Statistics of long texts in the header of a page make it longer than any is read.
+#[test]
+fn headers_of_pages_have_a_greatest_length() {
+    let labels = |length: usize| Arc::new(StringArray::from(vec!["a".repeat(length), "b".repeat(length)])) as ArrayRef;
+    let written = |length: usize| {
+        let clearances = Arc::new(Float64Array::from(vec![0.5, 0.25])) as ArrayRef;
+        let columns = [("node", labels(length)), ("clearance", clearances)];
+        let record = RecordBatch::try_from_iter(columns).expect("two columns");
+        let properties = WriterProperties::builder()
+            .set_statistics_enabled(EnabledStatistics::Page)
+            .set_write_page_header_statistics(true)
+            .set_statistics_truncate_length(None)
+            .set_dictionary_enabled(false)
+            .build();
+        let mut bytes = Vec::new();
+        let mut writer =
+            ArrowWriter::try_new(&mut bytes, record.schema(), Some(properties)).expect("a vector takes all");
+        writer.write(&record).expect("a vector takes all");
+        writer.close().expect("a vector takes all");
+        bytes
+    };
+    let labelled = |bytes| clearances_with(bytes, vec![Column::Node]);
+    assert_eq!(labelled(written(100_000)), Ok(vec![Some(0.5), Some(0.25)]));
+    let said = "it is no sound Parquet table (the header of a page is no header, or longer than 1048576 bytes: write the table without statistics of its pages)";
+    assert_eq!(labelled(written(600_000)), Err(said.to_owned()));
+}
+
+/// Columns in groups in groups: those of a table are on their own.
+#[test]
+fn groups_of_columns_have_a_greatest_depth() {
+    // The schema, a list: the root, then groups of one child each.
+    let mut footer = vec![0x29, 0xFC, 70];
+    footer.extend([0x55, 2, 0].repeat(70));
+    footer.push(0);
+    let length = u32::try_from(footer.len()).expect("a few bytes");
+    let bytes = [b"PAR1".as_slice(), &footer, &length.to_le_bytes(), b"PAR1"].concat();
+    let said = "it is no sound Parquet table (its columns lie in more than 64 groups in one another: write the columns by themselves)";
+    assert_eq!(clearances(bytes), Err(said.to_owned()));
 }
 
 /// A page that says fewer bytes than gzip makes of it is not unpacked into memory.

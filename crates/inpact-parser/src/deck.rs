@@ -344,7 +344,12 @@ impl KeywordLine {
 
     /// The comma at the end of the line, when the next line is not its continuation (S-19).
     pub fn dangling_comma(&self) -> Option<Span> {
-        self.more()?.last_comma.map(|at| self.byte(at))
+        self.more()?.last_comma.map(|comma| self.byte(comma.at))
+    }
+
+    /// The most bytes of a keyword line, where the next line would have made it longer: it is read as a row, whatever it holds.
+    pub fn length_exhausted(&self) -> Option<u32> {
+        self.more()?.last_comma?.most.map(NonZeroU32::get)
     }
 
     fn more(&self) -> Option<&More> {

@@ -119,6 +119,17 @@ fn an_increment_without_an_end_is_a_problem_and_is_given() {
     assert_eq!(read.frames[0].column("NT11").expect("there").1.values, [300.0]);
 }
 
+/// A record of more words than any has is damaged; one of as many is as long as the file lets it be.
+#[test]
+fn words_of_a_record_have_a_greatest_number() {
+    let message = |count: u32| {
+        let text = format!("{:80}\n", format!("*I 7{count}I 41921"));
+        read_fil(text.as_bytes()).expect_err("no whole record").problem.message
+    };
+    assert_eq!(message(1_048_577), "expected the number of words of a record, 2 to 1048576, found `1048577`");
+    assert!(!message(1_048_576).contains("number of words"), "{}", message(1_048_576));
+}
+
 #[test]
 fn a_damaged_word_has_its_place() {
     let text = String::from_utf8(contact_fil().bytes())

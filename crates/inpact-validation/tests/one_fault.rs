@@ -1,9 +1,10 @@
 //! One fault gives one finding: decks with a fault each, and what the rules on tables, references, contexts and physics say.
 
-use inpact_parser::deck::scan;
+use inpact_parser::deck::{Keep, ScanOptions, Scanner, scan};
 use inpact_parser::grammar::Grammar;
 use inpact_parser::model;
-use inpact_validation::{Diagnostic, apply};
+use inpact_parser::span::SourceId;
+use inpact_validation::{Diagnostic, Severity, apply};
 
 fn findings(deck: &str) -> Vec<Diagnostic> {
     let grammar = Grammar::builtin();
@@ -21,6 +22,32 @@ fn check(deck: &str, expected: &str) {
         found.iter().map(|found| format!("{}@{}", found.code, found.primary.position.line)).collect();
     let messages: String = found.iter().map(|found| format!("\n{}", found.message)).collect();
     assert_eq!(shown.join(" "), expected, "in\n{deck}{messages}");
+}
+
+/// The line after the last that fits is a row, whatever it says, and nothing is mended: its parameters would stay rows.
+#[test]
+fn s003_a_keyword_line_ends_where_it_gets_too_long() {
+    let (grammar, keep) = (Grammar::builtin(), Keep::Everything);
+    let text = "*SURFACE INTERACTION, NAME=A,\nUNSYMM,\nUSER\n*HEADING\n";
+    let judged = |most: usize| {
+        let mut scanner = Scanner::new("deck.inp", ScanOptions { grammar, keep });
+        scanner.set_longest_keyword_line(u32::try_from(most).expect("a few bytes"));
+        scanner.push(text.as_bytes());
+        let deck = scanner.finish();
+        assert_eq!(deck.print(SourceId::ROOT), text.as_bytes());
+        let count = deck.blocks()[0].keyword.as_ref().expect("a keyword").parameters().len();
+        let (model, problems) = model::read(&deck, grammar);
+        let found = inpact_validation::check(&deck, grammar, &model, &problems);
+        (count, found.into_iter().find(|found| found.code == "S003"))
+    };
+    let whole = text.find("*HEADING").expect("the next keyword");
+    assert!(matches!(judged(whole), (3, None)));
+    let (count, found) = judged(whole - 1);
+    let found = found.expect("a finding");
+    assert_eq!((count, found.severity, found.primary.position.line), (2, Severity::Error, 2));
+    let message = "with the next line the keyword line of `*SURFACE INTERACTION` has more than 42 bytes";
+    assert_eq!((found.message.as_str(), found.fix.is_none()), (message, true));
+    assert_eq!(found.help.as_deref(), Some("write fewer parameters, each once"));
 }
 
 /// A table of *GAP ELECTRICAL CONDUCTANCE in an interaction: its rows begin on line 3.

@@ -9,8 +9,11 @@
 use super::evaluate::Place;
 use super::marks::Marks;
 use super::{Level, PiecewiseTable, Sides, Tail};
-use crate::error::{Error, ErrorKind, MOST_FOLDED_ROWS};
+use crate::error::{Error, ErrorKind};
 use std::ops::Range;
+
+/// The most rows a folded table may have; groups without a common abscissa add up.
+const MOST_ROWS: usize = 1 << 20;
 
 impl PiecewiseTable {
     /// The table for a finite coordinate `at` along `axis`, as a table with the same axes that no longer depends on that one.
@@ -34,6 +37,11 @@ impl PiecewiseTable {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn folded(&self, axis: usize, at: f64) -> Result<Self, Error> {
+        self.folded_within(axis, at, MOST_ROWS)
+    }
+
+    /// The same, in at most so many rows.
+    fn folded_within(&self, axis: usize, at: f64, most: usize) -> Result<Self, Error> {
         let Some(target) = self.levels().iter().position(|level| level.axis == axis) else { return Ok(self.clone()) };
         let height = self.levels().len();
         let mut point = vec![0.0; self.axis_count()];
@@ -45,6 +53,7 @@ impl PiecewiseTable {
             sides: Sides::default(),
             ranges: vec![None; height],
             cells: Vec::new(),
+            most,
         };
         let whole = 0..self.levels()[height - 1].knots.len();
         folding.fold(height, &[whole])?;
@@ -55,7 +64,7 @@ impl PiecewiseTable {
         // A table that no longer depends on axis 0 drops nowhere.
         let tail = if axis == 0 { Tail::Constant } else { self.tail() };
         let table = Self::from_rows(&folding.cells, self.axis_count() + 1, tail);
-        Ok(table.map_err(|_| ErrorKind::TooManyRows)?.marked(Marks { always, ranges }))
+        Ok(table.map_err(|_| ErrorKind::TooManyRows { most })?.marked(Marks { always, ranges }))
     }
 }
 
@@ -73,6 +82,8 @@ struct Folding<'a> {
     ranges: Vec<Option<(f64, f64)>>,
     /// The rows of the folded table.
     cells: Vec<f64>,
+    /// The most rows of it.
+    most: usize,
 }
 
 impl Folding<'_> {
@@ -107,8 +118,8 @@ impl Folding<'_> {
         self.cells.push(self.table.reference_value_at(self.point[0], &self.point[1..]));
         let row = self.point.iter().enumerate().map(|(of, x)| if of == axis { 0.0 } else { *x });
         self.cells.extend(row);
-        if MOST_FOLDED_ROWS * (self.point.len() + 1) < self.cells.len() {
-            Err(ErrorKind::TooManyRows.into())
+        if self.most * (self.point.len() + 1) < self.cells.len() {
+            Err(ErrorKind::TooManyRows { most: self.most }.into())
         } else {
             Ok(())
         }
@@ -173,5 +184,21 @@ fn common_knots(level: &Level, groups: &[Range<usize>]) -> Vec<f64> {
             knots.dedup();
             knots
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PiecewiseTable, Tail};
+    use crate::error::ErrorKind;
+
+    #[test]
+    fn a_folded_table_has_no_more_rows_than_it_may() {
+        let rows = [[10.0, 0.0, 300.0], [2.0, 4.0, 300.0], [20.0, 1.0, 400.0], [10.0, 3.0, 400.0]];
+        let table = PiecewiseTable::from_rows(rows.as_flattened(), 3, Tail::Constant).expect("a table");
+        assert_eq!(table.folded_within(1, 350.0, 4).expect("as many as it may").row_count(), 4);
+        let refusal = table.folded_within(1, 350.0, 3).expect_err("one too many");
+        assert_eq!(*refusal.kind(), ErrorKind::TooManyRows { most: 3 });
+        assert_eq!(refusal.to_string(), "the folded table would have more than 3 rows");
     }
 }

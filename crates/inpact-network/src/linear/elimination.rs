@@ -11,13 +11,16 @@
 //! Source: Grassmann, Taksar and Heyman, Operations Research 33 (1985) 1107–1116; Peña, ETNA 18 (2004) 198–208.
 
 use super::core::{Core, Element};
-use super::report::MOST_FILLED;
+use super::report::Shortcoming;
 use super::sets::index;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::collections::HashMap;
 
 /// Above so many different known values the filled network is too dense.
 const MOST_KNOWN: usize = 256;
+
+/// The most conductances that an elimination may add between nodes that are not neighbours.
+pub(super) const MOST_FILLED: usize = 20_000_000;
 
 /// Result of an elimination: the values of the free nodes, and the flow through each element that is there.
 #[derive(Debug)]
@@ -35,11 +38,19 @@ struct Step {
     source: DoubleDouble,
 }
 
-/// Eliminates every free node that is there; `None` where that would take too much memory.
-pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Option<Eliminated> {
+/// Eliminates every free node that is there, with at most `most_filled` conductances more.
+///
+/// # Errors
+/// It would take too much memory.
+pub(super) fn eliminate(
+    core: &Core,
+    is_there: &[bool],
+    is_free: &[bool],
+    most_filled: usize,
+) -> Result<Eliminated, Shortcoming> {
     let (terminal_of, terminals) = terminals(core);
     if terminals.len() > MOST_KNOWN {
-        return None;
+        return Err(Shortcoming::TooManyHeld { found: terminals.len(), most: MOST_KNOWN });
     }
     let number = |end: u32| if core.is_free(end) { end } else { terminal_of[(end - core.free) as usize] };
     let mut stars: Vec<HashMap<u32, DoubleDouble>> = vec![HashMap::new(); core.free as usize];
@@ -51,7 +62,7 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
             }
         }
     }
-    let steps = forward(core, stars, is_free)?;
+    let steps = forward(core, stars, is_free, most_filled).ok_or(Shortcoming::TooLarge { most: most_filled })?;
     let differences = backward(core, &steps, &terminals);
     let mut values = vec![DoubleDouble::ZERO; core.free as usize];
     for Step { node, star, .. } in steps.iter().rev() {
@@ -74,7 +85,7 @@ pub(crate) fn eliminate(core: &Core, is_there: &[bool], is_free: &[bool]) -> Opt
         }
     };
     let flows = core.elements.iter().zip(is_there).map(flow).collect();
-    Some(Eliminated { values, flows })
+    Ok(Eliminated { values, flows })
 }
 
 /// The number of each known value, from the number of free nodes on, and the values: equal ones are one.
@@ -92,7 +103,14 @@ fn terminals(core: &Core) -> (Vec<u32>, Vec<DoubleDouble>) {
 }
 
 /// Eliminates the nodes, each time one with the fewest neighbours.
-fn forward(core: &Core, mut stars: Vec<HashMap<u32, DoubleDouble>>, is_free: &[bool]) -> Option<Vec<Step>> {
+///
+/// `None` where they leave more than `most_filled` conductances behind.
+fn forward(
+    core: &Core,
+    mut stars: Vec<HashMap<u32, DoubleDouble>>,
+    is_free: &[bool],
+    most_filled: usize,
+) -> Option<Vec<Step>> {
     let mut sources = core.sources.clone();
     let mut by_degree: std::collections::BTreeSet<(usize, u32)> =
         (0..core.free).filter(|&node| is_free[node as usize]).map(|node| (stars[node as usize].len(), node)).collect();
@@ -103,7 +121,7 @@ fn forward(core: &Core, mut stars: Vec<HashMap<u32, DoubleDouble>>, is_free: &[b
         star.sort_unstable_by_key(|(neighbour, _)| *neighbour);
         let sum: DoubleDouble = star.iter().map(|(_, conductance)| *conductance).sum();
         filled += star.len() * star.len();
-        if filled > MOST_FILLED {
+        if filled > most_filled {
             return None;
         }
         let source = sources[node as usize];
@@ -158,5 +176,40 @@ fn difference(differences: &HashMap<[u32; 2], DoubleDouble>, a: u32, b: u32) -> 
     match differences.get(&[a, b]) {
         Some(difference) => *difference,
         None => -differences.get(&[b, a]).copied().unwrap_or_default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::network::{LinearNetwork, Link};
+    use super::{Core, Shortcoming, eliminate};
+
+    /// A node amid others that are held: at `held` different values.
+    fn star(held: u32) -> Core {
+        let mut network = LinearNetwork::of_nodes(held as usize + 1);
+        for node in 1..=held {
+            network.links.push(Link { nodes: [0, node], conductance: 1.0 });
+            network.held[node as usize] = Some(f64::from(node));
+        }
+        Core::merged(&network, &|_| false).expect("a core").0
+    }
+
+    #[test]
+    fn an_elimination_goes_no_further_than_it_may() {
+        let core = star(3);
+        let all = |count: usize| vec![true; count];
+        let found = |most| eliminate(&core, &all(core.elements.len()), &all(core.free as usize), most);
+        assert!((found(9).expect("as much as it may").values[0].to_f64() - 2.0).abs() < 1e-15);
+        let refusal = found(8).expect_err("too much");
+        assert_eq!(refusal, Shortcoming::TooLarge { most: 8 });
+        let message = "it would need room for more than 8 conductances between nodes that are not neighbours";
+        assert_eq!(refusal.to_string(), message);
+    }
+
+    #[test]
+    fn too_many_held_values_are_counted() {
+        let core = star(257);
+        let refusal = eliminate(&core, &vec![true; core.elements.len()], &[true], usize::MAX).expect_err("too many");
+        assert_eq!(refusal.to_string(), "257 different values are held, and it takes no more than 256");
     }
 }

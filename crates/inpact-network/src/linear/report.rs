@@ -7,9 +7,6 @@ use std::fmt;
 /// The tolerance of the last digit of f64.
 pub const LAST_DIGIT: f64 = f64::EPSILON / 16.0;
 
-/// The most conductances that an elimination may add between nodes that are not neighbours.
-pub(super) const MOST_FILLED: usize = 20_000_000;
-
 /// Methods of solving a network.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -99,7 +96,17 @@ pub enum Shortcoming {
     /// A flow is beyond the range of f64, or what a rough factor made of it.
     Overflow,
     /// The filled network would be too large.
-    TooLarge,
+    TooLarge {
+        /// The most conductances that it may add between nodes that are not neighbours.
+        most: usize,
+    },
+    /// There are too many different held values: every two of them would be neighbours.
+    TooManyHeld {
+        /// The number of different ones.
+        found: usize,
+        /// The most that there may be.
+        most: usize,
+    },
 }
 
 /// Reasons why a factorisation or iteration has no solution.
@@ -155,10 +162,13 @@ impl fmt::Display for Shortcoming {
                 write!(formatter, "it came no nearer than a residual of {residual:.1e} and an error of {error:.1e}")
             }
             Self::Overflow => formatter.write_str("a value or a flow is beyond the range of f64"),
-            Self::TooLarge => write!(
+            Self::TooLarge { most } => write!(
                 formatter,
-                "it would need room for more than {MOST_FILLED} conductances between nodes that are not neighbours"
+                "it would need room for more than {most} conductances between nodes that are not neighbours"
             ),
+            Self::TooManyHeld { found, most } => {
+                write!(formatter, "{found} different values are held, and it takes no more than {most}")
+            }
         }
     }
 }

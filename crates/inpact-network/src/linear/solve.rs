@@ -4,7 +4,7 @@ use super::components::refuse_floating;
 use super::core::{Core, NONE, Origins};
 use super::dead_ends::DeadEnds;
 use super::edges::{Balance, Edges};
-use super::elimination::eliminate;
+use super::elimination::{MOST_FILLED, eliminate};
 use super::factor::{Factor, Solves};
 use super::found::{CoreFound, SMALL};
 use super::infinite;
@@ -189,7 +189,7 @@ impl Solver {
         report: &mut LinearReport,
     ) -> Result<CoreFound, Shortcoming> {
         if method == Method::Elimination {
-            let found = eliminate(core, &series.is_there, &series.is_free).ok_or(Shortcoming::TooLarge)?;
+            let found = eliminate(core, &series.is_there, &series.is_free, MOST_FILLED)?;
             let residual = worst_share(core, series, &found.flows);
             report.quality = Quality { residual, ..Quality::default() };
             return match residual <= self.tolerance.max(f64::EPSILON) {

@@ -8,8 +8,8 @@ use crate::span::Span;
 use std::num::{NonZeroU16, NonZeroU32};
 use std::ops::Range;
 
-/// The most bytes of a keyword line with the lines that continue it: what follows is read as rows.
-pub(super) const LONGEST_KEYWORD_LINE: usize = 1 << 30;
+/// The most bytes of a keyword line with the lines that continue it, if nothing else is said: what follows is read as rows.
+pub(super) const LONGEST_KEYWORD_LINE: u32 = 1 << 30;
 
 /// `NAME` or `NAME=VALUE` on a keyword line (S-17).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,7 +134,16 @@ pub(super) struct More {
     /// The offset in the line of the quote that does not close on it (S-41).
     pub(super) open_quote: Option<NonZeroU32>,
     /// The offset in the line of the comma at its end, when the next line is not its continuation (S-19).
-    pub(super) last_comma: Option<NonZeroU32>,
+    pub(super) last_comma: Option<LastComma>,
+}
+
+/// A comma at the end of a keyword line that nothing continues.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LastComma {
+    /// Its offset in the line.
+    pub(super) at: NonZeroU32,
+    /// The most bytes of a keyword line, where the next one would have made it longer.
+    pub(super) most: Option<NonZeroU32>,
 }
 
 /// A parameter within the first 64 KiB of a line.
@@ -180,7 +189,7 @@ impl AfterName {
     pub(super) fn new(
         parameters: impl ExactSizeIterator<Item = PlacedParameter>,
         open_quote: Option<NonZeroU32>,
-        last_comma: Option<NonZeroU32>,
+        last_comma: Option<LastComma>,
     ) -> Self {
         let mut parameters = parameters.peekable();
         if open_quote.is_none() && last_comma.is_none() {

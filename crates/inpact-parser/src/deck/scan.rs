@@ -15,7 +15,7 @@ use super::survey::Survey;
 use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, RowsKept, Source, byte_order_mark, items, keyword_line};
 use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape};
 use crate::span::{SourceId, Span};
-use keyword::{LastComma, NextLine, after_comma, id_of, resolve};
+use keyword::{AfterComma, NextLine, after_comma, id_of, resolve};
 use std::ops::Range;
 
 /// The most characters of a keyword or data line (S-06).
@@ -85,6 +85,7 @@ pub struct Scanner<'grammar> {
     /// A keyword line that ends in a comma and may go on.
     open_keyword: Option<OpenKeyword>,
     block: OpenBlock,
+    longest_keyword_line: u32,
 }
 
 /// A keyword line that may be continued (S-19).
@@ -97,8 +98,8 @@ struct OpenKeyword {
     text: Vec<u8>,
     /// The length of `text` that belongs to the keyword line for sure: comments at its end do not.
     accepted: usize,
-    /// The comma at its end is followed by fields that may be flags, or by the file that includes this one.
-    is_answered: bool,
+    /// Lines after the comma at its end; the file that includes this one may go on with flags.
+    after_comma: AfterComma,
 }
 
 /// Kinds of lines that are noted.
@@ -177,7 +178,13 @@ impl<'grammar> Scanner<'grammar> {
                 free_text: false,
                 may_be_thinned: None,
             },
+            longest_keyword_line: LONGEST_KEYWORD_LINE,
         }
+    }
+
+    /// Sets the most bytes of a keyword line with the lines that continue it: what follows is read as rows, and said (S003). It is 1 GiB otherwise.
+    pub fn set_longest_keyword_line(&mut self, bytes: u32) {
+        self.longest_keyword_line = bytes;
     }
 
     /// Takes the next bytes of the file.
@@ -360,7 +367,10 @@ impl<'grammar> Scanner<'grammar> {
             text: line.to_vec(),
             accepted: line.len(),
             // The line after the last one of an included file is in another file.
-            is_answered: may_continue && self.id != SourceId::ROOT,
+            after_comma: match may_continue && self.id != SourceId::ROOT {
+                true => AfterComma::PerhapsFlags,
+                false => AfterComma::NoParameters,
+            },
         });
         self.source.keep(self.offset, self.line, line);
         self.block.keeps_rows = KeepsRows::All;
@@ -378,16 +388,18 @@ impl<'grammar> Scanner<'grammar> {
         let line = &bytes[at..end];
         let Some(open) = &mut self.open_keyword else { return at };
         let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
-        let is_too_long = LONGEST_KEYWORD_LINE < open.text.len() + line.len();
-        let next = if is_too_long {
-            Some(NextLine::NoParameters)
-        } else if is_comment {
-            None
-        } else {
-            Some(after_comma(open.id, line, self.options.grammar))
-        };
+        let most = self.longest_keyword_line;
+        if u32::try_from(open.text.len() + line.len()).map_or(true, |length| most < length) {
+            open.after_comma = AfterComma::TooLong(most);
+            self.close_keyword();
+            return at;
+        }
+        let next = if is_comment { None } else { Some(after_comma(open.id, line, self.options.grammar)) };
         if let Some(NextLine::PerhapsFlags | NextLine::NoParameters) = next {
-            open.is_answered = next == Some(NextLine::PerhapsFlags);
+            open.after_comma = match next {
+                Some(NextLine::PerhapsFlags) => AfterComma::PerhapsFlags,
+                _ => AfterComma::NoParameters,
+            };
             self.close_keyword();
             return at;
         }
@@ -408,8 +420,7 @@ impl<'grammar> Scanner<'grammar> {
     fn close_keyword(&mut self) {
         let Some(open) = self.open_keyword.take() else { return };
         let text = &open.text[..open.accepted];
-        let last_comma = if open.is_answered { LastComma::Answered } else { LastComma::Dangling };
-        let keyword = resolve(text, (self.id, open.start), last_comma, self.options.grammar);
+        let keyword = resolve(text, (self.id, open.start), open.after_comma, self.options.grammar);
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
         // CalculiX has a limit of rows (T016), and a reading of its own of numbers.
         let thins = self.options.keep == Keep::Ends && self.options.grammar.dialect() == Dialect::Abaqus;

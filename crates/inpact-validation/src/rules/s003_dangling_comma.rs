@@ -1,6 +1,6 @@
 //! S003: commas at the end of keyword lines that nothing continues.
 
-use inpact_diagnostics::{Edit, FixSafety};
+use inpact_diagnostics::{Edit, FixSafety, Severity};
 use crate::rule::{Context, Report, declare_rule};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::span::Span;
@@ -52,6 +52,16 @@ declare_rule! {
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for keyword in context.keyword_lines() {
         let Some(comma) = keyword.dangling_comma() else { continue };
+        if let Some(most) = keyword.length_exhausted() {
+            let name = context.shown(keyword.name());
+            report
+                .at(comma, format!("with the next line the keyword line of `*{name}` has more than {most} bytes"))
+                .severity(Severity::Error)
+                .label("its parameters end here")
+                .note("no keyword line goes on for longer: what follows is read as rows")
+                .help("write fewer parameters, each once");
+            continue;
+        }
         // CalculiX passes over the comma; only what was meant to continue the line is lost (CX-01).
         if context.is_for_calculix() && !is_meant_to_go_on(context, comma) {
             continue;

@@ -11,7 +11,7 @@
 
 use super::inputs::Identity;
 use super::temporary::{Access, Hold, Temporary, hold};
-use super::whole::{bounded, lines_of};
+use super::whole::{bounded, lines_of, lines_of_stream};
 use super::{PIECE, access, folder_of, holders, open_file, sync_file, sync_folder, whole_path};
 use crate::failure::Failure;
 use std::collections::BTreeSet;
@@ -58,13 +58,9 @@ impl Snapshot {
         let mut file = open_file(path)?;
         let unreadable = |error| Failure::read(path, error);
         let metadata = file.metadata().map_err(unreadable)?;
-        let most = if metadata.is_file() { u64::MAX } else { MOST_OF_STREAM + 1 };
-        let bytes = lines_of(&mut bounded(&mut file, Some(&metadata)).take(most)).map_err(unreadable)?;
-        if most <= bytes.len() as u64 {
-            let message =
-                format!("it is no file, and gives more than {MOST_OF_STREAM} bytes: write it to a file first");
-            return Err(unreadable(io::Error::new(io::ErrorKind::InvalidData, message)));
-        }
+        let mut input = bounded(&mut file, Some(&metadata));
+        let bytes = if metadata.is_file() { lines_of(&mut input) } else { lines_of_stream(&mut input, MOST_OF_STREAM) };
+        let bytes = bytes.map_err(unreadable)?;
         let whole = whole_path(path);
         let identity = metadata.is_file().then(|| Identity::of(&metadata, &whole));
         Ok(Self { name: path.to_owned(), path: whole, bytes: bytes.into(), identity })

@@ -16,11 +16,17 @@ const MOST_OF_DEVICE: u64 = 64 << 20;
 pub(super) struct Bounded<R> {
     input: R,
     left: u64,
+    most: u64,
 }
 
 /// Bounds an input by what it is.
 pub(super) fn bounded<R: Read>(input: R, metadata: Option<&Metadata>) -> Bounded<R> {
-    Bounded { input, left: if metadata.is_some_and(is_device) { MOST_OF_DEVICE } else { u64::MAX } }
+    bounded_to(input, if metadata.is_some_and(is_device) { MOST_OF_DEVICE } else { u64::MAX })
+}
+
+/// Bounds an input by a number of bytes.
+fn bounded_to<R: Read>(input: R, most: u64) -> Bounded<R> {
+    Bounded { input, left: most, most }
 }
 
 impl<R: Read> Read for Bounded<R> {
@@ -29,8 +35,9 @@ impl<R: Read> Read for Bounded<R> {
         match self.left.checked_sub(count as u64) {
             Some(left) => self.left = left,
             None => {
+                let most = self.most;
                 return Err(invalid(format!(
-                    "it is a device, and gives more than {MOST_OF_DEVICE} bytes: write it to a file first"
+                    "it is a device, and gives more than {most} bytes: write it to a file first"
                 )));
             }
         }
@@ -53,6 +60,15 @@ fn is_device(_metadata: &Metadata) -> bool {
 /// Reads all bytes of a deck or a table, or of standard input for `-`: lines, each of which ends.
 pub(crate) fn read_lines(path: &Path) -> Result<Vec<u8>, Failure> {
     lines_of(&mut open(path)?).map_err(|error| Failure::read(path, error))
+}
+
+/// Reads all bytes of lines that come from no file, such as a pipe, and may have no end.
+pub(super) fn lines_of_stream(input: &mut dyn Read, most: u64) -> io::Result<Vec<u8>> {
+    let bytes = lines_of(&mut input.take(most.saturating_add(1)))?;
+    if most < bytes.len() as u64 {
+        return Err(invalid(format!("it is no file, and gives more than {most} bytes: write it to a file first")));
+    }
+    Ok(bytes)
 }
 
 /// Reads all of a text whose lines may be of any length (JSON, TOML), or of standard input for `-`.
@@ -128,7 +144,7 @@ fn read_while(input: &mut dyn Read, mut judge: impl FnMut(&[u8], usize) -> io::R
 
 #[cfg(test)]
 mod tests {
-    use super::{LONGEST_LINE, PIECE, lines_of, text_of};
+    use super::{LONGEST_LINE, MOST_OF_DEVICE, PIECE, bounded_to, lines_of, lines_of_stream, text_of};
     use std::io::{self, Read};
 
     fn message<T: std::fmt::Debug>(read: io::Result<T>) -> String {
@@ -143,6 +159,22 @@ mod tests {
         }
         let longest = [vec![b'x'; LONGEST_LINE], b"\n".to_vec()].concat().repeat(2);
         assert_eq!(lines_of(&mut longest.as_slice()).expect("as long as a line may be"), longest);
+    }
+
+    #[test]
+    fn a_device_and_a_stream_without_an_end_are_given_up() {
+        let refusal = message(io::copy(&mut bounded_to(io::repeat(b'\n'), MOST_OF_DEVICE), &mut io::sink()));
+        assert_eq!(refusal, "it is a device, and gives more than 67108864 bytes: write it to a file first");
+        let refusal = message(lines_of(&mut bounded_to(io::repeat(b'\n'), MOST_OF_DEVICE)));
+        assert!(refusal.starts_with("it is a device, and gives more than 67108864 bytes"), "{refusal}");
+        let refusal = message(lines_of_stream(&mut io::repeat(b'\n'), 100_000));
+        assert_eq!(refusal, "it is no file, and gives more than 100000 bytes: write it to a file first");
+        for (length, most) in [(100_000, 100_000), (0, 0)] {
+            let found = lines_of_stream(&mut io::repeat(b'\n').take(length), most).expect("no more than it may");
+            assert_eq!(found.len() as u64, length);
+            let found = lines_of(&mut bounded_to(io::repeat(b'\n').take(length), most)).expect("no more than it may");
+            assert_eq!(found.len() as u64, length);
+        }
     }
 
     #[test]

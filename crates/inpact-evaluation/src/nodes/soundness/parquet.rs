@@ -1,6 +1,6 @@
 //! Soundness of Parquet files: sizes and places of parts as they are stated, compared with the bytes that are there.
 
-use super::thrift::{Visitor, walk};
+use super::thrift::{Stop, Visitor, walk};
 use super::{most_unpacked, unsound};
 use flate2::read::MultiGzDecoder;
 use parquet::basic::{Compression, Encoding};
@@ -42,11 +42,14 @@ pub(in crate::nodes) fn check_footer<R: ChunkReader>(file: &R) -> io::Result<()>
     };
     let bytes = file.get_bytes(at, usize::try_from(footer).unwrap_or(usize::MAX)).map_err(invalid)?;
     let mut depths = Depths::default();
-    if walk(&bytes, &mut depths).is_none() {
-        return Err(unsound(KIND, "its footer has a list or a text longer than itself"));
+    if let Err(stop) = walk(&bytes, &mut depths) {
+        return Err(unsound(KIND, stop.reason("its footer has a list or a text longer than itself")));
     }
     if depths.finish() > DEEPEST_GROUP {
-        return Err(unsound(KIND, format!("its columns lie in more than {DEEPEST_GROUP} groups")));
+        let message = format!(
+            "its columns lie in more than {DEEPEST_GROUP} groups in one another: write the columns by themselves"
+        );
+        return Err(unsound(KIND, message));
     }
     Ok(())
 }
@@ -178,15 +181,22 @@ fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Res
         // Most headers are short, and a page is long.
         let short = file.get_bytes(at, head.min(256)).map_err(invalid)?;
         let walked = match walk(&short, &mut page) {
-            Some(walked) => Some(walked),
-            None if head > 256 => {
+            Err(Stop::Broken) if head > 256 => {
                 page = PageSizes::default();
                 walk(&file.get_bytes(at, head).map_err(invalid)?, &mut page)
             }
-            None => None,
+            walked => walked,
         };
-        let Some(walked) = walked else { return Err(unsound(KIND, "the header of a page is no header")) };
-        at += walked as u64;
+        at += match walked {
+            Ok(walked) => walked as u64,
+            Err(Stop::Broken) if LONGEST_HEADER < end - at => {
+                let message = format!(
+                    "the header of a page is no header, or longer than {LONGEST_HEADER} bytes: write the table without statistics of its pages"
+                );
+                return Err(unsound(KIND, message));
+            }
+            Err(stop) => return Err(unsound(KIND, stop.reason("the header of a page is no header"))),
+        };
         let sizes = (u64::try_from(page.packed), u64::try_from(page.unpacked), u64::try_from(page.values));
         let (Ok(packed), Ok(unpacked), Ok(_)) = sizes else {
             return Err(unsound(KIND, "a page has a length below zero"));

@@ -6,6 +6,29 @@
 /// How deep structures may lie in one another; Parquet's own go to five.
 const DEEPEST: usize = 16;
 
+/// Reasons why bytes cannot be walked over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stop {
+    /// They end too early, or hold what the protocol does not have.
+    Broken,
+    /// Structures or lists lie too deep in one another.
+    TooDeep,
+}
+
+impl Stop {
+    /// The reason where `broken` says what is wrong otherwise.
+    pub(super) fn reason(self, broken: &str) -> String {
+        match self {
+            Self::Broken => broken.to_owned(),
+            Self::TooDeep => {
+                format!(
+                    "structures lie more than {DEEPEST} deep in one another, and those of Parquet do not: write it again"
+                )
+            }
+        }
+    }
+}
+
 /// Events of a walk; the path are the numbers of the fields from the outermost structure inwards.
 pub(super) trait Visitor {
     /// An integer, or a field that is true (1) or false (0).
@@ -20,23 +43,25 @@ struct Walk<'a, V> {
     at: usize,
     path: Vec<i16>,
     visitor: &'a mut V,
+    is_too_deep: bool,
 }
 
 /// Walks over a structure; gives how many bytes it takes.
 ///
 /// # Errors
-/// `None` where the bytes end too early, or hold what the protocol does not have.
-pub(super) fn walk<V: Visitor>(bytes: &[u8], visitor: &mut V) -> Option<usize> {
-    let mut walk = Walk { bytes, at: 0, path: Vec::new(), visitor };
-    walk.structure()?;
-    Some(walk.at)
+/// See [`Stop`].
+pub(super) fn walk<V: Visitor>(bytes: &[u8], visitor: &mut V) -> Result<usize, Stop> {
+    let mut walk = Walk { bytes, at: 0, path: Vec::new(), visitor, is_too_deep: false };
+    match walk.structure() {
+        Some(()) => Ok(walk.at),
+        None if walk.is_too_deep => Err(Stop::TooDeep),
+        None => Err(Stop::Broken),
+    }
 }
 
 impl<V: Visitor> Walk<'_, V> {
     fn structure(&mut self) -> Option<()> {
-        if self.path.len() > DEEPEST {
-            return None;
-        }
+        self.go_deeper(self.path.len())?;
         self.visitor.structure(&self.path);
         let mut field: i16 = 0;
         loop {
@@ -98,14 +123,20 @@ impl<V: Visitor> Walk<'_, V> {
     }
 
     fn elements(&mut self, count: u64, kinds: &[u8], depth: usize) -> Option<()> {
+        self.go_deeper(depth)?;
         // Every element takes a byte at least.
-        if depth > DEEPEST || count > self.left() {
+        if count > self.left() {
             return None;
         }
         for _ in 0..count {
             kinds.iter().try_for_each(|kind| self.value(*kind, depth + 1))?;
         }
         Some(())
+    }
+
+    fn go_deeper(&mut self, depth: usize) -> Option<()> {
+        self.is_too_deep |= DEEPEST < depth;
+        (!self.is_too_deep).then_some(())
     }
 
     fn byte(&mut self) -> Option<u8> {
@@ -142,5 +173,34 @@ impl<V: Visitor> Walk<'_, V> {
     fn integer(&mut self) -> Option<i64> {
         let value = self.unsigned()?;
         Some((value >> 1).cast_signed() ^ -(value & 1).cast_signed())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Stop, Visitor, walk};
+
+    struct Nothing;
+
+    impl Visitor for Nothing {
+        fn integer(&mut self, _path: &[i16], _value: i64) {}
+    }
+
+    #[test]
+    fn structures_and_lists_go_so_deep_and_no_deeper() {
+        // Field 1 is a structure, whose field 1 is one; then the end of each.
+        let structures = |depth: usize| [vec![0x1C; depth], vec![0; depth + 1]].concat();
+        // Field 1 is a list of one list of one list …, the innermost of no integers.
+        let lists = |depth: usize| [vec![0x19], vec![0x19; depth], vec![0x05, 0]].concat();
+        for sound in [structures(16), lists(15)] {
+            assert_eq!(walk(&sound, &mut Nothing), Ok(sound.len()));
+            let cut = &sound[..sound.len() - 1];
+            assert_eq!(walk(cut, &mut Nothing), Err(Stop::Broken));
+        }
+        for deep in [structures(17), structures(100_000), lists(17), lists(100_000)] {
+            assert_eq!(walk(&deep, &mut Nothing), Err(Stop::TooDeep));
+        }
+        let said = "structures lie more than 16 deep in one another, and those of Parquet do not: write it again";
+        assert_eq!(Stop::TooDeep.reason("it is broken"), said);
     }
 }

@@ -1,7 +1,7 @@
 //! Keyword lines of a scan: their keyword, their parameters, and the lines that continue them (S-19).
 
 use crate::deck::lines::{LineKind, line_kind};
-use crate::deck::parameter::{AfterName, Place, PlacedParameter};
+use crate::deck::parameter::{AfterName, LastComma, Place, PlacedParameter};
 use crate::deck::{KeywordLine, items, keyword_line};
 use crate::grammar::{Dialect, Grammar, KeywordId, Lookup, RowShape, ValueUse};
 use crate::span::{SourceId, Span};
@@ -76,20 +76,22 @@ pub(super) fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {
     }
 }
 
-/// Comma at the end of a keyword line (S-19).
+/// Lines after a comma at the end of a keyword line (S-19).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum LastComma {
-    /// Nothing follows it.
-    Dangling,
+pub(super) enum AfterComma {
+    /// Nothing continues it.
+    NoParameters,
     /// Something follows that it may belong to.
-    Answered,
+    PerhapsFlags,
+    /// The next line would make it longer than so many bytes.
+    TooLong(u32),
 }
 
 /// Resolves the pieces of a keyword line that begins at `start` in the file.
 pub(super) fn resolve(
     text: &[u8],
     (id, start): (SourceId, u64),
-    last_comma: LastComma,
+    after_comma: AfterComma,
     grammar: &Grammar,
 ) -> KeywordLine {
     let pieces = match grammar.dialect() {
@@ -108,11 +110,15 @@ pub(super) fn resolve(
             definition.map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()]));
         PlacedParameter::new(parameter.name, parameter.value, resolved)
     });
-    let final_comma = pieces.final_comma.filter(|_| last_comma == LastComma::Dangling);
+    let last_comma = pieces.final_comma.and_then(point).and_then(|at| match after_comma {
+        AfterComma::NoParameters => Some(LastComma { at, most: None }),
+        AfterComma::PerhapsFlags => None,
+        AfterComma::TooLong(most) => Some(LastComma { at, most: NonZeroU32::new(most) }),
+    });
     KeywordLine {
         span: Span::new(id, start, start + text.len() as u64),
         name: Place::of(pieces.name),
         resolved: resolved.into(),
-        after_name: AfterName::new(parameters, pieces.unterminated_quote.and_then(point), final_comma.and_then(point)),
+        after_name: AfterName::new(parameters, pieces.unterminated_quote.and_then(point), last_comma),
     }
 }
