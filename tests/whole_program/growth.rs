@@ -162,3 +162,49 @@ fn memory_does_not_follow_the_increments_of_a_result_file() {
     // Four slave nodes, each in every increment.
     assert_eq!(run.output.lines().count(), 1 + 4 * 300);
 }
+
+/// Two cubes on each other, so many times, each face a surface of its own.
+fn pressed_cubes(count: usize) -> String {
+    use std::fmt::Write;
+    let (mut nodes, mut elements, mut surfaces, mut pairs, mut held) =
+        (String::new(), String::new(), String::new(), String::new(), String::new());
+    let mut node = 0;
+    for element in 1..=2 * count {
+        let (x, z) = (3 * (element - 1) / 2, (element - 1) % 2);
+        let first = node + 1;
+        for (dz, dx, dy) in
+            [0, 1].into_iter().flat_map(|dz| [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(dx, dy)| (dz, dx, dy)))
+        {
+            node += 1;
+            let _ = writeln!(nodes, "{node}, {}., {dy}., {}.", x + dx, z + dz);
+        }
+        let corners: Vec<String> = (first..=node).map(|corner| corner.to_string()).collect();
+        let _ = writeln!(elements, "{element}, {}", corners.join(", "));
+        let _ = writeln!(surfaces, "*ELSET, ELSET=E{element}\n{element},");
+        let _ =
+            writeln!(surfaces, "*SURFACE, NAME=T{element}\nE{element}, S2\n*SURFACE, NAME=B{element}\nE{element}, S1");
+        if z == 1 {
+            let _ = writeln!(pairs, "*CONTACT PAIR, INTERACTION=I\nB{element}, T{}", element - 1);
+            let _ = writeln!(held, "{first}, 11, 11, 100.");
+        }
+    }
+    format!(
+        "*NODE\n{nodes}*ELEMENT, TYPE=DC3D8, ELSET=ALL\n{elements}{surfaces}*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*MATERIAL, NAME=M\n*CONDUCTIVITY\n50.\n*SURFACE INTERACTION, NAME=I\n1.,\n*GAP CONDUCTANCE, PRESSURE\n10., 0.\n20., 1.\n{pairs}*STEP\n*HEAT TRANSFER, STEADY STATE\n*BOUNDARY\n{held}*END STEP\n"
+    )
+}
+
+/// A surface was sought among all others, and what is rounding among all conductances for each of them.
+#[cfg(target_os = "linux")]
+#[test]
+fn many_pairs_of_a_mesh_cost_no_square() {
+    for (count, arguments) in [(3_000, &["nodes", "a.inp", "-o", "out"][..]), (250, &["scene", "a.inp", "-o", "out"])] {
+        let folder = Folder::with(&[("a.inp", &pressed_cubes(count))]);
+        let plain = command(folder.path(), arguments);
+        let mut limited = std::process::Command::new("prlimit");
+        // Seconds of work, whatever else the machine does.
+        limited.arg("--cpu=30").arg(plain.get_program()).args(arguments);
+        limited.current_dir(folder.path()).env("NO_COLOR", "1").env("RAYON_NUM_THREADS", "1");
+        let run = run(limited, b"");
+        assert_eq!(run.code, 0, "{arguments:?}: {}", run.errors.chars().take(500).collect::<String>());
+    }
+}

@@ -46,6 +46,20 @@ fn no_command_takes_a_scene_for_a_deck() {
     }
 }
 
+/// Each of its lines was a finding.
+#[test]
+fn solve_takes_no_deck_for_a_scene() {
+    for name in ["a.inp", "a.toml"] {
+        let folder = Folder::with(&[(name, DECK), ("out", "before")]);
+        let run = folder.inpact(&["solve", name, "-o", "out"]);
+        assert_eq!(run.code, 2, "{}", run.shown());
+        let message =
+            format!("error: `{name}` is a deck, where a scene is expected: `inpact scene {name}` makes one of it");
+        assert!(run.errors.starts_with(&message), "{}", run.shown());
+        assert_eq!(folder.read("out"), "before");
+    }
+}
+
 /// Definitions of parameters look like keys, and a deck may include them from a file of their own.
 #[test]
 fn definitions_of_parameters_are_no_scene() {

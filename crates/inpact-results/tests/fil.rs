@@ -124,7 +124,7 @@ fn an_increment_without_an_end_is_a_problem_and_is_given() {
 fn words_of_a_record_have_a_greatest_number() {
     let message = |count: u32| {
         let text = format!("{:80}\n", format!("*I 7{count}I 41921"));
-        read_fil(text.as_bytes()).expect_err("no whole record").problem.message
+        read_fil(text.as_bytes()).expect_err("no whole record").problem().expect("a problem").message.clone()
     };
     assert_eq!(message(1_048_577), "expected the number of words of a record, 2 to 1048576, found `1048577`");
     assert!(!message(1_048_576).contains("number of words"), "{}", message(1_048_576));

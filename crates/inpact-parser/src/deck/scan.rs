@@ -367,9 +367,10 @@ impl<'grammar> Scanner<'grammar> {
             text: line.to_vec(),
             accepted: line.len(),
             // The line after the last one of an included file is in another file.
-            after_comma: match may_continue && self.id != SourceId::ROOT {
-                true => AfterComma::PerhapsFlags,
-                false => AfterComma::NoParameters,
+            after_comma: if may_continue && self.id != SourceId::ROOT {
+                AfterComma::PerhapsFlags
+            } else {
+                AfterComma::NoParameters
             },
         });
         self.source.keep(self.offset, self.line, line);

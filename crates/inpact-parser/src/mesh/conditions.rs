@@ -17,7 +17,9 @@ use crate::model::{Name, Reference};
 use crate::number::read_float;
 use crate::span::Span;
 use inpact_geometry::FaceLabel;
+use std::collections::HashMap;
 use std::io;
+use std::mem::{Discriminant, discriminant};
 
 /// The conditions that hold in a step.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -106,6 +108,29 @@ pub enum Target {
     Faces(Reference, FaceLabel),
 }
 
+/// Parts of the mesh, each once: a deck may name every node by itself.
+#[derive(Debug, Default)]
+pub(super) struct Targets {
+    pub(super) list: Vec<Target>,
+    /// The position of each, by what it is, its name, and its face.
+    positions: HashMap<(Discriminant<Target>, Name, Option<FaceLabel>), usize>,
+}
+
+impl Targets {
+    /// The position of a target, which is new or known.
+    pub(super) fn position(&mut self, target: Target) -> usize {
+        let face = match &target {
+            Target::Faces(_, face) => Some(*face),
+            Target::Surface(_) | Target::Nodes(_) => None,
+        };
+        let key = (discriminant(&target), target.reference().name.clone(), face);
+        *self.positions.entry(key).or_insert_with(|| {
+            self.list.push(target);
+            self.list.len() - 1
+        })
+    }
+}
+
 /// A row with its cells.
 struct Cells {
     texts: Vec<String>,
@@ -145,7 +170,7 @@ impl<'deck> Reader<'deck, '_> {
         let step_amplitude = step_amplitude.and_then(|entry| entry.parameter("AMPLITUDE"));
         let step_amplitude = step_amplitude.map(|text| canonical(text.as_bytes()));
         let mut read = DeckConditions { step, amplitudes, step_amplitude, ..DeckConditions::default() };
-        let mut targets = Vec::new();
+        let mut targets = Targets::default();
         for StepEntry { step: of, name, entry } in std::mem::take(&mut self.conditions) {
             if step < of {
                 continue;
@@ -162,7 +187,7 @@ impl<'deck> Reader<'deck, '_> {
             }
             self.read_condition(keyword, entry, of, dialect, (&mut read, &mut targets))?;
         }
-        Ok((read, targets))
+        Ok((read, targets.list))
     }
 
     fn read_condition(
@@ -171,7 +196,7 @@ impl<'deck> Reader<'deck, '_> {
         entry: Entry<'deck>,
         step: usize,
         dialect: Dialect,
-        (read, targets): (&mut DeckConditions, &mut Vec<Target>),
+        (read, targets): (&mut DeckConditions, &mut Targets),
     ) -> io::Result<()> {
         let mut refuse = |span: Span, message: String| read.not_taken.push(MeshNote { span, message });
         let rows = self.cells(entry)?;
@@ -201,10 +226,7 @@ impl<'deck> Reader<'deck, '_> {
                     (None, _) => Target::Nodes(named),
                 };
                 let of_face = face.map_or_else(String::new, |face| format!(", {face}"));
-                let on = Some(targets.iter().position(|known| known.is(&target)).unwrap_or_else(|| {
-                    targets.push(target);
-                    targets.len() - 1
-                }));
+                let on = Some(targets.position(target));
                 read.conditions.push(Condition {
                     span: row.span,
                     keyword,
@@ -258,17 +280,6 @@ impl Target {
         match self {
             Self::Surface(name) | Self::Nodes(name) | Self::Faces(name, _) => name,
         }
-    }
-
-    /// Whether another is the same part of the mesh.
-    pub(super) fn is(&self, other: &Self) -> bool {
-        let face = |target: &Self| match target {
-            Self::Faces(_, face) => Some(*face),
-            _ => None,
-        };
-        std::mem::discriminant(self) == std::mem::discriminant(other)
-            && self.reference().name == other.reference().name
-            && face(self) == face(other)
     }
 }
 

@@ -5,6 +5,7 @@ use crate::deck::{Block, Deck, KeywordLine};
 use crate::grammar::Grammar;
 use crate::model::Name;
 use crate::span::Span;
+use std::collections::HashMap;
 
 /// An option of the deck with its rows.
 #[derive(Debug, Clone, Copy)]
@@ -51,12 +52,28 @@ pub(super) struct Definitions<'deck> {
     pub(super) nodes: Vec<Entry<'deck>>,
     pub(super) elements: Vec<Entry<'deck>>,
     pub(super) nsets: Vec<Entry<'deck>>,
-    pub(super) elsets: Vec<Entry<'deck>>,
     pub(super) surfaces: Vec<Entry<'deck>>,
     pub(super) sections: Vec<Entry<'deck>>,
     pub(super) orientations: Vec<Entry<'deck>>,
     /// Options that make nodes or elements, or move them, and are not read.
     pub(super) makers: Vec<(String, Span)>,
+    /// Options by the names that they give: a deck may have more of them than anything else.
+    called: HashMap<(Gives, Name), Vec<Entry<'deck>>>,
+}
+
+/// Options that give a name to what they have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Gives {
+    /// ELSET of *ELEMENT.
+    Elements,
+    /// *ELSET.
+    ElementSet,
+    /// NSET of *NODE.
+    Nodes,
+    /// *NSET.
+    NodeSet,
+    /// *SURFACE.
+    Surface,
 }
 
 /// A part that was placed.
@@ -171,11 +188,23 @@ impl<'deck> Layout<'deck> {
 impl<'deck> Definitions<'deck> {
     fn add(&mut self, name: &str, entry: Entry<'deck>) {
         match name {
-            "NODE" => self.nodes.push(entry),
-            "ELEMENT" => self.elements.push(entry),
-            "NSET" => self.nsets.push(entry),
-            "ELSET" => self.elsets.push(entry),
-            "SURFACE" => self.surfaces.push(entry),
+            "NODE" => {
+                self.nodes.push(entry);
+                self.call(Gives::Nodes, entry, "NSET");
+            }
+            "ELEMENT" => {
+                self.elements.push(entry);
+                self.call(Gives::Elements, entry, "ELSET");
+            }
+            "NSET" => {
+                self.nsets.push(entry);
+                self.call(Gives::NodeSet, entry, "NSET");
+            }
+            "ELSET" => self.call(Gives::ElementSet, entry, "ELSET"),
+            "SURFACE" => {
+                self.surfaces.push(entry);
+                self.call(Gives::Surface, entry, "NAME");
+            }
             "SOLIDSECTION" | "SHELLSECTION" | "SHELLGENERALSECTION" | "MEMBRANESECTION" => self.sections.push(entry),
             "ORIENTATION" => self.orientations.push(entry),
             "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "SYSTEM" => {
@@ -183,6 +212,17 @@ impl<'deck> Definitions<'deck> {
             }
             _ => {}
         }
+    }
+
+    fn call(&mut self, gives: Gives, entry: Entry<'deck>, parameter: &str) {
+        if let Some(name) = entry.named(parameter) {
+            self.called.entry((gives, name)).or_default().push(entry);
+        }
+    }
+
+    /// The options that give this name, in the order of the deck.
+    pub(super) fn called(&self, gives: Gives, name: &Name) -> &[Entry<'deck>] {
+        self.called.get(&(gives, name.clone())).map_or(&[], Vec::as_slice)
     }
 }
 

@@ -10,6 +10,7 @@ use crate::span::Span;
 use inpact_geometry::{
     ContactNode, DEFAULT_EXTENSION, ElementSpace, Extent, Master, PairOptions, Placed, Point, Shares, contact_nodes,
 };
+use std::collections::HashMap;
 
 /// Sliding of surfaces on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,9 +134,12 @@ impl FaceSurface {
 }
 
 /// The surfaces and pairs that the model needs; pairs by position among these surfaces.
+#[derive(Default)]
 pub(super) struct Request {
     pub(super) names: Vec<Reference>,
     pub(super) pairs: Vec<MeshPair>,
+    /// The position of each name.
+    positions: HashMap<Name, usize>,
 }
 
 impl MeshPair {
@@ -148,7 +152,7 @@ impl MeshPair {
 impl Reader<'_, '_> {
     /// The surfaces that *CONTACT PAIR needs, and *CONTACT PROPERTY ASSIGNMENT with two names.
     pub(super) fn request(&mut self, model: &Model) -> Request {
-        let mut request = Request { names: Vec::new(), pairs: Vec::new() };
+        let mut request = Request::default();
         for option in &model.contact_pairs {
             for surfaces in &option.pairs {
                 let Some(master) = &surfaces.master else {
@@ -181,8 +185,15 @@ impl Reader<'_, '_> {
                 ..MeshPair::plain(line.span, slave, master, interaction)
             });
         }
-        for clearance in std::mem::take(&mut self.clearances) {
-            self.clearance(clearance, &mut request);
+        let clearances = std::mem::take(&mut self.clearances);
+        let mut of_surfaces = HashMap::new();
+        if !clearances.is_empty() {
+            for (index, pair) in request.pairs.iter().enumerate() {
+                of_surfaces.entry([pair.slave, pair.master]).or_insert(index);
+            }
+        }
+        for clearance in clearances {
+            self.clearance(clearance, &mut request, &of_surfaces);
         }
         request
     }
@@ -239,14 +250,12 @@ impl Reader<'_, '_> {
         pair
     }
 
-    fn clearance(&mut self, entry: Entry<'_>, request: &mut Request) {
-        let pair = match (entry.named("SLAVE"), entry.named("MASTER")) {
-            (Some(slave), Some(master)) => request
-                .pairs
-                .iter_mut()
-                .find(|pair| request.names[pair.slave].name == slave && request.names[pair.master].name == master),
-            _ => None,
-        };
+    /// Takes a *CLEARANCE over; `of_surfaces` has the first pair of a slave and a master.
+    fn clearance(&mut self, entry: Entry<'_>, request: &mut Request, of_surfaces: &HashMap<[usize; 2], usize>) {
+        let position = |parameter| request.positions.get(&entry.named(parameter)?).copied();
+        let surfaces = position("SLAVE").zip(position("MASTER"));
+        let pair = surfaces.and_then(|(slave, master)| of_surfaces.get(&[slave, master]));
+        let pair = pair.map(|index| &mut request.pairs[*index]);
         let value = entry.parameter("VALUE").map(|text| read_float(text.as_bytes()));
         match (pair, value) {
             (Some(pair), Some(Ok(value))) if pair.sliding == Sliding::Small => pair.clearance = Some(value),
@@ -283,7 +292,7 @@ impl MeshPair {
 impl Request {
     /// The position of a surface, which is new or known.
     fn surface(&mut self, reference: &Reference) -> usize {
-        self.names.iter().position(|known| known.name == reference.name).unwrap_or_else(|| {
+        *self.positions.entry(reference.name.clone()).or_insert_with(|| {
             self.names.push(reference.clone());
             self.names.len() - 1
         })

@@ -1,7 +1,7 @@
 //! The way from a deck to its mesh: surfaces, sets, elements, nodes, in this order.
 
 use super::Mesh;
-use super::conditions::Target;
+use super::conditions::{Target, Targets};
 use super::elements::RawFace;
 use super::located::Located;
 use super::nodes::Wanted;
@@ -16,15 +16,13 @@ use std::io;
 impl Reader<'_, '_> {
     /// Reads the contact pairs, and targets beside them; gives the positions of these among the surfaces of the mesh.
     pub(super) fn read(mut self, model: &Model, targets: &[Target]) -> io::Result<(Mesh, Vec<Option<usize>>)> {
-        let Request { names, pairs } = self.request(model);
-        let mut wanted: Vec<Target> = names.into_iter().map(Target::Surface).collect();
-        let mut places = Vec::new();
-        for target in targets {
-            places.push(wanted.iter().position(|known| known.is(target)).unwrap_or_else(|| {
-                wanted.push(target.clone());
-                wanted.len() - 1
-            }));
+        let Request { names, pairs, .. } = self.request(model);
+        let mut wanted = Targets::default();
+        for name in names {
+            wanted.position(Target::Surface(name));
         }
+        let places: Vec<usize> = targets.iter().map(|target| wanted.position(target.clone())).collect();
+        let wanted = wanted.list;
         let mut picks = Picks::default();
         let mut found = Vec::new();
         for (surface, target) in wanted.iter().enumerate() {
@@ -41,7 +39,11 @@ impl Reader<'_, '_> {
             let name = target.reference().clone();
             let from = faces.partition_point(|face| face.surface < surface);
             let to = faces.partition_point(|face| face.surface <= surface);
-            surfaces.push(self.surface(surface, name, found, &faces[from..to], &picks.nodes, &located)?);
+            // Surfaces were picked in their order.
+            let first = picks.nodes.partition_point(|pick| pick.surface < surface);
+            let end = picks.nodes.partition_point(|pick| pick.surface <= surface);
+            let of_nodes = picks.nodes[first..end].iter().zip(&located.of_picks[first..end]);
+            surfaces.push(self.surface(name, found, &faces[from..to], of_nodes, &located)?);
         }
         // Pairs whose surfaces were not found stay out; a note says so.
         let positions: Vec<Option<usize>> = surfaces
@@ -75,19 +77,22 @@ impl Reader<'_, '_> {
     fn locate(&mut self, faces: &[RawFace], node_picks: &[NodePick]) -> io::Result<Located> {
         let mut located = Located::default();
         located.of_picks = vec![Vec::new(); node_picks.len()];
-        for instance in 0..self.instances.len() {
-            let of_faces = faces.iter().filter(|face| face.instance == instance);
-            let mut wanted: Vec<u32> = of_faces.flat_map(|face| face.nodes().iter().copied()).collect();
-            let mut here = Vec::new();
-            for (i, pick) in node_picks.iter().enumerate().filter(|(_, pick)| pick.instance == instance) {
-                match pick.number {
-                    Some(number) => {
-                        wanted.push(number);
-                        located.of_picks[i] = vec![number];
-                    }
-                    None => here.push(i),
+        // What is wanted of each instance: numbers of nodes, and picks of more than one.
+        let mut of_instances: Vec<(Vec<u32>, Vec<usize>)> = vec![Default::default(); self.instances.len()];
+        for face in faces {
+            of_instances[face.instance].0.extend_from_slice(face.nodes());
+        }
+        for (i, pick) in node_picks.iter().enumerate() {
+            let (wanted, here) = &mut of_instances[pick.instance];
+            match pick.number {
+                Some(number) => {
+                    wanted.push(number);
+                    located.of_picks[i] = vec![number];
                 }
+                None => here.push(i),
             }
+        }
+        for (instance, (wanted, here)) in of_instances.into_iter().enumerate() {
             let mut wanted = Wanted::new(wanted);
             let selections: Vec<&Selection> = here.iter().map(|i| &node_picks[*i].nodes).collect();
             let selected = if let Some(maker) =

@@ -1,6 +1,6 @@
 //! Nodes or elements of a set (*NSET, *ELSET with GENERATE and INSTANCE, NSET on *NODE, ELSET on *ELEMENT), in each instance.
 
-use super::layout::{Entry, canonical};
+use super::layout::{Entry, Gives, canonical};
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use super::selected::{Kind, Selected, Selection};
@@ -48,18 +48,15 @@ impl<'deck> Reader<'deck, '_> {
 
     /// The sets of this name, and the *NODE or *ELEMENT options that put their rows into it.
     pub(super) fn definitions_of(&self, kind: Kind, context: Context, name: &Name) -> (Vec<Entry<'deck>>, Vec<Span>) {
-        let parameter = if kind == Kind::Elements { "ELSET" } else { "NSET" };
+        let (of_sets, of_rows) = match kind {
+            Kind::Elements => (Gives::ElementSet, Gives::Elements),
+            Kind::Nodes => (Gives::NodeSet, Gives::Nodes),
+        };
         let mut sets = Vec::new();
         let mut options = Vec::new();
         for definitions in self.chain(context) {
-            let (of_sets, of_rows) = if kind == Kind::Elements {
-                (&definitions.elsets, &definitions.elements)
-            } else {
-                (&definitions.nsets, &definitions.nodes)
-            };
-            let named = |entry: &&Entry<'_>| entry.named(parameter).as_ref() == Some(name);
-            sets.extend(of_sets.iter().filter(named).copied());
-            options.extend(of_rows.iter().filter(named).map(|entry| entry.keyword.span));
+            sets.extend_from_slice(definitions.called(of_sets, name));
+            options.extend(definitions.called(of_rows, name).iter().map(|entry| entry.keyword.span));
         }
         (sets, options)
     }

@@ -1,7 +1,7 @@
 //! Surfaces: from the rows of *SURFACE to faces and nodes of the mesh.
 
 use super::elements::{Pick, RawFace};
-use super::layout::{Entry, canonical};
+use super::layout::{Entry, Gives, canonical};
 use super::located::Located;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
@@ -107,8 +107,8 @@ impl<'deck> Reader<'deck, '_> {
 
     pub(super) fn find_surface(&self, reference: &Reference) -> Option<(Context, Entry<'deck>)> {
         let (context, name) = self.without_prefix(Context::Top, reference.name.clone());
-        let mut surfaces = self.chain(context).flat_map(|definitions| definitions.surfaces.iter().copied());
-        surfaces.find(|entry| entry.named("NAME").as_ref() == Some(&name)).map(|entry| (context, entry))
+        let mut surfaces = self.chain(context).flat_map(|definitions| definitions.called(Gives::Surface, &name));
+        surfaces.next().map(|entry| (context, *entry))
     }
 
     pub(super) fn pick_faces(
@@ -172,27 +172,31 @@ impl<'deck> Reader<'deck, '_> {
     }
 
     /// Makes a surface of what was found.
-    pub(super) fn surface(
+    pub(super) fn surface<'a>(
         &mut self,
-        surface: usize,
         reference: Reference,
         found: Option<Found>,
         faces: &[RawFace],
-        node_picks: &[NodePick],
+        node_picks: impl Iterator<Item = (&'a NodePick, &'a Vec<u32>)>,
         located: &Located,
     ) -> io::Result<Option<MeshSurface>> {
         let Some(Found { span, of_nodes }) = found else { return Ok(None) };
         let kind = if of_nodes {
-            Some(SurfaceKind::Nodes(self.node_surface(surface, node_picks, located)))
+            Some(SurfaceKind::Nodes(self.node_surface(node_picks, located)))
         } else {
             self.face_surface(span, faces, located)?.map(SurfaceKind::Faces)
         };
         Ok(kind.map(|kind| MeshSurface { name: reference.name, span, kind }))
     }
 
-    fn node_surface(&mut self, surface: usize, picks: &[NodePick], located: &Located) -> NodeSurface {
+    /// The nodes of picks with the numbers that each has.
+    fn node_surface<'a>(
+        &mut self,
+        picks: impl Iterator<Item = (&'a NodePick, &'a Vec<u32>)>,
+        located: &Located,
+    ) -> NodeSurface {
         let mut areas: BTreeMap<NodeId, Option<f64>> = BTreeMap::new();
-        for (pick, labels) in picks.iter().zip(&located.of_picks).filter(|(pick, _)| pick.surface == surface) {
+        for (pick, labels) in picks {
             let known: Vec<NodeId> = labels.iter().filter_map(|label| located.id(pick.instance, *label)).collect();
             if known.is_empty() {
                 self.note(pick.span, "no node of this row was found".to_owned());

@@ -47,6 +47,12 @@ impl SolvableScene {
         let folder =
             if path.as_os_str() == STANDARD_STREAM { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
         let text = files::read_text(path)?;
+        // No line of TOML begins so.
+        if text.trim_start().starts_with('*') {
+            return Err(Failure::Usage(format!(
+                "`{name}` is a deck, where a scene is expected: `inpact scene {name}` makes one of it, and `inpact check {name}` judges it"
+            )));
+        }
         let mut settings = Settings::of(path, reading)?;
         reporter.confine(&mut settings, path);
         let roots = settings.include_roots.as_slice();

@@ -89,8 +89,9 @@ fn bodies(names: &[&str], lumped: &Lumped) -> Vec<Vec<String>> {
 /// The effect of the mesh on the maximum principle.
 fn remarks(names: &[&str], lumped: &Lumped) -> String {
     let mut text = String::new();
+    let largest = lumped.isothermal.largest();
     for (a, b, conductance) in lumped.isothermal.negative() {
-        let share = percent(-conductance / lumped.isothermal.largest());
+        let share = percent(-conductance / largest);
         text += &format!(
             "the conductance of `{}` and `{}` is below zero, by {share} of the largest: the mesh is too coarse between them\n",
             names[a], names[b]

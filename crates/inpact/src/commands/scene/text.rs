@@ -125,12 +125,12 @@ impl SceneText {
         heats: &JouleHeats,
         unplaced: &mut Vec<String>,
     ) {
+        let roundings: Vec<f64> = lumped.iter().map(|of| ROUNDING * of.isothermal.largest()).collect();
         for (a, first) in terminals.iter().enumerate() {
             for (b, second) in terminals.iter().enumerate().skip(a + 1) {
                 let mut keys = Vec::new();
-                for of in lumped {
+                for (of, &rounding) in lumped.iter().zip(&roundings) {
                     let (conductance, key) = (of.isothermal.between(a, b), network_field(of.field).conductance_key());
-                    let rounding = ROUNDING * of.isothermal.largest();
                     if conductance < -rounding {
                         unplaced.push(format!(
                             "the {key} conductance between `{}` and `{}`, {conductance:?}: a network has none below zero",
