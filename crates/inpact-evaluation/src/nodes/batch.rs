@@ -391,10 +391,10 @@ impl NumberColumn {
     /// Makes it a column of so many numbers, all of which are about to be set.
     pub(crate) fn shape(&mut self, rows: usize) {
         self.present.clear();
-        if let Values::Owned(values) = &mut self.values {
-            values.resize(rows, f64::NAN);
-        } else {
-            self.values = Values::Owned(vec![f64::NAN; rows]);
+        match &mut self.values {
+            Values::Owned(values) => values.resize(rows, f64::NAN),
+            #[cfg(feature = "columnar")]
+            Values::Shared(_) => self.values = Values::Owned(vec![f64::NAN; rows]),
         }
     }
 
