@@ -2,6 +2,7 @@
 
 use crate::body::Body;
 use crate::error::BodyFault;
+use crate::nodes::NodesOfBody;
 use crate::rules::UNUSABLE_MESH;
 use inpact_geometry::{Conductivity, SolidElement};
 use inpact_parser::mesh::ElementBlock;
@@ -130,20 +131,21 @@ impl Matrix {
         flows
     }
 
-    /// a(x, y) = ∫ ∇x·k·∇y dV for all pairs of some fields, x before or the same as y, each pair at row · count + column.
+    /// a(x, y) = ∫ ∇x·k·∇y dV for all pairs of some fields of a body, x before or the same as y, each pair at row · count + column.
     ///
     /// Fields that solve their equations but for an error have it here as a product of two errors.
-    pub(crate) fn energies(&self, fields: &[&[f64]]) -> Vec<f64> {
+    pub(crate) fn energies(&self, nodes: &NodesOfBody<'_>, fields: &[&[f64]]) -> Vec<f64> {
         let count = fields.len();
         let mut sums = vec![Sum::default(); count * count];
         let mut of_row = vec![0.0; count * count];
         let mut apart = vec![0.0; count];
-        for row in 0..self.diagonal.len() {
+        for (place, row) in nodes.nodes.iter().map(|row| *row as usize).enumerate() {
             of_row.fill(0.0);
             for at in self.starts[row]..self.starts[row + 1] {
-                let column = self.columns[at] as usize;
+                // An element is of one body.
+                let other = nodes.place(self.columns[at] as usize);
                 for (apart, field) in apart.iter_mut().zip(fields) {
-                    *apart = field[row] - field[column];
+                    *apart = field[place] - field[other];
                 }
                 for (i, x) in apart.iter().enumerate() {
                     let flow = -self.values[at] * x;

@@ -1,33 +1,60 @@
-//! Symmetric matrices of conductances between terminals.
+//! Symmetric matrices of conductances between terminals, a block a body.
 
 /// Conductances between terminals: heat per time and temperature (M L² T⁻³ θ⁻¹), or current per potential (C T⁻¹ φ⁻¹).
 ///
 /// The diagonal is what a terminal conducts to all others together, so that the flows into a body at one temperature are zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conductances {
-    count: usize,
+    /// The block and the row of each terminal; `None` where its body has no other.
+    places: Vec<Option<(usize, usize)>>,
+    blocks: Vec<Block>,
+}
+
+/// The conductances within a body.
+#[derive(Debug, Clone, PartialEq)]
+struct Block {
+    /// In ascending order.
+    terminals: Vec<usize>,
     /// Row by row; the diagonal is not used.
     between: Vec<f64>,
 }
 
 impl Conductances {
-    pub(crate) fn new(count: usize) -> Self {
-        Self { count, between: vec![0.0; count * count] }
+    /// No conductance between so many terminals, of which those of a group are of one body.
+    pub(crate) fn new<'a>(count: usize, groups: impl IntoIterator<Item = &'a [usize]>) -> Self {
+        let mut places = vec![None; count];
+        let mut blocks = Vec::new();
+        for group in groups {
+            for (row, terminal) in group.iter().enumerate() {
+                places[*terminal] = Some((blocks.len(), row));
+            }
+            blocks.push(Block { terminals: group.to_vec(), between: vec![0.0; group.len() * group.len()] });
+        }
+        Self { places, blocks }
     }
 
+    /// The block of two terminals and their places in it; `None` where no body has both.
+    fn place(&self, a: usize, b: usize) -> Option<(usize, usize, usize)> {
+        let ((block, row), (other, column)) = self.places[a].zip(self.places[b])?;
+        (block == other).then_some((block, row, column))
+    }
+
+    /// Sets the conductance between two terminals of one body.
     pub(crate) fn set(&mut self, a: usize, b: usize, conductance: f64) {
-        self.between[a * self.count + b] = conductance;
-        self.between[b * self.count + a] = conductance;
+        let (block, row, column) = self.place(a, b).expect("both are of one body");
+        let Block { terminals, between } = &mut self.blocks[block];
+        between[row * terminals.len() + column] = conductance;
+        between[column * terminals.len() + row] = conductance;
     }
 
     /// The number of terminals.
     pub fn len(&self) -> usize {
-        self.count
+        self.places.len()
     }
 
     /// Whether there is no terminal.
     pub fn is_empty(&self) -> bool {
-        self.count == 0
+        self.places.is_empty()
     }
 
     /// The conductance between two terminals; 0 where no body has both. It is the negative of the entry of the matrix beside the diagonal.
@@ -36,8 +63,11 @@ impl Conductances {
     ///
     /// There are no such terminals, or they are the same.
     pub fn between(&self, a: usize, b: usize) -> f64 {
-        assert!(a != b && a < self.count && b < self.count, "terminals {a} and {b} of {}", self.count);
-        self.between[a * self.count + b]
+        assert!(a != b && a < self.len() && b < self.len(), "terminals {a} and {b} of {}", self.len());
+        self.place(a, b).map_or(0.0, |(block, row, column)| {
+            let Block { terminals, between } = &self.blocks[block];
+            between[row * terminals.len() + column]
+        })
     }
 
     /// The conductance of a terminal to all others together: the entry on the diagonal.
@@ -46,23 +76,39 @@ impl Conductances {
     ///
     /// There is no such terminal.
     pub fn to_all(&self, a: usize) -> f64 {
-        (0..self.count).filter(|b| *b != a).map(|b| self.between(a, b)).sum()
+        self.places[a].map_or(0.0, |(block, row)| {
+            let Block { terminals, between } = &self.blocks[block];
+            let of_row = &between[row * terminals.len()..][..terminals.len()];
+            of_row.iter().enumerate().filter(|(column, _)| *column != row).map(|(_, conductance)| conductance).sum()
+        })
     }
 
     /// The largest magnitude of a conductance.
     pub fn largest(&self) -> f64 {
-        self.between.iter().fold(0.0, |largest, conductance| conductance.abs().max(largest))
+        let all = self.blocks.iter().flat_map(|block| &block.between);
+        all.fold(0.0, |largest, conductance| conductance.abs().max(largest))
     }
 
     /// The pairs of terminals with what is between them, each once.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        (0..self.count).flat_map(move |a| (a + 1..self.count).map(move |b| (a, b, self.between(a, b))))
+        (0..self.len()).flat_map(move |a| (a + 1..self.len()).map(move |b| (a, b, self.between(a, b))))
+    }
+
+    /// The pairs of terminals of one body with what is between them, each once, in the order of [`pairs`](Self::pairs).
+    pub fn within_bodies(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.places.iter().enumerate().filter_map(|(a, place)| Some((a, (*place)?))).flat_map(
+            move |(a, (block, row))| {
+                let Block { terminals, between } = &self.blocks[block];
+                let of_row = &between[row * terminals.len()..][..terminals.len()];
+                terminals.iter().zip(of_row).skip(row + 1).map(move |(b, conductance)| (a, *b, *conductance))
+            },
+        )
     }
 
     /// The pairs whose conductance is below zero by more than rounding: a mesh so coarse or distorted that a terminal cools where another is heated.
     pub fn negative(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         let rounding = self.largest() * ROUNDING;
-        self.pairs().filter(move |(_, _, conductance)| *conductance < -rounding)
+        self.within_bodies().filter(move |(_, _, conductance)| *conductance < -rounding)
     }
 }
 

@@ -46,6 +46,7 @@ mod error;
 mod even;
 mod lumped;
 mod material;
+mod nodes;
 mod rules;
 mod solve;
 

@@ -7,6 +7,7 @@ use crate::dissipation::JouleHeat;
 use crate::error::{BodyFault, Error};
 use crate::even::{Even, even};
 use crate::material::{BodyField, tensor, values_at};
+use crate::nodes::{NodesOfBodies, NodesOfBody};
 use crate::rules::UNUSABLE_PROPERTY;
 use crate::solve::{Equations, Solution};
 use inpact_geometry::{Conductivity, NodeId, Point};
@@ -98,18 +99,22 @@ impl Body {
         let blocks = self.blocks();
         let matrix = self.matrix(&blocks, field, temperature)?;
         let shares: Vec<Even> = self.terminals.iter().map(|terminal| even(self, terminal)).collect();
-        let (potentials, isothermal_solution) = self.potentials(&matrix)?;
-        let isothermal = self.isothermal(&matrix, &potentials);
-        let (even, ranges, even_solution) = self.even(&matrix, &shares)?;
+        let nodes = NodesOfBodies::of(self);
+        let (potentials, isothermal_solution) = self.potentials(&matrix, &nodes)?;
+        let isothermal = self.isothermal(&matrix, &nodes, &potentials);
+        let (even, ranges, even_solution) = self.even(&matrix, &nodes, &shares)?;
         let (held, left_out) = self.held(&blocks, field, temperature)?;
         let bodies = self.summaries(&held, (&isothermal, &even));
-        let bodies_of: Vec<Option<usize>> =
-            (0..self.terminals.len()).map(|at| bodies.iter().position(|body| body.terminals.contains(&at))).collect();
+        let mut bodies_of: Vec<Option<usize>> = vec![None; self.terminals.len()];
+        for (number, body) in bodies.iter().enumerate() {
+            body.terminals.iter().for_each(|at| bodies_of[*at] = Some(number));
+        }
         let capacity = |at: usize| {
             bodies[bodies_of[at]?].capacity?;
             let mut sum = Sum::default();
-            let pairs = potentials[at].iter().zip(&held.capacities);
-            pairs.for_each(|(potential, capacity)| sum.add(potential * capacity));
+            let of_body = nodes.body(self.body_of(&self.terminals[at].nodes) as usize);
+            let pairs = potentials[at].iter().zip(of_body.nodes);
+            pairs.for_each(|(potential, node)| sum.add(potential * held.capacities[*node as usize]));
             Some(sum.value())
         };
         let capacities = (0..self.terminals.len()).map(capacity).collect();
@@ -252,9 +257,14 @@ impl Body {
         Err(BodyFault::at(&UNUSABLE_PROPERTY, block.section, message))
     }
 
-    /// The terminals of each body with at least two, which are all that conduct between terminals.
-    fn groups(&self) -> Vec<&[usize]> {
-        self.parts.iter().map(|part| part.terminals.as_slice()).filter(|terminals| 1 < terminals.len()).collect()
+    /// The bodies with at least two terminals, which are all that conduct between terminals, each with these.
+    fn groups(&self) -> Vec<(usize, &[usize])> {
+        let all = self.parts.iter().map(|part| part.terminals.as_slice()).enumerate();
+        all.filter(|(_, terminals)| 1 < terminals.len()).collect()
+    }
+
+    fn no_conductance(&self) -> Conductances {
+        Conductances::new(self.terminals.len(), self.groups().into_iter().map(|(_, group)| group))
     }
 
     /// Nodes of bodies with fewer than two terminals, whose value is known at once.
@@ -271,41 +281,41 @@ impl Body {
         is_held
     }
 
-    /// The potential of each terminal: 1 at it, 0 at all others.
-    fn potentials(&self, matrix: &Matrix) -> Result<(Vec<Vec<f64>>, Solution), Error> {
+    /// The potential of each terminal at the nodes of its body: 1 at it, 0 at all others.
+    fn potentials(&self, matrix: &Matrix, of_bodies: &NodesOfBodies) -> Result<(Vec<Vec<f64>>, Solution), Error> {
         let nodes = self.mesh.points.len();
         let groups = self.groups();
         let is_held = self.held_nodes();
         // The last terminal of a body has what the others leave of 1; bodies are solved together, a terminal of each at a time.
-        let rounds = groups.iter().map(|group| group.len() - 1).max().unwrap_or(0);
+        let rounds = groups.iter().map(|(_, group)| group.len() - 1).max().unwrap_or(0);
         let mut fields = vec![vec![0.0; nodes]; rounds];
         for (round, field) in fields.iter_mut().enumerate() {
-            for terminal in groups.iter().filter(|group| round + 1 < group.len()).map(|group| group[round]) {
+            for terminal in groups.iter().filter(|(_, group)| round + 1 < group.len()).map(|(_, group)| group[round]) {
                 self.terminals[terminal].nodes.iter().for_each(|node| field[node.index()] = 1.0);
             }
         }
         let equations = Equations { matrix, is_held: &is_held, sources: vec![vec![0.0; nodes]; rounds] };
         let solution = equations.solve(&mut fields)?;
-        let mut potentials = vec![vec![0.0; nodes]; self.terminals.len()];
-        for (node, part) in self.part_of.iter().enumerate() {
-            let terminals = &self.parts[*part as usize].terminals;
-            let Some((last, others)) = terminals.split_last() else { continue };
-            let mut left = 1.0;
-            for (round, terminal) in others.iter().enumerate() {
-                potentials[*terminal][node] = fields[round][node];
-                left -= fields[round][node];
+        let mut potentials = vec![Vec::new(); self.terminals.len()];
+        for (number, part) in self.parts.iter().enumerate() {
+            let Some((last, others)) = part.terminals.split_last() else { continue };
+            let of_body = of_bodies.body(number);
+            let mut left = vec![1.0; of_body.nodes.len()];
+            for (field, terminal) in fields.iter().zip(others) {
+                potentials[*terminal] = of_body.values(field);
+                left.iter_mut().zip(&potentials[*terminal]).for_each(|(left, value)| *left -= value);
             }
-            potentials[*last][node] = left;
+            potentials[*last] = left;
         }
         // What is left of 1 where another terminal is at 1 is 0 to the last digit, since held values are whole.
         Ok((potentials, solution))
     }
 
-    fn isothermal(&self, matrix: &Matrix, potentials: &[Vec<f64>]) -> Conductances {
-        let mut conductances = Conductances::new(self.terminals.len());
-        for group in self.groups() {
+    fn isothermal(&self, matrix: &Matrix, of_bodies: &NodesOfBodies, potentials: &[Vec<f64>]) -> Conductances {
+        let mut conductances = self.no_conductance();
+        for (part, group) in self.groups() {
             let fields: Vec<&[f64]> = group.iter().map(|terminal| potentials[*terminal].as_slice()).collect();
-            let energies = matrix.energies(&fields);
+            let energies = matrix.energies(&of_bodies.body(part), &fields);
             for (i, a) in group.iter().enumerate() {
                 for (j, b) in group.iter().enumerate().skip(i + 1) {
                     conductances.set(*a, *b, -energies[i * group.len() + j]);
@@ -316,13 +326,18 @@ impl Body {
     }
 
     /// Conductances with even flows, and the ranges of temperature over the terminals.
-    fn even(&self, matrix: &Matrix, shares: &[Even]) -> Result<(Conductances, Vec<f64>, Solution), Error> {
+    fn even(
+        &self,
+        matrix: &Matrix,
+        of_bodies: &NodesOfBodies,
+        shares: &[Even],
+    ) -> Result<(Conductances, Vec<f64>, Solution), Error> {
         let nodes = self.mesh.points.len();
         let groups = self.groups();
         let mut is_held = self.idle();
-        let rounds = groups.iter().map(|group| group.len() - 1).max().unwrap_or(0);
+        let rounds = groups.iter().map(|(_, group)| group.len() - 1).max().unwrap_or(0);
         let mut sources = vec![vec![0.0; nodes]; rounds];
-        for group in &groups {
+        for (_, group) in &groups {
             // Only differences matter: one node is held.
             let last = group[group.len() - 1];
             is_held[self.terminals[last].nodes[0].index()] = true;
@@ -337,13 +352,14 @@ impl Body {
         let mut fields = vec![vec![0.0; nodes]; rounds];
         let equations = Equations { matrix, is_held: &is_held, sources };
         let solution = equations.solve(&mut fields)?;
-        let mut conductances = Conductances::new(self.terminals.len());
+        let mut conductances = self.no_conductance();
         let mut ranges = vec![0.0; self.terminals.len()];
-        for group in groups {
+        for (part, group) in groups {
             let count = group.len() - 1;
-            let of_group: Vec<Vec<f64>> = self.only_in(group[0], &fields[..count]);
+            let of_body = of_bodies.body(part);
+            let of_group: Vec<Vec<f64>> = fields[..count].iter().map(|field| of_body.values(field)).collect();
             let of_group: Vec<&[f64]> = of_group.iter().map(Vec::as_slice).collect();
-            let resistances = resistances(matrix, &of_group, &equations.sources);
+            let resistances = resistances(matrix, &of_body, &of_group, &equations.sources);
             let inverse = inverse(&resistances, count).map_err(|_| {
                 Error::without_place("the body was not solved: its resistances are not positive definite".to_owned())
             })?;
@@ -361,7 +377,7 @@ impl Body {
                 };
                 let flows: Vec<f64> = (0..count).map(flow).collect();
                 let value = |node: &NodeId| {
-                    flows.iter().zip(&of_group).map(|(flow, field)| flow * field[node.index()]).sum::<f64>()
+                    flows.iter().zip(&of_group).map(|(flow, field)| flow * field[of_body.place_of(*node)]).sum::<f64>()
                 };
                 let values: Vec<f64> = self.terminals[*terminal].nodes.iter().map(value).collect();
                 let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -369,15 +385,6 @@ impl Body {
             }
         }
         Ok((conductances, ranges, solution))
-    }
-
-    /// Fields with zeros outside of the body of a terminal.
-    fn only_in(&self, terminal: usize, fields: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let part = self.part_of[self.terminals[terminal].nodes[0].index()];
-        let one = |field: &Vec<f64>| {
-            field.iter().zip(&self.part_of).map(|(value, of)| if *of == part { *value } else { 0.0 }).collect()
-        };
-        fields.iter().map(one).collect()
     }
 
     /// The capacities of the elements of some blocks, and what is missing for them.
@@ -487,14 +494,14 @@ fn heat_of(material: &BodyMaterial, temperature: Option<f64>) -> Result<f64, Bod
 
 /// The differences of the mean temperatures of terminals, by a unit of flow through each, the upper triangle: b·y + c·x − a(x, y) of fields x and y that the sources b
 /// and c have, of which an error is a product of theirs.
-fn resistances(matrix: &Matrix, fields: &[&[f64]], sources: &[Vec<f64>]) -> Vec<f64> {
+fn resistances(matrix: &Matrix, of_body: &NodesOfBody<'_>, fields: &[&[f64]], sources: &[Vec<f64>]) -> Vec<f64> {
     let count = fields.len();
     let product = |source: &[f64], field: &[f64]| {
         let mut sum = Sum::default();
-        source.iter().zip(field).for_each(|(source, value)| sum.add(source * value));
+        of_body.nodes.iter().zip(field).for_each(|(node, value)| sum.add(source[*node as usize] * value));
         sum.value()
     };
-    let mut resistances = matrix.energies(fields);
+    let mut resistances = matrix.energies(of_body, fields);
     for (i, x) in fields.iter().enumerate() {
         for (j, y) in fields.iter().enumerate().skip(i) {
             let energy = &mut resistances[i * count + j];

@@ -6,6 +6,7 @@ use super::text::short;
 use crate::commands::joule_heat::JOULE_HEAT_FRACTION;
 use crate::failure::Failure;
 use inpact_body::{BodyField, Lumped};
+use std::collections::BTreeSet;
 
 /// A pair of terminals that conduct, and the conductance of each field.
 struct Link {
@@ -33,14 +34,14 @@ pub(super) fn negative(found: &Found<'_>) -> Vec<String> {
 
 /// The links, each pair once.
 fn conducting(found: &Found<'_>) -> Vec<Link> {
-    let count = found.body.terminals().len();
-    let all = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+    let within = |lumped: &Lumped| lumped.isothermal.within_bodies().map(|(a, b, _)| [a, b]).collect::<Vec<_>>();
+    let all: BTreeSet<[usize; 2]> = found.lumped.iter().flat_map(within).collect();
     // What is below zero here is rounding.
     let of = |[a, b]: [usize; 2]| Link {
         nodes: [a, b],
         conductances: found.lumped.iter().map(|lumped| lumped.isothermal.between(a, b).max(0.0)).collect(),
     };
-    all.map(of).filter(|link| link.conductances.iter().any(|conductance| 0.0 < *conductance)).collect()
+    all.into_iter().map(of).filter(|link| link.conductances.iter().any(|conductance| 0.0 < *conductance)).collect()
 }
 
 /// A table of links.

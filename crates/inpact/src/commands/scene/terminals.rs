@@ -6,6 +6,7 @@ use inpact_contact::Interfaces;
 use inpact_geometry::{ContactNode, Master, NodeId, Placed, Surface, overlap};
 use inpact_parser::mesh::{BodyMesh, ConditionKind, EvenFlow, Mesh, MeshNote, MeshPair, SurfaceKind};
 use inpact_parser::model::Name;
+use inpact_parser::span::Span;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// A part of the mesh that is one node of the scene.
@@ -44,29 +45,31 @@ impl Terminal {
 /// conductance is between what touches.
 pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mut Vec<MeshNote>) -> Vec<Terminal> {
     let mesh = &meshed.mesh;
-    let mut found: Vec<Terminal> = Vec::new();
+    let mut found = Found::default();
+    let mut by_line: BTreeMap<Span, Vec<&MeshPair>> = BTreeMap::new();
+    for pair in &mesh.pairs {
+        by_line.entry(pair.span).or_default().push(pair);
+    }
     for pair in &interfaces.pairs {
-        let of_mesh = mesh.pairs.iter().filter(|of| of.span == pair.span);
+        let of_mesh = by_line.get(&pair.span).map_or(&[][..], Vec::as_slice).iter().copied();
         let is_named = |of: &&MeshPair| {
             [(of.slave, &pair.slave), (of.master, &pair.master)]
                 .iter()
                 .all(|(surface, name)| mesh.surfaces[*surface].name == **name)
         };
-        let Some(of) = of_mesh.into_iter().find(is_named) else { continue };
+        let Some(of) = of_mesh.clone().find(is_named) else { continue };
         for (name, of) in [(&pair.slave, of.clone()), (&pair.master, turned(of))] {
             let (mut nodes, mut meets) = met(mesh, &of);
             // A surface of several pairs is one terminal, of all that any of them meets.
-            if let Some(known) = found.iter_mut().find(|known| known.name == *name) {
-                known.nodes.extend(nodes);
-                known.meets = Meets::Several;
+            if found.extend(name, &nodes) {
                 continue;
             }
             // Where faces reach beyond the other surface into another terminal, the nodes that have it across remain.
-            if found.iter().any(|known| !known.nodes.is_disjoint(&nodes)) {
+            if found.sharing(&nodes).is_some() {
                 (nodes, meets) = (strictly_across(mesh, &of), Meets::Unsaid);
             }
             let note = |other: &Name| format!("the contact surface `{name}` shares nodes with `{other}`");
-            add(&mut found, Terminal { name: name.clone(), nodes, meets }, (pair.span, &note), notes);
+            found.add(Terminal { name: name.clone(), nodes, meets }, (pair.span, &note), notes);
         }
     }
     // Sets before what is in them.
@@ -89,9 +92,60 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
             )
         };
         let terminal = Terminal { name: name.clone(), nodes: nodes_of(mesh, surface), meets: Meets::Unsaid };
-        add(&mut found, terminal, (condition.span, &note), notes);
+        found.add(terminal, (condition.span, &note), notes);
     }
-    found
+    found.terminals
+}
+
+/// The terminals so far, by their names and by their nodes.
+#[derive(Default)]
+struct Found {
+    terminals: Vec<Terminal>,
+    by_name: HashMap<Name, usize>,
+    /// The terminals of each node, in ascending order.
+    at: HashMap<NodeId, Vec<usize>>,
+}
+
+impl Found {
+    /// Adds nodes to a terminal that meets one more surface, where there is one of this name.
+    fn extend(&mut self, name: &Name, nodes: &BTreeSet<NodeId>) -> bool {
+        let Some(&number) = self.by_name.get(name) else { return false };
+        let known = &mut self.terminals[number];
+        known.meets = Meets::Several;
+        for node in nodes.iter().filter(|node| known.nodes.insert(**node)) {
+            let at = self.at.entry(*node).or_default();
+            at.insert(at.partition_point(|other| *other < number), number);
+        }
+        true
+    }
+
+    /// The first terminal that has some of these nodes.
+    fn sharing(&self, nodes: &BTreeSet<NodeId>) -> Option<&Terminal> {
+        let first = nodes.iter().filter_map(|node| self.at.get(node)?.first()).min()?;
+        Some(&self.terminals[*first])
+    }
+
+    /// Whether a terminal has all of these nodes.
+    fn has_within(&self, nodes: &BTreeSet<NodeId>) -> bool {
+        let of_first = nodes.first().and_then(|node| self.at.get(node));
+        of_first.is_some_and(|numbers| numbers.iter().any(|number| nodes.is_subset(&self.terminals[*number].nodes)))
+    }
+
+    fn add(&mut self, terminal: Terminal, (span, note): (Span, &dyn Fn(&Name) -> String), notes: &mut Vec<MeshNote>) {
+        if terminal.nodes.is_empty() || self.has_within(&terminal.nodes) {
+            return;
+        }
+        if let Some(known) = self.sharing(&terminal.nodes) {
+            notes.push(MeshNote { span, message: note(&known.name) });
+            return;
+        }
+        let number = self.terminals.len();
+        for node in &terminal.nodes {
+            self.at.entry(*node).or_default().push(number);
+        }
+        self.by_name.entry(terminal.name.clone()).or_insert(number);
+        self.terminals.push(terminal);
+    }
 }
 
 /// How far beside the other surface a node may be that it meets, as a share of an edge: what rounding makes of an edge.
@@ -163,20 +217,4 @@ pub(super) fn restrict(bodies: &mut BodyMesh, mesh: &Mesh, terminals: &[Terminal
         }
     }
     bodies.terminals = restricted;
-}
-
-fn add(
-    found: &mut Vec<Terminal>,
-    terminal: Terminal,
-    (span, note): (inpact_parser::span::Span, &dyn Fn(&Name) -> String),
-    notes: &mut Vec<MeshNote>,
-) {
-    let nodes = &terminal.nodes;
-    if nodes.is_empty() || found.iter().any(|known| nodes.is_subset(&known.nodes)) {
-        return;
-    }
-    match found.iter().find(|known| !known.nodes.is_disjoint(nodes)) {
-        Some(known) => notes.push(MeshNote { span, message: note(&known.name) }),
-        None => found.push(terminal),
-    }
 }

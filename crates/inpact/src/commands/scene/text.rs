@@ -11,6 +11,7 @@ use inpact_evaluation::nodes::{Column, Part};
 use inpact_network::scene::{Course, Field};
 use inpact_parser::model::{Procedure, Regime};
 use inpact_parser::number::read_float;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Conductances below this share of the largest may be rounding.
@@ -126,27 +127,28 @@ impl SceneText {
         unplaced: &mut Vec<String>,
     ) {
         let roundings: Vec<f64> = lumped.iter().map(|of| ROUNDING * of.isothermal.largest()).collect();
-        for (a, first) in terminals.iter().enumerate() {
-            for (b, second) in terminals.iter().enumerate().skip(a + 1) {
-                let mut keys = Vec::new();
-                for (of, &rounding) in lumped.iter().zip(&roundings) {
-                    let (conductance, key) = (of.isothermal.between(a, b), network_field(of.field).conductance_key());
-                    if conductance < -rounding {
-                        unplaced.push(format!(
-                            "the {key} conductance between `{}` and `{}`, {conductance:?}: a network has none below zero",
-                            first.name, second.name
-                        ));
-                    } else if rounding < conductance {
-                        keys.push(format!("{key} = {conductance:?}"));
-                    }
+        let within = |of: &Lumped| of.isothermal.within_bodies().map(|(a, b, _)| (a, b)).collect::<Vec<_>>();
+        // Of different fields a body may be left out.
+        let pairs: BTreeSet<(usize, usize)> = lumped.iter().flat_map(within).collect();
+        for (a, b) in pairs {
+            let (first, second) = (&terminals[a].name, &terminals[b].name);
+            let mut keys = Vec::new();
+            for (of, &rounding) in lumped.iter().zip(&roundings) {
+                let (conductance, key) = (of.isothermal.between(a, b), network_field(of.field).conductance_key());
+                if conductance < -rounding {
+                    unplaced.push(format!(
+                        "the {key} conductance between `{first}` and `{second}`, {conductance:?}: a network has none below zero"
+                    ));
+                } else if rounding < conductance {
+                    keys.push(format!("{key} = {conductance:?}"));
                 }
-                let electrical = Field::Potential.conductance_key();
-                if let Some(share) = heats.share(a).filter(|_| keys.iter().any(|key| key.starts_with(electrical))) {
-                    keys.push(format!("{JOULE_HEAT_FRACTION} = {share:?}"));
-                }
-                if !keys.is_empty() {
-                    self.link(first.name.written(), second.name.written(), &keys);
-                }
+            }
+            let electrical = Field::Potential.conductance_key();
+            if let Some(share) = heats.share(a).filter(|_| keys.iter().any(|key| key.starts_with(electrical))) {
+                keys.push(format!("{JOULE_HEAT_FRACTION} = {share:?}"));
+            }
+            if !keys.is_empty() {
+                self.link(first.written(), second.written(), &keys);
             }
         }
     }
