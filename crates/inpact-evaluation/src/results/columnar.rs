@@ -7,9 +7,9 @@
 
 use super::format::TableFormat;
 use super::heading::{Heading, Values};
-use super::parquet::{Cells, ParquetTable, of_arrow};
+use super::parquet::{ParquetTable, of_arrow};
 use super::status_words::StatusRoom;
-use crate::arrow::array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
+use crate::arrow::array::{Array, ArrayRef, DictionaryArray, Float64Array, Int8Array, RecordBatch, StringArray};
 use crate::arrow::buffer::{NullBuffer, ScalarBuffer};
 use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use crate::arrow::ipc::writer::FileWriter;
@@ -44,22 +44,21 @@ impl<'a> ColumnarWriter<'a> {
     pub(super) fn write(&mut self, batch: &Batch, values: Values<'_>) -> io::Result<()> {
         let mut numbers = values.numbers.iter();
         let of_heading = |heading: &Heading| match values.statuses(*heading) {
-            Some(statuses) => Cells::Statuses(statuses),
-            None => numbers.next().map_or(Cells::Nothing, Cells::Numbers),
+            Some(statuses) if self.format == TableFormat::Parquet => Source::StatusesToEncode(statuses),
+            Some(statuses) => Source::Statuses(statuses),
+            None => numbers.next().map_or(Source::Nothing, Source::Numbers),
         };
-        let cells: Vec<Cells<'_>> = self.headings.iter().map(of_heading).collect();
-        let keys = spread::map(self.keys.iter().zip(&batch.labels), |(key, label)| key_array(*key, label, batch));
-        let keys = keys.into_iter().collect::<io::Result<Vec<_>>>()?;
+        let keys = self.keys.iter().zip(&batch.labels).map(|(key, label)| Source::Key(*key, label));
+        let sources: Vec<Source<'_>> = keys.chain(self.headings.iter().map(of_heading)).collect();
+        let arrays = spread::map(sources, |source| source.array(batch)).into_iter().collect::<io::Result<Vec<_>>>()?;
         let kind = |array: &ArrayRef| match array.data_type() {
             DataType::Dictionary(_, values) => values.as_ref().clone(),
             kind => kind.clone(),
         };
-        let types = keys.iter().map(kind).chain(self.headings.iter().map(|heading| heading.data_type()));
-        self.begin(types.collect())?;
+        self.begin(arrays.iter().map(kind).collect())?;
         match &mut self.sink {
-            Sink::Parquet(table) => table.write(&keys, &cells, batch.rows),
+            Sink::Parquet(table) => table.write(&arrays, batch.rows),
             Sink::Arrow(schema, writer) => {
-                let arrays = keys.into_iter().chain(spread::map(cells, |cells| array(cells, batch.rows))).collect();
                 let rows = RecordBatch::try_new(Arc::clone(schema), arrays).map_err(of_arrow)?;
                 writer.write(&rows).map_err(of_arrow)
             }
@@ -70,7 +69,9 @@ impl<'a> ColumnarWriter<'a> {
     /// Writes what a file ends with.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         let keys = self.keys.iter().map(|key| if *key == Column::Time { DataType::Float64 } else { DataType::Utf8 });
-        self.begin(keys.chain(self.headings.iter().map(|heading| heading.data_type())).collect())?;
+        let values =
+            self.headings.iter().map(|heading| if heading.is_number() { DataType::Float64 } else { DataType::Utf8 });
+        self.begin(keys.chain(values).collect())?;
         match std::mem::replace(&mut self.sink, Sink::Finished) {
             Sink::Parquet(table) => table.finish(),
             Sink::Arrow(_, mut writer) => writer.finish().map_err(of_arrow),
@@ -101,19 +102,26 @@ impl<'a> ColumnarWriter<'a> {
     }
 }
 
-impl Heading {
-    /// The type of its column.
-    fn data_type(self) -> DataType {
-        if self.is_number() { DataType::Float64 } else { DataType::Utf8 }
-    }
+/// Sources of a column of the table.
+enum Source<'b> {
+    Key(Column, &'b LabelColumn),
+    Numbers(&'b NumberColumn),
+    Statuses(&'b [Option<super::Status>]),
+    /// Those of a file whose encoder takes texts by their numbers.
+    StatusesToEncode(&'b [Option<super::Status>]),
+    /// A column of numbers that no row has.
+    Nothing,
 }
 
-/// The array of a column of results.
-fn array(cells: Cells<'_>, rows: usize) -> ArrayRef {
-    match cells {
-        Cells::Numbers(column) => number_array(column),
-        Cells::Statuses(statuses) => StatusRoom::default().array(statuses),
-        Cells::Nothing => Arc::new(Float64Array::new_null(rows)),
+impl Source<'_> {
+    fn array(self, batch: &Batch) -> io::Result<ArrayRef> {
+        match self {
+            Self::Key(key, label) => key_array(key, label, batch),
+            Self::Numbers(column) => Ok(number_array(column)),
+            Self::Statuses(statuses) => Ok(StatusRoom::default().array(statuses)),
+            Self::StatusesToEncode(statuses) => Ok(status_dictionary(statuses)),
+            Self::Nothing => Ok(Arc::new(Float64Array::new_null(batch.rows))),
+        }
     }
 }
 
@@ -144,6 +152,16 @@ fn no_key(batch: &Batch, row: usize, key: Column, text: &str) -> io::Error {
     let what = if key == Column::Time { "number" } else { "text of UTF-8" };
     let message = format!("`{key}` of row {row} is `{text}`, which is no {what}; comma-separated values can hold it");
     io::Error::new(io::ErrorKind::InvalidData, message)
+}
+
+fn status_dictionary(statuses: &[Option<super::Status>]) -> ArrayRef {
+    let keys: Int8Array = if statuses.contains(&None) {
+        statuses.iter().map(|status| status.map(|status| status as i8)).collect()
+    } else {
+        Int8Array::from_iter_values(statuses.iter().flatten().map(|status| *status as i8))
+    };
+    let words = StringArray::from_iter_values(super::Status::ALL.map(super::Status::word));
+    Arc::new(DictionaryArray::new(keys, Arc::new(words)))
 }
 
 pub(super) fn number_array(column: &NumberColumn) -> ArrayRef {

@@ -1,15 +1,10 @@
 //! Columns of rows as a Parquet file, each encoded by itself.
 //!
 //! Floats are stored plain and nothing is compressed, which is fastest; row groups are bounded, and so is memory.
-//! Keys, which may be of any type, are encoded by the library, all other columns by [`flat`].
 //! A row group is written once its rows are complete, column after column: the file does not depend on the number of threads that encoded them.
 
-mod flat;
-
-pub(super) use self::flat::Cells;
-use self::flat::FlatColumn;
 use crate::arrow::array::{Array, ArrayRef};
-use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
+use crate::arrow::datatypes::{DataType, Schema, SchemaRef};
 use crate::arrow::error::ArrowError;
 use crate::spread;
 use parquet::arrow::ArrowWriter;
@@ -19,7 +14,6 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::ColumnPath;
 use std::io::{self, Write};
-use std::sync::Arc;
 
 /// How many rows a row group has at most.
 const ROWS_OF_A_GROUP: usize = 1 << 18;
@@ -32,10 +26,8 @@ pub(super) struct ParquetTable<W: Write + Send> {
     schema: SchemaRef,
     file: SerializedFileWriter<W>,
     groups: ArrowRowGroupWriterFactory,
-    /// The key columns of the row group under way; empty between row groups.
-    keys: Vec<ArrowColumnWriter>,
-    /// The other columns, whose memory serves the next row group too.
-    columns: Vec<FlatColumn>,
+    /// The columns of the row group under way; empty between row groups.
+    columns: Vec<ArrowColumnWriter>,
     /// How many rows they have.
     rows: usize,
 }
@@ -46,34 +38,22 @@ impl<W: Write + Send> ParquetTable<W> {
         let properties = properties(&schema, keys);
         let writer = ArrowWriter::try_new(output, schema.clone(), Some(properties)).map_err(of_parquet)?;
         let (file, groups) = writer.into_serialized_writer().map_err(of_parquet)?;
-        let descriptors = file.schema_descr().columns()[keys..].iter();
-        let columns = descriptors.map(|descriptor| match descriptor.physical_type() {
-            parquet::basic::Type::DOUBLE => FlatColumn::numbers(descriptor.clone()),
-            _ => FlatColumn::statuses(descriptor.clone()),
-        });
-        let columns = columns.collect();
-        Ok(Self { schema, file, groups, keys: Vec::new(), columns, rows: 0 })
+        Ok(Self { schema, file, groups, columns: Vec::new(), rows: 0 })
     }
 
-    /// Adds so many rows: the keys, which are flat and of the types of the schema, or dictionaries of these, and the cells of the other columns.
-    pub(super) fn write(&mut self, keys: &[ArrayRef], cells: &[Cells<'_>], rows: usize) -> io::Result<()> {
+    /// Adds so many rows, the columns of which are flat and of the types of the schema, or dictionaries of these.
+    pub(super) fn write(&mut self, arrays: &[ArrayRef], rows: usize) -> io::Result<()> {
         let mut first = 0;
         while first < rows {
-            if self.rows == 0 {
+            if self.columns.is_empty() {
                 let group = self.file.flushed_row_groups().len();
-                self.keys = self.groups.create_column_writers(group).map_err(of_parquet)?;
-                self.keys.truncate(keys.len());
+                self.columns = self.groups.create_column_writers(group).map_err(of_parquet)?;
             }
             let count = (rows - first).min(ROWS_OF_A_GROUP - self.rows);
-            let of_keys = self.keys.iter_mut().zip(self.schema.fields()).zip(keys);
-            let of_keys = of_keys.map(|((column, field), array)| Part::Key(column, field, array));
-            let others = self.columns.iter_mut().zip(cells).map(|(column, cells)| Part::Flat(column, *cells));
-            let encoded = spread::map(of_keys.chain(others), |part| match part {
-                Part::Key(column, field, array) => {
-                    let leaves = compute_leaves(field, &array.slice(first, count))?;
-                    leaves.iter().try_for_each(|leaf| column.write(leaf))
-                }
-                Part::Flat(column, cells) => column.write(cells, first..first + count),
+            let columns = self.columns.iter_mut().zip(self.schema.fields()).zip(arrays);
+            let encoded = spread::map(columns, |((column, field), array)| {
+                let leaves = compute_leaves(field, &array.slice(first, count))?;
+                leaves.iter().try_for_each(|leaf| column.write(leaf))
             });
             encoded.into_iter().collect::<Result<(), _>>().map_err(of_parquet)?;
             self.rows += count;
@@ -93,26 +73,18 @@ impl<W: Write + Send> ParquetTable<W> {
 
     /// Writes the row group under way, if there is one.
     fn finish_group(&mut self) -> io::Result<()> {
-        if self.rows == 0 {
+        let columns = std::mem::take(&mut self.columns);
+        self.rows = 0;
+        if columns.is_empty() {
             return Ok(());
         }
-        self.rows = 0;
-        let chunks = spread::map(std::mem::take(&mut self.keys), ArrowColumnWriter::close);
+        let chunks = spread::map(columns, ArrowColumnWriter::close);
         let mut group = self.file.next_row_group().map_err(of_parquet)?;
         for chunk in chunks {
             chunk.and_then(|chunk| chunk.append_to_row_group(&mut group)).map_err(of_parquet)?;
         }
-        for column in &mut self.columns {
-            column.append(&mut group).map_err(of_parquet)?;
-        }
         group.close().map(drop).map_err(of_parquet)
     }
-}
-
-/// The work on one column.
-enum Part<'b> {
-    Key(&'b mut ArrowColumnWriter, &'b Arc<Field>, &'b ArrayRef),
-    Flat(&'b mut FlatColumn, Cells<'b>),
 }
 
 fn properties(schema: &Schema, keys: usize) -> WriterProperties {
