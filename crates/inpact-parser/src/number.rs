@@ -6,7 +6,7 @@ mod fortran;
 mod plain;
 
 pub use fortran::{FortranNumber, read_fortran};
-pub(crate) use plain::read_plain;
+pub use plain::read_plain;
 
 /// Reasons why a text is no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,8 @@
 
 use super::batch::Batch;
 use super::lines::{Cells, Piece, end_of_row, is_blank};
-use super::number::{leading_number, number};
+use super::number::number;
+use inpact_parser::number::read_plain;
 use memchr::memchr;
 
 /// Which cells of a row go where.
@@ -176,7 +177,7 @@ impl Layout {
                 }
                 Target::Number(to) => {
                     let text = &row[start..];
-                    if let Some((value, length)) = leading_number(text)
+                    if let Some((value, length)) = read_plain(text)
                         && text.get(length).is_none_or(|byte| *byte == separator)
                     {
                         end = Some(start + length);

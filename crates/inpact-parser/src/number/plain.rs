@@ -19,8 +19,16 @@ const MOST_EXACT: u64 = 1 << 53;
 /// Reads the number that `text` begins with, and gives its length; what follows may be anything.
 ///
 /// `None` is no answer: a number with more digits, a larger exponent or one after a D, or no number.
+/// Whether what follows is an end is for the caller to judge.
+///
+/// ```
+/// use inpact_parser::number::read_plain;
+///
+/// assert_eq!(read_plain(b"-1.5e3,4"), Some((-1500.0, 6)));
+/// assert_eq!(read_plain(b"nan"), None);
+/// ```
 #[inline]
-pub(crate) fn read_plain(text: &[u8]) -> Option<(f64, usize)> {
+pub fn read_plain(text: &[u8]) -> Option<(f64, usize)> {
     let (sign, start) = match text.first()? {
         b'-' => (-1.0, 1),
         b'+' => (1.0, 1),

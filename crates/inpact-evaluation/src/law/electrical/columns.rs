@@ -386,6 +386,20 @@ impl ElectricalColumns {
         Some(self.flow_of_increment(row, (value, rest), jump, history, results, tally))
     }
 
+    /// Sets the integrals of a node in a row of results; no current is 0, not −0.
+    fn set_integrals(&self, history: &ElectricalHistory, to: usize, results: &mut ResultBatch) {
+        let slots = &self.slots;
+        let integrals = [
+            (slots.ecdt, Some(history.current())),
+            (slots.ecdta, history.current_of_area()),
+            (slots.sjdt, Some(history.heat())),
+            (slots.sjdta, history.heat_of_area()),
+        ];
+        for (slot, value) in integrals {
+            results.set(slot, to, value.map(|value| value + 0.0));
+        }
+    }
+
     /// Current and heat of a row that ends an increment, if it has a history.
     fn flow_of_increment(
         &self,
@@ -436,10 +450,7 @@ impl ElectricalColumns {
                 Some(exact) => history.finish_exactly(&increment, exact, area),
                 None => history.finish(&increment, &flow, value.mul_add(jump.0, -flow.current_density), area),
             }
-            set(slots.ecdt, Some(history.current()));
-            set(slots.ecdta, history.current_of_area());
-            set(slots.sjdt, Some(history.heat()));
-            set(slots.sjdta, history.heat_of_area());
+            self.set_integrals(history, row.to, results);
         }
         heat
     }

@@ -121,14 +121,9 @@ impl Increments<'_, '_> {
         tally: &mut InteractionTally,
     ) {
         let Some(steps) = &chunk.steps else { return };
-        let (slots, increment, to) = (&self.law.slots, &chunk.begun[at], chunk.result_of(at));
+        let (increment, to) = (&chunk.begun[at], chunk.result_of(at));
         history.finish_steps(increment, &steps[at]);
-        // No current is 0, not −0.
-        let mut set = |slot, value: Option<f64>| results.set(slot, to, value.map(|value| value + 0.0));
-        set(slots.ecdt, Some(history.current()));
-        set(slots.ecdta, history.current_of_area());
-        set(slots.sjdt, Some(history.heat()));
-        set(slots.sjdta, history.heat_of_area());
+        self.law.set_integrals(history, to, results);
         if increment.closes_circuit
             && let Some(row) = self.part.row(chunk.rows[at], to)
         {
@@ -169,13 +164,7 @@ impl Increments<'_, '_> {
         let rest = chunk.conductance[at].mul_add(jump, -flow.current_density);
         let of_row = ElectricalFlow { current_density: flow.current_density, heat: flow.heat };
         history.finish(increment, &of_row, rest, area);
-        let slots = &law.slots;
-        // No current is 0, not −0.
-        let mut set = |slot, value: Option<f64>| results.set(slot, to, value.map(|value| value + 0.0));
-        set(slots.ecdt, Some(history.current()));
-        set(slots.ecdta, history.current_of_area());
-        set(slots.sjdt, Some(history.heat()));
-        set(slots.sjdta, history.heat_of_area());
+        law.set_integrals(history, to, results);
         let heat = Some(HeatAmounts::from(flow.heat));
         if law.slopes.is_empty() && sides.is_within() && !increment.closes_circuit {
             return (Outcome::Evaluated(state.and_then(contact_status)), heat);
