@@ -10,32 +10,22 @@
 //! the next increment then begins at the last row that had them all.
 //! Opens no file: batches in, batches out.
 
-mod binder;
 mod coordinates;
 mod found;
 mod laws;
-mod part;
 mod pipeline;
 mod shard;
-mod tally;
-mod totals;
 mod worker;
 
 pub use coordinates::{Coordinates, TableReads, TabulatedQuantity};
-pub use tally::{AxisTally, InteractionTally, RemarkedRows, Tally, UserFaultInRow};
-pub use totals::Totals;
-
-pub(crate) use binder::Binder;
-pub(crate) use part::{Part, Row, mean_mass_flow_of};
-pub(crate) use tally::{PERMEABILITY, THERMAL_CONDUCTANCE, VIEW_FACTOR};
 
 use self::laws::Laws;
 use self::shard::{Shard, ShardResults, Waiting};
 use self::worker::Worker;
-use crate::law::contact::ContactState;
 use crate::nodes::Batch;
 use crate::plan::{Choices, Plan};
-use crate::results::{ResultBatch, Status};
+use crate::results::ResultBatch;
+use crate::rows::Tally;
 use crate::spread;
 use inpact_parser::model::Model;
 
@@ -47,17 +37,6 @@ pub struct Evaluation<'a> {
     shards: Vec<Shard>,
     /// The rows and the totals; workers and shards count the rest.
     tally: Tally,
-}
-
-/// Results of a law in a row.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Outcome {
-    /// The row lacks a number that the law needs.
-    Incomplete,
-    /// It was evaluated, and this is the row's status as far as it goes.
-    Evaluated(Option<Status>),
-    /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
-    Faulty(Option<Box<UserFaultInRow>>),
 }
 
 impl<'a> Evaluation<'a> {
@@ -166,13 +145,4 @@ fn evaluate_shared(
             own.scatter(rows, results);
         }
     });
-}
-
-/// The status of a row as far as contact goes; `None` where it cannot be told.
-pub(crate) fn contact_status(state: ContactState) -> Option<Status> {
-    match state {
-        ContactState::Closed => Some(Status::Closed),
-        ContactState::Open => Some(Status::Open),
-        ContactState::Undetermined => None,
-    }
 }

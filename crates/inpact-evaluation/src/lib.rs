@@ -57,13 +57,13 @@ pub mod results;
 
 pub mod plan;
 
+mod rows;
+
 mod evaluate;
 mod spread;
 
 pub use accuracy::{Accuracy, Tolerance, Wanted};
 pub use error::{Error, ErrorKind, TableFault};
-pub use evaluate::{
-    AxisTally, Coordinates, Evaluation, InteractionTally, RemarkedRows, TableReads, TabulatedQuantity, Tally, Totals,
-    UserFaultInRow,
-};
+pub use evaluate::{Coordinates, Evaluation, TableReads, TabulatedQuantity};
 pub use history::HistoryStart;
+pub use rows::{AxisTally, InteractionTally, RemarkedRows, Tally, Totals, UserFaultInRow};

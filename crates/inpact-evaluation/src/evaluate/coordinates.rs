@@ -5,13 +5,13 @@
 
 use super::laws::Laws;
 use super::worker::Worker;
-use super::{Part, Tally};
 use crate::evaluator::Evaluator;
 use crate::law::conductance::Branch;
 use crate::law::conductance::columns::Gathered;
 use crate::nodes::Batch;
 use crate::plan::{Choices, Plan};
 use crate::results::Along;
+use crate::rows::{Part, Tally};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::Model;
 

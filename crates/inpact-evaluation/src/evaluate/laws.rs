@@ -1,6 +1,5 @@
 //! The laws of a plan with the columns of a batch that they read and fill.
 
-use super::binder::{Binder, numbers};
 use crate::history::{ClosingHeat, HistoryStart};
 use crate::law::electrical::columns::ElectricalColumns;
 use crate::law::pore::columns::PoreColumns;
@@ -8,6 +7,7 @@ use crate::law::thermal::columns::ThermalColumns;
 use crate::nodes::Column;
 use crate::plan::{Choices, ContactPlaces, History, Plan};
 use crate::results::Output;
+use crate::rows::{Binder, numbers};
 use inpact_parser::model::Model;
 
 /// The laws of a plan.
@@ -64,7 +64,7 @@ impl Laws {
         Self {
             interactions,
             result_columns: numbers(plan).count(),
-            summed: if has_known_times(plan) { super::totals::summed(numbers(plan)) } else { Vec::new() },
+            summed: if has_known_times(plan) { crate::rows::summed(numbers(plan)) } else { Vec::new() },
             node: plan.selection.label(Column::Node),
             interaction: plan.selection.label(Column::Interaction),
             time: plan.selection.number(Column::Time),

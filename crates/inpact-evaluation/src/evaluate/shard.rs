@@ -2,12 +2,12 @@
 
 use super::found::Found;
 use super::laws::{InteractionLaws, Laws};
-use super::{Part, Row, Tally};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::electrical::columns::increments::{Chunk, Increments};
 use crate::nodes::{HistoryOrder, HistorySlot, NodeIndex};
 use crate::plan::Plan;
 use crate::results::ResultBatch;
+use crate::rows::{Part, Row, Tally};
 
 /// The nodes whose labels fall to it.
 #[derive(Debug)]

@@ -3,13 +3,13 @@
 use super::found::Found;
 use super::laws::{InteractionLaws, Laws, Summary};
 use super::shard::{Shard, Waiting};
-use super::{InteractionTally, Outcome, Part, Tally, UserFaultInRow};
 use crate::evaluator::SeenError;
 use crate::law::contact::columns::count_states;
 use crate::law::thermal::columns::ThermalColumns;
 use crate::nodes::Batch;
 use crate::plan::{Plan, RowInteractions};
 use crate::results::ResultBatch;
+use crate::rows::{InteractionTally, Outcome, Part, Tally, UserFaultInRow};
 use inpact_parser::model::Model;
 
 /// The interactions that a thread has met, and what it counted.

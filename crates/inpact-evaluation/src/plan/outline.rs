@@ -1,7 +1,7 @@
 //! The plan as a tree with costs, before and after what the scene does not require is cut.
 
 use super::cost::{COMPUTE_OUTPUT, KEEP_HISTORY, READ_NUMBER, WRITE_NUMBER};
-use super::reason::Reason;
+use super::dropped::Dropped;
 use super::{ColumnRole, InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, number_text};
 use std::fmt::{self, Formatter};
@@ -39,17 +39,6 @@ pub struct Cut {
     pub reason: String,
     /// The cost saved, in nanoseconds for each row of the node table.
     pub saved: f64,
-}
-
-/// A part of a law that was cut while the plan was made.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Dropped {
-    /// Its name.
-    pub what: String,
-    /// The cost saved, in nanoseconds for each row of the interaction.
-    pub cost: f64,
-    /// Why it was cut.
-    pub reason: Reason,
 }
 
 impl Node {

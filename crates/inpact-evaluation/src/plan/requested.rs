@@ -2,7 +2,8 @@
 
 use super::choices::Choices;
 use super::cost::KEEP_HISTORY;
-use super::outline::{Dropped, cost_of};
+use super::dropped::Dropped;
+use super::outline::cost_of;
 use super::output_groups::{
     ELECTRICAL_FLOWS, ELECTRICAL_HEAT, OF_AREA, OF_FRICTION, OF_TIME, SUMS_OF_HEAT, is_of_electrical, is_of_pore,
     is_of_thermal,
@@ -141,12 +142,6 @@ fn drop_from_pore(law: &mut PorePlan, has: impl Fn(&[Output]) -> bool) {
     let needs_rate = matches!(law.rate, Rate::History | Rate::Column);
     if !has(&OF_TIME) && !needs_rate {
         law.history = History::None;
-    }
-}
-
-impl Dropped {
-    fn not_requested(what: &str, cost: f64) -> Self {
-        Self { what: what.to_owned(), cost, reason: Reason::NotRequested }
     }
 }
 

@@ -4,13 +4,13 @@ mod both;
 
 use super::{Branch, ConductanceTables, ContactPoint, SlopeAlong, value_without_table};
 use crate::accuracy::Wanted;
-use crate::evaluate::{Binder, Part, Row, mean_mass_flow_of};
 use crate::evaluator::{Evaluator, SeenError, TableValues};
 use crate::law::contact::{Clearance, ContactPressure, ContactState};
 use crate::nodes::{Cells, Column};
 use crate::numbers::mean;
 use crate::plan::{MassFlow, Source, TablePlan};
 use crate::results::{Along, Output, ResultBatch};
+use crate::rows::{Binder, Part, Row, mean_mass_flow_of};
 use crate::table::{PiecewiseTable, Sides};
 use std::borrow::Cow;
 use std::ops::Range;

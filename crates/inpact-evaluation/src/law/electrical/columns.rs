@@ -2,7 +2,6 @@
 
 use super::{Dissipation, ExactFlow, flow};
 use crate::accuracy::Wanted;
-use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, contact_status};
 use crate::evaluator::SeenError;
 use crate::history::{ElectricalHistory, ElectricalIncrement};
 use crate::kernel::InstructionSet;
@@ -17,6 +16,7 @@ use crate::nodes::Cells;
 use crate::numbers::{Amount, is_moderate};
 use crate::plan::{Choices, ElectricalPlan, History, InteractionTables, Source};
 use crate::results::{Along, Output, ResultBatch, Status};
+use crate::rows::{Binder, InteractionTally, Outcome, Part, Row, contact_status};
 use crate::table::Sides;
 use inpact_parser::model::Regime;
 use std::ops::Range;

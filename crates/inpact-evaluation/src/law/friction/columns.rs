@@ -1,12 +1,12 @@
 //! Friction over the rows of a part: in columns where no number is missing or extreme, row by row where one is.
 
 use super::{ShearStress, SlipRate, frictional_heat_amounts};
-use crate::evaluate::{Binder, InteractionTally, Part, Row};
 use crate::law::contact::ContactState;
 use crate::law::heat::{HeatAmounts, HeatGeneration};
 use crate::nodes::Column;
 use crate::numbers::{is_moderate, is_zero_or_ordinary};
 use crate::plan::{FrictionPlan, SlipRateSource};
+use crate::rows::{Binder, InteractionTally, Part, Row};
 use inpact_parser::grammar::Dialect;
 use std::ops::Range;
 

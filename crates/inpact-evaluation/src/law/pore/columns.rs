@@ -3,7 +3,6 @@
 mod plain;
 
 use super::{BulkPermeabilities, Flow, Gap, Permeability, PoreFlow, PoreLaw, PorePoint};
-use crate::evaluate::{Binder, InteractionTally, Outcome, PERMEABILITY, Part, Row, contact_status};
 use crate::evaluator::{Evaluator, FoundValue, TableValues};
 use crate::history::{PoreHistory, PoreIncrement};
 use crate::law::conductance::columns::{Gathered, Needs};
@@ -12,6 +11,7 @@ use crate::nodes::{Cells, Column, Part as Side};
 use crate::numbers::{Amount, mean};
 use crate::plan::{Bulk, CharacteristicLength, Choices, History, InteractionTables, PorePlan, Rate, Source};
 use crate::results::{Along, Output, ResultBatch, Status};
+use crate::rows::{Binder, InteractionTally, Outcome, PERMEABILITY, Part, Row, contact_status};
 use inpact_parser::model::Regime;
 use std::borrow::Cow;
 

@@ -1,10 +1,10 @@
 //! Radiation over the rows of a part: view factors in columns, and heat in columns too where no number is missing or extreme.
 
 use super::{RadiationLaw, is_mild, plain_heat};
-use crate::evaluate::{InteractionTally, Part, Row, VIEW_FACTOR};
 use crate::kernel::TableKernel;
 use crate::law::thermal::Temperatures;
 use crate::numbers::{Amount, is_moderate};
+use crate::rows::{InteractionTally, Part, Row, VIEW_FACTOR};
 use crate::table::Sides;
 
 /// Radiation; it needs the clearance of open rows.

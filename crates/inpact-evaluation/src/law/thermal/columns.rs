@@ -3,7 +3,6 @@
 mod plain;
 
 use super::{InterfaceHeat, Temperatures, ThermalConductance, conducted_heat_amount};
-use crate::evaluate::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, contact_status};
 use crate::history::ThermalHistory;
 use crate::law::calculix::CalculixConductance;
 use crate::law::conductance::columns::{BranchColumns, ConductanceColumn, Needs, Variable, WantedSlope, in_row};
@@ -17,6 +16,7 @@ use crate::nodes::Column;
 use crate::numbers::Amount;
 use crate::plan::{Choices, ConductionPlan, CurrentHeat, History, MassFlow, ThermalPlan};
 use crate::results::{Along, Output, ResultBatch, Status};
+use crate::rows::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, contact_status};
 use crate::table::Sides;
 
 /// The place of the mass flow rate among the variables.

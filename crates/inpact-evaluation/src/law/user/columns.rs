@@ -1,9 +1,9 @@
 //! The conductance of one row by a user's routine, which is asked in the order of the rows.
 
 use super::{UserConductancePoint, UserConductanceValue, UserFault, UserLaw, UserNames};
-use crate::evaluate::{Binder, InteractionTally, Row, UserFaultInRow};
 use crate::nodes::{Column, Part, coordinates};
 use crate::plan::{Source, UserPlan};
+use crate::rows::{Binder, InteractionTally, Row, UserFaultInRow};
 
 /// The routine, and where a row has what it is called with.
 #[derive(Debug, Clone)]

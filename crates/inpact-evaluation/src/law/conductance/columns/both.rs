@@ -9,11 +9,11 @@
 )]
 
 use super::{Branch, BranchColumns, ConductanceColumn, place};
-use crate::evaluate::Part;
 use crate::evaluator::{Evaluator, SeenError};
 use crate::kernel::{InstructionSet, Lanes, OnlyRange, Operation, TableKernel};
 use crate::law::contact::ContactState;
 use crate::law::contact::columns::count_states;
+use crate::rows::Part;
 use crate::table::Sides;
 
 /// Rows that are taken through both tables together, so that what lies between stays in the first cache.

@@ -8,7 +8,6 @@
 )]
 
 use super::{CHUNK, ElectricalColumns, LOST_DIGITS, Slots};
-use crate::evaluate::{InteractionTally, Part, UserFaultInRow, contact_status};
 use crate::kernel::{Lanes, Operation};
 use crate::law::conductance::columns::{ConductanceColumn, write_slopes};
 use crate::law::contact::ContactState;
@@ -17,6 +16,7 @@ use crate::nodes::Batch;
 use crate::numbers::{is_moderate, is_zero_or_ordinary};
 use crate::plan::Source;
 use crate::results::ResultBatch;
+use crate::rows::{InteractionTally, Part, UserFaultInRow, contact_status};
 use inpact_parser::model::Regime;
 use std::ops::Range;
 

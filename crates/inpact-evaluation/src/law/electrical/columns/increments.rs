@@ -3,7 +3,6 @@
 
 use super::alone::set_contact;
 use super::{CHUNK, ElectricalColumns, FlowInputs, PlainFlow, lost_digits};
-use crate::evaluate::{InteractionTally, Outcome, Part, contact_status};
 use crate::history::{ElectricalHistory, ElectricalIncrement, ElectricalSteps};
 use crate::kernel::scan::are_moderate;
 use crate::law::conductance::columns::ConductanceColumn;
@@ -13,6 +12,7 @@ use crate::law::heat::HeatAmounts;
 use crate::nodes::Cells;
 use crate::numbers::is_moderate;
 use crate::results::ResultBatch;
+use crate::rows::{InteractionTally, Outcome, Part, contact_status};
 use std::ops::Range;
 
 /// Rows of a part, none of which lacks a number, that end increments.

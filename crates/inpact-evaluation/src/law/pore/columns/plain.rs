@@ -1,13 +1,13 @@
 //! Pore fluid flow over the rows of a part without histories by plain arithmetic, in columns: the bits of [`PoreColumns::row`] where no number is missing and none is extreme.
 
 use super::{Length, PoreColumns};
-use crate::evaluate::{InteractionTally, Outcome, PERMEABILITY, Part, contact_status};
 use crate::evaluator::TableValues;
 use crate::kernel::scan::are_moderate;
 use crate::law::contact::{Clearance, ClearanceRate, ContactState};
 use crate::law::pore::{BulkPermeabilities, CutoffBoundary, given_rate};
 use crate::numbers::{compensated_sum, is_moderate};
 use crate::results::{ResultBatch, Status};
+use crate::rows::{InteractionTally, Outcome, PERMEABILITY, Part, contact_status};
 use inpact_parser::model::Regime;
 use std::ops::Range;
 

@@ -1,13 +1,13 @@
 //! Heat over the rows of a part by plain arithmetic, in columns: the bits of [`ThermalColumns::row`] where no number is missing and none is extreme.
 
 use super::{ThermalColumns, ThermalFound};
-use crate::evaluate::{InteractionTally, Outcome, Part, VIEW_FACTOR, contact_status};
 use crate::kernel::scan::are_moderate;
 use crate::law::conductance::columns::write_slopes;
 use crate::law::contact::ContactState;
 use crate::law::heat::HeatAmounts;
 use crate::numbers::compensated_sum;
 use crate::results::{ResultBatch, Status};
+use crate::rows::{InteractionTally, Outcome, Part, VIEW_FACTOR, contact_status};
 use std::ops::Range;
 
 /// Rows that are looked at together before any of them is written.

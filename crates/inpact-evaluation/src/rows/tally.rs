@@ -130,7 +130,7 @@ pub struct AxisTally {
 }
 
 impl Tally {
-    pub(super) fn new(plan: &Plan, summed: Vec<Output>, interactions: usize) -> Self {
+    pub(crate) fn new(plan: &Plan, summed: Vec<Output>, interactions: usize) -> Self {
         let mut tally = Self {
             rows: 0,
             interactions: vec![InteractionTally::default(); interactions],
@@ -146,7 +146,7 @@ impl Tally {
     }
 
     /// Takes the counts of another thread as well; the totals are added up elsewhere.
-    pub(super) fn merge(&mut self, other: Self) {
+    pub(crate) fn merge(&mut self, other: Self) {
         self.rows += other.rows;
         for (own, other) in self.interactions.iter_mut().zip(other.interactions) {
             own.merge(other);

@@ -44,7 +44,7 @@ pub(crate) struct Row<'p, 'a> {
 
 impl<'a> Part<'a> {
     /// The rows with these numbers, all of the batch where there are none; `labels` are the columns of texts that laws read.
-    pub(super) fn new(
+    pub(crate) fn new(
         whole: &'a Batch,
         numbers: Option<Vec<u32>>,
         labels: &[usize],

@@ -27,7 +27,7 @@ pub(crate) fn summed(outputs: impl Iterator<Item = Output>) -> Vec<(Output, usiz
 
 impl Totals {
     /// Adds the results of some rows, those of the latest time so far.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         times: Option<&NumberColumn>,
         summed: &[(Output, usize)],

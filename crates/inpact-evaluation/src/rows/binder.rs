@@ -7,17 +7,17 @@ use crate::results::{Along, Output};
 /// Finds the places of columns and results for the laws of one interaction.
 #[derive(Clone, Copy)]
 pub(crate) struct Binder<'a> {
-    pub(super) plan: &'a Plan,
-    pub(super) of: &'a InteractionPlan,
+    pub(crate) plan: &'a Plan,
+    pub(crate) of: &'a InteractionPlan,
 }
 
 /// The outputs that are numbers.
-pub(super) fn numbers(plan: &Plan) -> impl Iterator<Item = Output> {
+pub(crate) fn numbers(plan: &Plan) -> impl Iterator<Item = Output> {
     plan.outputs.iter().copied().filter(|output| output.is_number())
 }
 
 impl Binder<'_> {
-    pub(super) fn contact(self) -> ContactPlaces {
+    pub(crate) fn contact(self) -> ContactPlaces {
         let place = |column: Option<Column>| self.place(column?);
         let columns = self.of.contact;
         ContactPlaces {

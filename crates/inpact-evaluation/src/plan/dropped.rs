@@ -1,0 +1,20 @@
+//! What was cut of a law while the plan was made.
+
+use super::reason::Reason;
+
+/// A part of a law that was cut while the plan was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dropped {
+    /// Its name.
+    pub what: String,
+    /// The cost saved, in nanoseconds for each row of the interaction.
+    pub cost: f64,
+    /// Why it was cut.
+    pub reason: Reason,
+}
+
+impl Dropped {
+    pub(super) fn not_requested(what: &str, cost: f64) -> Self {
+        Self { what: what.to_owned(), cost, reason: Reason::NotRequested }
+    }
+}

@@ -1,0 +1,25 @@
+//! What a law came to in a row.
+
+use super::UserFaultInRow;
+use crate::law::contact::ContactState;
+use crate::results::Status;
+
+/// Results of a law in a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Outcome {
+    /// The row lacks a number that the law needs.
+    Incomplete,
+    /// It was evaluated, and this is the row's status as far as it goes.
+    Evaluated(Option<Status>),
+    /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
+    Faulty(Option<Box<UserFaultInRow>>),
+}
+
+/// The status of a row as far as contact goes; `None` where it cannot be told.
+pub(crate) fn contact_status(state: ContactState) -> Option<Status> {
+    match state {
+        ContactState::Closed => Some(Status::Closed),
+        ContactState::Open => Some(Status::Open),
+        ContactState::Undetermined => None,
+    }
+}
