@@ -23,8 +23,9 @@ from inpact._deck import Deck, Fixed, Interaction, Interactions, from_dict, from
 from inpact._errors import DeckError
 from inpact._evaluate import evaluate, nodes
 from inpact._inpact import Finding, Fix, FixedFile, Result, __version__, explain
-from inpact._laws import GapConductance, Table, UserPoints
+from inpact._laws import GapConductance, Table
 from inpact._scene import Solution, solve
+from inpact._user import UserPoints
 
 __all__ = [
     "Deck",

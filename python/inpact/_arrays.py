@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from inpact._user import UserPoints
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -206,8 +208,6 @@ def call_user_conductance(
     node: Floats,
 ) -> tuple[Floats, Floats, Floats]:
     """Call a user's conductance over arrays, and make plain columns of what it gives."""
-    from inpact._laws import UserPoints
-
     points = UserPoints(interaction, clearance, tuple(temperature), [tuple(sides) for sides in fv], time, node)
     given = function(points)
     slopes: Any = (0.0, 0.0)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from inpact._deck import Deck, Path
     from inpact._inpact import Result
-    from inpact._laws import UserPoints
+    from inpact._user import UserPoints
 
 
 def evaluate(

@@ -1,7 +1,7 @@
 //! Decks: reading, checking, fixing, JSON.
 
 use crate::errors::raise;
-use crate::evaluate::Result;
+use crate::evaluate::{self, Result};
 use crate::findings::Finding;
 use crate::laws::GapConductance;
 use crate::options::{Reading, one_of};
@@ -137,7 +137,7 @@ impl Deck {
         progress: Option<Py<PyAny>>,
         user_conductance: Option<Py<PyAny>>,
     ) -> PyResult<Result> {
-        self.evaluate_rows(py, table, arguments, progress, user_conductance)
+        evaluate::evaluate(py, &self.0, table, arguments, progress, user_conductance)
     }
 
     /// The node table of its contact pairs.

@@ -1,6 +1,5 @@
 //! Evaluation over Arrow tables of any origin, and over columns of NumPy arrays.
 
-use crate::deck::Deck;
 use crate::errors::raise;
 use crate::findings::Finding;
 use crate::options::one_of;
@@ -128,54 +127,51 @@ fn positive(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     Err(PyValueError::new_err(format!("expected a finite number above zero, found {number}")))
 }
 
-impl Deck {
-    /// Evaluates the rows of a table; `arguments` are the keyword arguments of `inpact.evaluate`.
-    pub(crate) fn evaluate_rows(
-        &self,
-        py: Python<'_>,
-        table: &Bound<'_, PyAny>,
-        arguments: &Bound<'_, PyDict>,
-        progress: Option<Py<PyAny>>,
-        user_conductance: Option<Py<PyAny>>,
-    ) -> PyResult<Result> {
-        let options = options(arguments)?;
-        let rows = Rows::of(table)?;
-        let Some(function) = user_conductance else { return self.run(py, rows, &options, progress) };
-        // The function is called once, over arrays of all points: these are found out by an evaluation of their own.
-        let watch = Watch::default();
-        let schema = rows.schema.clone();
-        let batches =
-            watch::run(py, &watch, None, || rows.batches.collect::<std::result::Result<Vec<_>, ArrowError>>())?
-                .map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let again = || Rows { schema: schema.clone(), batches: Box::new(batches.clone().into_iter().map(Ok)) };
-        let asked = Arc::new(Asked::default());
-        self.run(py, again(), &options.clone().user_conductance(SharedAsked(asked.clone())), None)?;
-        let points = asked.points.lock().unwrap_or_else(PoisonError::into_inner).split_off(0);
-        let answers = answers(py, &function, points)?;
-        self.run(py, again(), &options.user_conductance(answers), progress)
-    }
+/// Evaluates the rows of a table; `arguments` are the keyword arguments of `inpact.evaluate`.
+pub(crate) fn evaluate(
+    py: Python<'_>,
+    deck: &inpact::Deck,
+    table: &Bound<'_, PyAny>,
+    arguments: &Bound<'_, PyDict>,
+    progress: Option<Py<PyAny>>,
+    user_conductance: Option<Py<PyAny>>,
+) -> PyResult<Result> {
+    let options = options(arguments)?;
+    let rows = Rows::of(table)?;
+    let Some(function) = user_conductance else { return run(py, deck, rows, &options, progress) };
+    // The function is called once, over arrays of all points: these are found out by an evaluation of their own.
+    let watch = Watch::default();
+    let schema = rows.schema.clone();
+    let batches = watch::run(py, &watch, None, || rows.batches.collect::<std::result::Result<Vec<_>, ArrowError>>())?
+        .map_err(|error| PyValueError::new_err(error.to_string()))?;
+    let again = || Rows { schema: schema.clone(), batches: Box::new(batches.clone().into_iter().map(Ok)) };
+    let recorder = Recorder::default();
+    run(py, deck, again(), &options.clone().user_conductance(recorder.clone()), None)?;
+    let points = recorder.0.lock().unwrap_or_else(PoisonError::into_inner).split_off(0);
+    let answers = answers(py, &function, points)?;
+    run(py, deck, again(), &options.user_conductance(answers), progress)
+}
 
-    fn run(
-        &self,
-        py: Python<'_>,
-        rows: Rows,
-        options: &EvaluateOptions,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<Result> {
-        let watch = Arc::new(Watch::default());
-        let seen = watch.clone();
-        let batches = rows.batches.map(move |batch| {
-            if seen.is_stopped() { Err(ArrowError::ComputeError("stopped".to_owned())) } else { batch }
-        });
-        let mut out = Vec::new();
-        let take = |done, batch| {
-            out.push(batch);
-            if watch.advance(done) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        let evaluated = watch::run(py, &watch, progress, || self.0.evaluate_to(rows.schema, batches, options, take))?;
-        let EvaluatedTo { schema, findings, notes, .. } = evaluated.map_err(|error| raise(py, &error))?;
-        Ok(Result { schema, batches: out, findings, notes })
-    }
+fn run(
+    py: Python<'_>,
+    deck: &inpact::Deck,
+    rows: Rows,
+    options: &EvaluateOptions,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Result> {
+    let watch = Arc::new(Watch::default());
+    let seen = watch.clone();
+    let batches = rows
+        .batches
+        .map(move |batch| if seen.is_stopped() { Err(ArrowError::ComputeError("stopped".to_owned())) } else { batch });
+    let mut out = Vec::new();
+    let take = |done, batch| {
+        out.push(batch);
+        if watch.advance(done) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let evaluated = watch::run(py, &watch, progress, || deck.evaluate_to(rows.schema, batches, options, take))?;
+    let EvaluatedTo { schema, findings, notes, .. } = evaluated.map_err(|error| raise(py, &error))?;
+    Ok(Result { schema, batches: out, findings, notes })
 }
 
 impl Result {
@@ -266,7 +262,7 @@ impl Result {
     }
 }
 
-/// A point that was asked for.
+/// A point at which an evaluation needs the user's conductance.
 #[derive(Debug)]
 struct Point {
     clearance: f64,
@@ -277,18 +273,14 @@ struct Point {
     interaction: String,
 }
 
-/// The points that an evaluation asks for, in their order; each conducts nothing.
-#[derive(Debug, Default)]
-struct Asked {
-    points: Mutex<Vec<Point>>,
-}
+/// Records the points that an evaluation needs, in their order; each conducts nothing.
+#[derive(Debug, Clone, Default)]
+struct Recorder(Arc<Mutex<Vec<Point>>>);
 
-struct SharedAsked(Arc<Asked>);
-
-impl UserConductance for SharedAsked {
+impl UserConductance for Recorder {
     fn conductance(&self, point: &UserConductancePoint<'_>) -> std::result::Result<UserConductanceValue, UserFault> {
         let interaction = String::from_utf8_lossy(point.names.interaction.as_bytes()).trim_end().to_owned();
-        let asked = Point {
+        let recorded = Point {
             clearance: point.clearance,
             temperatures: point.temperatures,
             field_variables: point.field_variables.to_vec(),
@@ -296,7 +288,7 @@ impl UserConductance for SharedAsked {
             node: point.node,
             interaction,
         };
-        self.0.points.lock().unwrap_or_else(PoisonError::into_inner).push(asked);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(recorded);
         Ok(UserConductanceValue { conductance: 0.0, slopes: [0.0; 2] })
     }
 }
