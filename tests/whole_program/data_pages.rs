@@ -40,12 +40,12 @@ fn blocks(page: &str) -> Vec<Block> {
 
 /// Runs a command of a page in a folder; `None` where it needs a compiler that is not there.
 fn run(folder: &Folder, command: &str) -> Option<Run> {
-    let words: Vec<&str> = command.split(' ').collect();
-    if words[0] == "inpact" {
-        return Some(folder.inpact(&words[1..]));
+    let parts: Vec<&str> = command.split(' ').collect();
+    if parts[0] == "inpact" {
+        return Some(folder.inpact(&parts[1..]));
     }
-    assert_eq!(words[0], "gfortran", "commands of pages are the program and a compiler");
-    match Command::new(words[0]).args(&words[1..]).current_dir(folder.path()).output() {
+    assert_eq!(parts[0], "gfortran", "commands of pages are the program and a compiler");
+    match Command::new(parts[0]).args(&parts[1..]).current_dir(folder.path()).output() {
         Ok(output) => Some(Run {
             code: output.status.code().unwrap_or(-1),
             output: String::from_utf8_lossy(&output.stdout).into_owned(),

@@ -74,12 +74,12 @@ fn heat_without_the_heat_of_the_current_is_left_out() {
         let json = case.eval(&["--format", "json"]);
         assert!(json.errors.contains("the heat of the current is part of it and is not known"), "{}", json.errors);
         for name in ["HFL", "total_heat_m"] {
-            let asked = case.eval(&["--outputs", name]);
-            assert_eq!((asked.code, asked.output.as_str()), (1, ""), "{}", asked.errors);
+            let requested = case.eval(&["--outputs", name]);
+            assert_eq!((requested.code, requested.output.as_str()), (1, ""), "{}", requested.errors);
             assert!(
-                asked.errors.contains(&format!("D001] `{name}` is asked for and cannot be given")),
+                requested.errors.contains(&format!("D001] `{name}` is asked for and cannot be given")),
                 "{}",
-                asked.errors
+                requested.errors
             );
         }
     }
@@ -281,7 +281,7 @@ fn summary_and_plan_count_the_same_rows_as_closed() {
     }
 }
 
-/// The bound that is said first is that of the measure that was asked for.
+/// The bound that is said first is that of the measure that was requested.
 #[test]
 fn a_relative_tolerance_says_its_own_bound() {
     const DECK: &str = "decks/spot-weld/spot-weld.inp";

@@ -29,11 +29,11 @@ fn untimed(text: &str) -> String {
     let is_time = |cell: &str| cell.contains('.') && cell.parse::<f64>().is_ok_and(|number| number < 1e6);
     let untimed = |line: &str| {
         if line.starts_with("a whole row") {
-            let words = line.split(' ').map(|word| match word.trim_end_matches(',').parse::<f64>() {
+            let parts = line.split(' ').map(|word| match word.trim_end_matches(',').parse::<f64>() {
                 Ok(time) if time > 0.0 => "TIME".to_owned(),
                 _ => word.to_owned(),
             });
-            return words.collect::<Vec<_>>().join(" ");
+            return parts.collect::<Vec<_>>().join(" ");
         }
         let (is_row, is_refused) = (line.starts_with("* ") || line.starts_with("  "), line.starts_with("  refused"));
         if !is_row || is_refused || line.trim_start().starts_with("mode") {

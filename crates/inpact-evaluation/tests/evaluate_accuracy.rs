@@ -76,7 +76,7 @@ fn full_accuracy_stays_within_the_bounds_of_its_roundings() {
     assert!(heat <= 6.0, "{heat} ulp");
 }
 
-/// An output asked for by name has the same cells as among all outputs, folded tables or not.
+/// An output requested by name has the same cells as among all outputs, folded tables or not.
 #[test]
 fn outputs_by_name_are_those_of_the_whole() {
     let deck = "*SURFACE INTERACTION, NAME=A\n*GAP ELECTRICAL CONDUCTANCE\n20., 0.\n10., .1\n\
@@ -99,8 +99,8 @@ fn outputs_by_name_are_those_of_the_whole() {
         let output = Output::named(name).expect("the name of an output");
         for companion in [None, Some(Output::Status), Some(Output::Ptl)] {
             let outputs = Some(std::iter::once(output).chain(companion).collect());
-            let asked = evaluate_with(deck, &nodes, &Choices { outputs, ..Choices::default() }, 7);
-            assert_eq!(asked.column(name), whole.column(name), "{name} with {companion:?}");
+            let requested = evaluate_with(deck, &nodes, &Choices { outputs, ..Choices::default() }, 7);
+            assert_eq!(requested.column(name), whole.column(name), "{name} with {companion:?}");
         }
     }
 }

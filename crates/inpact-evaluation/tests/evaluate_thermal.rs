@@ -341,7 +341,7 @@ fn the_plan_of_all_heat() {
     insta::assert_snapshot!(evaluate_with(&deck, nodes, &choices, 1).plan_text());
 }
 
-/// Only what outputs need is evaluated and read; the sum needs the heat of the current although nothing of the current is asked for.
+/// Only what outputs need is evaluated and read; the sum needs the heat of the current although nothing of the current is requested.
 #[test]
 fn outputs_that_are_asked_for() {
     let deck = format!(
@@ -349,33 +349,33 @@ fn outputs_that_are_asked_for() {
     );
     let nodes = "node,time,clearance,temp_s,temp_m,epot_jump,shear,slip_rate,area\n1,0,0,40,-60,2,8,3,2\n1,2,.5,40,-60,5,8,3,2\n";
     let all = evaluate(&deck, nodes);
-    let asked = |names: &[&str]| {
+    let requested = |names: &[&str]| {
         let outputs = names.iter().map(|name| Output::named(name).expect("an output"));
         evaluate_with(&deck, nodes, &Choices { outputs: Some(outputs.collect()), ..Choices::default() }, 1)
     };
     let read = |run: &Run| -> Vec<String> {
         run.plan.as_ref().expect("a plan").selection.numbers.iter().map(ToString::to_string).collect()
     };
-    let run = asked(&["HFL"]);
+    let run = requested(&["HFL"]);
     assert_eq!((run.header(), run.column("HFL")), ("node,time,HFL", all.column("HFL")));
     assert_eq!(read(&run), ["clearance", "temp_s", "temp_m", "epot_jump", "shear", "slip_rate"]);
-    let run = asked(&["SFDRT"]);
+    let run = requested(&["SFDRT"]);
     assert_eq!(run.column("SFDRT"), all.column("SFDRT"));
     assert_eq!(read(&run), ["time", "clearance", "shear", "slip_rate"]);
     let plan = run.plan.as_ref().expect("a plan");
     assert!(plan.interactions[0].electrical.is_none());
-    let run = asked(&["thermal_conductance"]);
+    let run = requested(&["thermal_conductance"]);
     assert_eq!(
         (run.column("thermal_conductance"), read(&run)),
         (all.column("thermal_conductance"), vec!["clearance".to_owned()])
     );
-    let run = asked(&["ECD"]);
+    let run = requested(&["ECD"]);
     assert_eq!(
         (run.column("ECD"), read(&run)),
         (all.column("ECD"), vec!["clearance".to_owned(), "epot_jump".to_owned()])
     );
     assert!(run.plan.is_some_and(|plan| plan.interactions[0].thermal.is_none()));
-    let run = asked(&["heat_radiation", "HTLA"]);
+    let run = requested(&["heat_radiation", "HTLA"]);
     assert_eq!((run.column("heat_radiation"), run.column("HTLA")), (all.column("heat_radiation"), all.column("HTLA")));
 }
 

@@ -136,11 +136,11 @@ fn a_fault_is_told_with_its_row_and_the_row_has_no_results() {
     assert_eq!(run.column("status"), ["closed", "", ""]);
     let mut findings = inpact_evaluation::nodes::Findings::new("nodes.csv");
     run.tally.expect("the table is right").report_user_faults(&mut findings);
-    let told: Vec<_> =
+    let found: Vec<_> =
         findings.into_list().into_iter().map(|found| (found.code, found.primary.line(), found.message)).collect();
     let message = |what: &str| format!("user subroutine GAPELECTR {what}");
     assert_eq!(
-        told,
+        found,
         [
             ("D010", Some(3), message("does not like it in row 2, clearance 99.0")),
             ("D010", Some(4), message("gives a conductance below zero, SIGMA(1) = -100.0 in row 3, clearance 20.0")),

@@ -71,8 +71,8 @@ proptest! {
         }
         for set in InstructionSet::available() {
             let mut columns = vec![vec![7.0; rows]; 6];
-            let mut asked = columns.iter_mut().enumerate().map(|(index, column)| (wanted >> index & 1 == 1).then_some(&mut column[..]));
-            let mut next = || asked.next().flatten();
+            let mut given = columns.iter_mut().enumerate().map(|(index, column)| (wanted >> index & 1 == 1).then_some(&mut column[..]));
+            let mut next = || given.next().flatten();
             let mut outputs = ElectricalOutputs {
                 current_density: next(),
                 current: next(),

@@ -174,8 +174,8 @@ fn h_03_frictional_heat() {
     let tiny = HeatGeneration { fraction: 1e-300, slave_weight: 0.5 };
     let heat = frictional_heat(ShearStress(1e200), SlipRate(1e200), tiny);
     assert!((heat.total / 1e100 - 1.0).abs() < 1e-15 && (heat.slave / 5e99 - 1.0).abs() < 1e-15, "{heat:?}");
-    let still = frictional_heat(ShearStress(-0.0), SlipRate(1e308), HeatGeneration::default());
-    assert!(still.total == 0.0 && still.total.is_sign_positive());
+    let without_slip = frictional_heat(ShearStress(-0.0), SlipRate(1e308), HeatGeneration::default());
+    assert!(without_slip.total == 0.0 && without_slip.total.is_sign_positive());
 }
 
 /// H-05: HFL = q_k + q_r − f q_g.

@@ -50,11 +50,11 @@ fn word(number: u8) -> &'static str {
 }
 
 fn record(rows: &[Row]) -> RecordBatch {
-    let words: DictionaryArray<Int32Type> = rows.iter().map(|row| row.1.map(word)).collect();
+    let texts: DictionaryArray<Int32Type> = rows.iter().map(|row| row.1.map(word)).collect();
     let columns: [(&str, ArrayRef); 5] = [
         ("Node", Arc::new(rows.iter().map(|row| Some(row.0)).collect::<Int64Array>())),
         ("comment", Arc::new(StringArray::from(vec!["not read"; rows.len()]))),
-        ("interaction", Arc::new(words)),
+        ("interaction", Arc::new(texts)),
         ("COPEN", Arc::new(rows.iter().map(|row| row.2).collect::<Float64Array>())),
         ("epot_s", Arc::new(rows.iter().map(|row| row.3).collect::<Float64Array>())),
     ];
@@ -190,10 +190,10 @@ proptest! {
                         prop_assert!(found == expected || found.is_some_and(f64::is_nan) && expected.is_some_and(f64::is_nan));
                     }
                 }
-                let words = table.column(0).as_string::<i32>();
+                let texts = table.column(0).as_string::<i32>();
                 for (row, expected) in rows.iter().enumerate() {
                     // Comma-separated values cannot tell an empty text from none.
-                    let found = if words.is_null(row) { "" } else { words.value(row) };
+                    let found = if texts.is_null(row) { "" } else { texts.value(row) };
                     prop_assert_eq!(found, expected.1.map_or("", word));
                 }
             }

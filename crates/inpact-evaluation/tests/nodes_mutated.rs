@@ -47,7 +47,7 @@ impl Random {
 
 fn record() -> RecordBatch {
     let numbers = 0..ROWS;
-    let words: DictionaryArray<Int32Type> = numbers.clone().map(|row| Some(["GAP", "LAP", "TAPE"][row % 3])).collect();
+    let texts: DictionaryArray<Int32Type> = numbers.clone().map(|row| Some(["GAP", "LAP", "TAPE"][row % 3])).collect();
     let areas = Float64Array::from(vec![0.5, 0.25, 2.0]);
     let keys: PrimitiveArray<Int16Type> = numbers.clone().map(|row| i16::try_from(row % 3).ok()).collect();
     let areas = DictionaryArray::<Int16Type>::try_new(keys, Arc::new(areas)).expect("keys of the values");
@@ -57,7 +57,7 @@ fn record() -> RecordBatch {
             "node",
             Arc::new(numbers.clone().map(|row| Some(i64::try_from(row).expect("few rows"))).collect::<Int64Array>()),
         ),
-        ("interaction", Arc::new(words)),
+        ("interaction", Arc::new(texts)),
         ("comment", Arc::new(StringArray::from_iter_values(numbers.clone().map(|row| format!("row {row}"))))),
         ("copen", Arc::new(clearance.collect::<PrimitiveArray<Float64Type>>())),
         ("temp_s", Arc::new(numbers.clone().map(|row| Some(300.0 + row as f32)).collect::<Float32Array>())),
@@ -214,8 +214,8 @@ fn samples_are_read_as_they_are() {
 
 #[test]
 fn mutated_tables_give_rows_or_an_error() {
-    let asked = std::env::var("INPACT_TABLES").ok().map(|count| count.parse().expect("how many tables"));
-    let count: usize = asked.unwrap_or(3000);
+    let chosen = std::env::var("INPACT_TABLES").ok().map(|count| count.parse().expect("how many tables"));
+    let count: usize = chosen.unwrap_or(3000);
     let mut random = Random(20_261_129);
     let samples = samples();
     let (mut whole, mut unsound) = (0, 0);
@@ -231,7 +231,7 @@ fn mutated_tables_give_rows_or_an_error() {
     assert!(count / 20 < whole && count / 20 < unsound, "{whole} were read, {unsound} refused");
     let peak = peak_memory();
     assert!(peak.is_none_or(|peak| peak < MOST_MEMORY), "{peak:?} bytes");
-    if asked.is_some() {
+    if chosen.is_some() {
         record_figures(count, &samples, (whole, unsound), peak);
     }
 }
