@@ -26,6 +26,8 @@ pub use probe::{Probe, ProbeAxis, ProbeBranch};
 pub use request::{Detail, HeldPlace, Probing, Request};
 pub use units::Units;
 
+use crate::text::counted;
+
 /// The drawing of one deck.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
@@ -261,7 +263,7 @@ impl Panel {
                 Some((least.min(y), greatest.max(y)))
             });
             let range = range.map(|(least, greatest)| format!(", from {} to {}", number(least), number(greatest)));
-            Some(format!("{side_name} {rows} {}{}", if rows == 1 { "row" } else { "rows" }, range.unwrap_or_default()))
+            Some(format!("{side_name} {}{}", counted(rows, "row"), range.unwrap_or_default()))
         };
         let mut parts: Vec<String> = Side::BOTH.into_iter().filter_map(of_half).collect();
         if let (Some(family), true) = (&self.family, 1 < self.curves.len()) {

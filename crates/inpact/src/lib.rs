@@ -62,6 +62,7 @@ mod server;
 mod settings;
 mod stop;
 mod terminals;
+mod text;
 mod threads;
 mod user_library;
 

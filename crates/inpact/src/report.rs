@@ -15,6 +15,7 @@ use crate::chart::surface::Surface;
 use crate::curves::Figure;
 use crate::deck::Deck;
 use crate::render::Format;
+use crate::text::counted;
 use inpact_diagnostics::{Diagnostic, Severity};
 use page::Page;
 
@@ -113,11 +114,11 @@ impl Report<'_> {
         let count = |severity: Severity| self.findings.iter().filter(|found| found.severity == severity).count();
         let line = format!(
             "{}, {}; {}, {}, {}",
-            counted(interactions, "surface interaction"),
-            counted(pairs, "contact pair"),
-            counted(count(Severity::Error), "error"),
-            counted(count(Severity::Warning), "warning"),
-            counted(count(Severity::Note), "note"),
+            counted_or_no(interactions, "surface interaction"),
+            counted_or_no(pairs, "contact pair"),
+            counted_or_no(count(Severity::Error), "error"),
+            counted_or_no(count(Severity::Warning), "warning"),
+            counted_or_no(count(Severity::Note), "note"),
         );
         page.element("p", &[], &line);
         page.open("nav", &[("aria-label", "Sections")]);
@@ -226,10 +227,6 @@ impl Report<'_> {
 }
 
 /// `1 error`, `2 errors`, `no error`.
-fn counted(count: usize, singular: &str) -> String {
-    match count {
-        0 => format!("no {singular}"),
-        1 => format!("1 {singular}"),
-        _ => format!("{count} {singular}s"),
-    }
+fn counted_or_no(count: usize, singular: &str) -> String {
+    if count == 0 { format!("no {singular}") } else { counted(count, singular) }
 }

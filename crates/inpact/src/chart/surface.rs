@@ -3,6 +3,7 @@
 use super::colours;
 use super::scale::Scale;
 use super::svg::Drawing;
+use crate::text::counted;
 use inpact_diagnostics::visible::visible_line;
 
 /// Faces of interfaces with a value each, seen along the direction in which they are thinnest.
@@ -51,7 +52,7 @@ impl Surface {
         let time = self.time.map_or_else(String::new, |time| format!(" at time {}", crate::curves::number(time)));
         let [least, greatest] = self.range().map(crate::curves::number);
         let [across, up] = self.directions.map(|axis| AXES[axis]);
-        let count = if self.faces.len() == 1 { "1 face".to_owned() } else { format!("{} faces", self.faces.len()) };
+        let count = counted(self.faces.len(), "face");
         format!("{} on {count}{time}, from {least} to {greatest}; {across} to the right, {up} upwards", self.output)
     }
 

@@ -6,12 +6,12 @@ mod value;
 
 use super::findings::{Messages, with_messages};
 use super::joule_heat::JouleHeats;
-use super::mesh_rows::counted;
 use super::meshed::MeshedDeck;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::render::Format;
 use crate::settings::{DeckArguments, Settings};
+use crate::text::counted;
 use clap::{Args, ValueEnum};
 use inpact_body::{BESIDE_BODIES, Body, BodyField, Lumped, NEGATIVE_CONDUCTANCE, SolutionMethod};
 use inpact_diagnostics::Diagnostic;
@@ -145,12 +145,12 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
         }
     }
     let text = match arguments.format {
-        BodyFormat::Text => visible(&text::text(&found)).into_owned(),
-        BodyFormat::Json => visible_json(&value::written(&found)).into_owned(),
-        BodyFormat::Links => scene::links(&found)?,
-        BodyFormat::Scene => scene::rows(&found),
+        BodyFormat::Text => visible(&text::text(&found)).into_owned().into_bytes(),
+        BodyFormat::Json => visible_json(&value::written(&found)).into_owned().into_bytes(),
+        BodyFormat::Links => scene::links(&found),
+        BodyFormat::Scene => scene::rows(&found).into_bytes(),
     };
-    files::write_result(arguments.output.as_deref(), text.as_bytes())?;
+    files::write_result(arguments.output.as_deref(), &text)?;
     say_summary(&found, start.elapsed().as_secs_f64(), messages);
     Ok(Outcome::Clean)
 }
@@ -169,13 +169,13 @@ fn refused(
 fn say_summary(found: &Found<'_>, seconds: f64, messages: Messages<'_>) {
     let bodies = found.lumped[0].bodies.len() as u64;
     let lines = || {
-        let terminals = counted(found.body.terminals().len() as u64, "terminal");
+        let terminals = counted(found.body.terminals().len(), "terminal");
         let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };
         let head = format!("{}: {terminals} of {bodies}, {seconds:.3} s", found.deck);
         let mut lines = vec![visible_line(&head).into_owned()];
         for lumped in &found.lumped {
             let [isothermal, even] = lumped.solutions;
-            let unknowns = counted(isothermal.unknowns as u64, "unknown");
+            let unknowns = counted(isothermal.unknowns, "unknown");
             let how = match (isothermal.method, even.method) {
                 (SolutionMethod::Factor(first), SolutionMethod::Factor(second)) => {
                     format!("factors of {first} and {second} entries")

@@ -17,6 +17,7 @@ use crate::input::{self, HeldFiles, Kind, LocatedDeck, kind_of};
 use crate::progress::Progress;
 use crate::render::{self, Format, Sources, Style};
 use crate::settings::{DeckArguments, Settings};
+use crate::text::counted;
 use crate::threads::with_threads;
 use clap::Args;
 use inpact_contact::check_geometry;
@@ -238,7 +239,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         let scenes = kinds.iter().filter(|kind| **kind == Kind::Scene).count();
         say(&total.summary(kinds.len() - scenes, scenes));
         if arguments.statistics && total.fixable() > 0 {
-            say(&format!("[*] `--fix` mends {}", tally::count(total.fixable(), "finding")));
+            say(&format!("[*] `--fix` mends {}", counted(total.fixable(), "finding")));
         }
     }
     let outcome = match () {

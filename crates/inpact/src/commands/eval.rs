@@ -13,6 +13,7 @@ use crate::failure::{Failure, Outcome};
 use crate::files::{self, ResultFile};
 use crate::render::Format;
 use crate::settings::DeckArguments;
+use crate::text::counted;
 use clap::Args;
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::nodes::{Findings, GivenBack};
@@ -64,8 +65,7 @@ fn run_on_threads(arguments: &EvalArguments, messages: Messages<'_>) -> Result<O
     };
     evaluable.say(findings, messages);
     if evaluated.as_ref().is_err_and(|failure| went_out > 0 && !failure.is_closed_pipe()) {
-        let rows = if went_out == 1 { "1 row".to_owned() } else { format!("{went_out} rows") };
-        messages.line(&format!("note: {rows} went out before this"));
+        messages.line(&format!("note: {} went out before this", counted(went_out, "row")));
     }
     let (tally, rows_out) = evaluated?;
     let summary = Summary { tally: &tally, plan: &evaluable.plan, rows_out, time: start.elapsed() };
@@ -150,6 +150,5 @@ fn nothing_to_evaluate(evaluable: &Evaluable, messages: Messages<'_>) -> Failure
 /// The summary of an evaluation as `eval` has it, but the time it took.
 pub(super) fn summary_lines(tally: &Tally, plan: &Plan) -> Vec<String> {
     let summary = Summary { tally, plan, rows_out: tally.rows, time: std::time::Duration::ZERO };
-    let rows = if tally.rows == 1 { "1 row".to_owned() } else { format!("{} rows", tally.rows) };
-    std::iter::once(rows).chain(summary.of_interactions()).collect()
+    std::iter::once(counted(tally.rows, "row")).chain(summary.of_interactions()).collect()
 }

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::pages;
+use crate::text;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -72,10 +73,5 @@ fn aligned(table: &[&str]) -> String {
     let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
     let is_ruler = |line: &&&str| line.starts_with("|---");
     let rows: Vec<Vec<String>> = table.iter().filter(|line| !is_ruler(line)).map(|line| cells(line)).collect();
-    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
-    let line = |row: &Vec<String>| {
-        let padded = row.iter().enumerate().map(|(column, cell)| format!("{cell:<0$}", width(column).unwrap_or(0)));
-        format!("    {}\n", padded.collect::<Vec<_>>().join("  ").trim_end())
-    };
-    rows.iter().map(line).collect()
+    text::aligned(&rows, "    ", |_| true)
 }

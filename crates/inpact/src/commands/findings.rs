@@ -3,6 +3,7 @@
 use crate::failure::{Failure, Outcome, say, say_as_it_is, say_json};
 use crate::render::{self, Format, SarifRun, Sources, Style};
 use crate::settings::Settings;
+use crate::text::counted;
 use inpact_diagnostics::Extent;
 use inpact_evaluation::plan::concerning;
 use inpact_parser::deck::Deck;
@@ -245,8 +246,7 @@ pub(crate) fn errors_elsewhere(found: &[Diagnostic], shown: &[Diagnostic], comma
     let errors = |found: &[Diagnostic]| found.iter().filter(|found| found.severity == Severity::Error).count();
     match errors(found) - errors(shown) {
         0 => None,
-        1 => Some(format!("1 error elsewhere in the deck: see `{command}`")),
-        count => Some(format!("{count} errors elsewhere in the deck: see `{command}`")),
+        count => Some(format!("{} elsewhere in the deck: see `{command}`", counted(count, "error"))),
     }
 }
 

@@ -9,6 +9,7 @@ use crate::files::transaction::{self, Change, Snapshot};
 use crate::files::{self, STANDARD_STREAM};
 use crate::input;
 use crate::settings::DeckArguments;
+use crate::text::counted;
 use crate::threads::with_threads;
 use clap::Args;
 use inpact_parser::deck::scan;
@@ -147,8 +148,8 @@ impl Tally {
     /// `3 files: 1 formatted, 2 left unchanged`.
     fn summary(self, verb: &str) -> String {
         let files = self.changed + self.unchanged + self.failed;
-        let noun = if files == 1 { "file" } else { "files" };
-        let mut summary = format!("{files} {noun}: {} {verb}, {} left unchanged", self.changed, self.unchanged);
+        let files = counted(files, "file");
+        let mut summary = format!("{files}: {} {verb}, {} left unchanged", self.changed, self.unchanged);
         if self.failed > 0 {
             summary += &format!(", {} failed", self.failed);
         }

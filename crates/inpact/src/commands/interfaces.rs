@@ -2,12 +2,13 @@
 
 use super::findings::{Messages, with_messages};
 use super::job_results::{RESULTS_HELP, States, states};
-use super::mesh_rows::{RowsSummary, counted, node_rows, number_text};
+use super::mesh_rows::{RowsSummary, node_rows};
 use super::meshed::MeshedDeck;
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::render::Format;
 use crate::settings::DeckArguments;
+use crate::text::{counted, csv, number_text};
 use clap::Args;
 use inpact_contact::{Interfaces, LumpedPair, PairInterfaces, State, WeightedMean};
 use inpact_diagnostics::visible::visible_line;
@@ -59,10 +60,11 @@ fn make(arguments: &InterfacesArguments, messages: Messages<'_>) -> Result<Outco
     let mut rows = node_rows(&meshed, &states, messages)?;
     let Some(state) = states.last() else { return Err(Failure::Data("the result files have no state".to_owned())) };
     let interfaces = rows.interfaces(state).map_err(|error| Failure::Data(error.to_string()))?;
-    let (table, made) = if arguments.lumped { lumped_table(&interfaces)? } else { table(&interfaces)? };
-    files::write_result(arguments.output.as_deref(), &table)?;
+    let table = if arguments.lumped { lumped_rows(&interfaces) } else { node_rows_of(&interfaces) };
+    let made = table.len();
+    files::write_result(arguments.output.as_deref(), &csv(std::iter::once(header(&interfaces)).chain(table)))?;
     if let Some(target) = &arguments.projections {
-        files::write_result(Some(target), &projections(&interfaces)?)?;
+        files::write_result(Some(target), &projections(&interfaces))?;
     }
     let seconds = start.elapsed().as_secs_f64();
     let summary = RowsSummary::of(&rows, &files);
@@ -91,13 +93,10 @@ fn make(arguments: &InterfacesArguments, messages: Messages<'_>) -> Result<Outco
 /// When the state is, where there are several.
 fn when(state: &State, states: usize) -> String {
     match state.moment.time {
-        Some(time) => format!(" at time {} (the last of {})", number_text(time), counted(states as u64, "state")),
+        Some(time) => format!(" at time {} (the last of {})", number_text(time), counted(states, "state")),
         None => String::new(),
     }
 }
-
-/// A table as comma-separated values, and the number of its rows.
-type Made = Result<(Vec<u8>, u64), Failure>;
 
 /// The columns of both tables of interfaces.
 fn header(interfaces: &Interfaces) -> Vec<String> {
@@ -106,23 +105,23 @@ fn header(interfaces: &Interfaces) -> Vec<String> {
 }
 
 /// A row a slave node.
-fn table(interfaces: &Interfaces) -> Made {
+fn node_rows_of(interfaces: &Interfaces) -> Vec<Vec<String>> {
     let rows = interfaces.pairs.iter().flat_map(|pair| pair.rows.iter().map(move |row| (pair, row)));
     let cells = rows.map(|(pair, row)| {
         let values = row.values.iter().copied();
         cells([&row.slave, &row.master, pair.interaction.written()], row.area, values)
     });
-    written(&header(interfaces), cells)
+    cells.collect()
 }
 
 /// A row a pair.
-fn lumped_table(interfaces: &Interfaces) -> Made {
+fn lumped_rows(interfaces: &Interfaces) -> Vec<Vec<String>> {
     let lumped = interfaces.pairs.iter().filter_map(|pair| Some((pair, interfaces.lumped(pair)?)));
     let cells = lumped.map(|(pair, lumped)| {
         let names = [pair.slave.written(), pair.master.written(), pair.interaction.written()];
         cells(names, lumped.area, lumped.means.iter().map(|mean| mean.map(|mean| mean.mean)))
     });
-    written(&header(interfaces), cells)
+    cells.collect()
 }
 
 fn cells(names: [&str; 3], area: f64, values: impl Iterator<Item = Option<f64>>) -> Vec<String> {
@@ -132,7 +131,7 @@ fn cells(names: [&str; 3], area: f64, values: impl Iterator<Item = Option<f64>>)
 }
 
 /// A row a slave node and node of the face that is nearest.
-fn projections(interfaces: &Interfaces) -> Result<Vec<u8>, Failure> {
+fn projections(interfaces: &Interfaces) -> Vec<u8> {
     let header = ["slave", "master", "master_node", "weight", "element", "face", "clearance", "overhang", "projects"];
     let rows = interfaces.pairs.iter().flat_map(|pair| &pair.projections);
     let cells = rows.flat_map(|row| {
@@ -151,20 +150,7 @@ fn projections(interfaces: &Interfaces) -> Result<Vec<u8>, Failure> {
             ]
         })
     });
-    Ok(written(&header.map(str::to_owned), cells)?.0)
-}
-
-fn written(header: &[String], rows: impl Iterator<Item = Vec<String>>) -> Made {
-    let failed = |error: csv::Error| Failure::Output(error.into());
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header).map_err(failed)?;
-    let mut made = 0;
-    for row in rows {
-        writer.write_record(&row).map_err(failed)?;
-        made += 1;
-    }
-    let table = writer.into_inner().map_err(|error| Failure::Output(error.into_error()))?;
-    Ok((table, made))
+    csv(std::iter::once(header.map(str::to_owned).to_vec()).chain(cells))
 }
 
 /// Remarks on a pair: which nodes hang over the edge, and what lumping averages.
@@ -176,7 +162,7 @@ fn lines(interfaces: &Interfaces, pair: &PairInterfaces, lumped: bool) -> Vec<St
     }
     lines.push(format!("  `{}` on `{}`:", pair.slave, pair.master));
     if !pair.beside.is_empty() {
-        let nodes = counted(pair.beside.len() as u64, "slave node");
+        let nodes = counted(pair.beside.len(), "slave node");
         let (verb, theirs) = if pair.beside.len() == 1 { ("hangs", "it has") } else { ("hang", "they have") };
         let names = listed(&pair.beside);
         lines.push(format!("    {nodes} {verb} over the edge of the master, so that {theirs} no interface: {names}"));
@@ -205,7 +191,7 @@ pub(crate) fn lumped_lines(interfaces: &Interfaces, lumped: &LumpedPair) -> Vec<
 
 /// `0.5, mean over 9 nodes by area, 0.2 to 0.8`.
 pub(crate) fn mean_text(mean: &WeightedMean) -> String {
-    let nodes = counted(mean.nodes as u64, "node");
+    let nodes = counted(mean.nodes, "node");
     let WeightedMean { mean: value, least, largest, .. } = *mean;
     if mean.is_uniform() {
         return format!("{} at {nodes}", number_text(value));

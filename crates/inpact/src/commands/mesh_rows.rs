@@ -3,8 +3,8 @@
 use super::findings::Messages;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
+use crate::text::{counted, number_text};
 use inpact_contact::{FileSummary, NodeRows, PairSummary, State};
-use inpact_evaluation::results::push_number;
 use serde_json::{Value, json};
 
 /// The rows of a deck's pairs in these states, after saying what was not read; an error where there are none.
@@ -73,7 +73,7 @@ fn lines(rows: &NodeRows<'_>, files: &[FileSummary]) -> Vec<String> {
             0 => String::new(),
             rows => format!(", {rows} without a master face"),
         };
-        let nodes = counted(pair.nodes as u64, "slave node");
+        let nodes = counted(pair.nodes, "slave node");
         let (area, closed, open) = (number_text(pair.area), pair.closed, pair.open);
         lines.push(format!("  `{slave}` on `{master}`, interaction `{interaction}`: {nodes}, area {area}; {closed} closed, {open} open{beside}"));
         lines.push(format!("    area: {area_source}"));
@@ -127,16 +127,4 @@ fn value(rows: &NodeRows<'_>, files: &[FileSummary]) -> Value {
         "pairs": rows.summaries().map(pair).collect::<Vec<_>>(),
         "columns": columns.collect::<Vec<_>>(),
     })
-}
-
-/// `1 row`, `2 rows`.
-pub(crate) fn counted(number: u64, what: &str) -> String {
-    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
-/// The shortest text of a number that reads back as it.
-pub(crate) fn number_text(value: f64) -> String {
-    let mut text = Vec::new();
-    push_number(&mut text, value);
-    String::from_utf8_lossy(&text).into_owned()
 }

@@ -2,7 +2,7 @@
 
 use super::findings::{Messages, with_messages};
 use super::job_results::{RESULTS_HELP, States, states};
-use super::mesh_rows::{RowsSummary, counted, node_rows};
+use super::mesh_rows::{RowsSummary, node_rows};
 use super::meshed::MeshedDeck;
 use super::picture::{Drawn, PictureWriter};
 use super::table_output::TableOutput;
@@ -10,6 +10,7 @@ use crate::failure::{Failure, Outcome};
 use crate::files::{self, ResultFile};
 use crate::render::Format;
 use crate::settings::DeckArguments;
+use crate::text::counted;
 use clap::Args;
 use inpact_contact::{NodeRows, State};
 use inpact_diagnostics::visible::visible_line;

@@ -5,7 +5,6 @@ use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice};
 use super::findings::Messages;
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
-use super::mesh_rows::counted;
 use super::node_sample::{Gathered, gather};
 use super::plot::DrawingArguments;
 use super::tradeoff;
@@ -15,6 +14,7 @@ use crate::failure::{Failure, Outcome, say};
 use crate::files;
 use crate::report::{Evaluation, Input, Report, Tradeoff, VALUES};
 use crate::settings::DeckArguments;
+use crate::text::counted;
 use clap::Args;
 use inpact_diagnostics::Severity;
 use std::path::PathBuf;
@@ -87,7 +87,7 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
     if deck.model().interactions.is_empty() {
         say(&format!("note: `{}` defines no *SURFACE INTERACTION: the page has its findings alone", deck.name()));
     }
-    let errors = findings.iter().filter(|found| found.severity == Severity::Error).count() as u64;
+    let errors = findings.iter().filter(|found| found.severity == Severity::Error).count();
     if 0 < errors {
         let errors = counted(errors, "error");
         say(&format!("{errors} in the deck: see the page, or `inpact check {}`", deck.name()));

@@ -23,6 +23,7 @@ use crate::render::Format;
 use crate::report::Input;
 use crate::settings::{DeckArguments, Settings};
 use crate::terminals::{Stated, StepTime, Taker, procedure};
+use crate::text::counted;
 use clap::Args;
 use inpact_body::{Body, BodyFault, BodyField, Lumped};
 use inpact_contact::{Interfaces, PairInterfaces};
@@ -106,10 +107,9 @@ fn write(arguments: &SceneArguments, messages: Messages<'_>) -> Result<Outcome, 
 
 fn refuse_step(arguments: &SceneArguments, steps: usize) -> Result<(), Failure> {
     match arguments.step {
-        Some(step) if steps < step as usize => Err(Failure::Usage(format!(
-            "`--step {step}`: the deck has {steps} step{}",
-            if steps == 1 { "" } else { "s" }
-        ))),
+        Some(step) if steps < step as usize => {
+            Err(Failure::Usage(format!("`--step {step}`: the deck has {}", counted(steps, "step"))))
+        }
         None if 1 < steps => Err(Failure::Usage(format!(
             "the deck has {steps} steps: name the one whose conditions the scene has, `--step 1`"
         ))),

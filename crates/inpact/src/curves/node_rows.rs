@@ -1,6 +1,7 @@
 //! Rows of a node table on the curves of a law: where the nodes are, and how many of them are where no row of the table says a value.
 
 use super::Side;
+use crate::text::counted;
 
 /// The rows of a node table that a law of an interaction governs.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,8 +35,8 @@ impl NodeRows {
     pub fn summary(&self) -> String {
         let (open, closed) = (self.count[0], self.count[1]);
         let beyond = self.beyond[0] + self.beyond[1];
-        let rows = if self.total() == 1 { "row" } else { "rows" };
+        let rows = counted(self.total(), "row");
         let share = 100.0 * beyond as f64 / self.total().max(1) as f64;
-        format!("{} {rows}: {closed} closed, {open} open; {beyond} beyond the table ({share:.1} %)", self.total())
+        format!("{rows}: {closed} closed, {open} open; {beyond} beyond the table ({share:.1} %)")
     }
 }

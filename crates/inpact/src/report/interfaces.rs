@@ -3,6 +3,7 @@
 use super::page::Page;
 use super::{Report, charts};
 use crate::curves::{LawKind, Panel, number};
+use crate::text::counted;
 use inpact_parser::model::{Interaction, Model, TableOf};
 use inpact_parser::span::Span;
 
@@ -166,8 +167,7 @@ fn rows(page: &mut Page, of: &TableOf<'_>, (interaction, table): (usize, usize))
     let count = of.table.row_count();
     page.open("details", &[]);
     let against = of.table.columns.get(1).map_or("", String::as_str);
-    let words = if count == 1 { "row" } else { "rows" };
-    page.element("summary", &[], &format!("*{} against {against}: {count} {words}", of.keyword));
+    page.element("summary", &[], &format!("*{} against {against}: {}", of.keyword, counted(count, "row")));
     page.open("div", &[("class", "scroll"), ("tabindex", "0")]);
     page.open("table", &[]);
     let titles: Vec<&str> = std::iter::once("row").chain(of.table.columns.iter().map(String::as_str)).collect();

@@ -1,5 +1,6 @@
 //! The shape of a table in words: `2 temperatures × 5 clearances`.
 
+use crate::text::counted;
 use inpact_parser::model::Table;
 use std::collections::BTreeSet;
 
@@ -10,7 +11,7 @@ use std::collections::BTreeSet;
 pub(super) fn shape(table: &Table) -> String {
     let lengths: BTreeSet<usize> = table.groups().map(|group| group.len()).collect();
     let (Some(least), Some(most), Some(first)) = (lengths.first(), lengths.last(), table.columns.get(1)) else {
-        return count(table.row_count(), "row");
+        return counted(table.row_count(), "row");
     };
     let number = if least == most { least.to_string() } else { format!("{least} to {most}") };
     let first = format!("{number} {}", if *most == 1 { words(first).0 } else { words(first).1 });
@@ -20,10 +21,6 @@ pub(super) fn shape(table: &Table) -> String {
         (values.len() > 1).then(|| format!("{} {}", values.len(), if values.len() == 1 { one } else { many }))
     });
     outer.chain([first]).collect::<Vec<_>>().join(" × ")
-}
-
-fn count(number: usize, word: &str) -> String {
-    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
 }
 
 /// The name of one and that of several values of a column.

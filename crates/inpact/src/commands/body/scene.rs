@@ -1,10 +1,9 @@
 //! Bodies as parts of a scene: its nodes with their capacities, and links between them.
 
-use super::super::mesh_rows::number_text;
 use super::Found;
 use super::text::short;
 use crate::commands::joule_heat::JOULE_HEAT_FRACTION;
-use crate::failure::Failure;
+use crate::text::{csv, number_text, toml_text};
 use inpact_body::{BodyField, Lumped};
 use std::collections::BTreeSet;
 
@@ -45,21 +44,17 @@ fn conducting(found: &Found<'_>) -> Vec<Link> {
 }
 
 /// A table of links.
-pub(super) fn links(found: &Found<'_>) -> Result<String, Failure> {
-    let failed = |error: csv::Error| Failure::Output(error.into());
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let fields: Vec<String> = found.lumped.iter().map(|lumped| lumped.field.to_string()).collect();
-    let heat = found.heats.is_any().then_some(JOULE_HEAT_FRACTION);
-    let header = ["node_1", "node_2"].into_iter().chain(fields.iter().map(String::as_str)).chain(heat);
-    writer.write_record(header).map_err(failed)?;
-    for link in conducting(found) {
+pub(super) fn links(found: &Found<'_>) -> Vec<u8> {
+    let fields = found.lumped.iter().map(|lumped| lumped.field.to_string());
+    let heat = found.heats.is_any().then(|| JOULE_HEAT_FRACTION.to_owned());
+    let header = ["node_1", "node_2"].map(str::to_owned).into_iter().chain(fields).chain(heat.clone());
+    let rows = conducting(found).into_iter().map(|link| {
         let names = link.nodes.iter().map(|at| found.body.terminals()[*at].name.written().to_owned());
         let numbers = link.conductances.iter().map(|conductance| number_text(*conductance));
-        let heat = heat.map(|_| number_text(found.heats.share(link.nodes[0]).unwrap_or(0.0)));
-        writer.write_record(names.chain(numbers).chain(heat)).map_err(failed)?;
-    }
-    let table = writer.into_inner().map_err(|error| Failure::Output(error.into_error()))?;
-    Ok(String::from_utf8_lossy(&table).into_owned())
+        let heat = heat.as_ref().map(|_| number_text(found.heats.share(link.nodes[0]).unwrap_or(0.0)));
+        names.chain(numbers).chain(heat).collect()
+    });
+    csv(std::iter::once(header.collect()).chain(rows))
 }
 
 /// Nodes and links of a scene.
@@ -95,11 +90,6 @@ fn of_node(lumped: &Lumped, at: usize) -> String {
             format!("temperature = {{ capacity = {} }}\n", toml_number(capacity))
         }
     }
-}
-
-/// A text as TOML has it: as JSON does, which leaves one control character as it is.
-fn toml_text(text: &str) -> String {
-    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
 }
 
 /// A number as TOML has it, read back as it is.

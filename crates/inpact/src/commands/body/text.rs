@@ -1,9 +1,8 @@
 //! Conductances and capacities as tables for a person.
 
-use super::super::mesh_rows::number_text;
 use super::Found;
+use crate::text::{aligned, number_text};
 use inpact_body::{Conductances, Lumped};
-use inpact_diagnostics::column_width;
 
 /// The text of everything that was found.
 pub(super) fn text(found: &Found<'_>) -> String {
@@ -112,24 +111,7 @@ fn remarks(names: &[&str], lumped: &Lumped) -> String {
     text
 }
 
-/// Columns as wide as their widest cell: the first to the left, all others to the right, the last of words as it is.
+/// The first column has names, all others numbers and words to the right.
 fn table(rows: &[Vec<String>]) -> String {
-    let columns = rows.first().map_or(0, Vec::len);
-    let width = |column: usize| column_width(rows.iter().map(|row| row[column].as_str()));
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        let cells: Vec<String> = row
-            .iter()
-            .zip(&widths)
-            .enumerate()
-            .map(
-                |(column, (cell, width))| {
-                    if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
-                },
-            )
-            .collect();
-        text += &format!("  {}\n", cells.join("  ").trim_end());
-    }
-    text
+    aligned(rows, "  ", |column| column == 0)
 }

@@ -1,6 +1,5 @@
 //! The work of `--fix` and `--diff` between checking the decks and printing the findings.
 
-use super::tally::count;
 use super::{CheckArguments, Checked, Kind, judge, scene};
 use crate::difference;
 use crate::failure::{Failure, say};
@@ -8,6 +7,7 @@ use crate::files::transaction;
 use crate::fixing::{self, FixSelection, Mended, Purpose, Subject};
 use crate::input::{self, HeldFiles};
 use crate::render::Style;
+use crate::text::counted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -50,7 +50,7 @@ pub(super) fn mend(
         say(&format!("error: {failure}"));
     }
     let changed = held.changed();
-    let mended = format!("{} in {}", count(findings, "finding"), count(changed.len(), "file"));
+    let mended = format!("{} in {}", counted(findings, "finding"), counted(changed.len(), "file"));
     let verb = match selection.purpose {
         Purpose::Show => {
             let difference = |file: &input::Held| {

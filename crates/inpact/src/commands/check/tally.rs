@@ -2,6 +2,7 @@
 
 use crate::render::Format;
 use crate::rules;
+use crate::text::counted;
 use inpact_diagnostics::FixSafety;
 use inpact_validation::{Diagnostic, Severity};
 use std::collections::BTreeMap;
@@ -57,14 +58,14 @@ impl Tally {
 
     pub(super) fn summary(&self, decks: usize, scenes: usize) -> String {
         let checked = match (decks, scenes) {
-            (_, 0) => count(decks, "deck"),
-            (0, _) => count(scenes, "scene"),
-            _ => format!("{} and {}", count(decks, "deck"), count(scenes, "scene")),
+            (_, 0) => counted(decks, "deck"),
+            (0, _) => counted(scenes, "scene"),
+            _ => format!("{} and {}", counted(decks, "deck"), counted(scenes, "scene")),
         };
         if self.codes.is_empty() {
             return format!("{checked}: nothing to report");
         }
-        let of = |severity: Severity| count(self.of(severity), severity.name());
+        let of = |severity: Severity| counted(self.of(severity), severity.name());
         format!("{checked}: {}, {}, {}", of(Severity::Error), of(Severity::Warning), of(Severity::Note))
     }
 
@@ -102,9 +103,4 @@ impl Tally {
     pub(super) fn fixable(&self) -> usize {
         self.codes.values().map(|of_code| of_code.fixable).sum()
     }
-}
-
-/// A number of things.
-pub(super) fn count(number: usize, word: &str) -> String {
-    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
 }

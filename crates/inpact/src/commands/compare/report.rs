@@ -1,8 +1,7 @@
 //! A comparison for a person, for a spreadsheet and for a program.
 
 use super::measure::{Comparison, Quantity};
-use inpact_diagnostics::column_width;
-use inpact_evaluation::results::push_number;
+use crate::text::{aligned, csv_text, number_text};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -31,17 +30,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
             format!("{what} {name}{time}{beyond}"),
         ]);
     }
-    let width = |at: usize| column_width(lines.iter().map(|line| line[at].as_str()));
-    let widths: Vec<usize> = (0..lines[0].len()).map(width).collect();
-    for line in &lines {
-        let cells = line.iter().zip(&widths).enumerate().map(|(at, (cell, width))| match at {
-            0 | 1 => format!("{cell:<width$}"),
-            7 => cell.clone(),
-            _ => format!("{cell:>width$}"),
-        });
-        // Writing into a string cannot fail.
-        let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("  ").trim_end());
-    }
+    text += &aligned(&lines, "", |column| matches!(column, 0 | 1 | 7));
     text.push_str("\nthe solver's values:\n");
     for quantity in comparison.quantities.iter().filter(|quantity| 0 < quantity.compared()) {
         let _ = writeln!(text, "  {}: {}", quantity.name, quantity.source);
@@ -73,7 +62,7 @@ pub(super) fn table(comparison: &Comparison) -> String {
             let difference = ours.zip(solvers).map(|(ours, solvers)| ours - solvers);
             let relative = difference.map(|difference| if difference == 0.0 { 0.0 } else { difference.abs() / scale });
             let numbers = [ours, solvers, difference, relative].map(number).join(",");
-            let _ = writeln!(text, "{},{},{},{numbers}", quoted(name), number(time), quantity.name);
+            let _ = writeln!(text, "{},{},{},{numbers}", csv_text(name), number(time), quantity.name);
         }
     }
     text
@@ -116,19 +105,10 @@ pub(super) fn json(comparison: &Comparison) -> String {
 }
 
 fn number(value: Option<f64>) -> String {
-    let mut text = Vec::new();
-    if let Some(value) = value {
-        push_number(&mut text, value);
-    }
-    String::from_utf8_lossy(&text).into_owned()
+    value.map_or_else(String::new, number_text)
 }
 
 /// In two digits.
 fn short(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
-}
-
-/// A name in quotes where commas or quotes in it would be taken for the table's (RFC 4180).
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
 }

@@ -5,6 +5,7 @@ use super::terminals::Terminal;
 use crate::commands::joule_heat::{JOULE_HEAT_FRACTION, JouleHeats};
 use crate::report::Input;
 use crate::terminals::{Film, Stated, StepTime};
+use crate::text::toml_text;
 use inpact_body::{BodyField, Lumped};
 use inpact_contact::Interfaces;
 use inpact_evaluation::nodes::{Column, Part};
@@ -61,7 +62,7 @@ impl Head {
 
 impl SceneText {
     pub(super) fn new(deck: &str, regime: Regime, time: StepTime, procedure: Option<&Procedure>) -> Self {
-        let mut written = format!("deck = {}\n", quoted(deck));
+        let mut written = format!("deck = {}\n", toml_text(deck));
         if regime == Regime::Transient {
             put(&mut written, format_args!("procedure = \"transient\"\n\n[time]\nend = {:?}\n", time.period));
             // Increments of one length are said by the deck, others are chosen by the solver as it goes.
@@ -108,7 +109,7 @@ impl SceneText {
     }
 
     fn node(&mut self, name: &str, keys: impl Fn(Field) -> Vec<String>) {
-        let mut text = format!("\n[[node]]\nname = {}\n", quoted(name));
+        let mut text = format!("\n[[node]]\nname = {}\n", toml_text(name));
         for field in Field::ALL {
             let keys = keys(field);
             if !keys.is_empty() {
@@ -154,7 +155,7 @@ impl SceneText {
     }
 
     fn link(&mut self, first: &str, second: &str, keys: &[String]) {
-        let names = [first, second].map(quoted).join(", ");
+        let names = [first, second].map(toml_text).join(", ");
         put(&mut self.written, format_args!("\n[[link]]\nnodes = [{names}]\n{}\n", keys.join("\n")));
     }
 
@@ -163,7 +164,7 @@ impl SceneText {
         for (pair, area) in interfaces.pairs.iter().zip(areas) {
             let Some((lumped, area)) = interfaces.lumped(pair).zip(*area) else { continue };
             let [interaction, slave, master] =
-                [&pair.interaction, &pair.slave, &pair.master].map(|name| quoted(name.written()));
+                [&pair.interaction, &pair.slave, &pair.master].map(|name| toml_text(name.written()));
             let mut text = format!(
                 "\n[[interface]]\ninteraction = {interaction}\nslave = {slave}\nmaster = {master}\narea = {area:?}\n"
             );
@@ -202,11 +203,6 @@ fn course(course: &Course) -> String {
             format!("[{}]", points.join(", "))
         }
     }
-}
-
-/// A text in quotes; what JSON escapes TOML escapes alike, but for one character.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string().replace('\u{7F}', "\\u007F")
 }
 
 /// A text in a comment, which ends with its line and has no control characters.

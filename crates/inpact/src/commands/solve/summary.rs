@@ -1,5 +1,6 @@
 //! Summary of a solution: fields, methods and balances.
 
+use crate::text::counted;
 use inpact_network::linear::{LinearReport, Method, Ordering, Quality};
 use inpact_network::scene::Field;
 use inpact_network::transient::TransientReport;
@@ -25,16 +26,16 @@ impl Summary<'_> {
         let mut lines = vec![format!(
             "{}: {}, {}, {}, {:.3} s",
             self.name,
-            count(nodes, "node"),
-            count(links, "link"),
-            count(interfaces, "interface"),
+            counted(nodes, "node"),
+            counted(links, "link"),
+            counted(interfaces, "interface"),
             self.time.as_secs_f64()
         )];
         if scene.is_transient() {
             let TransientReport { increments, taken_back, local_error, passed_over, integral_error } = self.report;
             lines.push(format!(
                 "  {}, {taken_back} taken back, largest estimated local error {local_error:.1e} of the range",
-                count(*increments, "increment")
+                counted(*increments, "increment")
             ));
             if let Some(error) = integral_error {
                 lines.push(format!("  time integrals of interfaces: estimated error {error:.1e} of their size"));
@@ -42,7 +43,7 @@ impl Summary<'_> {
             if *passed_over > 0 {
                 lines.push(format!(
                     "  {} of time courses inside increments, passed over: a shorter `step` would tell, or `tolerance`",
-                    count(*passed_over, "point")
+                    counted(*passed_over, "point")
                 ));
             }
         }
@@ -90,10 +91,6 @@ impl Summary<'_> {
 /// The relative error of rounding to f64.
 const HALF_A_DIGIT: f64 = 0.5 * f64::EPSILON;
 
-fn count(number: usize, what: &str) -> String {
-    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
 fn stage_lines(stage: &StageReport) -> Vec<String> {
     let mut lines = Vec::new();
     if stage.iterations > 0 || stage.inconsistency > 0.0 {
@@ -101,7 +98,7 @@ fn stage_lines(stage: &StageReport) -> Vec<String> {
         lines.push(format!(
             "  {}: {} of Newton's, conductances right to {:.1e}",
             fields.join(" and "),
-            count(stage.iterations, "step"),
+            counted(stage.iterations, "step"),
             stage.inconsistency
         ));
     }
@@ -116,7 +113,7 @@ fn stage_lines(stage: &StageReport) -> Vec<String> {
         if linear.shared > 0 {
             lines.push(format!(
                 "    {} in rings, whose flows the equations do not tell apart: they share as equal ones would",
-                count(linear.shared, "infinite conductance")
+                counted(linear.shared, "infinite conductance")
             ));
         }
     }
@@ -124,22 +121,22 @@ fn stage_lines(stage: &StageReport) -> Vec<String> {
 }
 
 fn linear_text(linear: &LinearReport) -> String {
-    let mut parts = vec![count(linear.unknowns, "unknown")];
+    let mut parts = vec![counted(linear.unknowns, "unknown")];
     if linear.relative > 0 {
-        parts.push(format!("{} of them jumps, in {}", linear.relative, count(linear.levels, "level")));
+        parts.push(format!("{} of them jumps, in {}", linear.relative, counted(linear.levels, "level")));
     }
     if linear.merged > 0 {
-        parts.push(format!("{} merged", count(linear.merged, "node")));
+        parts.push(format!("{} merged", counted(linear.merged, "node")));
     }
     if linear.taken_out > 0 {
-        parts.push(format!("{} taken out", count(linear.taken_out, "node")));
+        parts.push(format!("{} taken out", counted(linear.taken_out, "node")));
     }
     if linear.dead_ends > 0 {
-        parts.push(format!("{} without flow", count(linear.dead_ends, "node")));
+        parts.push(format!("{} without flow", counted(linear.dead_ends, "node")));
     }
     let method = match (linear.method, linear.ordering) {
         (_, _) if linear.unknowns == 0 => "nothing to factor".to_owned(),
-        (Method::Iterative, _) => format!("iterative, {}", count(linear.iterations, "iteration")),
+        (Method::Iterative, _) => format!("iterative, {}", counted(linear.iterations, "iteration")),
         (method, Some(Ordering::NestedDissection)) => format!("{method}, nested dissection"),
         (method, _) => method.to_string(),
     };
@@ -149,7 +146,7 @@ fn linear_text(linear: &LinearReport) -> String {
         (_, Method::Elimination) => format!(", residual {residual:.1e}"),
         _ => format!(
             ", {}, residual {residual:.1e}, estimated error {error:.1e}, condition {condition:.1e}",
-            count(solves, "solve")
+            counted(solves, "solve")
         ),
     };
     format!("{}; {method}{quality}", parts.join(", "))

@@ -1,4 +1,4 @@
-//! Numbers and texts in tables, those for users and those of comma-separated values.
+//! Numbers and texts in tables for users.
 
 /// A line of cells at these widths: texts first, to the left; numbers after them, to the right.
 pub(super) fn line<const COLUMNS: usize>(cells: &[String; COLUMNS], widths: [usize; COLUMNS], texts: usize) -> String {
@@ -29,11 +29,6 @@ pub(super) fn by_reason<N: Clone>(refused: &[(N, String)]) -> Vec<(Vec<N>, &str)
         }
     }
     reasons
-}
-
-/// A text in quotes, where commas or quotes in it would be taken for the table's.
-pub(super) fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 /// The name of a file without its folders.

@@ -3,7 +3,8 @@
 use super::measure::{Entry, Measured};
 use super::subjects::Subject;
 use crate::commands::solvable::SolvableScene;
-use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
+use crate::commands::tradeoff::cells::{by_reason, error, line, star};
+use crate::text::{counted, csv_text};
 use inpact_diagnostics::column_width;
 use inpact_network::linear::Phases;
 use serde_json::{Value, json};
@@ -95,14 +96,13 @@ pub(super) fn name(subject: Subject) -> String {
 
 fn size(measured: &Measured, prepared: &SolvableScene) -> String {
     let scene = &prepared.scene;
-    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     let counts = [
         (scene.nodes.len(), "node"),
         (scene.links.len(), "link"),
         (scene.interfaces.len(), "interface"),
         (measured.unknowns, "unknown"),
     ];
-    counts.map(|(number, what)| count(number, what)).join(", ")
+    counts.map(|(number, what)| counted(number, what)).join(", ")
 }
 
 /// The scene and the time up to which it was solved.
@@ -158,14 +158,14 @@ pub(super) fn csv(measured: &Measured) -> String {
         ];
         let counts = counts.map(|number| number.to_string()).join(",");
         let given_up = found.given_up.iter().map(|(field, method, why)| format!("{field}: {method}: {why}"));
-        let given_up = quoted(&given_up.collect::<Vec<String>>().join("; "));
-        let methods = quoted(&found.methods_text());
+        let given_up = csv_text(&given_up.collect::<Vec<String>>().join("; "));
+        let methods = csv_text(&found.methods_text());
         let (solver, tolerance) = (subject.method, subject.tolerance);
         text += &format!("{solver},{tolerance:?},{methods},{times},{estimates},{counts},{given_up},\n");
     }
     for (subject, reason) in &measured.failed {
         let (solver, tolerance) = (subject.method, subject.tolerance);
-        text += &format!("{solver},{tolerance:?}{}{}\n", ",".repeat(21), quoted(reason));
+        text += &format!("{solver},{tolerance:?}{}{}\n", ",".repeat(21), csv_text(reason));
     }
     text
 }

@@ -1,7 +1,8 @@
 //! The measurements as text, comma-separated values and JSON.
 
 use super::measure::{Entry, Group, Measured};
-use crate::commands::tradeoff::cells::{by_reason, error, line, quoted, star};
+use crate::commands::tradeoff::cells::{by_reason, error, line, star};
+use crate::text::{counted, csv_text};
 use serde_json::{Value, json};
 
 /// The names of the deck and the node table.
@@ -81,19 +82,15 @@ const TEXTS: usize = 3;
 /// The conditions of the measurement.
 pub(super) fn how(measured: &Measured) -> String {
     let rows = match measured.one_of {
-        1 => count(measured.rows),
-        one_of => format!("one of {one_of} of {}", count(measured.rows)),
+        1 => counted(measured.rows, "row"),
+        one_of => format!("one of {one_of} of {}", counted(measured.rows, "row")),
     };
     format!("{rows}, least of {} interleaved rounds, one thread", measured.rounds)
 }
 
-fn count(rows: u64) -> String {
-    format!("{rows} row{}", if rows == 1 { "" } else { "s" })
-}
-
 /// The size of a table, and the number of rows that reach it.
 fn size(group: &Group) -> String {
-    let rows = format!("{} points, reached by {}", group.table_rows, count(group.rows as u64));
+    let rows = format!("{} points, reached by {}", group.table_rows, counted(group.rows, "row"));
     if group.rows_of_a_run == group.rows { rows } else { format!("{rows}, repeated to {}", group.rows_of_a_run) }
 }
 
@@ -113,7 +110,7 @@ pub(super) fn csv(measured: &Measured) -> String {
                     bound,pointwise_bound,bytes_per_row,pareto,refused\n"
             .to_owned();
     for group in &measured.groups {
-        let table = quoted(&group.name);
+        let table = csv_text(&group.name);
         for Entry { mode, form, time, errors, bound, bytes, on_front, .. } in &group.entries {
             let numbers = [
                 *time,
@@ -132,7 +129,7 @@ pub(super) fn csv(measured: &Measured) -> String {
         }
         text += &format!("{table},copy,f64 columns,{:?},{:?},,,,,,,,,,\n", group.copy, 1e9 / group.copy);
         for (mode, reason) in &group.refused {
-            text += &format!("{table},{mode},,,,,,,,,,,,,{}\n", quoted(reason));
+            text += &format!("{table},{mode},,,,,,,,,,,,,{}\n", csv_text(reason));
         }
     }
     text

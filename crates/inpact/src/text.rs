@@ -1,0 +1,56 @@
+//! Texts that several commands write alike: counts, numbers, names in quotes, tables.
+
+use inpact_diagnostics::column_width;
+use inpact_evaluation::results::push_number;
+use std::fmt::Display;
+
+/// `1 row`, `2 rows`.
+pub(crate) fn counted(number: impl Display, what: &str) -> String {
+    let number = number.to_string();
+    let ending = if number == "1" { "" } else { "s" };
+    format!("{number} {what}{ending}")
+}
+
+/// The shortest text of a number that reads back as it.
+pub(crate) fn number_text(value: f64) -> String {
+    let mut text = Vec::new();
+    push_number(&mut text, value);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// A text in quotes as TOML has it: as JSON does, which leaves one control character as it is.
+pub(crate) fn toml_text(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
+}
+
+/// A text in quotes where commas, quotes or line ends in it would be taken for those of a table (RFC 4180).
+pub(crate) fn csv_text(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+/// Rows of comma-separated values, the header first.
+pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8> {
+    let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    for row in rows {
+        // Writing into memory cannot fail, nor can rows of any length.
+        let _ = writer.write_record(row);
+    }
+    writer.into_inner().unwrap_or_default()
+}
+
+/// Columns as wide as their widest cell: those of texts to the left, those of numbers to the right.
+pub(crate) fn aligned(rows: &[Vec<String>], indent: &str, is_text: impl Fn(usize) -> bool) -> String {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| column_width(rows.iter().map(|row| row[column].as_str()));
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate();
+        let cells = cells.map(
+            |(column, (cell, &width))| {
+                if is_text(column) { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+            },
+        );
+        format!("{indent}{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+    };
+    rows.iter().map(line).collect()
+}
