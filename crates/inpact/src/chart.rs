@@ -34,7 +34,6 @@ pub(crate) struct Chart {
     pub(crate) footnote: String,
 }
 
-/// One point, with its label.
 #[derive(Debug, Clone)]
 pub(crate) struct Point {
     /// Above zero, as is y.

@@ -1,6 +1,7 @@
 //! The interface laws of a deck on record batches: Arrow in, Arrow out.
 
-use crate::commands::evaluable::kept_rows;
+use crate::commands::evaluable::{kept_rows, other_reasons};
+use crate::commands::findings::has_errors;
 use crate::deck::Deck;
 use crate::error::Error;
 use crate::failure::Failure;
@@ -11,7 +12,7 @@ use inpact_evaluation::arrow::datatypes::SchemaRef;
 use inpact_evaluation::arrow::error::ArrowError;
 use inpact_evaluation::law::{UserConductance, UserLaw};
 use inpact_evaluation::nodes::{NodeReader, RecordBatches};
-use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, concerning, make, survey_keeping};
+use inpact_evaluation::plan::{Choices, Derivatives, Plan, concerning, make, survey_keeping};
 use inpact_evaluation::results::{Output, ResultRecords};
 use inpact_evaluation::{Accuracy, Evaluation, HistoryStart, Tolerance, Wanted};
 use inpact_parser::model::{Name, Regime};
@@ -40,10 +41,8 @@ pub struct EvaluatedTo {
 /// A result table in memory.
 #[derive(Debug, Clone)]
 pub struct Evaluated {
-    schema: SchemaRef,
     batches: Vec<RecordBatch>,
-    findings: Vec<Diagnostic>,
-    notes: Vec<String>,
+    to: EvaluatedTo,
 }
 
 impl EvaluateOptions {
@@ -176,8 +175,8 @@ impl Deck {
             out.push(batch);
             ControlFlow::Continue(())
         };
-        let EvaluatedTo { schema, findings, notes } = self.evaluate_to(schema, batches, options, take)?;
-        Ok(Evaluated { schema, batches: out, findings, notes })
+        let to = self.evaluate_to(schema, batches, options, take)?;
+        Ok(Evaluated { batches: out, to })
     }
 
     /// The same, batch by batch: `take` gets each with the number of rows that are done, and may stop.
@@ -257,10 +256,7 @@ impl Deck {
     /// Findings as the configuration has them; an error where one of them is.
     fn judged(&self, findings: Findings, otherwise: &str) -> Result<Vec<Diagnostic>, Error> {
         let found = self.settings.apply(findings.into_list());
-        match found.iter().find(|found| found.severity == Severity::Error) {
-            Some(first) => Err(Error::of_findings(format!("{otherwise}: {}", first.message), found)),
-            None => Ok(found),
-        }
+        if has_errors(&found) { Err(Error::of_first(otherwise, found)) } else { Ok(found) }
     }
 
     /// The findings of the check on the interactions that are used.
@@ -269,26 +265,19 @@ impl Deck {
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
         let concerning = concerning(&found, self.syntax(), self.grammar(), &self.model, &names, choices.regime);
         let concerning: Vec<Diagnostic> = concerning.into_iter().cloned().collect();
-        match concerning.iter().find(|found| found.severity == Severity::Error) {
-            Some(first) => {
-                let message = format!("`{}` has errors in what is evaluated: {}", self.name(), first.message);
-                Err(Error::of_findings(message, concerning))
-            }
-            None => Ok(concerning.into_iter().filter(|found| found.severity == Severity::Warning).collect()),
+        if has_errors(&concerning) {
+            return Err(Error::of_first(&format!("`{}` has errors in what is evaluated", self.name()), concerning));
         }
+        Ok(concerning.into_iter().filter(|found| found.severity == Severity::Warning).collect())
     }
 
     /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
     fn nothing_to_evaluate(&self, plan: &Plan) -> Error {
         let mut findings = Findings::new(TABLE);
         plan.report_missing(&mut findings);
-        let reasons = plan.interactions.iter().flat_map(|interaction| {
-            let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
-            others.map(move |left| format!("{} of `{}`: {}", left.what, interaction.name, left.reason))
-        });
         let found = self.settings.apply(findings.into_list());
         let missing = found.iter().map(|found| found.message.clone());
-        let reasons: Vec<String> = missing.chain(reasons).collect();
+        let reasons: Vec<String> = missing.chain(other_reasons(plan)).collect();
         let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join("; ")) };
         Error::of_findings(format!("nothing of `{}` can be evaluated on these rows{reasons}", self.name()), found)
     }
@@ -304,7 +293,7 @@ fn unreadable(error: &std::io::Error) -> Error {
 impl Evaluated {
     /// The key columns of the table, then the results.
     pub fn schema(&self) -> &SchemaRef {
-        &self.schema
+        &self.to.schema
     }
 
     /// The rows, as many as went in.
@@ -319,11 +308,11 @@ impl Evaluated {
 
     /// Warnings and notes about deck and rows.
     pub fn findings(&self) -> &[Diagnostic] {
-        &self.findings
+        &self.to.findings
     }
 
     /// The parts left out and why, a sentence each.
     pub fn notes(&self) -> &[String] {
-        &self.notes
+        &self.to.notes
     }
 }

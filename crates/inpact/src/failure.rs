@@ -62,6 +62,13 @@ impl Failure {
     }
 }
 
+/// A mesh whose rows cannot be made is wrong in the data, not in the reading of it.
+impl From<inpact_contact::Error> for Failure {
+    fn from(error: inpact_contact::Error) -> Self {
+        Self::Data(error.to_string())
+    }
+}
+
 /// The exit code of a command, after saying on standard error why it failed.
 pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
     match result {

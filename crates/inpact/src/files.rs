@@ -118,7 +118,6 @@ pub(crate) fn whole_path(path: &Path) -> PathBuf {
     }
 }
 
-/// The folder that a file is in.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

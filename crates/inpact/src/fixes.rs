@@ -5,7 +5,7 @@ use crate::difference;
 use crate::error::Error;
 use crate::failure::Failure;
 use crate::files::transaction;
-use crate::fixing::{self, FixReach, FixSelection, Mended, Need, Purpose, Subject};
+use crate::fixing::{self, FixReach, FixSelection, Mended, Need, Subject};
 use crate::input::HeldFiles;
 use crate::rules;
 use crate::settings::ReadOptions;
@@ -14,11 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// The fixes to apply, and the files.
 #[derive(Debug, Clone, Default)]
-pub struct Fixes {
-    also: Vec<String>,
-    only: Option<Vec<String>>,
-    is_every_included: bool,
-}
+pub struct Fixes(FixSelection);
 
 impl Fixes {
     /// All fixes that leave the meaning of the deck as it is, in the deck and in what it includes from below its folder.
@@ -29,33 +25,28 @@ impl Fixes {
     /// The fixes of the rules of these codes alone, also where they change the meaning of the deck.
     pub fn of<S: Into<String>>(codes: impl IntoIterator<Item = S>) -> Self {
         let codes: Vec<String> = codes.into_iter().map(Into::into).collect();
-        Self { also: codes.clone(), only: Some(codes), is_every_included: false }
+        Self(FixSelection { also: codes.clone(), only: Some(codes), ..FixSelection::default() })
     }
 
     /// The fixes of the rules of these codes as well, although they change the meaning of the deck.
     #[must_use]
     pub fn also<S: Into<String>>(mut self, codes: impl IntoIterator<Item = S>) -> Self {
-        self.also.extend(codes.into_iter().map(Into::into));
+        self.0.also.extend(codes.into_iter().map(Into::into));
         self
     }
 
     /// In included files that lie outside of the folder of the deck too.
     #[must_use]
     pub fn in_every_included_file(mut self) -> Self {
-        self.is_every_included = true;
+        self.0.reach = FixReach::EveryIncluded;
         self
     }
 
-    fn selection(&self) -> Result<FixSelection, Failure> {
-        if let Some(unknown) = self.also.iter().find(|code| rules::of_code(code).is_none()) {
-            return Err(Failure::Usage(format!("there is no rule `{unknown}`")));
+    fn selection(&self) -> Result<&FixSelection, Failure> {
+        match self.0.also.iter().find(|code| rules::of_code(code).is_none()) {
+            Some(unknown) => Err(Failure::Usage(format!("there is no rule `{unknown}`"))),
+            None => Ok(&self.0),
         }
-        Ok(FixSelection {
-            also: self.also.clone(),
-            only: self.only.clone(),
-            reach: if self.is_every_included { FixReach::EveryIncluded } else { FixReach::BelowDeck },
-            purpose: Purpose::Show,
-        })
     }
 }
 
@@ -110,7 +101,7 @@ impl Fixed {
         let name = Path::new(deck.name());
         let places = deck.files().to_vec();
         let mut subjects = [Subject { path: name, settings: &deck.settings, places, need: Need::Mending }];
-        let Mended { findings, left, failures } = fixing::mend(&mut subjects, &held, &selection);
+        let Mended { findings, left, failures } = fixing::mend(&mut subjects, &held, selection);
         if let Some(failure) = failures.into_iter().next() {
             return Err(failure.into());
         }

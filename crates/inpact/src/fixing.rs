@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 const MOST_ROUNDS: usize = 10;
 
 /// The fixes to apply, and the files.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct FixSelection {
     /// The codes whose fixes are applied although they change the meaning of the deck.
     pub(crate) also: Vec<String>,
@@ -31,18 +31,20 @@ pub(crate) struct FixSelection {
 }
 
 /// The files to mend among those that a deck includes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum FixReach {
     /// Those below its folder, and those that are named themselves.
+    #[default]
     BelowDeck,
     /// All of them.
     EveryIncluded,
 }
 
 /// Purposes of mending.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Write,
+    #[default]
     Show,
 }
 
@@ -50,7 +52,6 @@ pub(crate) enum Purpose {
 pub(crate) struct Subject<'a> {
     pub(crate) path: &'a Path,
     pub(crate) settings: &'a Settings,
-    /// The paths of its files.
     pub(crate) places: Vec<PathBuf>,
     pub(crate) need: Need,
 }
@@ -62,7 +63,6 @@ pub(crate) enum Need {
     Nothing,
 }
 
-/// Result of mending.
 #[derive(Debug, Default)]
 pub(crate) struct Mended {
     /// The number of findings mended.

@@ -23,7 +23,6 @@ pub(crate) struct LocatedDeck {
 }
 
 impl LocatedDeck {
-    /// The path of a source file.
     pub(crate) fn place(&self, source: SourceId) -> Option<&Path> {
         self.places.get(source.0 as usize).map(PathBuf::as_path)
     }

@@ -61,29 +61,13 @@ impl Deck {
         let (keys, numbers) = (rows.keys().to_vec(), rows.numbers().to_vec());
         let mut batches = Vec::new();
         for state in &states {
-            rows.write(state, |batch| {
-                batches
-                    .push(node_record_batch(&keys, &numbers, batch).map_err(|error| Failure::Data(error.to_string()))?);
-                Ok::<(), Failed>(())
-            })
-            .map_err(|failed| failed.0)?;
+            rows.write(state, |batch| -> Result<(), Failure> {
+                let batch = node_record_batch(&keys, &numbers, batch);
+                batches.push(batch.map_err(|error| Failure::Data(error.to_string()))?);
+                Ok(())
+            })?;
         }
         Ok(NodeTable { batches, notes })
-    }
-}
-
-/// Failure of making rows.
-struct Failed(Failure);
-
-impl From<Failure> for Failed {
-    fn from(failure: Failure) -> Self {
-        Self(failure)
-    }
-}
-
-impl From<inpact_contact::Error> for Failed {
-    fn from(error: inpact_contact::Error) -> Self {
-        Self(Failure::Data(error.to_string()))
     }
 }
 

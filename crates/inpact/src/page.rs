@@ -72,7 +72,6 @@ pub(crate) fn of_columns() -> String {
     page
 }
 
-/// Names in a row.
 fn names(all: &[&str]) -> String {
     all.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
@@ -134,7 +133,6 @@ fn product_name(product: Product) -> &'static str {
     }
 }
 
-/// A parameter as an item of a list.
 pub(crate) fn parameter_item(parameter: &ParameterDefinition) -> String {
     let kind = match parameter.kind {
         ParameterKind::Flag | ParameterKind::Choice => "",

@@ -4,6 +4,7 @@
 //! read, such as `/proc/self/environ`, which has the secrets of a CI job. With roots (`--include-root`) nothing outside of them is
 //! read, whatever a name looks like and wherever a symbolic link leads; files are judged by their whole paths.
 
+use crate::files;
 use std::fs::Metadata;
 use std::path::{Component, Path, PathBuf};
 
@@ -90,7 +91,7 @@ pub(crate) fn leads_astray(deck: &Path, roots: &[PathBuf]) -> Option<String> {
 
 /// The whole path of the folder that a deck is named in; the working folder for standard input.
 pub(crate) fn folder_of_deck(deck: &Path) -> PathBuf {
-    let folder = deck.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = files::folder_of(deck);
     folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 

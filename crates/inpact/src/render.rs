@@ -11,10 +11,12 @@ mod sources;
 pub(crate) use self::sarif::Run as SarifRun;
 pub(crate) use self::sources::Sources;
 
+use crate::settings::Settings;
 use anstream::ColorChoice;
 use clap::ValueEnum;
 use inpact_diagnostics::visible::visible_json;
 use inpact_validation::Diagnostic;
+use std::path::Path;
 
 /// The output formats of diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -29,6 +31,20 @@ pub enum Format {
     Sarif,
     /// Workflow commands of GitHub Actions.
     Github,
+}
+
+impl Format {
+    /// Reads nothing outside of the repository where decks of strangers are judged.
+    pub(crate) fn confine(self, settings: &mut Settings, path: &Path) {
+        if matches!(self, Self::Github | Self::Sarif) {
+            settings.confine_to_repository(path);
+        }
+    }
+
+    /// Whether findings come with the lines around them.
+    pub(crate) fn shows_lines(self) -> bool {
+        matches!(self, Self::Full | Self::Sarif)
+    }
 }
 
 /// Styles of the full format.

@@ -19,7 +19,6 @@ use crate::text::counted;
 use inpact_diagnostics::{Diagnostic, Severity};
 use page::Page;
 
-/// Contents of a report.
 pub(crate) struct Report<'a> {
     pub(crate) deck: &'a Deck,
     /// The findings of a check of it.
@@ -58,7 +57,6 @@ pub(crate) struct Tradeoff {
 /// Sums of an output over the nodes of an interface, time by time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct History {
-    /// The interaction.
     pub(crate) interaction: String,
     /// The output, such as `ECDA`.
     pub(crate) output: String,
@@ -94,7 +92,6 @@ pub(crate) fn page_of_curves(figures: &[Figure]) -> String {
 const MOST_FINDINGS: usize = 200;
 
 impl Report<'_> {
-    /// The page.
     pub(crate) fn html(&self) -> String {
         let mut page = Page::new(&format!("{}: contact interfaces", self.deck.name()));
         self.head(&mut page);

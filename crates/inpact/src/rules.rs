@@ -12,7 +12,6 @@ pub(crate) fn all() -> impl Iterator<Item = &'static Rule> {
     RULES.iter().chain(GEOMETRY_RULES).chain(DATA_RULES).chain(SCENE_RULES).chain(BODY_RULES).copied()
 }
 
-/// The rule of a code.
 pub(crate) fn of_code(code: &str) -> Option<&'static Rule> {
     all().find(|rule| rule.code == code)
 }

@@ -19,7 +19,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The name of the configuration file.
 pub(crate) const FILE_NAME: &str = "inpact.toml";
 
 /// Options of reading a deck: by default as in the `inpact.toml` above the deck, and otherwise as documented.
@@ -46,7 +45,6 @@ pub struct ReadOptions {
     pub(crate) stop: Stop,
 }
 
-/// Sources of the configuration.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) enum Configuration {
     /// The nearest above the deck.
@@ -134,7 +132,7 @@ impl ReadOptions {
 /// The dialects by the names users give them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum DialectName {
+pub(crate) enum DialectName {
     /// Abaqus/Standard and Abaqus/Explicit.
     Abaqus,
     /// CalculiX ccx.
@@ -142,7 +140,7 @@ enum DialectName {
 }
 
 impl DialectName {
-    fn dialect(self) -> Dialect {
+    pub(crate) fn dialect(self) -> Dialect {
         match self {
             Self::Abaqus => Dialect::Abaqus,
             Self::Calculix => Dialect::Calculix,
@@ -198,7 +196,6 @@ enum RootEntry {
 struct IgnoreEntry {
     /// Paths relative to the configuration file, with `*`, `**` and `?`.
     paths: Vec<String>,
-    /// Codes.
     rules: Vec<String>,
 }
 
@@ -211,7 +208,6 @@ enum Level {
     Error,
 }
 
-/// Settings of one deck.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
     pub(crate) grammar: &'static Grammar,
@@ -284,7 +280,6 @@ impl Settings {
 #[cfg(feature = "server")]
 impl Settings {
     /// The settings where nothing says anything.
-    #[cfg(feature = "server")]
     pub(crate) fn unconfigured(overlay: Overlay) -> Self {
         Self {
             grammar: Grammar::builtin(),
@@ -312,8 +307,7 @@ impl ReadOptions {
             Configuration::File(file) => return Some(file.clone()),
             Configuration::Nearest => {}
         }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let folder = folder.canonicalize().ok()?;
+        let folder = files::folder_of(path).canonicalize().ok()?;
         folder.ancestors().map(|folder| folder.join(FILE_NAME)).find(|file| file.is_file() && irregular(file).is_none())
     }
 }

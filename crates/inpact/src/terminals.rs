@@ -43,7 +43,6 @@ pub(crate) struct Stated {
 pub(crate) struct Film {
     /// Heat per time and temperature: coefficient times area.
     pub(crate) conductance: f64,
-    /// The temperature of the sink.
     pub(crate) sink: Course,
 }
 
@@ -77,7 +76,6 @@ impl StepTime {
     }
 }
 
-/// The procedure of a step.
 pub(crate) fn procedure(model: &Model, step: usize) -> Option<&Procedure> {
     model.procedures.iter().find(|procedure| procedure.step == step)
 }
@@ -98,7 +96,6 @@ fn index_of(field: ConditionField) -> usize {
     }
 }
 
-/// The nodes of a surface of a mesh.
 pub(crate) fn nodes_of(mesh: &Mesh, surface: usize) -> BTreeSet<NodeId> {
     match &mesh.surfaces[surface].kind {
         SurfaceKind::Faces(faces) => faces.surface.nodes().iter().copied().collect(),

@@ -47,7 +47,6 @@ use std::ffi::c_char;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The symbol of the routine.
 const SYMBOL: &str = "gapelectr_";
 
 /// The command that compiles the routine, for messages.

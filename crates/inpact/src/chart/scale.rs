@@ -12,7 +12,6 @@ pub(crate) enum Scale {
         /// The smallest and the largest magnitude.
         least: f64,
         greatest: f64,
-        /// The signs of its numbers.
         signs: Signs,
     },
 }

@@ -71,7 +71,6 @@ impl Figure {
     }
 }
 
-/// One panel as an SVG document.
 pub(crate) fn svg_of_panel(of: &Panel, scales: Scales) -> String {
     let mut drawing = Drawing::new(panel::WIDTH, panel::HEIGHT, &visible_line(&of.description()));
     Plot::new(of, (0.0, 0.0), scales, &values_of(std::iter::once(of))).draw(&mut drawing);

@@ -149,7 +149,6 @@ impl Drawing {
         }
     }
 
-    /// A bar of a histogram.
     pub(super) fn bar(&mut self, at: (f64, f64), size: (f64, f64)) {
         self.rectangle(at, size, r##"fill="#7b8794" fill-opacity="0.45""##);
     }
@@ -164,7 +163,6 @@ impl Drawing {
         self.add(&format!(r#"<rect x="{x}" y="{y}" width="{width}" height="{height}" {look}/>"#));
     }
 
-    /// The document.
     pub(super) fn finish(mut self) -> String {
         self.text += "</svg>\n";
         self.text

@@ -273,10 +273,7 @@ fn check_deck<'a>(
     progress: &Progress,
 ) -> Result<Checked<'a>, Failure> {
     let mut settings = arguments.reading.settings(path)?;
-    if matches!(arguments.format, Format::Github | Format::Sarif) {
-        // Decks of strangers are checked for these.
-        settings.confine_to_repository(path);
-    }
+    arguments.format.confine(&mut settings, path);
     if selection.is_some() && path.as_os_str() == files::STANDARD_STREAM {
         return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));
     }

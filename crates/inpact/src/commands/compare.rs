@@ -7,14 +7,14 @@ mod report;
 use self::geometry::Geometry;
 use self::measure::{Comparison, Quantity, RowsOf};
 use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice, tolerance};
-use super::findings::Messages;
+use super::findings::{Messages, PrintedAs};
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
 use super::picture::{PictureWriter, is_picture};
 use crate::failure::{Failure, Outcome};
 use crate::files;
 use crate::settings::DeckArguments;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::{visible, visible_json};
 use inpact_evaluation::Evaluation;
@@ -36,8 +36,8 @@ pub(crate) struct CompareArguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// How to print the comparison on standard output.
-    #[arg(long, value_enum, default_value_t = CompareFormat::Text)]
-    format: CompareFormat,
+    #[arg(long, value_enum, default_value_t = PrintedAs::Text)]
+    format: PrintedAs,
     /// Where the histories of nodes start: at time 0 without a jump of potential, or at the first state of the results, whose integrals are 0 then.
     #[arg(long, value_enum, default_value_t = HistoryStartChoice::AtRest)]
     history_start: HistoryStartChoice,
@@ -47,23 +47,12 @@ pub(crate) struct CompareArguments {
     reading: DeckArguments,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum CompareFormat {
-    /// For a person.
-    Text,
-    /// For another program.
-    Json,
-}
-
 pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
     let CompareArguments { deck, results, output, .. } = arguments;
     let evaluable = EvaluableArguments::of_results(deck.clone(), results.clone(), arguments.history_start);
     files::name_as_inputs(&evaluable.inputs());
     files::check_targets(&[output.as_deref()])?;
-    let messages = match arguments.format {
-        CompareFormat::Text => Messages::LINES,
-        CompareFormat::Json => Messages::JSON,
-    };
+    let messages = Messages::at_once(arguments.format.of_findings());
     let prepared = evaluable.with_threads(|| evaluable.prepare(&arguments.laws, &arguments.reading, messages))?;
     let Some(mut prepared) = prepared.filter(|prepared| !prepared.deck_has_errors) else {
         return Ok(Outcome::HasErrors);
@@ -96,8 +85,8 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
         }
     }
     let text = match arguments.format {
-        CompareFormat::Text => visible(&report::text(&comparison)).into_owned(),
-        CompareFormat::Json => visible_json(&report::json(&comparison)).into_owned(),
+        PrintedAs::Text => visible(&report::text(&comparison)).into_owned(),
+        PrintedAs::Json => visible_json(&report::json(&comparison)).into_owned(),
     };
     files::write_result(None, text.as_bytes())?;
     Ok(if comparison.is_beyond() { Outcome::HasErrors } else { Outcome::Clean })

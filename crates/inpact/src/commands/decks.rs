@@ -85,7 +85,6 @@ impl Each {
     }
 }
 
-/// The decks below a folder.
 fn in_folder(folder: &Path, reading: &DeckArguments) -> Result<Vec<PathBuf>, Failure> {
     let by_name = |a: &std::ffi::OsStr, b: &std::ffi::OsStr| a.cmp(b);
     // `.gitignore` says what is no source, with a repository around it or without.

@@ -5,7 +5,7 @@ mod summary;
 
 use self::drawing::evaluate_and_draw;
 use self::summary::Summary;
-use super::evaluable::{Evaluable, EvaluableArguments};
+use super::evaluable::{Evaluable, EvaluableArguments, other_reasons};
 use super::findings::{Messages, refuse_configured_errors, with_messages};
 use super::laws::LawArguments;
 use super::table_output::TableOutput;
@@ -17,7 +17,7 @@ use crate::text::counted;
 use clap::Args;
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::nodes::{Findings, GivenBack};
-use inpact_evaluation::plan::{Plan, Reason};
+use inpact_evaluation::plan::Plan;
 use inpact_evaluation::results::{ResultWriter, TableFormat};
 use inpact_evaluation::{Evaluation, Tally};
 use serde_json::json;
@@ -138,11 +138,7 @@ fn nothing_to_evaluate(evaluable: &Evaluable, messages: Messages<'_>) -> Failure
     let mut findings = Findings::new(&evaluable.nodes_name);
     evaluable.plan.report_missing(&mut findings);
     messages.data(findings.into_list(), &evaluable.settings);
-    let reasons = evaluable.plan.interactions.iter().flat_map(|interaction| {
-        let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
-        others.map(move |left_out| format!("{} of `{}`: {}", left_out.what, interaction.name, left_out.reason))
-    });
-    let reasons: Vec<String> = reasons.collect();
+    let reasons: Vec<String> = other_reasons(&evaluable.plan).collect();
     let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join("; ")) };
     Failure::Data(format!("nothing of `{}` can be evaluated on these rows{reasons}", evaluable.deck_name))
 }

@@ -1,6 +1,6 @@
 //! A deck and a node table that can be evaluated, and the choices between them: what `eval`, `plan` and `tradeoff` have in common.
 
-use super::findings::Messages;
+use super::findings::{Messages, Reporter};
 use super::job_results::{RESULTS_HELP, States, states};
 use super::laws::LawArguments;
 use super::mesh_rows::{RowsSummary, node_rows};
@@ -13,7 +13,7 @@ use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_diagnostics::{Diagnostic, Extent, Findings, keep_lines};
 use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, MakeSpillFile, NodeReader, locate};
-use inpact_evaluation::plan::{Choices, Derivatives, Plan, Survey, make, survey_keeping};
+use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, Survey, make, survey_keeping};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
 use inpact_evaluation::{Accuracy, HistoryStart, Tolerance, Wanted};
 use inpact_parser::grammar::Dialect;
@@ -299,13 +299,12 @@ impl EvaluableArguments {
             nodes_name += &file.file;
         }
         let (keys, numbers) = (node_rows.keys().to_vec(), node_rows.numbers().to_vec());
-        // A place without a geometry is wrong in the data, not in the reading of it.
         let batches = node_rows.batches(&states).map(|batch| batch.map_err(io::Error::other));
         let reader = NodeReader::of_made(&keys, &numbers, Box::new(batches));
         let mut findings = Findings::new(&nodes_name);
         let mut rows = kept_rows();
         let failed = |error: io::Error| match error.downcast::<inpact_contact::Error>() {
-            Ok(error) => Failure::Data(error.to_string()),
+            Ok(error) => error.into(),
             Err(error) => Failure::read(&self.deck, error),
         };
         let survey = survey_keeping(reader, &meshed.read.model, choices, &mut findings, &mut rows).map_err(failed)?;
@@ -427,6 +426,14 @@ impl NodesInput {
             }
         }
     }
+}
+
+/// Why parts of a plan are left out, but for columns that are missing.
+pub(crate) fn other_reasons(plan: &Plan) -> impl Iterator<Item = String> {
+    plan.interactions.iter().flat_map(|interaction| {
+        let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));
+        others.map(move |left_out| format!("{} of `{}`: {}", left_out.what, interaction.name, left_out.reason))
+    })
 }
 
 /// The columns of node tables and results, for `--help`.

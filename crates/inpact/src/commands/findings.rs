@@ -4,6 +4,7 @@ use crate::failure::{Failure, Outcome, say, say_as_it_is, say_json};
 use crate::render::{self, Format, SarifRun, Sources, Style};
 use crate::settings::Settings;
 use crate::text::counted;
+use clap::ValueEnum;
 use inpact_diagnostics::Extent;
 use inpact_evaluation::plan::concerning;
 use inpact_parser::deck::Deck;
@@ -21,6 +22,25 @@ pub(crate) struct Messages<'a> {
     gathered: &'a Gathered,
 }
 
+/// Forms of a result that has one for a person and one for a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PrintedAs {
+    /// For a person.
+    Text,
+    /// For another program.
+    Json,
+}
+
+impl PrintedAs {
+    /// The format of findings beside it, unless another is chosen.
+    pub(crate) fn of_findings(self) -> Format {
+        match self {
+            Self::Text => Format::Concise,
+            Self::Json => Format::Json,
+        }
+    }
+}
+
 /// Results of a run, and what else it had to say, for a document as a whole.
 #[derive(Debug)]
 pub(crate) struct Gathered(Mutex<(Vec<String>, SarifRun)>);
@@ -34,7 +54,7 @@ pub(crate) fn with_messages(
     work: impl FnOnce(Messages<'_>) -> Result<Outcome, Failure>,
 ) -> Result<Outcome, Failure> {
     if format != Format::Sarif {
-        return work(Messages { format, gathered: &NOTHING });
+        return work(Messages::at_once(format));
     }
     let gathered = Gathered(Mutex::default());
     let ended = work(Messages { format, gathered: &gathered });
@@ -54,9 +74,12 @@ pub(crate) fn with_messages(
 
 impl Messages<'static> {
     /// A line each.
-    pub(crate) const LINES: Self = Self { format: Format::Concise, gathered: &NOTHING };
-    /// A JSON object a line.
-    pub(crate) const JSON: Self = Self { format: Format::Json, gathered: &NOTHING };
+    pub(crate) const LINES: Self = Self::at_once(Format::Concise);
+
+    /// In a format of which nothing is gathered.
+    pub(crate) const fn at_once(format: Format) -> Self {
+        Self { format, gathered: &NOTHING }
+    }
 }
 
 impl Messages<'_> {
@@ -84,23 +107,9 @@ impl Messages<'_> {
         }
     }
 
-    /// Reads nothing outside of the repository where decks of strangers are judged, as `check` does.
-    pub(crate) fn confine(self, settings: &mut Settings, path: &Path) {
-        if matches!(self.format, Format::Github | Format::Sarif) {
-            settings.confine_to_repository(path);
-        }
-    }
-
-    /// Whether findings come with the lines around them.
-    pub(crate) fn shows_lines(self) -> bool {
-        matches!(self.format, Format::Full | Format::Sarif)
-    }
-
     /// Says what is wrong with a node table or a scene, as the configuration has it; true if there are errors.
-    pub(crate) fn data(self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
-        let found = settings.apply(found);
-        self.say(&found, Sources::Data);
-        has_errors(&found)
+    pub(crate) fn data(mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
+        Reporter::data(&mut self, found, settings)
     }
 
     /// Says what is wrong with a deck beside what the check finds, as the configuration has it; true if there are errors.
@@ -115,15 +124,13 @@ impl Messages<'_> {
     }
 
     /// Says what the check found in some interactions, notes left out; true if there are errors.
-    pub(crate) fn deck(self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
-        let shown = shown_of(found, of, governing);
-        self.say(&shown, Sources::Deck(of.0));
-        if let Some(line) = errors_elsewhere(found, &shown, "inpact check")
-            && matches!(self.format, Format::Concise | Format::Full | Format::Sarif)
-        {
-            self.line(&line);
-        }
-        has_errors(&shown)
+    pub(crate) fn deck(
+        mut self,
+        found: &[Diagnostic],
+        of: (&Deck, &Grammar, &Model),
+        governing: Governing<'_>,
+    ) -> bool {
+        Reporter::deck(&mut self, found, of, governing)
     }
 
     fn say(self, found: &[Diagnostic], sources: Sources<'_>) {
@@ -158,31 +165,58 @@ pub(crate) trait Reporter {
     /// Takes the whole paths of files that are read, or would be if they were there.
     fn files(&mut self, _: &[PathBuf]) {}
 
-    /// Takes what is wrong with a node table or a scene; true if there are errors, as the configuration has it.
-    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool;
+    /// Takes findings as the configuration has them.
+    fn take(&mut self, found: &[Diagnostic], sources: Sources<'_>);
 
-    /// Takes what the check found in some interactions; true if there are errors.
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool;
+    /// Takes what the check found in a deck, of which only a part was shown.
+    fn beside(&mut self, _found: &[Diagnostic], _shown: &[Diagnostic], _: &Deck) {}
 
     /// Takes several files that cannot be read; gives what the command or the call fails with.
-    fn failures(&mut self, failures: Vec<Failure>) -> Failure;
+    fn failures(&mut self, failures: Vec<Failure>) -> Failure {
+        as_one(failures)
+    }
+
+    /// Takes what is wrong with a node table or a scene; true if there are errors, as the configuration has it.
+    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
+        let found = settings.apply(found);
+        self.take(&found, Sources::Data);
+        has_errors(&found)
+    }
+
+    /// Takes what the check found in some interactions, notes left out; true if there are errors.
+    fn deck(
+        &mut self,
+        found: &[Diagnostic],
+        (deck, grammar, model): (&Deck, &Grammar, &Model),
+        (names, chosen): Governing<'_>,
+    ) -> bool {
+        let shown = concerning(found, deck, grammar, model, names, chosen).into_iter();
+        let shown: Vec<Diagnostic> = shown.filter(|found| found.severity != Severity::Note).cloned().collect();
+        self.take(&shown, Sources::Deck(deck));
+        self.beside(found, &shown, deck);
+        has_errors(&shown)
+    }
 }
 
 impl Reporter for Messages<'_> {
     fn confine(&self, settings: &mut Settings, path: &Path) {
-        Messages::confine(*self, settings, path);
+        self.format.confine(settings, path);
     }
 
     fn shows_lines(&self) -> bool {
-        Messages::shows_lines(*self)
+        self.format.shows_lines()
     }
 
-    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
-        Messages::data(*self, found, settings)
+    fn take(&mut self, found: &[Diagnostic], sources: Sources<'_>) {
+        self.say(found, sources);
     }
 
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
-        Messages::deck(*self, found, of, governing)
+    fn beside(&mut self, found: &[Diagnostic], shown: &[Diagnostic], _: &Deck) {
+        if let Some(line) = errors_elsewhere(found, shown, "inpact check")
+            && matches!(self.format, Format::Concise | Format::Full | Format::Sarif)
+        {
+            self.line(&line);
+        }
     }
 
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
@@ -204,41 +238,16 @@ impl Reporter for Collected {
         false
     }
 
-    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
-        let found = settings.apply(found);
-        let has_errors = has_errors(&found);
-        self.0.extend(found);
-        has_errors
-    }
-
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
-        let shown = shown_of(found, of, governing);
-        let has_errors = has_errors(&shown);
-        self.0.extend(shown);
-        has_errors
-    }
-
-    fn failures(&mut self, failures: Vec<Failure>) -> Failure {
-        as_one(failures)
+    fn take(&mut self, found: &[Diagnostic], _: Sources<'_>) {
+        self.0.extend_from_slice(found);
     }
 }
 
-/// Several failures as one.
-pub(crate) fn as_one(failures: Vec<Failure>) -> Failure {
+fn as_one(failures: Vec<Failure>) -> Failure {
     match <[Failure; 1]>::try_from(failures) {
         Ok([failure]) => failure,
         Err(failures) => Failure::Usage(failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")),
     }
-}
-
-/// Findings of the check that concern some interactions, notes left out.
-pub(crate) fn shown_of(
-    found: &[Diagnostic],
-    (deck, grammar, model): (&Deck, &Grammar, &Model),
-    (names, chosen): Governing<'_>,
-) -> Vec<Diagnostic> {
-    let concerning = concerning(found, deck, grammar, model, names, chosen);
-    concerning.into_iter().filter(|found| found.severity != Severity::Note).cloned().collect()
 }
 
 /// A line on the errors of a deck that are not shown, if there are any, with the command that shows them.
@@ -250,7 +259,6 @@ pub(crate) fn errors_elsewhere(found: &[Diagnostic], shown: &[Diagnostic], comma
     }
 }
 
-/// Whether one of the findings is an error.
 pub(crate) fn has_errors(found: &[Diagnostic]) -> bool {
     found.iter().any(|found| found.severity == Severity::Error)
 }

@@ -59,7 +59,7 @@ fn make(arguments: &InterfacesArguments, messages: Messages<'_>) -> Result<Outco
     let States { states, files } = states(&arguments.results, &meshed, messages)?;
     let mut rows = node_rows(&meshed, &states, messages)?;
     let Some(state) = states.last() else { return Err(Failure::Data("the result files have no state".to_owned())) };
-    let interfaces = rows.interfaces(state).map_err(|error| Failure::Data(error.to_string()))?;
+    let interfaces = rows.interfaces(state)?;
     let table = if arguments.lumped { lumped_rows(&interfaces) } else { node_rows_of(&interfaces) };
     let made = table.len();
     files::write_result(arguments.output.as_deref(), &csv(std::iter::once(header(&interfaces)).chain(table)))?;
@@ -210,7 +210,6 @@ fn value(interfaces: &Interfaces, lumped: &LumpedPair) -> Value {
     json!({ "area": lumped.area, "means": means, "closed": lumped.states[0], "open": lumped.states[1] })
 }
 
-/// Names, not too many of them.
 fn listed(names: &[String]) -> String {
     let shown = names.iter().take(MOST_NAMES).cloned().collect::<Vec<_>>().join(", ");
     match names.len().checked_sub(MOST_NAMES) {

@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 /// More notes than these of one run nobody reads.
 const MOST_NOTES: usize = 100;
 
-/// The help of `--results`.
 pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
 /// States of a mesh at the times of result files, or at the beginning where there are none.
@@ -40,8 +39,7 @@ pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, 
     for path in results {
         join.add(&path.display().to_string(), &FileOnDisk::open(path)?)?;
     }
-    let joined = join.finish().map_err(|error| Failure::Data(error.to_string()));
-    let Joined { states, files, notes } = joined?;
+    let Joined { states, files, notes } = join.finish()?;
     Ok((States { states, files }, notes))
 }
 
@@ -65,34 +63,13 @@ impl<'a> FileOnDisk<'a> {
     }
 }
 
-/// Why a result file cannot be used.
-enum Unusable {
-    Read(Failure),
-    Join(inpact_contact::Error),
-}
-
-impl From<inpact_contact::Error> for Unusable {
-    fn from(error: inpact_contact::Error) -> Self {
-        Self::Join(error)
-    }
-}
-
-impl From<Unusable> for Failure {
-    fn from(unusable: Unusable) -> Self {
-        match unusable {
-            Unusable::Read(failure) => failure,
-            Unusable::Join(error) => Self::Data(error.to_string()),
-        }
-    }
-}
-
 impl ResultFile for FileOnDisk<'_> {
-    type Error = Unusable;
+    type Error = Failure;
 
-    fn frames(&self, take: &mut dyn FnMut(&Results, &Frame) -> ControlFlow<()>) -> Result<Results, Unusable> {
+    fn frames(&self, take: &mut dyn FnMut(&Results, &Frame) -> ControlFlow<()>) -> Result<Results, Failure> {
         let mut source: Box<dyn Read + '_> = match &self.spooled {
             Some(bytes) => Box::new(bytes.as_slice()),
-            None => files::open(self.path).map_err(Unusable::Read)?,
+            None => files::open(self.path)?,
         };
         let (mut states, mut time) = (0, None);
         let read = read_frames(&mut source, &mut |head, frame| {
@@ -100,13 +77,11 @@ impl ResultFile for FileOnDisk<'_> {
             time = frame.total_time.or(frame.step_time).or(time);
             take(head, &frame)
         });
-        read.map_err(|error| {
-            Unusable::Read(match error.into_kind() {
-                ErrorKind::Source(error) => Failure::read(self.path, error),
-                ErrorKind::Unsound(problem) => unsound(self.path, &problem, &before(states, time)),
-                ErrorKind::Foreign(problem) => unsound(self.path, &problem, ""),
-                other => Failure::Data(format!("{}: {}", self.path.display(), inpact_results::Error::from(other))),
-            })
+        read.map_err(|error| match error.into_kind() {
+            ErrorKind::Source(error) => Failure::read(self.path, error),
+            ErrorKind::Unsound(problem) => unsound(self.path, &problem, &before(states, time)),
+            ErrorKind::Foreign(problem) => unsound(self.path, &problem, ""),
+            other => Failure::Data(format!("{}: {}", self.path.display(), inpact_results::Error::from(other))),
         })
     }
 }

@@ -21,7 +21,6 @@ pub(super) struct JouleHeats {
 }
 
 impl JouleHeats {
-    /// That of bodies with these terminals.
     pub(super) fn of(terminals: &[&Name], lumped: &[Lumped]) -> Self {
         let of_field = |field: BodyField| lumped.iter().find(|of| of.field == field);
         let mut heats = Self { shares: vec![None; terminals.len()], ..Self::default() };

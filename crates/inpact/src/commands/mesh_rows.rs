@@ -34,7 +34,7 @@ pub(crate) fn rows_of_pairs<'a>(meshed: &'a MeshedDeck, states: &[State]) -> Res
             format!("no contact pair of `{name}` has both of its surfaces in the mesh")
         }));
     }
-    NodeRows::new(mesh, model, states).map_err(|error| Failure::Data(error.to_string()))
+    Ok(NodeRows::new(mesh, model, states)?)
 }
 
 /// Refuses pairs without a node.
@@ -45,7 +45,6 @@ pub(crate) fn refuse_none(MeshedDeck { name, .. }: &MeshedDeck, rows: &NodeRows<
     Ok(())
 }
 
-/// Summary of the rows made.
 pub(crate) struct RowsSummary {
     /// Lines for a person, behind the one that says how many rows there are.
     pub(crate) lines: Vec<String>,

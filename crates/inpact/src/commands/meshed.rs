@@ -22,7 +22,6 @@ use std::path::{Path, PathBuf};
 /// More notes than these nobody reads, and each has to be looked for in the file.
 const MOST_NOTES: usize = 100;
 
-/// A deck and its model.
 pub(crate) struct ReadDeck {
     pub(crate) deck: Deck,
     /// The paths of its files, itself first.
@@ -31,7 +30,6 @@ pub(crate) struct ReadDeck {
     pub(crate) problems: Vec<Problem>,
 }
 
-/// A deck with its mesh.
 pub(crate) struct MeshedDeck {
     pub(crate) name: String,
     pub(crate) read: ReadDeck,
@@ -144,7 +142,6 @@ impl MeshedDeck {
         Ok(format!("line {} of `{file}`", self.position(span)?.line))
     }
 
-    /// Says notes with their places.
     pub(crate) fn say_notes(&self, notes: &[MeshNote], messages: Messages<'_>) -> Result<(), Failure> {
         for note in notes.iter().take(MOST_NOTES) {
             self.say_note(note, messages)?;

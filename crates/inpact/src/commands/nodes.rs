@@ -56,11 +56,12 @@ fn make(arguments: &NodesArguments, messages: Messages<'_>) -> Result<Outcome, F
         draw(&mut rows, &drawn, target)?;
     } else {
         let mut output = ResultFile::create(arguments.output.target())?;
-        match write(&mut rows, &states, &mut output, arguments.output.format()) {
-            Ok(()) => output.finish()?,
-            Err(Stopped::Rows(error)) => return Err(Failure::Data(error.to_string())),
-            Err(Stopped::Writing(error)) => return Err(output.failure(error)),
-        }
+        let written = write(&mut rows, &states, &mut output, arguments.output.format());
+        written.map_err(|failure| match failure {
+            Failure::Output(error) => output.failure(error),
+            failure => failure,
+        })?;
+        output.finish()?;
     }
     let seconds = start.elapsed().as_secs_f64();
     let summary = RowsSummary::of(&rows, &files);
@@ -74,12 +75,11 @@ fn make(arguments: &NodesArguments, messages: Messages<'_>) -> Result<Outcome, F
     Ok(Outcome::Clean)
 }
 
-/// Draws the rows of all states.
 fn draw(rows: &mut NodeRows<'_>, drawn: &Drawn, target: &Path) -> Result<(), Failure> {
     let names = rows.numbers().iter().map(ToString::to_string).collect();
     let mut writer = PictureWriter::new(drawn, target, names)?;
     for batch in rows.batches(&drawn.states) {
-        let batch = batch.map_err(|error| Failure::Data(error.to_string()))?;
+        let batch = batch?;
         for row in 0..batch.rows {
             writer.push(batch.numbers.iter().map(|column| column.get(row)))?;
         }
@@ -87,30 +87,18 @@ fn draw(rows: &mut NodeRows<'_>, drawn: &Drawn, target: &Path) -> Result<(), Fai
     writer.finish()
 }
 
-/// Reasons why making a table ended early.
-enum Stopped {
-    Rows(inpact_contact::Error),
-    Writing(io::Error),
-}
-
-impl From<inpact_contact::Error> for Stopped {
-    fn from(error: inpact_contact::Error) -> Self {
-        Self::Rows(error)
-    }
-}
-
-/// Writes the rows of all states as a node table.
+/// Writes the rows of all states as a node table; what cannot be written is a failure of an output without a name.
 fn write(
     rows: &mut NodeRows<'_>,
     states: &[State],
     output: &mut (dyn io::Write + Send),
     format: TableFormat,
-) -> Result<(), Stopped> {
+) -> Result<(), Failure> {
     let writer = ResultWriter::of_nodes(output, format, rows.keys(), rows.numbers());
-    let mut writer = writer.map_err(Stopped::Writing)?;
+    let mut writer = writer.map_err(Failure::Output)?;
     for state in states {
-        rows.write(state, |batch| writer.write_nodes(batch).map_err(Stopped::Writing))?;
+        rows.write(state, |batch| writer.write_nodes(batch).map_err(Failure::Output))?;
     }
-    writer.finish().map_err(Stopped::Writing)?;
+    writer.finish().map_err(Failure::Output)?;
     Ok(())
 }

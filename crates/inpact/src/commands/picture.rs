@@ -31,7 +31,6 @@ impl Drawn {
         self.states.len() * self.faces.points()
     }
 
-    /// The names of the rows, and their times.
     pub(crate) fn names_and_times(&self) -> (Vec<String>, Vec<Option<f64>>) {
         let rows =
             self.states.iter().flat_map(|state| self.faces.rows().map(move |(.., name)| (name, state.moment.time)));

@@ -1,13 +1,13 @@
 //! `inpact plan`: a deck and a node table in, what an evaluation of them would do out.
 
 use super::evaluable::{Evaluable, EvaluableArguments};
-use super::findings::{Messages, with_messages};
+use super::findings::{Messages, PrintedAs, with_messages};
 use super::laws::LawArguments;
 use crate::failure::{Failure, Outcome};
 use crate::files::{self, ResultFile};
 use crate::render::Format;
 use crate::settings::DeckArguments;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_diagnostics::visible::{visible, visible_json};
 use inpact_evaluation::plan::{
     CharacteristicLength, ColumnRole, CurrentHeat, Cut, ElectricalPlan, FormPlan, GovernedBy, InteractionPlan, Node,
@@ -32,26 +32,15 @@ pub(crate) struct PlanArguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// How to print the plan.
-    #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
-    format: PlanFormat,
+    #[arg(long, value_enum, default_value_t = PrintedAs::Text)]
+    format: PrintedAs,
     /// How to print findings on standard error, instead of a line each, or of JSON with `--format json`.
     #[arg(long, value_enum, value_name = "FORMAT")]
     findings: Option<Format>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum PlanFormat {
-    /// For a person.
-    Text,
-    /// For another program.
-    Json,
-}
-
 pub(crate) fn run(arguments: &PlanArguments) -> Result<Outcome, Failure> {
-    let findings = arguments.findings.unwrap_or(match arguments.format {
-        PlanFormat::Text => Format::Concise,
-        PlanFormat::Json => Format::Json,
-    });
+    let findings = arguments.findings.unwrap_or(arguments.format.of_findings());
     with_messages(findings, |messages| plan(arguments, messages))
 }
 
@@ -62,14 +51,14 @@ fn plan(arguments: &PlanArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     let prepared = evaluable.with_threads(|| evaluable.prepare(laws, reading, messages))?;
     let Some(evaluable) = prepared else { return Ok(Outcome::HasErrors) };
     match arguments.format {
-        PlanFormat::Text => {
+        PrintedAs::Text => {
             let mut out = VisibleText { out: ResultFile::create(arguments.output.as_deref())?, failed: None };
             let Evaluable { deck_name, nodes_name, plan, .. } = &evaluable;
             // It fails where writing does, and only there.
             let _ = write!(out, "plan for {deck_name} on {nodes_name}: {plan}");
             out.finish()?;
         }
-        PlanFormat::Json => {
+        PrintedAs::Json => {
             files::write_result(arguments.output.as_deref(), visible_json(&as_json(&evaluable)).as_bytes())?;
         }
     }

@@ -53,25 +53,13 @@ pub(crate) struct DrawingArguments {
     interaction: Vec<String>,
     /// Draw these laws only.
     #[arg(long, value_enum, value_name = "LAWS", value_delimiter = ',')]
-    law: Vec<LawName>,
+    law: Vec<LawKind>,
     /// Hold variables at values instead of drawing a curve or a panel for each: temp=150,fv1=2.
     #[arg(long, value_name = "NAME=VALUE", value_delimiter = ',', value_parser = held)]
     at: Vec<(String, f64)>,
     /// Your names of units, by base quantity or by column: L=mm,M=t,T=s,theta=K or pressure=MPa.
     #[arg(long, value_name = "UNITS", default_value = "", hide_default_value = true)]
     units: Units,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LawName {
-    /// Electrical conductance.
-    Electrical,
-    /// Thermal conductance.
-    Thermal,
-    /// The view factor of radiation.
-    ViewFactor,
-    /// Permeability to pore fluid.
-    Permeability,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -84,7 +72,6 @@ enum LogAxes {
     Xy,
 }
 
-/// A picture to draw.
 #[derive(Debug, Clone)]
 struct Picture {
     path: PathBuf,
@@ -97,7 +84,6 @@ enum PictureKind {
     Page,
 }
 
-/// The most panels of a picture.
 const MOST_PANELS: usize = 40;
 
 /// The most changes between two decks that are named.
@@ -109,16 +95,10 @@ const ON_LOGARITHMIC: usize = 160;
 impl DrawingArguments {
     /// The parts to be drawn.
     pub(crate) fn request(&self, detail: Detail, most_panels: usize, probing: Probing) -> Request {
-        let law = |law: &LawName| match law {
-            LawName::Electrical => LawKind::Electrical,
-            LawName::Thermal => LawKind::Thermal,
-            LawName::ViewFactor => LawKind::ViewFactor,
-            LawName::Permeability => LawKind::Permeability,
-        };
         Request {
             held_places: Vec::new(),
             interactions: self.interaction.iter().map(|name| Name::new(name)).collect(),
-            laws: self.law.iter().map(law).collect(),
+            laws: self.law.clone(),
             at: self.at.clone(),
             units: self.units.clone(),
             detail,
@@ -142,7 +122,6 @@ impl DrawingArguments {
     }
 }
 
-/// A deck that is drawn.
 struct DrawnDeck {
     name: String,
     settings: Settings,

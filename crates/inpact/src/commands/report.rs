@@ -46,7 +46,6 @@ pub(crate) struct ReportArguments {
     reading: DeckArguments,
 }
 
-/// The most panels of a report.
 const MOST_PANELS: usize = 250;
 
 pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {

@@ -157,7 +157,7 @@ fn make(
     let Some(state) = joined.states.last() else {
         return Err(Failure::Data("the result files have no state".to_owned()));
     };
-    let interfaces = rows.interfaces(state).map_err(|error| Failure::Data(error.to_string()))?;
+    let interfaces = rows.interfaces(state)?;
     let mut notes: Vec<MeshNote> = meshed.conditions.not_taken.clone();
     let terminals = terminals(meshed, &interfaces, &mut notes);
     let time = StepTime::of(model, step, regime);
@@ -402,7 +402,6 @@ fn deck_from(arguments: &SceneArguments) -> String {
     whole.strip_prefix(&folder).unwrap_or(&whole).display().to_string()
 }
 
-/// The field of the network that a field of bodies is.
 pub(super) fn network_field(field: BodyField) -> Field {
     match field {
         BodyField::Thermal => Field::Temperature,

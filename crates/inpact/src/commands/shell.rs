@@ -12,7 +12,6 @@ pub(crate) struct CompletionsArguments {
     shell: Shell,
 }
 
-/// Writes the completions of a shell.
 pub(crate) fn completions(arguments: &CompletionsArguments, mut command: Command) -> Result<Outcome, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "inpact", &mut script);

@@ -147,7 +147,6 @@ impl SolvableScene {
     }
 }
 
-/// The choices about laws in a scene.
 pub(crate) fn choices_of(scene: &Scene, laws: Choices) -> Choices {
     // A scene that says nothing of potentials is one of heat alone.
     let currents = if scene.mentions(Field::Potential) { Currents::OfTheDeck } else { Currents::None };
@@ -161,7 +160,6 @@ pub(crate) fn choices_of(scene: &Scene, laws: Choices) -> Choices {
     }
 }
 
-/// The number of steps of a deck.
 pub(crate) fn steps_of(read: &ReadDeck, grammar: &Grammar) -> usize {
     let ids = read.deck.blocks().iter().filter_map(inpact_parser::deck::Block::keyword_id);
     ids.filter(|id| grammar.keyword(*id).name == "STEP").count()
@@ -188,14 +186,12 @@ fn refuse_outside(path: &Path, roots: &[PathBuf]) -> Result<(), Failure> {
     Err(Failure::Usage(format!("`{}` is not read: {reason}", path.display())))
 }
 
-/// The files beside a scene.
 struct FilesBeside<'a> {
     folder: &'a Path,
     /// Outside of which nothing is read.
     roots: &'a [PathBuf],
     /// The files that were read, the scene first.
     read: Vec<PathBuf>,
-    /// The failures to read some.
     failures: Vec<Failure>,
 }
 

@@ -17,6 +17,7 @@ use super::laws::LawArguments;
 use crate::chart::Chart;
 use crate::failure::{Failure, Outcome};
 use crate::files;
+use crate::render::Format;
 use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -84,7 +85,6 @@ enum TradeoffFormat {
     Json,
 }
 
-/// A picture to draw.
 #[derive(Debug, Clone)]
 struct Picture {
     path: PathBuf,
@@ -101,7 +101,7 @@ struct Shown {
 impl TradeoffFormat {
     fn messages(self) -> Messages<'static> {
         match self {
-            Self::Json => Messages::JSON,
+            Self::Json => Messages::at_once(Format::Json),
             Self::Text | Self::Csv => Messages::LINES,
         }
     }

@@ -12,7 +12,6 @@ use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Interaction, Model};
 use std::collections::HashMap;
 
-/// The most curves of one panel.
 const MOST_CURVES: usize = 24;
 
 /// The most panels of one law.
@@ -364,7 +363,6 @@ fn why_not(interaction: &Interaction, kind: LawKind, laws: &InterfaceLaws) -> Op
     reasons.next().map(|(_, left_out)| left_out.reason.to_string())
 }
 
-/// The remarks on a panel.
 fn notes(subject: &Subject<'_>, panel: &Panel) -> Vec<String> {
     let mut notes = Vec::new();
     if panel.curves.len() < panel.all_curves {

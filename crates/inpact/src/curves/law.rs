@@ -1,6 +1,7 @@
 //! The laws that have curves, and their values at a point: what an evaluation of a node row would find there.
 
 use super::{Reach, Side};
+use clap::ValueEnum;
 use inpact_evaluation::law::{
     Clearance, Conductance, ConductanceTables, ContactPoint, ContactPressure, ContactState, ElectricalSource, Gap,
     InterfaceLaws, Permeability, PoreLaw, PorePoint, PorePressure, RadiationLaw, ThermalConductance,
@@ -9,15 +10,19 @@ use inpact_evaluation::table::Sides;
 use inpact_parser::model::OptionKind;
 
 /// A law with a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, ValueEnum)]
 pub enum LawKind {
     /// Electrical conductance, *GAP ELECTRICAL CONDUCTANCE.
+    #[value(help = "Electrical conductance")]
     Electrical,
     /// Thermal conductance, *GAP CONDUCTANCE.
+    #[value(help = "Thermal conductance")]
     Thermal,
     /// The view factor of radiation, *GAP RADIATION.
+    #[value(help = "The view factor of radiation")]
     ViewFactor,
     /// Permeability to pore fluid, *CONTACT PERMEABILITY.
+    #[value(help = "Permeability to pore fluid")]
     Permeability,
 }
 
@@ -55,7 +60,6 @@ pub(super) enum Law<'a> {
     Permeability(&'a PoreLaw, Option<f64>),
 }
 
-/// A value of a law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Value {
     pub(super) y: f64,

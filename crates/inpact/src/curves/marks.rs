@@ -56,7 +56,6 @@ pub fn mark_findings(figure: &mut Figure, model: &Model, found: &[Diagnostic]) {
     }
 }
 
-/// The row that a place lies in.
 fn row_at(spans: &[Span], place: Span) -> Option<usize> {
     spans.iter().position(|span| span.contains(place))
 }

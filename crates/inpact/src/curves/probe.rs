@@ -36,7 +36,6 @@ pub struct ProbeBranch {
 /// The most values of a law in a page.
 const MOST_VALUES: usize = 4000;
 
-/// The most abscissae of each side.
 const MOST_ABSCISSAE: usize = 40;
 
 /// The most values of each side among which these are chosen.

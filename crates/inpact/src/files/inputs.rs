@@ -92,7 +92,6 @@ pub(super) fn take_down_standard_input() -> Option<Metadata> {
     None
 }
 
-/// The metadata of a standard stream.
 #[cfg(unix)]
 pub(super) fn standard_metadata(stream: &impl std::os::fd::AsFd) -> Option<Metadata> {
     let descriptor = stream.as_fd().try_clone_to_owned().ok()?;

@@ -145,7 +145,6 @@ impl Change {
 /// A change whose new file is ready.
 struct Prepared<'a> {
     change: &'a Change,
-    /// The new file.
     new: Identity,
     beside: Temporary,
     state: State,

@@ -76,7 +76,6 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     text_of(&mut open(path)?).map_err(|error| Failure::read(path, error))
 }
 
-/// The lines of an input.
 pub(super) fn lines_of(input: &mut dyn Read) -> io::Result<Vec<u8>> {
     let mut line_start = 0;
     read_while(input, |bytes, new| {

@@ -9,12 +9,10 @@ use std::path::Path;
 /// The number of bytes by which a file without `.toml` is recognised.
 const LOOKED_AT: u64 = 8 * 1024;
 
-/// Kinds of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// A deck or a fragment of one.
     Deck,
-    /// A scene.
     Scene,
 }
 

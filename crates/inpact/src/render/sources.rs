@@ -23,7 +23,6 @@ pub(super) enum Shown {
 }
 
 impl<'a> Sources<'a> {
-    /// The name of the file of a label.
     pub(super) fn file<'l>(self, label: &'l Label) -> &'l str
     where
         'a: 'l,

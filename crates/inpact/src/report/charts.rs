@@ -32,7 +32,6 @@ pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
     }
 }
 
-/// Data of a panel for the script.
 fn data(panel: &Panel) -> Value {
     let abscissae = Side::BOTH.map(|side| abscissae(panel, side));
     let halves: Vec<Value> = Side::BOTH

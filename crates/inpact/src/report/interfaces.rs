@@ -97,7 +97,6 @@ impl Report<'_> {
     }
 }
 
-/// Where an interaction is used.
 fn uses(model: &Model, interaction: &Interaction) -> Vec<String> {
     /// The most pairs that are named.
     const MOST: usize = 20;

@@ -48,12 +48,10 @@ impl Page {
         let _ = writeln!(self.text, "</{name}>");
     }
 
-    /// A text.
     pub(super) fn text(&mut self, text: &str) {
         self.text += &escaped(text);
     }
 
-    /// An element with a text in it.
     pub(super) fn element(&mut self, name: &str, attributes: &[(&str, &str)], text: &str) {
         self.open(name, attributes);
         self.text(text);
@@ -71,7 +69,6 @@ impl Page {
         self.close("thead");
     }
 
-    /// A drawing of ours.
     pub(super) fn drawing(&mut self, svg: &str) {
         self.text += svg;
     }

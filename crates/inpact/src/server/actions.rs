@@ -52,7 +52,6 @@ pub(super) fn actions(
     Ok(Some(actions.into_iter().map(CodeActionResponse::CodeAction).collect()))
 }
 
-/// The fix of a finding.
 fn mend(view: View<'_>, finding: &found::Diagnostic, prefix: &str) -> Option<CodeAction> {
     let fix = finding.fix.as_ref()?;
     let diagnostics = prefix.is_empty().then(|| vec![findings::diagnostic(view, finding)]);

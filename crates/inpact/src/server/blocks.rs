@@ -14,7 +14,6 @@ pub(super) struct Entry<'a> {
     pub(super) keyword: &'a KeywordLine,
     /// The keyword in full.
     pub(super) name: &'a str,
-    /// Its definition in the grammar.
     pub(super) definition: Option<&'a Definition>,
 }
 

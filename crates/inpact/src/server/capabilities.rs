@@ -26,7 +26,6 @@ pub(super) struct Refreshes {
     pub(super) tokens: bool,
 }
 
-/// Capabilities of a client.
 pub(super) fn of_client(params: &InitializeParams) -> ClientTraits {
     let workspace = params.capabilities.workspace.as_ref();
     let watches = workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref());
@@ -61,7 +60,6 @@ pub(super) fn column_unit(params: &InitializeParams) -> ColumnUnit {
     offered.into_iter().flatten().find_map(known).unwrap_or_default()
 }
 
-/// Capabilities of the server.
 pub(super) fn of_server(unit: ColumnUnit) -> InitializeResult {
     let encoding = match unit {
         ColumnUnit::Utf8 => PositionEncodingKind::UTF8,

@@ -23,7 +23,6 @@ pub(super) struct Cell<'a> {
     pub(super) column: ColumnOf<'a>,
 }
 
-/// Contents of a column.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum ColumnOf<'a> {
     Named(&'a Column),

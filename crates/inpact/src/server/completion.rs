@@ -15,7 +15,6 @@ use inpact_parser::grammar::{Definition, ParameterDefinition, ParameterKind};
 use inpact_parser::span::Span;
 use std::path::Path;
 
-/// The most files that are offered.
 const MOST_FILES: usize = 500;
 
 pub(super) fn complete(
@@ -29,7 +28,6 @@ pub(super) fn complete(
     Ok(Some(CompletionList { items, ..CompletionList::default() }.into()))
 }
 
-/// The place of completion.
 struct Place<'a> {
     view: View<'a>,
     /// Up to where the text is given.

@@ -92,7 +92,6 @@ pub(super) fn diagnostic(view: View<'_>, finding: &found::Diagnostic) -> Diagnos
     }
 }
 
-/// Where the page of a rule is.
 fn page_of(code: &str) -> Option<Uri> {
     let rule = crate::rules::of_code(code)?;
     let anchor = format!("{}-{}", rule.code.to_lowercase(), rule.name);

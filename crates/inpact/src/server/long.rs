@@ -10,7 +10,6 @@ use std::io::{self, BufRead};
 /// The beginning of the mark of a long string; its number follows. Nobody writes a NUL.
 const MARK: &str = "\u{0}long string ";
 
-/// A message as it is decoded.
 #[derive(Debug, Default)]
 pub(super) struct LongMessage {
     /// The JSON, with a mark for each long string.

@@ -80,7 +80,6 @@ fn close_last<'a>(open: &mut Vec<Node<'a>>, roots: &mut Vec<Node<'a>>) {
     }
 }
 
-/// Blocks that a keyword closes.
 fn closing(keyword: &str) -> Opens {
     LEVELS
         .into_iter()

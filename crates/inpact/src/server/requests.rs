@@ -8,7 +8,6 @@ use gen_lsp_types as lsp;
 use lsp_server::{ErrorCode, Request, Response};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Answers a request.
 pub(super) fn answer(workspace: &mut Workspace, request: Request) -> Response {
     match request.method.as_str() {
         "textDocument/hover" => by::<lsp::HoverRequest>(workspace, request, hover::hover),

@@ -6,7 +6,7 @@ use super::refusal::Refusal;
 use super::requests;
 use super::transport::Client;
 use super::workspace::Workspace;
-use crate::settings::{ReadOptions, RelativeTo};
+use crate::settings::{DialectName, ReadOptions, RelativeTo};
 use crate::stop::Stop;
 use gen_lsp_types::{
     Diagnostic, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, FileSystemWatcher,
@@ -14,7 +14,7 @@ use gen_lsp_types::{
     Registration, RegistrationParams, Uri,
 };
 use inpact_parser::deck::EditedText;
-use inpact_parser::grammar::{Dialect, Release};
+use inpact_parser::grammar::Release;
 use lsp_server::{ErrorCode, Notification, Request, Response};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -46,13 +46,6 @@ struct EditorSettings {
     relative_to: Option<RelativeTo>,
     config: Option<PathBuf>,
     isolated: bool,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum DialectName {
-    Abaqus,
-    Calculix,
 }
 
 impl Session {
@@ -218,11 +211,9 @@ fn options_of(settings: &Value) -> Result<ReadOptions, String> {
     }
     let settings = EditorSettings::deserialize(settings).map_err(|error| error.to_string())?;
     let mut options = ReadOptions::new();
-    options = match settings.dialect {
-        Some(DialectName::Abaqus) => options.dialect(Dialect::Abaqus),
-        Some(DialectName::Calculix) => options.dialect(Dialect::Calculix),
-        None => options,
-    };
+    if let Some(dialect) = settings.dialect {
+        options = options.dialect(dialect.dialect());
+    }
     if let Some(release) = settings.release.filter(|release| !release.is_empty()) {
         let release: Release = release.parse().map_err(|error| format!("`release`: {error}"))?;
         options = options.release(release);

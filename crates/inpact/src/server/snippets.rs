@@ -44,7 +44,6 @@ pub(super) fn of_parameter(parameter: &ParameterDefinition) -> String {
     format!("{}={value}", escaped(&parameter.name))
 }
 
-/// A snippet in the making.
 struct Snippet {
     text: String,
     /// The number of the next place to fill in.

@@ -24,7 +24,6 @@ const DIRECTIVE: u32 = 4;
 /// The columns of rows, one after another.
 const COLUMNS: [u32; 5] = [NUMBER, 5, 6, 7, 8];
 
-/// The legend of the tokens.
 pub(super) fn legend() -> SemanticTokensLegend {
     SemanticTokensLegend { token_types: TYPES.map(str::to_owned).to_vec(), token_modifiers: Vec::new() }
 }

@@ -16,13 +16,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// The most bytes of a message: more than any editor opens.
 const LONGEST_MESSAGE: u64 = 4 << 30;
 
-/// The most bytes of a line of a header.
 const LONGEST_HEADER_LINE: u64 = 8 << 10;
 
 /// Strings of more bytes are decoded as they come.
 const LONG_STRING: usize = 1 << 20;
 
-/// Incoming messages.
 #[derive(Debug)]
 pub(super) enum Incoming {
     Message(Message),
@@ -214,7 +212,6 @@ fn request_id(value: &Value) -> Option<RequestId> {
     }
 }
 
-/// The way to the client.
 #[derive(Debug)]
 pub(super) struct Client<W: Write> {
     output: W,

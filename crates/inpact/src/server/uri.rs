@@ -28,7 +28,6 @@ fn path_from(authority: &str, path: Vec<u8>) -> PathBuf {
     }
 }
 
-/// The URI of a file.
 pub(super) fn uri_of(path: &Path) -> String {
     let bytes = path.as_os_str().as_encoded_bytes();
     let mut uri = "file://".to_owned();

@@ -49,7 +49,6 @@ pub(super) struct Traits {
     pub(super) knows_versions: bool,
 }
 
-/// A document that is open.
 #[derive(Debug)]
 struct Document {
     uri: Uri,
@@ -183,7 +182,6 @@ impl Workspace {
         self.stale.clear();
     }
 
-    /// Reads a deck, and keeps it.
     fn read_deck(&mut self, root: &Path) {
         let analysis = Analysis::of(root, &self.options_with_texts());
         self.load_files(&analysis);
@@ -285,7 +283,6 @@ impl Workspace {
 }
 
 impl<'a> View<'a> {
-    /// Where the document is.
     pub(super) fn place(&self) -> &'a Path {
         self.analysis.place(self.source)
     }
@@ -300,7 +297,6 @@ impl<'a> View<'a> {
         self.text_of(self.source).map_or(0, |text| offset_of(text, position, self.workspace.unit))
     }
 
-    /// The bytes of a range of the document.
     pub(super) fn bytes(&self, range: Range) -> Span {
         let (start, end) = (self.offset(range.start), self.offset(range.end));
         Span::new(self.source, start.min(end), start.max(end))
@@ -349,7 +345,6 @@ impl<'a> View<'a> {
     }
 }
 
-/// Where a document is.
 pub(super) fn place_of(uri: &Uri) -> PathBuf {
     files::whole_path(&uri::path_of(&uri.0))
 }

@@ -28,7 +28,6 @@ pub(super) fn watch() {
     });
 }
 
-/// Calls the routine.
 pub(super) fn during(point: &UserConductancePoint<'_>, call: impl FnOnce()) {
     NODE.store(i64::from(point.node), Ordering::Relaxed);
     call();

@@ -43,7 +43,6 @@ fn conducting(found: &Found<'_>) -> Vec<Link> {
     all.into_iter().map(of).filter(|link| link.conductances.iter().any(|conductance| 0.0 < *conductance)).collect()
 }
 
-/// A table of links.
 pub(super) fn links(found: &Found<'_>) -> Vec<u8> {
     let fields = found.lumped.iter().map(|lumped| lumped.field.to_string());
     let heat = found.heats.is_any().then(|| JOULE_HEAT_FRACTION.to_owned());

@@ -4,7 +4,6 @@ use super::Found;
 use crate::text::{aligned, number_text};
 use inpact_body::{Conductances, Lumped};
 
-/// The text of everything that was found.
 pub(super) fn text(found: &Found<'_>) -> String {
     let mut text = String::new();
     let names: Vec<&str> = found.body.terminals().iter().map(|terminal| terminal.name.written()).collect();

@@ -15,7 +15,6 @@ use std::path::PathBuf;
 /// Result of mending, as it is shown.
 #[derive(Debug, Default)]
 pub(super) struct Mending {
-    /// The differences, for `--diff`.
     pub(super) differences: String,
     /// Some file could not be written.
     pub(super) has_failed: bool,

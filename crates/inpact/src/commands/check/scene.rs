@@ -2,7 +2,7 @@
 
 use super::tally::Tally;
 use super::{CheckArguments, Checked};
-use crate::commands::findings::{Governing, Reporter, as_one, errors_elsewhere, has_errors, shown_of};
+use crate::commands::findings::{Reporter, errors_elsewhere};
 use crate::commands::solvable::SolvableScene;
 use crate::failure::Failure;
 use crate::files;
@@ -12,8 +12,6 @@ use crate::render::{self, Format, Sources, Style};
 use crate::settings::Settings;
 use inpact_diagnostics::{Diagnostic, FixSafety};
 use inpact_parser::deck::Deck;
-use inpact_parser::grammar::Grammar;
-use inpact_parser::model::Model;
 use std::path::{Path, PathBuf};
 
 /// Receives what is found in a scene, and in its deck, and makes a text of it.
@@ -29,29 +27,13 @@ struct Judge<'a> {
     remarks: Vec<String>,
 }
 
-impl Judge<'_> {
-    fn take(&mut self, found: &[Diagnostic], sources: Sources<'_>) -> bool {
-        self.tally.add(&Tally::without_fixes(found));
-        if self.has_text {
-            let text = render::diagnostics(found, sources, self.format, self.style);
-            if !self.text.is_empty() && !text.is_empty() {
-                self.text += self.separator;
-            }
-            self.text += &text;
-        }
-        has_errors(found)
-    }
-}
-
 impl Reporter for Judge<'_> {
     fn confine(&self, settings: &mut Settings, path: &Path) {
-        if matches!(self.format, Format::Github | Format::Sarif) {
-            settings.confine_to_repository(path);
-        }
+        self.format.confine(settings, path);
     }
 
     fn shows_lines(&self) -> bool {
-        self.has_text && matches!(self.format, Format::Full | Format::Sarif)
+        self.has_text && self.format.shows_lines()
     }
 
     fn files(&mut self, files: &[PathBuf]) {
@@ -62,24 +44,24 @@ impl Reporter for Judge<'_> {
         }
     }
 
-    fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
-        let found = settings.apply(found);
-        self.take(&found, Sources::Data)
+    fn take(&mut self, found: &[Diagnostic], sources: Sources<'_>) {
+        self.tally.add(&Tally::without_fixes(found));
+        if self.has_text {
+            let text = render::diagnostics(found, sources, self.format, self.style);
+            if !self.text.is_empty() && !text.is_empty() {
+                self.text += self.separator;
+            }
+            self.text += &text;
+        }
     }
 
-    fn deck(&mut self, found: &[Diagnostic], of: (&Deck, &Grammar, &Model), governing: Governing<'_>) -> bool {
-        let shown = shown_of(found, of, governing);
-        let deck = of.0.sources().first().map_or("the deck", |source| source.name());
-        self.remarks.extend(errors_elsewhere(found, &shown, &format!("inpact check {deck}")));
+    fn beside(&mut self, found: &[Diagnostic], shown: &[Diagnostic], deck: &Deck) {
+        let deck = deck.sources().first().map_or("the deck", |source| source.name());
+        self.remarks.extend(errors_elsewhere(found, shown, &format!("inpact check {deck}")));
         let is_mendable = |found: &Diagnostic| found.fix.as_ref().is_some_and(|fix| fix.safety == FixSafety::Safe);
         if shown.iter().any(is_mendable) {
             self.remarks.push(format!("what is found in the deck of a scene is mended by `inpact check --fix {deck}`"));
         }
-        self.take(&shown, Sources::Deck(of.0))
-    }
-
-    fn failures(&mut self, failures: Vec<Failure>) -> Failure {
-        as_one(failures)
     }
 }
 

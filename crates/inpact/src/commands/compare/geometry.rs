@@ -6,11 +6,10 @@ use crate::commands::evaluable::Evaluable;
 use crate::commands::meshed::MeshedDeck;
 use crate::commands::picture::Drawn;
 use crate::failure::Failure;
-use inpact_contact::{ContactQuantity, Error, NodeRows, State, TotalQuantity};
+use inpact_contact::{ContactQuantity, NodeRows, State, TotalQuantity};
 use inpact_evaluation::nodes::Column;
 use inpact_evaluation::results::Output;
 
-/// A pair that has rows.
 #[derive(Debug)]
 struct PairOfRows {
     /// Its position among those of the mesh.
@@ -55,10 +54,9 @@ impl Geometry {
             geometry.read_pairs(&meshed, drawn)?;
         }
         if says_heat {
-            let rows =
-                NodeRows::new(&meshed.mesh, &meshed.read.model, &drawn.states).map_err(|error| failed(&error))?;
+            let rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &drawn.states)?;
             for state in &drawn.states {
-                geometry.normals.extend(rows.normals(state).map_err(|error| failed(&error))?);
+                geometry.normals.extend(rows.normals(state)?);
             }
         }
         Ok((geometry, of_mesh(&meshed, drawn)?))
@@ -78,12 +76,11 @@ impl Geometry {
             }
         }
         self.rows = drawn.faces.points();
-        let mut rows =
-            NodeRows::new(&meshed.mesh, &meshed.read.model, &drawn.states).map_err(|error| failed(&error))?;
+        let mut rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &drawn.states)?;
         let place = |rows: &NodeRows<'_>, column| rows.numbers().iter().position(|other| *other == column);
         let places = [Column::Area, Column::Clearance, Column::Pressure].map(|column| place(&rows, column));
         for batch in rows.batches(&drawn.states) {
-            let batch = batch.map_err(|error| failed(&error))?;
+            let batch = batch?;
             for row in 0..batch.rows {
                 let [area, clearance, pressure] =
                     places.map(|place| place.and_then(|place| batch.numbers[place].get(row)));
@@ -155,7 +152,7 @@ impl Geometry {
 fn of_mesh(meshed: &MeshedDeck, drawn: &Drawn) -> Result<Vec<Quantity>, Failure> {
     // Without what the solver says the rows have what the mesh says.
     let states: Vec<State> = drawn.states.iter().cloned().map(|state| State { contact: Vec::new(), ..state }).collect();
-    let mut rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &states).map_err(|error| failed(&error))?;
+    let mut rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &states)?;
     let fields =
         |kind| drawn.states.iter().flat_map(|state| &state.contact).filter(move |field| field.quantity == kind);
     let mut quantities = Vec::new();
@@ -170,7 +167,7 @@ fn of_mesh(meshed: &MeshedDeck, drawn: &Drawn) -> Result<Vec<Quantity>, Failure>
         places.push(rows.numbers().iter().position(|other| *other == column));
     }
     for batch in rows.batches(&states) {
-        let batch = batch.map_err(|error| failed(&error))?;
+        let batch = batch?;
         for row in 0..batch.rows {
             for (quantity, place) in quantities.iter_mut().zip(&places) {
                 quantity.ours.push(place.and_then(|place| batch.numbers[place].get(row)));
@@ -178,8 +175,4 @@ fn of_mesh(meshed: &MeshedDeck, drawn: &Drawn) -> Result<Vec<Quantity>, Failure>
         }
     }
     Ok(quantities)
-}
-
-fn failed(error: &Error) -> Failure {
-    Failure::Data(error.to_string())
 }

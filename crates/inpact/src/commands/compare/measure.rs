@@ -37,7 +37,6 @@ impl RowsOf {
 /// The place of the largest difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Largest {
-    /// The row.
     pub(super) row: usize,
     /// |ours − solver's|.
     pub(super) difference: f64,
@@ -119,7 +118,6 @@ impl Comparison {
         self.of_nodes.0.len()
     }
 
-    /// The name of a row of a quantity, and its time.
     pub(super) fn name(&self, quantity: &Quantity, row: usize) -> (&str, Option<f64>) {
         let (names, times) = match quantity.rows_of {
             RowsOf::Nodes => &self.of_nodes,

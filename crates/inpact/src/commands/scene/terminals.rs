@@ -33,7 +33,6 @@ impl Terminal {
         if let Meets::Over(_, area) = &self.meets { Some(*area) } else { None }
     }
 
-    /// Whether it meets several surfaces.
     pub(super) fn meets_several(&self) -> bool {
         matches!(self.meets, Meets::Several)
     }
@@ -125,7 +124,6 @@ impl Found {
         Some(&self.terminals[*first])
     }
 
-    /// Whether a terminal has all of these nodes.
     fn has_within(&self, nodes: &BTreeSet<NodeId>) -> bool {
         let of_first = nodes.first().and_then(|node| self.at.get(node));
         of_first.is_some_and(|numbers| numbers.iter().any(|number| nodes.is_subset(&self.terminals[*number].nodes)))

@@ -7,7 +7,6 @@ use inpact_network::scene::{
 };
 use inpact_network::{Error, ErrorKind, RowFault};
 
-/// The most nodes that are named.
 const MOST_NAMED: usize = 8;
 
 /// The findings of a failure in a scene of this name, in the increment after a time where there was one.
@@ -114,7 +113,6 @@ fn floating_help(of: Option<Field>, field: &str, scene: &Scene) -> String {
     )
 }
 
-/// Some nodes by name, and how many there are.
 fn names(scene: &Scene, nodes: &[u32]) -> String {
     let named: Vec<String> =
         nodes.iter().take(MOST_NAMED).map(|&node| format!("`{}`", scene.nodes[node as usize])).collect();

@@ -17,7 +17,6 @@ use serde_json::{Map, Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Formats of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum StateFormat {
     /// Comma-separated values.
@@ -35,7 +34,6 @@ impl StateFormat {
     }
 }
 
-/// The outputs of a run.
 pub(super) struct Outputs<'a> {
     prepared: &'a SolvableScene,
     problem: &'a Problem<'a>,
@@ -44,7 +42,6 @@ pub(super) struct Outputs<'a> {
     states: ResultFile,
     /// The flows of links that are written after the states.
     appended_links: Option<Vec<u8>>,
-    /// The flows of links that have a file of their own.
     link_file: Option<ResultFile>,
     interfaces: Option<Interfaces<'a>>,
     /// The states as JSON.
@@ -180,7 +177,6 @@ impl<'a> Outputs<'a> {
     }
 }
 
-/// One state.
 fn document(problem: &Problem<'_>, state: &State, with_links: bool) -> Value {
     let scene = problem.scene();
     let nodes = (0..).zip(&scene.nodes).map(|(number, name)| {

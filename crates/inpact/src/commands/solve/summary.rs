@@ -11,7 +11,6 @@ use std::time::Duration;
 /// A solution, and what it took.
 pub(super) struct Summary<'a> {
     pub(super) problem: &'a Problem<'a>,
-    /// The last state.
     pub(super) state: &'a State,
     pub(super) report: &'a TransientReport,
     pub(super) name: &'a str,

@@ -121,7 +121,6 @@ pub(super) fn how(measured: &Measured) -> String {
     format!("least of {rounds}, one thread, nothing kept from one solution to the next")
 }
 
-/// The reference.
 fn reference(measured: &Measured) -> String {
     let reference = &measured.reference;
     let mut text = format!("{} to the last digit ({})", reference.subject.method, reference.reason);

@@ -26,7 +26,6 @@ pub(super) struct Failed {
     pub(super) after: Option<f64>,
 }
 
-/// The reference of comparisons.
 pub(super) struct Reference {
     pub(super) subject: Subject,
     /// The reason for the choice, for users.

@@ -219,7 +219,6 @@ fn all_of(groups: &[Group]) -> Group {
     }
 }
 
-/// Marks the entries that no other beats.
 fn mark_front(entries: &mut [Entry]) {
     let places: Vec<(f64, f64)> = entries.iter().map(|entry| (entry.time, entry.errors.largest)).collect();
     for (entry, on_front) in entries.iter_mut().zip(front(&places)) {

@@ -8,7 +8,6 @@ use inpact_evaluation::table::{
 };
 use std::hint::black_box;
 
-/// A mode of evaluation.
 pub(super) struct Mode {
     pub(super) name: &'static str,
     /// Makes it ready for a table, or says why it does not serve that table.
@@ -18,7 +17,6 @@ pub(super) struct Mode {
 /// A mode made ready for a table and its rows.
 pub(super) struct Prepared<'a> {
     pub(super) run: Box<dyn Run + 'a>,
-    /// The form of the table.
     pub(super) form: String,
     /// The largest error there can be.
     pub(super) bound: ErrorBound,

@@ -94,7 +94,6 @@ fn size(group: &Group) -> String {
     if group.rows_of_a_run == group.rows { rows } else { format!("{rows}, repeated to {}", group.rows_of_a_run) }
 }
 
-/// An error in ulp.
 fn ulps(error: f64) -> String {
     match error {
         0.0 => "0".to_owned(),
