@@ -176,6 +176,13 @@ pub enum Side {
 impl Side {
     /// Both, from left to right.
     pub const BOTH: [Self; 2] = [Self::Open, Self::Closed];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Closed => "closed",
+        }
+    }
 }
 
 impl Panel {
@@ -201,11 +208,7 @@ impl Panel {
     /// Over how many decades the values above zero go; `None` without any.
     pub fn decades(&self) -> Option<f64> {
         let values = self.values().filter(|value| 0.0 < *value && value.is_finite());
-        let range = values.fold(None, |range: Option<(f64, f64)>, value| {
-            let (least, greatest) = range.unwrap_or((value, value));
-            Some((least.min(value), greatest.max(value)))
-        });
-        range.map(|(least, greatest)| greatest.log10() - least.log10())
+        range(values).map(|(least, greatest)| greatest.log10() - least.log10())
     }
 
     /// All values that are shown, those of continuations and of nodes included.
@@ -236,6 +239,14 @@ impl Quantity {
     }
 }
 
+/// The least and the greatest of some numbers, none of which is NaN; `None` where there is none.
+pub(crate) fn range(numbers: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    numbers.fold(None, |range, x| {
+        let (least, greatest) = range.unwrap_or((x, x));
+        Some((if x < least { x } else { least }, if greatest < x { x } else { greatest }))
+    })
+}
+
 /// A number for a label: the shortest digits that read back, with an exponent where they would be mostly zeros.
 pub fn number(value: f64) -> String {
     let magnitude = value.abs();
@@ -258,11 +269,8 @@ impl Panel {
             };
             let knots = self.curves.iter().flat_map(|curve| &curve.branch(side).samples);
             let within = knots.filter(|sample| sample.reach == Reach::Within).map(|sample| sample.y);
-            let range = within.fold(None, |range: Option<(f64, f64)>, y| {
-                let (least, greatest) = range.unwrap_or((y, y));
-                Some((least.min(y), greatest.max(y)))
-            });
-            let range = range.map(|(least, greatest)| format!(", from {} to {}", number(least), number(greatest)));
+            let range =
+                range(within).map(|(least, greatest)| format!(", from {} to {}", number(least), number(greatest)));
             Some(format!("{side_name} {}{}", counted(rows, "row"), range.unwrap_or_default()))
         };
         let mut parts: Vec<String> = Side::BOTH.into_iter().filter_map(of_half).collect();

@@ -3,13 +3,12 @@
 use crate::curves::{self, Figure, Request};
 use crate::error::Error;
 use crate::failure::Failure;
-use crate::input::{LocatedDeck, read_located_deck};
+use crate::input::ReadDeck;
 use crate::json_deck;
 use crate::render::{self, Format, Sources, Style};
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::Diagnostic;
 use inpact_evaluation::plan::Choices;
-use inpact_parser::Problem;
 use inpact_parser::deck::Deck as Syntax;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::json;
@@ -21,9 +20,7 @@ use std::path::{Path, PathBuf};
 /// Reading never fails over what a deck says: that is what [`check`](Self::check) is for.
 pub struct Deck {
     name: String,
-    pub(crate) located: LocatedDeck,
-    pub(crate) model: Model,
-    pub(crate) problems: Vec<Problem>,
+    pub(crate) read: ReadDeck,
     pub(crate) settings: Settings,
     pub(crate) options: ReadOptions,
 }
@@ -48,9 +45,8 @@ impl Deck {
     pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
         let path = path.as_ref();
         let settings = Settings::of(path, options)?;
-        let located = read_located_deck(path, options.keep, &settings, None)?;
-        let (model, problems) = model::read(&located.deck, settings.grammar);
-        Ok(Self { name: path.display().to_string(), located, model, problems, settings, options: options.clone() })
+        let read = ReadDeck::read(path, options.keep, &settings)?;
+        Ok(Self { name: path.display().to_string(), read, settings, options: options.clone() })
     }
 
     /// Reads a deck from its text; `name` is what messages call it, and files that it includes are found from there.
@@ -107,17 +103,17 @@ impl Deck {
 
     /// The paths of its files, the deck itself first.
     pub fn files(&self) -> &[PathBuf] {
-        self.located.places()
+        &self.read.places
     }
 
     /// The contact interfaces that it defines.
     pub fn model(&self) -> &Model {
-        &self.model
+        &self.read.model
     }
 
     /// Its lines and blocks, for `inpact-parser`.
     pub fn syntax(&self) -> &Syntax {
-        &self.located.deck
+        &self.read.deck
     }
 
     /// The keyword language it was read in.
@@ -127,8 +123,7 @@ impl Deck {
 
     /// Its findings, in the order of the deck, with the severities of its configuration.
     pub fn check(&self) -> Vec<Diagnostic> {
-        let found = inpact_validation::check(&self.located.deck, self.settings.grammar, &self.model, &self.problems);
-        self.settings.apply(found)
+        self.read.check(&self.settings)
     }
 
     /// The curves of its laws against clearance and contact pressure, as `inpact plot` draws them.
@@ -148,7 +143,7 @@ impl Deck {
     pub fn figure(&self, request: &Request) -> Figure {
         let grammar = self.settings.grammar;
         let choices = Choices { dialect: grammar.dialect(), ..Choices::default() };
-        curves::figure((&self.name, &self.model), grammar, &choices, request)
+        curves::figure((&self.name, &self.read.model), grammar, &choices, request)
     }
 
     /// Findings of this deck as text in a format of `inpact check`, without colours.
@@ -163,14 +158,12 @@ impl Deck {
     /// ```
     pub fn render(&self, findings: &[Diagnostic], format: Format) -> String {
         let frame = render::document(format);
-        frame.head
-            + &render::diagnostics(findings, Sources::Deck(&self.located.deck), format, Style::Plain)
-            + &frame.tail
+        frame.head + &render::diagnostics(findings, Sources::Deck(&self.read.deck), format, Style::Plain) + &frame.tail
     }
 
     /// Its model, as JSON of the schema `inpact/model/1`.
     pub fn to_json(&self) -> String {
-        json::model::write(&self.model, &self.name)
+        json::model::write(&self.read.model, &self.name)
     }
 
     /// Its lines, as JSON of the schema `inpact/syntax/1`.
@@ -178,11 +171,11 @@ impl Deck {
     /// # Errors
     /// A deck that was read without [`ReadOptions::keep_everything`].
     pub fn to_syntax_json(&self) -> Result<String, Error> {
-        if let Some(incomplete) = self.located.deck.sources().iter().find(|source| !source.is_complete()) {
+        if let Some(incomplete) = self.read.deck.sources().iter().find(|source| !source.is_complete()) {
             let message = format!("the rows of `{}` were not kept: read it with `keep_everything`", incomplete.name());
             return Err(Failure::Usage(message).into());
         }
-        Ok(json::syntax::write(&self.located.deck, self.settings.grammar))
+        Ok(json::syntax::write(&self.read.deck, self.settings.grammar))
     }
 
     /// A deck that says the same of the contact interfaces, in its dialect and release.
@@ -190,7 +183,7 @@ impl Deck {
     /// # Errors
     /// A model that no deck can contain.
     pub fn to_inp(&self) -> Result<String, Error> {
-        model::print(&self.model, self.settings.grammar).map_err(|error| Error::data(error.to_string()))
+        model::print(&self.read.model, self.settings.grammar).map_err(|error| Error::data(error.to_string()))
     }
 }
 

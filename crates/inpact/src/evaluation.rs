@@ -206,17 +206,17 @@ impl Deck {
         choices: &Choices,
         mut take: impl FnMut(u64, RecordBatch) -> ControlFlow<()> + Send,
     ) -> Result<EvaluatedTo, Error> {
-        if self.model.interactions.is_empty() {
+        if self.model().interactions.is_empty() {
             return Err(Error::data(format!("`{}` defines no *SURFACE INTERACTION", self.name())));
         }
         let mut findings = Findings::new(TABLE);
         let reader = NodeReader::of_batches(schema, batches, &mut findings);
         let mut rows = kept_rows();
-        let surveyed = survey_keeping(reader, &self.model, choices, &mut findings, &mut rows);
+        let surveyed = survey_keeping(reader, self.model(), choices, &mut findings, &mut rows);
         let surveyed = surveyed.map_err(|error| unreadable(&error))?;
         let mut found = self.judged(findings, "the table has errors")?;
         let Some(surveyed) = surveyed else { return Err(Error::data("the table cannot be evaluated")) };
-        let plan = make(&self.model, &surveyed, choices);
+        let plan = make(self.model(), &surveyed, choices);
         let mut unavailable = Findings::new(TABLE);
         plan.report_unavailable(choices, &mut unavailable);
         found.extend(self.judged(unavailable, "a requested output cannot be given")?);
@@ -225,7 +225,7 @@ impl Deck {
             return Err(self.nothing_to_evaluate(&plan));
         }
         let mut rows = rows.give_back(&plan.selection).map_err(|error| unreadable(&error))?;
-        let mut evaluation = Evaluation::on_all_threads(&self.model, &plan, choices).without_summary();
+        let mut evaluation = Evaluation::on_all_threads(self.model(), &plan, choices).without_summary();
         let mut records = ResultRecords::new(plan.keys(), &plan.outputs);
         let mut done = 0;
         let ran = evaluation.run::<Error>(&mut rows, &plan, |batch, results| {
@@ -263,7 +263,7 @@ impl Deck {
     fn judged_deck(&self, plan: &Plan, choices: &Choices) -> Result<Vec<Diagnostic>, Error> {
         let found = self.check();
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
-        let concerning = concerning(&found, self.syntax(), self.grammar(), &self.model, &names, choices.regime);
+        let concerning = concerning(&found, self.syntax(), self.grammar(), self.model(), &names, choices.regime);
         let concerning: Vec<Diagnostic> = concerning.into_iter().cloned().collect();
         if has_errors(&concerning) {
             return Err(Error::of_first(&format!("`{}` has errors in what is evaluated", self.name()), concerning));

@@ -101,6 +101,13 @@ pub(crate) fn say(message: &str) {
     write_line(&visible(message));
 }
 
+/// Says failures, a line each.
+pub(crate) fn say_failures(failures: &[Failure]) {
+    for failure in failures {
+        say(&format!("error: {failure}"));
+    }
+}
+
 /// Writes a line of JSON to standard error.
 pub(crate) fn say_json(json: &str) {
     write_line(&visible_json(json));

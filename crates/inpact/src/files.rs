@@ -17,9 +17,10 @@ pub(crate) use whole::{read_lines, read_text};
 
 use crate::failure::Failure;
 use inpact_parser::deck::Scanner;
-use std::fs::File;
+use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 use whole::LONGEST_LINE;
 
 /// The number of bytes of a deck read at a time: few enough to stay in cache.
@@ -62,6 +63,35 @@ pub(crate) fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
     let file = open_file(path)?;
     let metadata = file.metadata().ok();
     Ok(Box::new(whole::bounded(file, metadata.as_ref())))
+}
+
+/// Whether what is at a path can be read only once: standard input, a pipe or a device.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    let is_special = |metadata: Metadata| !metadata.is_file() && !metadata.is_dir();
+    path.as_os_str() == STANDARD_STREAM || path.metadata().is_ok_and(is_special)
+}
+
+/// Refuses to read standard input more than once.
+pub(crate) fn refuse_second_stream(paths: &[PathBuf]) -> Result<(), Failure> {
+    if 1 < paths.iter().filter(|path| path.as_os_str() == STANDARD_STREAM).count() {
+        return Err(Failure::Usage("standard input can be read only once".to_owned()));
+    }
+    Ok(())
+}
+
+/// Marks by which a file is known as the one that was read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Stamp {
+    modified: Option<SystemTime>,
+    length: u64,
+}
+
+impl Stamp {
+    /// `None` for what is not there.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        let found = path.metadata().ok()?;
+        Some(Self { modified: found.modified().ok(), length: found.len() })
+    }
 }
 
 /// Opens a file for reading.

@@ -111,7 +111,7 @@ pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &F
                     continue;
                 }
             };
-            subject.places = deck.places().to_vec();
+            subject.places.clone_from(&deck.places);
             let chosen = choose(&findings(&deck, subject.settings), &deck, (subject.path, &named), held, selection);
             let Chosen { edits, findings, left: left_here } = chosen;
             left[index] = left_here;

@@ -8,28 +8,52 @@ pub(crate) use kind::{Kind, kind_of, refuse_scene};
 
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
-use crate::reach;
-use crate::reach::folder_of_deck;
+use crate::reach::{self, folder_of_deck};
 use crate::settings::{RelativeTo, Settings};
+use inpact_diagnostics::Diagnostic;
+use inpact_parser::Problem;
 use inpact_parser::deck::{Deck, Excerpts, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner};
+use inpact_parser::model::{self, Model};
 use inpact_parser::span::SourceId;
+use inpact_validation::check;
 use std::path::{Path, PathBuf};
 
 /// A deck with the places of its files, which its own names for them may not give: they may be no text.
 pub(crate) struct LocatedDeck {
     pub(crate) deck: Deck,
-    /// By source, links followed.
-    places: Vec<PathBuf>,
+    /// The paths of its files by source, the deck itself first; links followed.
+    pub(crate) places: Vec<PathBuf>,
+}
+
+/// A deck with its model.
+pub(crate) struct ReadDeck {
+    pub(crate) deck: Deck,
+    /// The paths of its files, itself first.
+    pub(crate) places: Vec<PathBuf>,
+    pub(crate) model: Model,
+    pub(crate) problems: Vec<Problem>,
 }
 
 impl LocatedDeck {
     pub(crate) fn place(&self, source: SourceId) -> Option<&Path> {
         self.places.get(source.0 as usize).map(PathBuf::as_path)
     }
+}
 
-    /// The paths of all source files, the deck itself first.
-    pub(crate) fn places(&self) -> &[PathBuf] {
-        &self.places
+impl ReadDeck {
+    /// Reads the deck at `path`, or standard input for `-`, and what it includes.
+    pub(crate) fn read(path: &Path, keep: Keep, settings: &Settings) -> Result<Self, Failure> {
+        Ok(Self::of(read_located_deck(path, keep, settings, None)?, settings))
+    }
+
+    pub(crate) fn of(LocatedDeck { deck, places }: LocatedDeck, settings: &Settings) -> Self {
+        let (model, problems) = model::read(&deck, settings.grammar);
+        Self { deck, places, model, problems }
+    }
+
+    /// The findings of a check, as the configuration has them.
+    pub(crate) fn check(&self, settings: &Settings) -> Vec<Diagnostic> {
+        settings.apply(check(&self.deck, settings.grammar, &self.model, &self.problems))
     }
 }
 

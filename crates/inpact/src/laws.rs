@@ -68,8 +68,8 @@ impl Deck {
     /// # Errors
     /// An interaction that the deck does not have, or a table that cannot be evaluated, as [`check`](Self::check) says.
     pub fn electrical_conductance(&self, interaction: &str) -> Result<Option<GapConductance>, Error> {
-        let Some(interaction) = self.model.interactions.get(&Name::new(interaction)) else {
-            let names: Vec<String> = self.model.interactions.keys().map(|name| format!("`{name}`")).collect();
+        let Some(interaction) = self.model().interactions.get(&Name::new(interaction)) else {
+            let names: Vec<String> = self.model().interactions.keys().map(|name| format!("`{name}`")).collect();
             let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             let message = format!("`{}` has no interaction `{interaction}`: there are {names}", self.name());
             return Err(Error::data(message));

@@ -206,20 +206,15 @@ impl Report<'_> {
             format!("inpact {}, charts by uPlot 1.6.32; keyword language of {language}", env!("CARGO_PKG_VERSION"));
         page.element("p", &[], &versions);
         page.element("pre", &[("tabindex", "0")], &self.command);
-        page.open("div", &[("class", "scroll"), ("tabindex", "0")]);
-        page.open("table", &[]);
-        page.header_row(&["file", "bytes", "SHA-256"]);
-        page.open("tbody", &[]);
-        for input in &self.inputs {
-            page.open("tr", &[]);
-            page.element("td", &[("class", "text")], &input.name);
-            page.element("td", &[], &input.bytes.map_or_else(|| "unknown".to_owned(), |bytes| bytes.to_string()));
-            page.element("td", &[("class", "text")], input.hash.as_deref().unwrap_or("not a file that stays"));
-            page.close("tr");
-        }
-        page.close("tbody");
-        page.close("table");
-        page.close("div");
+        page.table(&["file", "bytes", "SHA-256"], |page| {
+            for input in &self.inputs {
+                page.open("tr", &[]);
+                page.element("td", &[("class", "text")], &input.name);
+                page.element("td", &[], &input.bytes.map_or_else(|| "unknown".to_owned(), |bytes| bytes.to_string()));
+                page.element("td", &[("class", "text")], input.hash.as_deref().unwrap_or("not a file that stays"));
+                page.close("tr");
+            }
+        });
     }
 }
 

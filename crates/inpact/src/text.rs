@@ -18,6 +18,15 @@ pub(crate) fn number_text(value: f64) -> String {
     String::from_utf8_lossy(&text).into_owned()
 }
 
+/// A number of arguments that must be above zero; `what` it is, with its article.
+pub(crate) fn above_zero(text: &str, what: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if 0.0 < number && number.is_finite() => Ok(number),
+        Ok(_) => Err(format!("{what} must be above zero and finite")),
+        Err(_) => Err("not a number".to_owned()),
+    }
+}
+
 /// A text in quotes as TOML has it: as JSON does, which leaves one control character as it is.
 pub(crate) fn toml_text(text: &str) -> String {
     serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")

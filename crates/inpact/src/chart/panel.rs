@@ -78,7 +78,7 @@ impl<'a> Plot<'a> {
     }
 
     fn half(&self, side: Side) -> HalfPlot {
-        self.halves[usize::from(side == Side::Closed)]
+        self.halves[side as usize]
     }
 
     /// The position of a value.
@@ -158,7 +158,7 @@ impl<'a> Plot<'a> {
                 before = x;
             }
         }
-        let title = if of.has_scale { of.quantity.title() } else { side_name(side).to_owned() };
+        let title = if of.has_scale { of.quantity.title() } else { side.name().to_owned() };
         let most = whole((width / 7.2).floor());
         drawing.text(
             self.at(f64::midpoint(half.from, half.to), BOTTOM + 39.0),
@@ -283,8 +283,7 @@ impl<'a> Plot<'a> {
 
     /// Draws the remarks of the panel, in two lines below the axes.
     fn draw_footnotes(&self, drawing: &mut Drawing) {
-        let is_linear = matches!(self.y, Scale::Linear { .. });
-        let notes = remarks(self.panel, if is_linear { ScaleKind::Linear } else { ScaleKind::Logarithmic });
+        let notes = remarks(self.panel, self.y);
         let look = if self.panel.fault.is_some() { "error-note" } else { "note" };
         for (line, text) in wrapped(&visible_line(&notes.join("; ")), 92).into_iter().take(2).enumerate() {
             drawing.text(self.at(LEFT - 70.0, BOTTOM + 61.0 + 16.0 * line as f64), &text, look, "start");
@@ -293,20 +292,12 @@ impl<'a> Plot<'a> {
 }
 
 /// The remarks of a panel: why it is not evaluated, where its nodes are, what is not drawn.
-pub(super) fn remarks(panel: &Panel, kind: ScaleKind) -> Vec<String> {
+pub(super) fn remarks(panel: &Panel, y: Scale) -> Vec<String> {
     let fault = panel.fault.iter().map(|fault| format!("not evaluated, the rows as written: {fault}"));
     let nodes = panel.nodes.iter().map(|nodes| format!("node table: {}", nodes.summary()));
-    let decades = panel.decades().filter(|decades| 3.0 < *decades && kind == ScaleKind::Linear);
+    let decades = panel.decades().filter(|decades| 3.0 < *decades && matches!(y, Scale::Linear { .. }));
     let decades = decades.map(|decades| format!("values over {decades:.0} decades: `--log` tells them apart"));
     fault.chain(nodes).chain(panel.notes.iter().cloned()).chain(decades).collect()
-}
-
-/// The name of a side without a scale.
-fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Open => "open",
-        Side::Closed => "closed",
-    }
 }
 
 /// The position of contact: in the middle where both sides have a scale, otherwise near the side that has none.

@@ -1,6 +1,6 @@
 //! Scales of curves: from the numbers of an axis to parts of its length, for all finite numbers.
 
-use crate::curves::number;
+use crate::curves::{number, range};
 
 /// Scales of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,11 +56,7 @@ impl Scale {
 
     fn logarithmic(numbers: &[f64]) -> Self {
         let magnitudes = numbers.iter().map(|number| number.abs()).filter(|magnitude| 0.0 < *magnitude);
-        let range = magnitudes.fold(None, |range: Option<(f64, f64)>, magnitude| {
-            let (least, greatest) = range.unwrap_or((magnitude, magnitude));
-            Some((least.min(magnitude), greatest.max(magnitude)))
-        });
-        let Some((least, greatest)) = range else { return Self::Linear { least: 0.0, greatest: 1.0 } };
+        let Some((least, greatest)) = range(magnitudes) else { return Self::Linear { least: 0.0, greatest: 1.0 } };
         let signs = if numbers.iter().any(|number| *number < 0.0) {
             Signs::All
         } else if numbers.contains(&0.0) {

@@ -66,11 +66,7 @@ impl Drawing {
 
     /// Straight lines from corner to corner; nothing for fewer than two.
     pub(super) fn path(&mut self, corners: &[(f64, f64)], look: &str) {
-        if corners.len() < 2 {
-            return;
-        }
-        let corners: Vec<String> = corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect();
-        self.add(&format!(r#"<polyline points="{}" {}/>"#, corners.join(" "), looks(look)));
+        self.polyline(corners, looks(look));
     }
 
     /// A text whose start, middle or end (`anchor`) is at a place.
@@ -91,20 +87,17 @@ impl Drawing {
 
     /// Straight lines from corner to corner, with a look of its own.
     pub(super) fn polyline(&mut self, corners: &[(f64, f64)], look: &str) {
-        if corners.len() < 2 {
-            return;
+        if 1 < corners.len() {
+            self.add(&format!(r#"<polyline points="{}" {look}/>"#, points(corners)));
         }
-        let corners: Vec<String> = corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect();
-        self.add(&format!(r#"<polyline points="{}" {look}/>"#, corners.join(" ")));
     }
 
     /// A mark of curve `index`: circle, square, triangle, diamond in turn, so that curves are distinguished without colours; `title` is shown when pointed at.
     pub(super) fn mark(&mut self, (x, y): (f64, f64), index: usize, colour: &str, title: &str) {
         let look = format!(r##"fill="{colour}" stroke="#ffffff" stroke-width="0.8""##);
         let polygon = |corners: &[(f64, f64)]| {
-            let corners: Vec<String> =
-                corners.iter().map(|(dx, dy)| format!("{},{}", short(x + dx), short(y + dy))).collect();
-            format!(r#"<polygon points="{}" {look}"#, corners.join(" "))
+            let corners: Vec<(f64, f64)> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
+            format!(r#"<polygon points="{}" {look}"#, points(&corners))
         };
         let shape = match index % 4 {
             0 => format!(r#"<circle cx="{}" cy="{}" r="4" {look}"#, short(x), short(y)),
@@ -141,10 +134,8 @@ impl Drawing {
             [(x, y)] => self.add(&format!(r#"<circle cx="{}" cy="{}" r="4" fill="{colour}"/>"#, short(*x), short(*y))),
             [_, _] => self.polyline(corners, &format!(r#"fill="none" stroke="{colour}" stroke-width="5""#)),
             _ => {
-                let corners: Vec<String> =
-                    corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect();
                 let look = format!(r##"fill="{colour}" stroke="#ffffff" stroke-width="0.5""##);
-                self.add(&format!(r#"<polygon points="{}" {look}/>"#, corners.join(" ")));
+                self.add(&format!(r#"<polygon points="{}" {look}/>"#, points(corners)));
             }
         }
     }
@@ -176,6 +167,10 @@ impl Drawing {
 
 fn looks(name: &str) -> &'static str {
     LOOKS.iter().chain(PANEL_LOOKS).find(|(known, _)| *known == name).map_or("", |(_, attributes)| attributes)
+}
+
+fn points(corners: &[(f64, f64)]) -> String {
+    corners.iter().map(|(x, y)| format!("{},{}", short(*x), short(*y))).collect::<Vec<_>>().join(" ")
 }
 
 /// A coordinate to a tenth of a pixel.

@@ -75,7 +75,7 @@ impl<'a> Screen<'a> {
 
     /// The column and the row of a place, as parts of cells.
     fn place(&self, side: Side, x: f64, y: f64) -> (f64, f64) {
-        let part = self.halves[usize::from(side == Side::Closed)].part(x).clamp(0.0, 1.0);
+        let part = self.halves[side as usize].part(x).clamp(0.0, 1.0);
         let across = match side {
             Side::Open => self.middle as f64 - 1.0 - part * (self.middle as f64 - 1.0),
             Side::Closed => self.middle as f64 + 1.0 + part * (COLUMNS - self.middle - 2) as f64,
@@ -173,8 +173,7 @@ impl<'a> Screen<'a> {
             let column = &self.panel.half(mark.side).quantity.column;
             format!("! {} at {column} {}, line {}: {}", mark.code, number(mark.x), mark.line, mark.message)
         }));
-        let is_linear = matches!(self.y, Scale::Linear { .. });
-        last.extend(remarks(self.panel, if is_linear { ScaleKind::Linear } else { ScaleKind::Logarithmic }));
+        last.extend(remarks(self.panel, self.y));
         for text in last.iter().flat_map(|text| lines_of(text)) {
             line(&text);
         }
@@ -189,7 +188,7 @@ impl<'a> Screen<'a> {
             if !half.has_scale {
                 continue;
             }
-            let scale = self.halves[usize::from(side == Side::Closed)];
+            let scale = self.halves[side as usize];
             for (tick, label) in scale.ticks(3) {
                 let across = whole(self.place(side, tick, 0.0).0) + LEFT;
                 if tick == 0.0 && side == Side::Open && self.panel.closed.has_scale {
@@ -209,11 +208,7 @@ impl<'a> Screen<'a> {
     fn sides(&self) -> String {
         let title = |side: Side| {
             let half = self.panel.half(side);
-            let name = match side {
-                Side::Open => "open",
-                Side::Closed => "closed",
-            };
-            if half.has_scale { half.quantity.title() } else { name.to_owned() }
+            if half.has_scale { half.quantity.title() } else { side.name().to_owned() }
         };
         let (left, right) = (title(Side::Open), title(Side::Closed));
         let left = if self.panel.open.has_scale { format!("<- {left}") } else { left };

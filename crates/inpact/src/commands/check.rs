@@ -133,10 +133,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     if let Some(unknown) = arguments.fix_also.iter().find(|code| !RULES.iter().any(|rule| rule.code == **code)) {
         return Err(Failure::Usage(format!("`--fix-also`: there is no rule `{unknown}`")));
     }
-    let standard_input = arguments.decks.iter().filter(|path| path.as_os_str() == files::STANDARD_STREAM);
-    if standard_input.count() > 1 {
-        return Err(Failure::Usage("standard input can be read only once".to_owned()));
-    }
+    files::refuse_second_stream(&arguments.decks)?;
     // Not only what is read: `check nothing.inp -o nothing.inp` is a slip as well.
     files::name_as_inputs(&arguments.decks);
     files::check_targets(&[arguments.output.as_deref()])?;
@@ -289,7 +286,7 @@ fn check_deck<'a>(
         (text, tally) = judge(path, &deck, &settings, arguments, style)?;
     }
     let held = held.filter(|_| need == Need::Mending);
-    let (kind, remarks, places) = (Kind::Deck, Vec::new(), deck.places().to_vec());
+    let (kind, remarks, places) = (Kind::Deck, Vec::new(), deck.places);
     Ok(Checked { path, kind, settings, text, tally, remarks, places, need, held })
 }
 

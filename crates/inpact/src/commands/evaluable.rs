@@ -4,11 +4,13 @@ use super::findings::{Messages, Reporter};
 use super::job_results::{RESULTS_HELP, States, states};
 use super::laws::LawArguments;
 use super::mesh_rows::{RowsSummary, node_rows};
-use super::meshed::{MeshedDeck, ReadDeck};
+use super::meshed::MeshedDeck;
 use super::picture::Drawn;
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
+use crate::input::ReadDeck;
 use crate::settings::{DeckArguments, Settings};
+use crate::text::above_zero;
 use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_diagnostics::{Diagnostic, Extent, Findings, keep_lines};
@@ -16,9 +18,9 @@ use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, MakeSpillFile, NodeReader
 use inpact_evaluation::plan::{Choices, Derivatives, Plan, Reason, Survey, make, survey_keeping};
 use inpact_evaluation::results::{OUTPUT_PAGES, Output};
 use inpact_evaluation::{Accuracy, HistoryStart, Tolerance, Wanted};
+use inpact_parser::deck::Keep;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Model, Name, Regime};
-use inpact_validation::check;
 use std::fs::File;
 use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -30,7 +32,7 @@ const READ_AHEAD: usize = 2;
 /// The number of bytes of the rows of a node table that stay in memory; the rest waits in a temporary file.
 const ROOM_FOR_ROWS: usize = 128 << 20;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct EvaluableArguments {
     /// The deck or fragment; `-` reads standard input.
     #[arg(value_name = "DECK")]
@@ -75,19 +77,21 @@ enum Procedure {
     Transient,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum HistoryStartChoice {
     /// At its first row: its integrals are 0 there, and its own jump and clearance are those of the start.
+    #[default]
     FirstRow,
     /// At time 0, without a jump of potential and with the clearance of its first row.
     AtRest,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 enum AccuracyChoice {
     /// In twice the precision of f64, rounded once.
     Reference,
     /// In f64, within two units in the last place an axis.
+    #[default]
     Full,
     /// In the cheapest form whose error bound is within 1e-4 of the largest value.
     Fast,
@@ -145,25 +149,12 @@ enum NodesInput {
 impl EvaluableArguments {
     /// Everything that a deck gives on a node table in full accuracy; nodes start at their first rows.
     pub(crate) fn of_nodes(deck: PathBuf, nodes: PathBuf) -> Self {
-        Self { nodes: Some(nodes), ..Self::of_results(deck, Vec::new(), HistoryStartChoice::FirstRow) }
+        Self { deck, nodes: Some(nodes), ..Self::default() }
     }
 
     /// Everything that a deck and the results of its job give, in full accuracy.
     pub(crate) fn of_results(deck: PathBuf, results: Vec<PathBuf>, history_start: HistoryStartChoice) -> Self {
-        Self {
-            deck,
-            nodes: None,
-            results,
-            interaction: None,
-            procedure: None,
-            history_start,
-            threads: None,
-            accuracy: AccuracyChoice::Full,
-            tolerance: None,
-            tolerance_relative: None,
-            outputs: None,
-            derivatives: false,
-        }
+        Self { deck, results, history_start, ..Self::default() }
     }
 
     /// The files that are read.
@@ -187,7 +178,7 @@ impl EvaluableArguments {
         messages.confine(&mut settings, &self.deck);
         let grammar = settings.grammar;
         let source = match &self.nodes {
-            Some(nodes) => Source::Table(Box::new(ReadDeck::read(&self.deck, &settings)?), nodes),
+            Some(nodes) => Source::Table(Box::new(ReadDeck::read(&self.deck, Keep::Interpreted, &settings)?), nodes),
             None => Source::Mesh(Box::new(MeshedDeck::read(&self.deck, &settings)?)),
         };
         let model = &source.deck().model;
@@ -202,20 +193,20 @@ impl EvaluableArguments {
         };
         let reading = start.elapsed();
         let Some(Surveyed { survey, rows, nodes_name, made, table }) = surveyed else { return Ok(None) };
-        let ReadDeck { deck, model, problems, .. } = source.into_deck();
-        let plan = make(&model, &survey, &choices);
+        let read = source.into_deck();
+        let plan = make(&read.model, &survey, &choices);
         let mut unavailable = Findings::new(&nodes_name);
         plan.report_unavailable(&choices, &mut unavailable);
         if messages.data(unavailable.into_list(), &settings) {
             return Ok(None);
         }
-        let found = settings.apply(check(&deck, grammar, &model, &problems));
+        let found = read.check(&settings);
         let names: Vec<&Name> = plan.interactions.iter().map(|interaction| &interaction.name).collect();
-        let deck_has_errors = messages.deck(&found, (&deck, grammar, &model), (&names, choices.regime));
+        let deck_has_errors = messages.deck(&found, (&read.deck, grammar, &read.model), (&names, choices.regime));
         let deck_name = self.deck.display().to_string();
         Ok(Some(Evaluable {
             settings,
-            model,
+            model: read.model,
             choices,
             plan,
             deck_name,
@@ -390,9 +381,7 @@ impl Evaluable {
 
 impl NodesInput {
     fn open(path: &Path) -> Result<Self, Failure> {
-        let is_stream = path.as_os_str() == STANDARD_STREAM
-            || path.metadata().is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
-        if !is_stream {
+        if !files::is_stream(path) {
             return Ok(Self::File(path.to_owned()));
         }
         let mut spooled = tempfile::tempfile().map_err(|error| Failure::read(path, error))?;
@@ -455,9 +444,5 @@ fn output_named(text: &str) -> Result<Output, String> {
 }
 
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(tolerance) if tolerance > 0.0 && tolerance.is_finite() => Ok(tolerance),
-        Ok(_) => Err("a tolerance must be above zero and finite".to_owned()),
-        Err(_) => Err("not a number".to_owned()),
-    }
+    above_zero(text, "a tolerance")
 }

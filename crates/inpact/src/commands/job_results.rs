@@ -3,7 +3,7 @@
 use super::findings::Messages;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
-use crate::files::{self, STANDARD_STREAM};
+use crate::files;
 use inpact_contact::{FileSummary, Join, Joined, ResultFile, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_results::{ErrorKind, Frame, Problem, Results, read_frames};
@@ -52,10 +52,8 @@ struct FileOnDisk<'a> {
 
 impl<'a> FileOnDisk<'a> {
     fn open(path: &'a Path) -> Result<Self, Failure> {
-        let is_stream = path.as_os_str() == STANDARD_STREAM
-            || path.metadata().is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
         let mut spooled = None;
-        if is_stream {
+        if files::is_stream(path) {
             let bytes = spooled.insert(Vec::new());
             files::open(path)?.read_to_end(bytes).map_err(|error| Failure::read(path, error))?;
         }

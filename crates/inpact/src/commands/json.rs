@@ -2,13 +2,13 @@
 
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
-use crate::input;
+use crate::input::{self, ReadDeck};
 use crate::render::{self, Format, Sources, Style};
 use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
-use inpact_parser::{json, model};
-use inpact_validation::{Severity, check};
+use inpact_parser::json;
+use inpact_validation::Severity;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -51,12 +51,11 @@ pub(crate) fn run(arguments: &JsonArguments) -> Result<Outcome, Failure> {
 
 /// The model view; its errors go to standard error, since the parts concerned may be missing from the model.
 fn model_view(arguments: &JsonArguments, settings: &Settings) -> Result<(String, Outcome), Failure> {
-    let deck = input::read_deck(&arguments.deck, Keep::Interpreted, settings)?;
-    let (model, problems) = model::read(&deck, settings.grammar);
-    let text = json::model::write(&model, &arguments.deck.display().to_string());
-    let findings = settings.apply(check(&deck, settings.grammar, &model, &problems));
-    let errors: Vec<_> = findings.into_iter().filter(|found| found.severity == Severity::Error).collect();
-    let said = render::diagnostics(&errors, Sources::Deck(&deck), Format::Concise, Style::Plain);
+    let read = ReadDeck::read(&arguments.deck, Keep::Interpreted, settings)?;
+    let text = json::model::write(&read.model, &arguments.deck.display().to_string());
+    let mut errors = read.check(settings);
+    errors.retain(|found| found.severity == Severity::Error);
+    let said = render::diagnostics(&errors, Sources::Deck(&read.deck), Format::Concise, Style::Plain);
     if !said.is_empty() {
         say(said.trim_end());
     }

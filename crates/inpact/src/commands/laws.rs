@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, say};
 use crate::files;
+use crate::text::above_zero;
 use crate::user_library;
 use clap::{Args, ValueEnum};
 use inpact_evaluation::law::{CutoffBoundary, UserLaw};
@@ -17,7 +18,7 @@ pub(crate) struct LawArguments {
     #[arg(long, value_enum, default_value_t = ClearanceTail::Constant)]
     clearance_tail: ClearanceTail,
     /// The characteristic element length of all rows, the default of both cutoffs of pore fluid flow.
-    #[arg(long, value_name = "X", value_parser = positive_length)]
+    #[arg(long, value_name = "X", value_parser = |text: &str| above_zero(text, "a length"))]
     char_length: Option<f64>,
     /// Whether pore fluid flows at the very cutoff.
     #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
@@ -83,13 +84,5 @@ impl LawArguments {
             return Ok(None);
         }
         user_library::load(path).map(Some)
-    }
-}
-
-fn positive_length(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(length) if length > 0.0 && length.is_finite() => Ok(length),
-        Ok(_) => Err("a length must be above zero and finite".to_owned()),
-        Err(_) => Err("not a number".to_owned()),
     }
 }

@@ -3,32 +3,22 @@
 use super::findings::Messages;
 use crate::failure::Failure;
 use crate::files;
-use crate::input::{self, LocatedDeck};
+use crate::input::{self, LocatedDeck, ReadDeck};
 use crate::settings::Settings;
 use inpact_body::Body;
 use inpact_diagnostics::visible::visible_line;
 use inpact_diagnostics::{Diagnostic, Extent, Label, Rule};
-use inpact_parser::Problem;
 use inpact_parser::deck::{Deck, Keep};
 use inpact_parser::mesh::{self, DeckConditions, KeptRows, Mesh, MeshNote, RowBytes, SeekableRows, Target};
-use inpact_parser::model::{self, Model, Name};
+use inpact_parser::model::{Model, Name};
 use inpact_parser::span::{Position, SourceId, Span};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::fs::File;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// More notes than these nobody reads, and each has to be looked for in the file.
 const MOST_NOTES: usize = 100;
-
-pub(crate) struct ReadDeck {
-    pub(crate) deck: Deck,
-    /// The paths of its files, itself first.
-    pub(crate) places: Vec<PathBuf>,
-    pub(crate) model: Model,
-    pub(crate) problems: Vec<Problem>,
-}
 
 pub(crate) struct MeshedDeck {
     pub(crate) name: String,
@@ -38,19 +28,6 @@ pub(crate) struct MeshedDeck {
     pub(crate) conditions: DeckConditions,
     /// The files of the deck, where their rows are read from them; otherwise the deck has kept its rows.
     files: RefCell<Option<SeekableRows<File>>>,
-}
-
-impl ReadDeck {
-    /// Reads a deck without its mesh.
-    pub(crate) fn read(path: &Path, settings: &Settings) -> Result<Self, Failure> {
-        Ok(Self::of(input::read_located_deck(path, Keep::Interpreted, settings, None)?, settings))
-    }
-
-    fn of(located: LocatedDeck, settings: &Settings) -> Self {
-        let (model, problems) = model::read(&located.deck, settings.grammar);
-        let places = located.places().to_vec();
-        Self { deck: located.deck, places, model, problems }
-    }
 }
 
 impl MeshedDeck {
@@ -68,18 +45,11 @@ impl MeshedDeck {
     ) -> Result<(Self, Vec<Option<usize>>), Failure> {
         let (read, mut files) = Self::open(path, settings)?;
         let wanted = wanted(&read);
-        let mesh = match &wanted {
-            None => read_mesh(&read.deck, &read.model, settings, files.as_mut())
-                .map(|mesh| (mesh, Vec::new(), DeckConditions::default())),
-            Some((targets, step)) => {
-                let wanted = (targets.as_slice(), *step);
-                let (deck, model, grammar) = (&read.deck, &read.model, settings.grammar);
-                match files.as_mut() {
-                    Some(files) => mesh::read_with_conditions(deck, grammar, model, files, wanted),
-                    None => mesh::read_with_conditions(deck, grammar, model, &mut KeptRows(deck), wanted),
-                }
-            }
-        };
+        let (deck, model, grammar) = (&read.deck, &read.model, settings.grammar);
+        let mesh = with_rows(&mut files, deck, |rows| match &wanted {
+            None => mesh::read(deck, grammar, model, rows).map(|mesh| (mesh, Vec::new(), DeckConditions::default())),
+            Some((targets, step)) => mesh::read_with_conditions(deck, grammar, model, rows, (targets, *step)),
+        });
         let (mesh, places, conditions) = mesh.map_err(|error| Failure::read(path, error))?;
         let name = path.display().to_string();
         Ok((Self { name, read, mesh, conditions, files: RefCell::new(files) }, places))
@@ -92,10 +62,7 @@ impl MeshedDeck {
         terminals: &[Name],
     ) -> Result<(Self, Result<Body, inpact_body::Error>), Failure> {
         let (read, mut files) = Self::open(path, settings)?;
-        let body = match files.as_mut() {
-            Some(files) => Body::read(&read.deck, settings.grammar, terminals, files),
-            None => Body::read(&read.deck, settings.grammar, terminals, &mut KeptRows(&read.deck)),
-        };
+        let body = with_rows(&mut files, &read.deck, |rows| Body::read(&read.deck, settings.grammar, terminals, rows));
         let body = body.map_err(|error| Failure::read(path, error))?;
         let name = path.display().to_string();
         let (mesh, conditions) = (Mesh::default(), DeckConditions::default());
@@ -115,19 +82,13 @@ impl MeshedDeck {
 
     /// Line and column of a span, also in rows that were not kept.
     fn position(&self, span: Span) -> Result<Position, Failure> {
-        let position = match &mut *self.files.borrow_mut() {
-            Some(files) => mesh::position(&self.read.deck, files, span),
-            None => mesh::position(&self.read.deck, &mut KeptRows(&self.read.deck), span),
-        };
+        let position = self.with_rows(|rows| mesh::position(&self.read.deck, rows, span));
         position.map_err(|error| Failure::read(Path::new(&self.name), error))
     }
 
     /// Hands the rows of the deck to a reader.
     pub(crate) fn with_rows<T>(&self, read: impl FnOnce(&mut dyn RowBytes) -> T) -> T {
-        match &mut *self.files.borrow_mut() {
-            Some(files) => read(files),
-            None => read(&mut KeptRows(&self.read.deck)),
-        }
+        with_rows(&mut self.files.borrow_mut(), &self.read.deck, read)
     }
 
     /// Where a span is, as compilers say it: `deck.inp:12`.
@@ -216,18 +177,16 @@ pub(crate) fn mesh_of(
     settings: &Settings,
 ) -> Result<Mesh, Failure> {
     let mut files = if keep == Keep::Everything { None } else { Some(open_all(located)?) };
-    read_mesh(&located.deck, model, settings, files.as_mut()).map_err(|error| Failure::read(path, error))
+    let deck = &located.deck;
+    let mesh = with_rows(&mut files, deck, |rows| mesh::read(deck, settings.grammar, model, rows));
+    mesh.map_err(|error| Failure::read(path, error))
 }
 
-fn read_mesh(
-    deck: &Deck,
-    model: &Model,
-    settings: &Settings,
-    files: Option<&mut SeekableRows<File>>,
-) -> io::Result<Mesh> {
+/// Hands the rows of a deck to a reader: those of its files, or else those that it has kept.
+fn with_rows<T>(files: &mut Option<SeekableRows<File>>, deck: &Deck, read: impl FnOnce(&mut dyn RowBytes) -> T) -> T {
     match files {
-        Some(files) => mesh::read(deck, settings.grammar, model, files),
-        None => mesh::read(deck, settings.grammar, model, &mut KeptRows(deck)),
+        Some(files) => read(files),
+        None => read(&mut KeptRows(deck)),
     }
 }
 
@@ -244,7 +203,7 @@ struct Record<'a> {
 /// The files of a deck, to be read once more.
 fn open_all(located: &LocatedDeck) -> Result<SeekableRows<File>, Failure> {
     let mut opened = Vec::new();
-    for (source, place) in (0..).zip(located.places()) {
+    for (source, place) in (0..).zip(&located.places) {
         opened.push((SourceId(source), files::open_file(place)?));
     }
     Ok(SeekableRows::new(opened))

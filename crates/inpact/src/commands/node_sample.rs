@@ -3,7 +3,7 @@
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::picture::Drawn;
 use crate::chart::surface::Surface;
-use crate::curves::{Figure, HeldPlace, LawKind, NodeRows, NodeSample, Side};
+use crate::curves::{Figure, HeldPlace, LawKind, NodeRows, NodeSample, Side, range};
 use crate::failure::Failure;
 use crate::report::History;
 use inpact_evaluation::law::ContactState;
@@ -110,8 +110,7 @@ impl Gathered {
             let name = names[*interaction].clone();
             let ends = Side::BOTH.into_iter().flat_map(|side| {
                 let xs = rows.sample.iter().filter(|node| node.side == side).map(|node| node.x);
-                let ends = [xs.clone().reduce(f64::min), xs.reduce(f64::max)];
-                ends.into_iter().flatten().map(move |x| (side, x)).collect::<Vec<_>>()
+                range(xs).into_iter().flat_map(move |(least, greatest)| [(side, least), (side, greatest)])
             });
             ends.map(|(side, x)| HeldPlace { interaction: name.clone(), law: *law, side, x }).collect::<Vec<_>>()
         });
@@ -240,7 +239,7 @@ impl Places {
                 LawKind::Thermal | LawKind::ViewFactor => &results.status_by_law.thermal,
             };
             let of = rows.entry((interaction, *law)).or_default();
-            let index = usize::from(side == Side::Closed);
+            let index = side as usize;
             of.count[index] += 1;
             of.beyond[index] += u64::from(statuses.get(row) == Some(&Some(Status::BeyondTable)));
             // Without a pressure a closed row of a table against clearance is at contact.

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::files::{ResultFile, check_targets};
 use inpact_contact::{SlaveFaces, State};
 use inpact_evaluation::nodes::Batch;
-use inpact_evaluation::results::{Output, ResultBatch, Status};
+use inpact_evaluation::results::{Output, ResultBatch};
 use inpact_geometry::NodeId;
 use inpact_results::vtu::{Array, Moment, write_collection, write_grid};
 use std::ffi::OsString;
@@ -86,7 +86,8 @@ impl<'a> PictureWriter<'a> {
             let numbers = given.iter().map(|place| batch.numbers[*place].get(row));
             let mut results_of_row = results.numbers.iter().map(|column| column.get(row));
             let outputs = outputs.iter().map(|output| match results.statuses(*output) {
-                Some(statuses) => statuses[row].map(number_of),
+                // A number in the order of `Status`.
+                Some(statuses) => statuses[row].map(|status| f64::from(status as u8)),
                 None => results_of_row.next().flatten(),
             });
             self.push(numbers.chain(outputs))?;
@@ -141,16 +142,5 @@ impl<'a> PictureWriter<'a> {
     fn collection(&self) -> Option<PathBuf> {
         let is_requested = self.target.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pvd"));
         (is_requested || self.drawn.states.len() != 1).then(|| self.target.with_extension("pvd"))
-    }
-}
-
-/// A status as a number, in the order of [`Status`].
-fn number_of(status: Status) -> f64 {
-    match status {
-        Status::Open => 0.0,
-        Status::Closed => 1.0,
-        Status::Cutoff => 2.0,
-        Status::BeyondTable => 3.0,
-        Status::Constrained => 4.0,
     }
 }

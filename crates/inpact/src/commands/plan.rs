@@ -126,8 +126,7 @@ fn as_json(evaluable: &Evaluable) -> String {
         "cuts": outline.cuts.iter().map(cut).collect::<Vec<_>>(),
         "outputs": keys.chain(outputs.iter().map(ToString::to_string)).collect::<Vec<_>>(),
     });
-    // A document of strings and numbers has no reason to fail.
-    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+    format!("{document:#}\n")
 }
 
 /// A part of the evaluation with its estimated cost in nanoseconds a row, its parts included.

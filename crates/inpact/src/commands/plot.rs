@@ -11,13 +11,13 @@ use crate::chart::{sheet, terminal};
 use crate::curves::{self, Detail, Figure, LawKind, Probing, Request, Units};
 use crate::failure::{Failure, Outcome, say};
 use crate::files;
-use crate::input;
+use crate::input::ReadDeck;
 use crate::report;
 use crate::settings::{DeckArguments, Settings};
 use clap::{Args, ValueEnum};
 use inpact_parser::deck::Keep;
-use inpact_parser::model::{self, Model, Name};
-use inpact_validation::{Diagnostic, check};
+use inpact_parser::model::{Model, Name};
+use inpact_validation::Diagnostic;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -130,10 +130,7 @@ struct DrawnDeck {
 }
 
 pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
-    let standard_input = arguments.decks.iter().filter(|path| path.as_os_str() == files::STANDARD_STREAM);
-    if 1 < standard_input.count() {
-        return Err(Failure::Usage("standard input can be read only once".to_owned()));
-    }
+    files::refuse_second_stream(&arguments.decks)?;
     files::name_as_inputs(&arguments.decks);
     let target = arguments.output.as_ref().map(|picture| picture.path.as_path());
     files::check_targets(&[target])?;
@@ -187,11 +184,9 @@ fn gathered(arguments: &PlotArguments, nodes: &Path) -> Result<Option<(Gathered,
 
 fn read(path: &Path, arguments: &PlotArguments) -> Result<DrawnDeck, Failure> {
     let settings = arguments.reading.settings(path)?;
-    let deck = input::read_deck(path, Keep::Interpreted, &settings)?;
-    let (model, problems) = model::read(&deck, settings.grammar);
-    let findings =
-        if arguments.findings { settings.apply(check(&deck, settings.grammar, &model, &problems)) } else { Vec::new() };
-    Ok(DrawnDeck { name: path.display().to_string(), settings, model, findings })
+    let read = ReadDeck::read(path, Keep::Interpreted, &settings)?;
+    let findings = if arguments.findings { read.check(&settings) } else { Vec::new() };
+    Ok(DrawnDeck { name: path.display().to_string(), settings, model: read.model, findings })
 }
 
 fn figures(

@@ -4,18 +4,19 @@ mod deck_conditions;
 mod failures;
 
 use super::findings::Reporter;
-use super::meshed::{MeshedDeck, ReadDeck};
+use super::meshed::MeshedDeck;
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
+use crate::input::ReadDeck;
 use crate::reach;
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::{Diagnostic, Findings, keep_lines};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Problem, report_unknown_interactions};
+use inpact_parser::deck::Keep;
 use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{Model, Name, Regime};
-use inpact_validation::check;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -77,7 +78,7 @@ impl SolvableScene {
             // Findings of the deck on the interfaces come in the same run, where there is a deck.
             let read = Settings::of(&deck_path, reading).and_then(|mut settings| {
                 reporter.confine(&mut settings, &deck_path);
-                ReadDeck::read(&deck_path, &settings)
+                ReadDeck::read(&deck_path, Keep::Interpreted, &settings)
             });
             let mut findings = Findings::new(&name);
             if let Ok(read) = read {
@@ -92,7 +93,7 @@ impl SolvableScene {
         let grammar = of_deck.grammar;
         let mut scene = scene;
         let read = match scene.deck_conditions {
-            None => ReadDeck::read(&deck_path, &of_deck)?,
+            None => ReadDeck::read(&deck_path, Keep::Interpreted, &of_deck)?,
             Some(wanted) => {
                 let mut findings = Findings::new(&name);
                 let parts = deck_conditions::targets(&scene);
@@ -111,11 +112,11 @@ impl SolvableScene {
                 meshed.read
             }
         };
-        let ReadDeck { deck, places, model, problems } = read;
-        reporter.files(&places);
+        reporter.files(&read.places);
+        let found = read.check(&of_deck);
+        let ReadDeck { deck, model, .. } = read;
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
         let choices = choices_of(&scene, laws(&model, grammar.dialect(), Some(regime))?);
-        let found = of_deck.apply(check(&deck, grammar, &model, &problems));
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
         let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();

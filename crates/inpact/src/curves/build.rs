@@ -4,7 +4,7 @@ use super::law::Law;
 use super::probe::probe;
 use super::request::{Extents, Probing, Request, extents};
 use super::rows::LawRows;
-use super::sample::{self, spread, thinned, thinned_together};
+use super::sample::{self, sort_and_dedup, spread, thinned, thinned_together};
 use super::{Branch, Curve, Figure, Half, Held, Knot, LawKind, Panel, Quantity, Reach, Sample, Side, number};
 use inpact_evaluation::law::{FlowOf, InterfaceLaws};
 use inpact_evaluation::plan::{Choices, Reason};
@@ -328,8 +328,7 @@ fn shared_branches(
     variables: &[Vec<f64>],
     shared: &mut Shared,
 ) -> Vec<Branch> {
-    abscissae.sort_unstable_by(f64::total_cmp);
-    abscissae.dedup();
+    sort_and_dedup(&mut abscissae);
     shared.all += abscissae.len();
     let abscissae = spread(&abscissae, MOST_CHOSEN_FROM / variables.len().max(1));
     let samples = variables.iter().map(|of| abscissae.iter().map(|x| sample(subject, side, *x, of)).collect());

@@ -1,7 +1,7 @@
 //! Values of a law at stops of its temperature and field variables, found beforehand: what a page without the law itself can show by sliders.
 
 use super::law::Law;
-use super::sample::{Side as SideRows, spread, thinned_together};
+use super::sample::{Side as SideRows, sort_and_dedup, spread, thinned_together};
 use super::{Detail, Half, Quantity, Side};
 
 /// The values of a law at all combinations of stops.
@@ -64,8 +64,7 @@ pub(super) fn probe(
         let ends = (halves[side].start, halves[side].end);
         let each = variables.iter().flat_map(|of| sides[side].abscissae(of, ends, &cutoff, Detail::Rows));
         let mut abscissae: Vec<f64> = each.collect();
-        abscissae.sort_unstable_by(f64::total_cmp);
-        abscissae.dedup();
+        sort_and_dedup(&mut abscissae);
         let all = abscissae.len();
         let abscissae = spread(&abscissae, MOST_CHOSEN_FROM / stops);
         let value = |x: &f64, of: &Vec<f64>| law.value(Side::BOTH[side], *x, of).map(|value| value.y);

@@ -1,6 +1,6 @@
 //! The rows of a law's tables, as the deck has them.
 
-use super::{LawKind, Side};
+use super::{LawKind, Side, range};
 use inpact_parser::model::{Interaction, Model, Table, TableKind};
 use inpact_parser::span::Span;
 use std::borrow::Cow;
@@ -131,10 +131,7 @@ impl<'a> Rows<'a> {
     /// The smallest and the largest finite abscissa.
     pub(super) fn range(&self) -> Option<(f64, f64)> {
         let abscissae = (0..self.count()).filter_map(|row| self.row(row).get(1)).filter(|x| x.is_finite());
-        abscissae.fold(None, |range, &x| {
-            let (least, greatest) = range.unwrap_or((x, x));
-            Some((if x < least { x } else { least }, if greatest < x { x } else { greatest }))
-        })
+        range(abscissae.copied())
     }
 
     /// The ranges of rows that agree in all variables after the abscissa.

@@ -4,7 +4,7 @@
 
 use super::request::Detail;
 use super::rows::Rows;
-use super::{Knot, Sample};
+use super::{Knot, Sample, range};
 use std::ops::Range;
 
 /// Values of one branch that are kept: about two for each pixel of a wide picture.
@@ -39,8 +39,7 @@ impl<'a> Side<'a> {
         let mut all: Vec<f64> = Vec::new();
         if 1 < groups.len() {
             all = (0..of.count()).map(|row| of.row(row)[1]).filter(|x| x.is_finite()).collect();
-            all.sort_unstable_by(f64::total_cmp);
-            all.dedup();
+            sort_and_dedup(&mut all);
             all = spread(&all, MOST_OF_ALL_ROWS);
         }
         Self { rows, groups, depends: of.depends(), all }
@@ -126,7 +125,7 @@ impl Detail {
 }
 
 /// Ascending, each once. Zero is +0.
-fn sort_and_dedup(values: &mut Vec<f64>) {
+pub(super) fn sort_and_dedup(values: &mut Vec<f64>) {
     for value in values.iter_mut() {
         *value += 0.0;
     }
@@ -170,7 +169,7 @@ pub(super) fn thinned_together(abscissae: &[f64], curves: &[Vec<Option<f64>>], m
     if count <= most {
         return (0..count).collect();
     }
-    let ranges: Vec<f64> = curves.iter().map(|curve| range(curve)).collect();
+    let ranges: Vec<f64> = curves.iter().map(|curve| spread_of(curve)).collect();
     let stretch = (count - 1).div_ceil((most - 1) / 2);
     let mut kept = Vec::new();
     for first in (0..count - 1).step_by(stretch) {
@@ -197,10 +196,11 @@ fn departure([x0, x, x1]: [f64; 3], [y0, y, y1]: [Option<f64>; 3]) -> Option<f64
 }
 
 /// The difference of the largest and the smallest finite value; 1 where there is none.
-fn range(curve: &[Option<f64>]) -> f64 {
-    let values = curve.iter().flatten().filter(|y| y.is_finite());
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(*y), high.max(*y)));
-    if low < high { high - low } else { 1.0 }
+fn spread_of(curve: &[Option<f64>]) -> f64 {
+    match range(curve.iter().flatten().copied().filter(|y| y.is_finite())) {
+        Some((low, high)) if low < high => high - low,
+        _ => 1.0,
+    }
 }
 
 #[cfg(test)]

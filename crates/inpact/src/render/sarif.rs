@@ -5,7 +5,7 @@ use crate::rules;
 use inpact_diagnostics::Extent;
 use inpact_parser::deck::lines::count_line_ends;
 use inpact_parser::span::Position;
-use inpact_validation::{Diagnostic, Label, Severity};
+use inpact_validation::{Diagnostic, Label};
 use serde_json::{Value, json};
 
 /// The name of the fingerprint; its number rises when the way to compute it changes.
@@ -13,7 +13,7 @@ const FINGERPRINT: &str = "inpact/v1";
 
 /// The frame around the results of a check.
 pub(super) fn document() -> Document {
-    with(&format!("\"tool\": {{\"driver\": {}}}", driver()))
+    with("")
 }
 
 /// A run that has more to say than its findings.
@@ -31,7 +31,7 @@ pub(super) fn frame(run: &Run) -> Document {
     let notes = run.notes.iter().map(|text| note("note", text));
     let notes: Vec<Value> = notes.chain(run.failure.iter().map(|text| note("error", text))).collect();
     let invocation = json!({"executionSuccessful": run.failure.is_none(), "toolExecutionNotifications": notes});
-    with(&format!("\"tool\": {{\"driver\": {}}},\n\"invocations\": [{invocation}]", driver()))
+    with(&format!("\"invocations\": [{invocation}],\n"))
 }
 
 /// The tool with its rules.
@@ -44,7 +44,7 @@ fn driver() -> Value {
                 "shortDescription": {"text": first_line(rule.documentation)},
                 "fullDescription": {"text": rule.documentation.trim()},
                 "help": {"text": rule.documentation.trim(), "markdown": rule.documentation.trim()},
-                "defaultConfiguration": {"level": level(rule.severity)},
+                "defaultConfiguration": {"level": rule.severity.name()},
             })
         })
         .collect();
@@ -56,12 +56,13 @@ fn driver() -> Value {
     })
 }
 
-/// The frame with these properties of the run.
+/// The frame with further properties of the run, each with its comma.
 fn with(properties: &str) -> Document {
+    let driver = driver();
     Document {
         head: format!(
             "{{\"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\", \"version\": \"2.1.0\", \"runs\": [{{\n\
-             {properties},\n\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n"
+             \"tool\": {{\"driver\": {driver}}},\n{properties}\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n"
         ),
         separator: ",\n",
         tail: "\n]}]}\n".to_owned(),
@@ -70,10 +71,6 @@ fn with(properties: &str) -> Document {
 
 fn first_line(documentation: &str) -> &str {
     documentation.trim().lines().next().unwrap_or_default()
-}
-
-fn level(severity: Severity) -> &'static str {
-    severity.name()
 }
 
 /// The results of a deck or of data, separated by commas.
@@ -106,7 +103,7 @@ fn result(found: &Diagnostic, sources: Sources<'_>, fingerprint: u64) -> Value {
     json!({
         "ruleId": found.code,
         "ruleIndex": rules::all().position(|rule| rule.code == found.code),
-        "level": level(found.severity),
+        "level": found.severity.name(),
         "message": {"text": text.join("\n")},
         "locations": [location(&found.primary, sources)],
         "relatedLocations": related,

@@ -69,7 +69,7 @@ fn data(panel: &Panel) -> Value {
     });
     let marks = panel.marks.iter().map(|mark| {
         json!({
-            "side": usize::from(mark.side == Side::Closed),
+            "side": mark.side as usize,
             "x": mark.x,
             "y": mark.y,
             "code": mark.code,
@@ -144,19 +144,14 @@ pub(super) fn histories(page: &mut Page, histories: &[History]) {
         }
         page.open("details", if timed.len() < 2 { &[("open", "")] } else { &[] });
         page.element("summary", &[], "Values");
-        page.open("div", &[("class", "scroll"), ("tabindex", "0")]);
-        page.open("table", &[]);
-        page.header_row(&["time", &history.output]);
-        page.open("tbody", &[]);
-        for (time, value) in history.points.iter().take(MOST_TIMES) {
-            page.open("tr", &[]);
-            page.element("td", &[], &time.map_or_else(|| "all rows".to_owned(), number));
-            page.element("td", &[], &number(*value));
-            page.close("tr");
-        }
-        page.close("tbody");
-        page.close("table");
-        page.close("div");
+        page.table(&["time", &history.output], |page| {
+            for (time, value) in history.points.iter().take(MOST_TIMES) {
+                page.open("tr", &[]);
+                page.element("td", &[], &time.map_or_else(|| "all rows".to_owned(), number));
+                page.element("td", &[], &number(*value));
+                page.close("tr");
+            }
+        });
         if MOST_TIMES < history.points.len() {
             page.element("p", &[], &format!("{} more times.", history.points.len() - MOST_TIMES));
         }

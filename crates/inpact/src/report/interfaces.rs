@@ -167,24 +167,19 @@ fn rows(page: &mut Page, of: &TableOf<'_>, (interaction, table): (usize, usize))
     page.open("details", &[]);
     let against = of.table.columns.get(1).map_or("", String::as_str);
     page.element("summary", &[], &format!("*{} against {against}: {}", of.keyword, counted(count, "row")));
-    page.open("div", &[("class", "scroll"), ("tabindex", "0")]);
-    page.open("table", &[]);
     let titles: Vec<&str> = std::iter::once("row").chain(of.table.columns.iter().map(String::as_str)).collect();
-    page.header_row(&titles);
-    page.open("tbody", &[]);
-    for (row, cells) in of.table.row_values().take(MOST_ROWS).enumerate() {
-        page.open("tr", &[("id", &format!("row-{}-{}-{}", interaction + 1, table + 1, row + 1))]);
-        page.element("td", &[], &(row + 1).to_string());
-        for (column, cell) in cells.iter().enumerate() {
-            let index = row * of.table.width() + column;
-            let text = of.table.texts.iter().find(|text| text.cell == index).map(|text| text.text.clone());
-            page.element("td", &[], &text.unwrap_or_else(|| number(*cell)));
+    page.table(&titles, |page| {
+        for (row, cells) in of.table.row_values().take(MOST_ROWS).enumerate() {
+            page.open("tr", &[("id", &format!("row-{}-{}-{}", interaction + 1, table + 1, row + 1))]);
+            page.element("td", &[], &(row + 1).to_string());
+            for (column, cell) in cells.iter().enumerate() {
+                let index = row * of.table.width() + column;
+                let text = of.table.texts.iter().find(|text| text.cell == index).map(|text| text.text.clone());
+                page.element("td", &[], &text.unwrap_or_else(|| number(*cell)));
+            }
+            page.close("tr");
         }
-        page.close("tr");
-    }
-    page.close("tbody");
-    page.close("table");
-    page.close("div");
+    });
     if MOST_ROWS < count {
         page.element("p", &[], &format!("{} more rows.", count - MOST_ROWS));
     }

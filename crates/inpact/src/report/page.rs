@@ -58,8 +58,14 @@ impl Page {
         self.close(name);
     }
 
-    /// The head of a table.
-    pub(super) fn header_row(&mut self, titles: &[&str]) {
+    pub(super) fn drawing(&mut self, svg: &str) {
+        self.text += svg;
+    }
+
+    /// A table that scrolls by itself, where it is too wide or long.
+    pub(super) fn table(&mut self, titles: &[&str], rows: impl FnOnce(&mut Self)) {
+        self.open("div", &[("class", "scroll"), ("tabindex", "0")]);
+        self.open("table", &[]);
         self.open("thead", &[]);
         self.open("tr", &[]);
         for title in titles {
@@ -67,10 +73,11 @@ impl Page {
         }
         self.close("tr");
         self.close("thead");
-    }
-
-    pub(super) fn drawing(&mut self, svg: &str) {
-        self.text += svg;
+        self.open("tbody", &[]);
+        rows(self);
+        self.close("tbody");
+        self.close("table");
+        self.close("div");
     }
 
     /// Data for the page's script: JSON that cannot end its element.

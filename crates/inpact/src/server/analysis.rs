@@ -1,7 +1,6 @@
 //! A deck as it stands in the editor: what was read, and what is wrong with it.
 
-use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, LocatedDeck};
 use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::Diagnostic;
 use inpact_parser::Problem;
@@ -42,10 +41,7 @@ impl Analysis {
     pub(super) fn of(root: &Path, options: &ReadOptions) -> Self {
         let (settings, fault) = Self::settings_of(root, options);
         let (deck, places) = match input::read_located_deck(root, Keep::Interpreted, &settings, None) {
-            Ok(located) => {
-                let places = located.places().to_vec();
-                (located.deck, places)
-            }
+            Ok(LocatedDeck { deck, places }) => (deck, places),
             // It is open, so that nothing but a root that it leads out of is in the way.
             Err(failure) => {
                 let fault = Fault { place: root.to_owned(), message: failure.to_string() };
@@ -81,7 +77,7 @@ impl Analysis {
             Ok(settings) => (settings, None),
             Err(failure) => {
                 let place = options.configuration_of(root).unwrap_or_else(|| root.to_owned());
-                let fault = Fault { place, message: message_of(&failure) };
+                let fault = Fault { place, message: failure.to_string() };
                 let settings = Settings::of(root, &options.clone().isolated())
                     .unwrap_or_else(|_| Settings::unconfigured(options.overlay.clone()));
                 (settings, Some(fault))
@@ -108,8 +104,4 @@ impl Analysis {
         let index = self.places.iter().position(|part| part == place)?;
         Some(SourceId(u32::try_from(index).ok()?))
     }
-}
-
-fn message_of(failure: &Failure) -> String {
-    failure.to_string()
 }

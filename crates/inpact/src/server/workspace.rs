@@ -6,7 +6,7 @@
 
 use super::analysis::{Analysis, Fault};
 use super::uri;
-use crate::files;
+use crate::files::{self, Stamp};
 use crate::settings::ReadOptions;
 use crate::stop::Stop;
 use gen_lsp_types::{Location, Position, Range, TextDocumentContentChangeEvent, Uri};
@@ -19,7 +19,6 @@ use inpact_parser::span::{SourceId, Span};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 /// The documents of an editor, and the decks that they are.
 #[derive(Debug, Default)]
@@ -61,13 +60,6 @@ struct Document {
 struct FileOnDisk {
     stamp: Stamp,
     text: EditedText,
-}
-
-/// Marks by which a file is known as the one that was read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stamp {
-    modified: Option<SystemTime>,
-    length: u64,
 }
 
 /// A document where it stands in a deck.
@@ -359,12 +351,4 @@ fn position_of(text: &EditedText, offset: u64, unit: ColumnUnit) -> Position {
     let character = unit.count(&text.bytes(start..offset.max(start)));
     let narrow = |number: u64| u32::try_from(number).unwrap_or(u32::MAX);
     Position { line: narrow(line), character: narrow(character) }
-}
-
-impl Stamp {
-    /// `None` for what is no file.
-    fn of(place: &Path) -> Option<Self> {
-        let found = place.metadata().ok().filter(std::fs::Metadata::is_file)?;
-        Some(Self { modified: found.modified().ok(), length: found.len() })
-    }
 }

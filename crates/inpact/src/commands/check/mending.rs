@@ -2,7 +2,7 @@
 
 use super::{CheckArguments, Checked, Kind, judge, scene};
 use crate::difference;
-use crate::failure::{Failure, say};
+use crate::failure::{Failure, say, say_failures};
 use crate::files::transaction;
 use crate::fixing::{self, FixSelection, Mended, Purpose, Subject};
 use crate::input::{self, HeldFiles};
@@ -45,9 +45,7 @@ pub(super) fn mend(
         checked.places = places;
     }
     let mut mending = Mending { has_failed: !failures.is_empty(), ..Mending::default() };
-    for failure in &failures {
-        say(&format!("error: {failure}"));
-    }
+    say_failures(&failures);
     let changed = held.changed();
     let mended = format!("{} in {}", counted(findings, "finding"), counted(changed.len(), "file"));
     let verb = match selection.purpose {
@@ -61,9 +59,7 @@ pub(super) fn mend(
         Purpose::Write => match transaction::commit(&held.changes()) {
             Ok(()) => "mended",
             Err(failures) => {
-                for failure in &failures {
-                    say(&format!("error: {failure}"));
-                }
+                say_failures(&failures);
                 say(&format!("error: nothing is mended, since all files are or none: {mended} could be"));
                 return Mending { has_failed: true, ..mending };
             }

@@ -100,8 +100,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
         "tolerance": comparison.tolerance,
         "quantities": comparison.quantities.iter().map(of).collect::<Vec<_>>(),
     });
-    // A document of strings and numbers has no reason to fail.
-    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+    format!("{document:#}\n")
 }
 
 fn number(value: Option<f64>) -> String {

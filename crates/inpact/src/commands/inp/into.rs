@@ -1,6 +1,6 @@
 //! `--into`: the files of the lossless form below a folder, all of them or none.
 
-use crate::failure::{Failure, say};
+use crate::failure::{Failure, say_failures};
 use crate::files;
 use crate::files::transaction::{self, Change};
 use std::io;
@@ -29,9 +29,7 @@ pub(super) fn write(folder: &Path, decks: &[(String, Vec<u8>)]) -> Result<(), Fa
     let changes = paths.iter().zip(decks).map(|(path, (_, bytes))| Change::result(path, bytes.as_slice().into()));
     let changes: Vec<Change> = changes.collect();
     transaction::commit(&changes).map_err(|failures| {
-        for failure in &failures {
-            say(&format!("error: {failure}"));
-        }
+        say_failures(&failures);
         Failure::AlreadySaid
     })?;
     made.0.clear();
