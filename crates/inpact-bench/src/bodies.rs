@@ -1,6 +1,6 @@
 //! Time and memory of lumping a body with four terminals, beside one solution of the same equations with one right-hand side.
 //!
-//! The body is a block of bricks whose inside is distorted; three of its terminals are parts of faces, so that the flow is nowhere even.
+//! The body is a block of bricks with a distorted interior; three of its terminals are parts of faces, so that the flow is nowhere uniform.
 
 use crate::mesh::Timer;
 use crate::network::run::memory;

@@ -1,7 +1,7 @@
 //! The speed and memory of `inpact check` on large decks of tables.
 //!
-//! Times are those on processors, user and system together; memory is the most that was resident, less that of a deck with
-//! nothing in it. Both are taken by GNU time, which knows them of a process that has ended.
+//! Times are CPU times, user plus system; memory is the peak resident set, less that of an empty deck.
+//! Both are measured by GNU time once the process has ended.
 
 use std::fmt::Write as _;
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! Generated decks, streamed to a writer: a meshed one and one of nothing but tables.
+//! Generated decks, streamed to a writer: one with a mesh and one of tables only.
 //!
 //! Both are valid by the spec, so that a check of them has nothing to report and a measurement of it
 //! times the checking, not the reporting.

@@ -1,4 +1,4 @@
-//! The latency of `inpact server`: the time from a keystroke to its findings, of hover and of completion.
+//! The latency of `inpact server`: from a keystroke to its findings, of hover and of completion.
 //!
 //! Speaks to the program over pipes as an editor does, so that transport and JSON are part of the times.
 

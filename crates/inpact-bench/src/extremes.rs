@@ -1,7 +1,7 @@
-//! The page of extremes: what the evaluation makes of numbers at the ends of f64, and how far it is from the exact result.
+//! The page of extremes: results for inputs at the limits of f64, and their error against the exact result.
 //!
-//! Everything is computed by the library that `inpact eval` is made of; what is exact is computed with rationals, by the judge of the library's own tests.
-//! All inputs are fixed or drawn from fixed seeds, so that equal code gives equal pages; `docs/extremes.md` is such a page, and a test holds it fresh.
+//! Everything is computed by the library behind `inpact eval`; exact results are computed with rationals, by the reference of the library's own tests.
+//! All inputs are fixed or drawn from fixed seeds, so that equal code gives equal pages; `docs/extremes.md` is such a page, and a test keeps it up to date.
 
 mod evaluators;
 mod flows;

@@ -1,6 +1,6 @@
 //! One generated contact interface: the abscissae and values of its tables.
 //!
-//! The deck writer prints it and the node writer draws its rows around it, so that a node table reaches every part of a
+//! The deck writer prints it and the node writer samples rows around it, so that a node table reaches every part of a
 //! law: between knots, exactly at them, beyond the last one.
 //! Tables follow the spec: first variable fastest and ascending (semantics T-01, T-02; Analysis User's Guide 1.2.1),
 //! a clearance and a pressure table start at zero in every group (T-24; 37.3.1), conductance falls with clearance to

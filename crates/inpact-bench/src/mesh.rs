@@ -1,4 +1,4 @@
-//! How long it takes to read the mesh around a contact pair, and how much memory: on blocks of bricks of any size.
+//! Time and memory of reading the mesh around a contact pair, on blocks of bricks of any size.
 //!
 //! A deck has a cube of nodes and, a little above it, a single layer of bricks that lies on it. Its surfaces are faces by name, or element sets without a face,
 //! whose free faces have to be found among all elements.

@@ -2,7 +2,7 @@
 //!
 //! The rows reach every part of a law: open and closed, between knots, exactly at them, beyond the
 //! last one.
-//! A table with fewer nodes than rows is a history: increment after increment, all nodes in each, as
+//! A table with fewer nodes than rows is a history: increment by increment, all nodes in each, as
 //! an output database is read.
 //! Units are SI; columns are those of the node table contract.
 

@@ -1,7 +1,7 @@
 //! The meshed parts of a generated deck: plates of C3D8 elements, one on top of the other.
 //!
 //! Neighbouring plates touch, so a deck of *n* interactions has *n* + 1 plates, and its mesh has the
-//! size that was asked for.
+//! requested size.
 //! The text is laid out as Abaqus/CAE writes it: labels and coordinates in columns, 16 labels a line
 //! in a set, `generate` where a set is a range.
 

@@ -1,7 +1,7 @@
 //! A small seeded generator of pseudo-random numbers.
 //!
-//! It exists so that a generated file depends on its seed alone: no clock, no platform's mathematics library, no
-//! dependency whose next version draws other numbers.
+//! A generated file depends on its seed alone: no clock, no platform's mathematics library, no
+//! dependency whose next version generates other numbers.
 //! The stream is xorshift64* (Vigna 2016); the seed is scrambled with the finaliser of splitmix64, so that
 //! neighbouring seeds give unrelated streams.
 

@@ -1,4 +1,4 @@
-//! Counting bytes: what a writer has been given, and what a text would take.
+//! Counting bytes: those written to a writer, and those that a text would take.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! Bodies: what solid elements connect, and where it ends.
+//! Bodies: connected components of solid elements, and their terminals.
 
 use crate::error::{BodyFault, Error};
 use crate::material::BodyField;

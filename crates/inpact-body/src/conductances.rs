@@ -1,4 +1,4 @@
-//! Symmetric matrices of conductances between terminals, a block a body.
+//! Symmetric matrices of conductances between terminals, one block per body.
 
 /// Conductances between terminals: heat per time and temperature (M L² T⁻³ θ⁻¹), or current per potential (C T⁻¹ φ⁻¹).
 ///

@@ -1,4 +1,4 @@
-//! The heat that a current makes in bodies: *JOULE HEAT FRACTION of their materials.
+//! Joule heat in bodies: *JOULE HEAT FRACTION of their materials.
 
 use crate::body::Body;
 use crate::material::values_at;

@@ -1,4 +1,4 @@
-//! The one error of this crate: reasons why a body has no conductances.
+//! The error type of this crate: reasons why a body has no conductances.
 
 use crate::rules::UNUSABLE_MESH;
 use inpact_diagnostics::Rule;

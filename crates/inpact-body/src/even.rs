@@ -1,6 +1,6 @@
-//! The shares of a terminal's nodes in a flow that is spread evenly over it: ∫ N dA / A.
+//! The shares of a terminal's nodes in a uniformly distributed flow: ∫ N dA / A.
 //!
-//! A node set has the free faces all of whose nodes it has. Where that leaves nodes over, or there is no face at all (a line, a point), every node has the same share.
+//! A node set has the free faces all of whose nodes are in it. Where nodes are on none of these, or there is no face at all (a line, a point), every node has the same share.
 
 use crate::body::Body;
 use inpact_geometry::{Face, FreeFaces, NodeId, Placed, Surface, shape_function_areas};

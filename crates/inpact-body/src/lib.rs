@@ -1,13 +1,13 @@
 //! Bodies between their terminals: from the mesh and the materials of a deck to conductances and capacities.
 //!
-//! A *terminal* is a surface or a node set where a body ends, a *body* is what solid elements connect.
-//! [`Body::read`] reads both, [`Body::lumped`] solves the body once for each terminal, which is held at one while the others are held at zero:
+//! A *terminal* is a surface or a node set where a body ends; a *body* is a connected component of solid elements.
+//! [`Body::read`] reads both, [`Body::lumped`] solves the body once for each terminal, which is held at 1 while the others are held at 0:
 //!
-//! - [`Lumped::isothermal`]: the conductances between terminals that have one temperature (or potential) each;
-//! - [`Lumped::even`]: the same where the flow of each terminal is spread evenly over its area;
-//! - [`Lumped::terminals`]: what each terminal conducts to all others, both ways. By Dirichlet's principle no joint has a body conduct more than the first;
-//!   by Thomson's none whose flow is even has it conduct less than the second. Their relative difference says what lumping costs.
-//! - [`Lumped::capacities`]: ∫ ρ c φ dV of each terminal, φ being its own potential, so that they sum to what the bodies hold.
+//! - [`Lumped::isothermal`]: the conductances between terminals of one uniform temperature (or potential) each;
+//! - [`Lumped::even`]: the same where the flow of each terminal is uniformly distributed over its area;
+//! - [`Lumped::terminals`]: the conductance of each terminal to all others, both ways. By Dirichlet's principle no joint lets a body conduct more than the first;
+//!   by Thomson's none with a uniform flow lets it conduct less than the second. Their relative difference bounds the error of lumping.
+//! - [`Lumped::capacities`]: ∫ ρ c φ dV of each terminal, φ being its own potential, so that they sum to the capacity of the bodies.
 //!
 //! ```
 //! use inpact_body::{Body, BodyField};

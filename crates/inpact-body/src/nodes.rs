@@ -1,4 +1,4 @@
-//! The nodes of each body: values at them alone, so that many bodies cost no more than their nodes.
+//! The nodes of each body: values are stored for these only, so that the memory of many bodies grows with their nodes.
 
 use crate::body::Body;
 use inpact_geometry::NodeId;

@@ -1,4 +1,4 @@
-//! The rules about bodies: what keeps them from being lumped, and what of a deck is beside them. The doc comment of each is its page.
+//! The rules about bodies: why they cannot be lumped, and which options of a deck lie outside of them. The doc comment of each is its page.
 
 use inpact_diagnostics::data_rules;
 

@@ -1,7 +1,7 @@
 //! Solves the equations of a body for several right-hand sides at once.
 //!
-//! Small ones are factored; large ones in space would fill in thousands of entries a node, and conjugate gradients go through the matrix some hundred times instead,
-//! for all right-hand sides together. Where these do not converge, the matrix is factored after all.
+//! Small ones are factored; large three-dimensional ones would fill in thousands of entries a node, so that conjugate gradients take some hundred iterations instead,
+//! for all right-hand sides together. Where these do not converge, the matrix is factored.
 
 mod direct;
 mod gradients;

@@ -1,4 +1,4 @@
-//! The rules on geometry, G001 to G006: what the mesh of a deck says of its contact pairs before anything moves.
+//! The rules on geometry, G001 to G006: contact pairs of a deck judged by the undeformed mesh.
 
 mod rules;
 

@@ -1,6 +1,6 @@
-//! Interfaces of scenes: the rows of contact pairs in one state, a row a slave node or one a pair, and what is across from each slave node.
+//! Interfaces of scenes: the rows of contact pairs in one state, one per slave node or one per pair, and the projection of each slave node.
 //!
-//! The numbers are those of [`NodeRows`]: no second reader, and no other decision on what a clearance or an area is.
+//! The numbers are those of [`NodeRows`], so that clearances and areas are the same as in node tables.
 
 use crate::Error;
 use crate::naming::across_name;

@@ -1,6 +1,6 @@
-//! From result files to states: frames of all files by their times, fields by the nodes of the mesh.
+//! From result files to states: frames of all files joined by their times, fields by the nodes of the mesh.
 //!
-//! Files are added one by one; what an earlier one says of a node counts, and a later one fills what is left.
+//! Files are added one by one; the values of an earlier one take precedence, and a later one fills in missing values.
 
 mod frames;
 mod nodes;

@@ -1,14 +1,14 @@
-//! Node tables of contact pairs: from a mesh, and what is known of its nodes, to rows that laws are evaluated on.
+//! Node tables of contact pairs: from a mesh, and values at its nodes, to the rows that laws are evaluated on.
 //!
 //! This is the only place where a mesh meets the columns of node tables and the fields of result files: `inpact-geometry` knows no deck, `inpact-evaluation` no
-//! mesh, `inpact-results` neither, and here no law is known.
-//! [`State`] is what is known of the nodes at one time: the beginning, or an increment of a result file.
-//! [`Join`] makes states of result files: it finds out which node of the mesh a label is, which pair a field is of, and which frames are of one time.
-//! [`NodeRows`] makes a row a slave node and state, as [`Batch`](inpact_evaluation::nodes::Batch)es of the columns that any of the states can fill,
-//! and counts what it made ([`PairSummary`]).
+//! mesh, `inpact-results` neither, and this crate knows no law.
+//! [`State`] holds the values at the nodes at one time: the beginning, or an increment of a result file.
+//! [`Join`] makes states of result files: it maps labels to nodes of the mesh and fields to pairs, and joins the frames of one time.
+//! [`NodeRows`] makes a row for each slave node and state, in [`Batch`](inpact_evaluation::nodes::Batch)es of the columns that any of the states can fill,
+//! and counts them ([`PairSummary`]).
 //!
-//! Nothing is guessed: a node without a master face across has an empty clearance unless a solver says one, a master field that a node of its face lacks is empty
-//! too, and what of a result file could not be used is named.
+//! Nothing is guessed: a node without an opposite master face has an empty clearance unless a solver gives one, a master field that a node of its face lacks is empty
+//! too, and the parts of a result file that could not be used are reported.
 //!
 //! ```
 //! use inpact_contact::{NodeRows, State};

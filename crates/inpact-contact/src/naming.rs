@@ -1,4 +1,4 @@
-//! Names of rows: a history is the rows of one name under one interaction, so that no two rows of a time may share it.
+//! Names of rows: a history is the rows of one name under one interaction, so that a name must be unique among the rows of a time.
 
 use inpact_geometry::NodeId;
 use inpact_parser::mesh::{Mesh, MeshPair};

@@ -1,4 +1,4 @@
-//! A contact pair in a state: what is across from each slave node, and what ADJUST and small sliding make of it.
+//! A contact pair in a state: the projection of each slave node, and the effect of ADJUST and small sliding on it.
 
 use crate::Error;
 use crate::state::State;

@@ -1,4 +1,4 @@
-//! The slave surfaces of all pairs, to be drawn: a point a row of a state, in the order of the rows.
+//! The slave surfaces of all pairs, to be drawn: one point per row of a state, in the order of the rows.
 
 use crate::pair::Pair;
 use crate::state::State;

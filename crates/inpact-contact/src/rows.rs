@@ -1,4 +1,4 @@
-//! From states to rows: a batch a pair and state.
+//! From states to rows: one batch per pair and state.
 
 use crate::Error;
 use crate::naming::Names;

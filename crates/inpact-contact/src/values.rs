@@ -1,4 +1,4 @@
-//! The numbers of a row: what a result file says of the slave node, else the geometry, and fields of the master by the weights of its nodes.
+//! The numbers of a row: those of a result file at the slave node, else of the geometry; fields of the master are interpolated by the weights of its nodes.
 
 use crate::pair::{Pair, across, interpolated};
 use crate::state::{ContactQuantity, NodeQuantity, State};

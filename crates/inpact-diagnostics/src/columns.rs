@@ -1,7 +1,7 @@
-//! Columns as other programs count them: in bytes, in UTF-16 code units, in characters.
+//! Column units of other programs: bytes, UTF-16 code units, characters.
 //!
 //! Editors name a place by its line and a number of units from the start of that line; which units is agreed on with each editor.
-//! Text that is no UTF-8 is counted as [`Position`](crate::span::Position) counts it: a byte that goes on with a character counts nothing.
+//! Text that is not valid UTF-8 is counted as [`Position`](crate::span::Position) counts it: continuation bytes count as nothing.
 
 /// The widest column of a table in text.
 const WIDEST: usize = 200;

@@ -1,4 +1,4 @@
-//! A finding with its place, reason and help: the one source of every output format.
+//! A finding with its place, reason and help: the single source of every output format.
 
 use crate::fix::{Edit, Fix, FixSafety};
 use crate::rule::Rule;

@@ -1,4 +1,4 @@
-//! Changes that mend a finding: edits on spans, and what they make of the bytes of a file.
+//! Fixes of a finding: edits on spans, and their application to the bytes of a file.
 
 use crate::span::Span;
 

@@ -1,4 +1,4 @@
-//! The lines around findings, kept with them where their file is not kept: node tables, scenes and the tables beside them.
+//! The lines around findings, stored with them where the file is not kept: node tables, scenes and the tables of scenes.
 
 use crate::diagnostic::{Diagnostic, Extent, Lines};
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Metadata of a rule, known without running it.
+//! Metadata of a rule, available without running it.
 
 use crate::severity::Severity;
 

@@ -1,6 +1,6 @@
 //! Places in the source files of a deck: spans of bytes, lines and columns.
 //!
-//! Knows nothing of keywords or values.
+//! Independent of keywords and values.
 
 use std::cmp::Ordering;
 use std::fmt;

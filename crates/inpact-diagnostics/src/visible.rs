@@ -1,4 +1,4 @@
-//! Text from elsewhere made safe to look at: the one place that escapes what a terminal, or an eye, would obey.
+//! Untrusted text made safe to display: the one place that escapes control and invisible characters.
 //!
 //! Decks, tables, JSON, TOML and the names of files may hold any character. A message quotes them, and an escape sequence in a
 //! name must not move the cursor, nor an invisible character make two names look the same. Results are not changed: they are bytes.

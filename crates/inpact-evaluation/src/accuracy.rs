@@ -1,9 +1,9 @@
-//! How exactly a table is evaluated: twice the precision of f64, f64 as exact as it goes, or faster on a grid with an error that is known beforehand.
+//! Accuracy of table evaluation: double-double, f64 to within rounding, or faster on a grid with an a-priori error bound.
 //!
 //! [`choose`] takes the cheapest [`Method`] whose error bound is acceptable.
 //! A bound is computed from the table and holds for every finite query; it is never an estimate from a sample.
 //!
-//! Rules of evaluation are those of [`crate::table`]: T-04 to T-07, constant ends, [`Tail::Zero`](crate::table::Tail), NaN in gives NaN out.
+//! The rules of evaluation are those of [`crate::table`]: T-04 to T-07, constant ends, [`Tail::Zero`](crate::table::Tail), NaN in gives NaN out.
 //! Knows tables and numbers, no plan, no column names, no files.
 
 #![allow(clippy::inline_always, reason = "what is not inlined is not compiled for the processor at hand")]

@@ -1,6 +1,6 @@
-//! Arrow, as far as it is read and written here: record batches and their arrays, types and errors.
+//! The part of Arrow that is used here: record batches and their arrays, types and errors.
 //!
-//! The crates of Arrow under the names of the one that bundles them, without those that compute.
+//! Re-exports the Arrow crates under the names of the `arrow` crate, without its compute kernels.
 
 pub use crate::nodes::arrays::{numbers, texts, without_dictionary};
 

@@ -1,13 +1,13 @@
-//! Evaluates the laws of a plan over batches of rows: tables and, where it can be, current and heat in columns, everything else row by row.
+//! Evaluates the laws of a plan over batches of rows: tables and, where possible, current and heat by column, everything else row by row.
 //!
 //! Rows of one node under one interaction are increments of its history, in the order they come in; a node's first row starts it unless
 //! [`Choices::history_start`] says otherwise (C-25):
 //! its time integrals are 0, the jump of potential at its start is its own, the rate of its clearance is 0 unless given.
-//! Results depend on the rows alone: not on how they are cut into batches, nor on the number of threads that share them.
-//! Rows that stand alone are shared out by batches, those of histories by their nodes; a user's routine is asked by one thread, in the order of the rows.
+//! Results depend on the rows alone, not on the batch size or the number of threads.
+//! Rows without histories are partitioned by batch, those with histories by node; a user's routine is called from one thread, in the order of the rows.
 //!
-//! A row that lacks a number which a law needs has no results of that law and is no increment of its history;
-//! the next increment then begins at the last row that had them all.
+//! A row that lacks a number needed by a law has no results of that law and is no increment of its history;
+//! the next increment then begins at the last complete row.
 //! Opens no file: batches in, batches out.
 
 mod coordinates;

@@ -1,6 +1,6 @@
-//! A table and how it is evaluated: the accuracy that was asked for, over columns.
+//! A table with its evaluation method, by the requested accuracy, over columns.
 //!
-//! The meaning of a law's tables is in [`crate::table`]; how exactly and how fast their values are found is chosen once ([`choose`]).
+//! The meaning of a law's tables is in [`crate::table`]; the accuracy and speed of their evaluation are chosen once ([`choose`]).
 
 use std::sync::Arc;
 

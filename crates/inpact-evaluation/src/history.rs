@@ -3,10 +3,10 @@
 //! The manuals do not say how ECDT, SJDT, HTL, SFDRT and PTL are integrated; the decision is backward Euler (semantics O-5, Q-26): flow at the end of an increment times its duration,
 //! with SJDT from the increment's mean heat (H-08). The gap-filling part of PTL is −w Δb of the filled width exactly, or, where a rate is given, that rate times the duration, as PFL.
 //! Where a history starts is a choice ([`HistoryStart`], C-25): at its first row, where the integrals are 0 and the jump at its start is its own, or at rest before it.
-//! Sums are compensated, so that ten million increments cost no digits, and may leave the range of f64 on their way.
+//! Sums are compensated, so that ten million increments cost no digits, and partial sums may exceed the range of f64.
 //!
-//! One row takes two calls: `begin` gives what the law needs from the row before, `finish` adds what the law answered.
-//! The caller refuses times that do not ascend.
+//! One row takes two calls: `begin` gives what the law needs from the previous row, `finish` adds the results of the law.
+//! The caller rejects times that do not ascend.
 
 mod steps;
 mod thermal;

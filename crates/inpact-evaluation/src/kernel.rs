@@ -1,11 +1,11 @@
-//! Kernels of the `full` mode: columns in, columns out, vectorised, with the bits of the scalar functions.
+//! Kernels of the `full` mode: columns in, columns out, vectorised, bitwise equal to the scalar functions.
 //!
-//! A [`TableKernel`] evaluates a [`PiecewiseTable`] over columns; [`electrical`] makes the whole electrical output set in one pass.
-//! Which instructions are used is decided when the program runs ([`InstructionSet`]); the results do not depend on it, nor on the number of threads.
+//! A [`TableKernel`] evaluates a [`PiecewiseTable`] over columns; [`electrical`] computes all electrical outputs in one pass.
+//! The instruction set is selected at run time ([`InstructionSet`]); the results depend neither on it nor on the number of threads.
 //!
-//! The vectors hold the same expression as in [`crate::numbers::interpolate`] and [`crate::numbers::between`], operation by operation.
-//! Where these take a longer way (a segment without kernel slope, extreme exponents), the vector gives NaN,
-//! and every row that is NaN is done again by [`PiecewiseTable::value_and_sides_at`].
+//! The vectors compute the same expression as [`crate::numbers::interpolate`] and [`crate::numbers::between`], operation by operation.
+//! Where these take a slow path (a segment without kernel slope, extreme exponents), the vector gives NaN,
+//! and every row that is NaN is recomputed by [`PiecewiseTable::value_and_sides_at`].
 //!
 //! A kernel knows numbers and tables only; it allocates nothing per row.
 

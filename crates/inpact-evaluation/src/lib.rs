@@ -5,7 +5,7 @@
 //! None of these knows a file or the parser's model.
 //!
 //! Around them: [`nodes`] reads node tables, [`plan`] puts a deck's model and a node table together, [`Evaluation`] runs a plan over batches of rows,
-//! [`results`] writes what comes out.
+//! [`results`] writes the output.
 //! No file is opened here: streams in, streams out.
 //!
 //! ```
@@ -19,7 +19,7 @@
 //! let nodes = "node,clearance,epot_s,epot_m\n1,0.,3.,2.\n2,1.,3.,2.\n";
 //! let (model, _) = model::read(&scan("joint.inp", deck, Grammar::builtin()), Grammar::builtin());
 //!
-//! // What the rows hold, which laws that is enough for, and what comes of them.
+//! // Survey the columns, plan the laws they suffice for, and evaluate these.
 //! let (choices, mut findings) = (Choices::default(), Findings::new("nodes.csv"));
 //! let first = NodeReader::open(Box::new(nodes.as_bytes()), &mut findings)?;
 //! let survey = plan::survey(first, &model, &choices, &mut findings)?.expect("a table without errors");

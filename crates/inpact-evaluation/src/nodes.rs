@@ -1,11 +1,11 @@
-//! Node tables: what the contact surfaces of a model do, row by row, as text or numbers in columns.
+//! Node tables: the state of contact surfaces, row by row, as columns of text or numbers.
 //!
-//! The columns and their other names are a contract with users; [`Column`] is its list.
-//! A table is read in batches of rows, so that its length costs no memory: [`NodeReader`] turns the cells that were asked for into [`Batch`]es,
-//! and everything else is passed over unread.
-//! A fault of a table is a value, a `Diagnostic` of rules D001 to D010 and D020 to D022; errors are those of reading only.
+//! The columns and their alternative names are a contract with users; [`Column`] lists them.
+//! A table is streamed in batches of rows, so that memory does not grow with its length: [`NodeReader`] turns the requested cells into [`Batch`]es
+//! and skips everything else.
+//! A fault of a table is a value, a `Diagnostic` of rules D001 to D010 and D020 to D022; errors are input errors only.
 //!
-//! Knows no law and no deck: what a column is needed for is the plan's business.
+//! Knows no law and no deck: the plan decides which columns are needed.
 
 #[cfg(feature = "columnar")]
 pub(crate) mod arrays;

@@ -1,14 +1,14 @@
 //! Floating-point building blocks of the laws: interpolation, products, means and sums that keep their accuracy at the extremes.
 //!
-//! Everything here is a function of plain `f64`; tables, laws and files are unknown to it.
-//! Four promises hold for all finite inputs, subnormal numbers and values near the overflow limit included:
+//! Everything here is a function of plain `f64`, independent of tables, laws and files.
+//! Four guarantees hold for all finite inputs, subnormal numbers and values near the overflow limit included:
 //!
 //! - interpolation between two values of one sign is within 1.5 ulp of the exact value, exact at both ends and never outside them ([`interpolate`], [`between`]);
-//! - a product or a dissipation whose exact value is a finite number is one, whatever its intermediate results would do ([`product`]);
-//! - a sum keeps the digits its terms lose against each other ([`CompensatedSum`]), and one over a history or an interface may leave the range on its way ([`UnboundedSum`]);
-//! - what is rounded to be shown goes on unrounded where it could leave the range of f64 ([`Amount`]).
+//! - a product or a dissipation whose exact value is finite is finite, even where intermediate results would overflow or underflow ([`product`]);
+//! - a sum keeps the digits lost to rounding ([`CompensatedSum`]), and partial sums over a history or an interface may exceed the range ([`UnboundedSum`]);
+//! - a value that is rounded for output is used further unrounded where it could exceed the range of f64 ([`Amount`]).
 //!
-//! Ordinary exponents take a short path of plain arithmetic; all others go through [`Scaled`], a number of 106 bits whose exponent cannot overflow.
+//! Ordinary exponents take a fast path of plain arithmetic; all others go through [`Scaled`], a number of 106 bits whose exponent cannot overflow.
 
 mod amount;
 mod double_double;

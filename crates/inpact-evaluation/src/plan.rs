@@ -1,15 +1,15 @@
-//! The plan of an evaluation: which laws, tables, columns and outputs a deck and a node table need, and what is left out and why.
+//! The plan of an evaluation: which laws, tables, columns and outputs a deck and a node table need, and what is left out, with the reason.
 //!
-//! A [`Survey`] reads the node table once: which columns have numbers in the rows of which interaction, and between which bounds.
-//! [`make`] puts deck and survey together. A [`Plan`] is a plain value that can be printed; [`Evaluation`](crate::evaluate::Evaluation) runs it.
+//! A [`Survey`] reads the node table once: which columns have numbers in the rows of each interaction, and their bounds.
+//! [`make`] combines deck and survey. A [`Plan`] is a plain value that can be printed; [`Evaluation`](crate::evaluate::Evaluation) runs it.
 //!
 //! Decisions (section 9.2, C-24, P-01, P-03, U-3, Q-1 to Q-6 of the semantics):
 //!
-//! - steady state or transient by the last procedure of the deck that solves the law's field, steady state where there is none, and as [`Choices::regime`] says above all;
+//! - steady state or transient by the last procedure of the deck that solves the law's field, steady state where there is none; [`Choices::regime`] overrides both;
 //! - an interaction has the electrical law when it has *GAP ELECTRICAL CONDUCTANCE, whatever the procedures;
-//! - it has the thermal law when it has *GAP CONDUCTANCE or *GAP RADIATION, or its rows tell of friction;
+//! - it has the thermal law when it has *GAP CONDUCTANCE or *GAP RADIATION, or its rows have the columns of friction;
 //! - it has the pore fluid law when both sides have pore pressures in its rows, and it has *CONTACT PERMEABILITY or a procedure solves pore pressure;
-//! - an output whose columns are not all there is left out, a law that lacks a column for its every result as a whole.
+//! - an output whose columns are not all present is left out; a law that lacks a column for each of its results is left out as a whole.
 
 mod choices;
 mod columns;

@@ -1,4 +1,4 @@
-//! Result tables: what comes out for each row of a node table, as columns in the order of the contract.
+//! Result tables: the results of each row of a node table, as columns in the order of the contract.
 //!
 //! [`Output`] is the list of columns, [`ResultBatch`] holds some rows of them, [`ResultWriter`] writes them as comma-separated values.
 //! Knows no law: numbers in, text out.

@@ -1,6 +1,6 @@
-//! Rows of a batch as the laws see them: the part of one interaction, its numbers by name, what came of a row, and the counts of it.
+//! Rows of a batch as the laws see them: the part of one interaction, its numbers by name, the outcome of each row, and counts.
 //!
-//! Knows no law and no evaluation: laws in columns and the evaluation that calls them both stand on it.
+//! Knows no law and no evaluation: the columnar laws and the evaluation that calls them both build on it.
 
 mod binder;
 mod outcome;

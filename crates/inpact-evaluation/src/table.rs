@@ -1,10 +1,10 @@
 //! Tables of a property against any number of variables: nested piecewise-linear functions.
 //!
-//! A table's rows stand in the order of the deck, the first variable running fastest (semantics T-01 to T-03; Analysis User's Guide 1.2.1 and 21.1.2).
+//! A table's rows are in the order of the deck, the first variable varying fastest (semantics T-01 to T-03; Analysis User's Guide 1.2.1 and 21.1.2).
 //! They need not form a grid: each combination of the outer variables has its own abscissae of the inner ones (T-05), and the value is found from the inside out (T-06):
 //! each group is interpolated at its own abscissae with its own constant ends, then the results are interpolated over the next variable.
 //!
-//! Knows nothing of keywords or files: numbers in, numbers out, no allocation at a query.
+//! Independent of keywords and files: numbers in, numbers out, no allocation at a query.
 
 mod arithmetic;
 mod build;

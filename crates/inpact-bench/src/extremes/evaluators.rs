@@ -1,4 +1,4 @@
-//! The ways to evaluate a table, each a line of a list: the modes and their kernels.
+//! The ways to evaluate a table: the modes and their kernels.
 
 use inpact_evaluation::table::{
     ErrorBound, Grid, InstructionSet, PiecewiseTable, Refusal, TableKernel, commensurate_cells, full_bound,

@@ -1,4 +1,4 @@
-//! Current and heat at the extremes: potentials that cancel, products that leave the range of f64 on their way, long histories.
+//! Current and heat at the extremes: potentials that cancel, products whose intermediate results overflow or underflow, long histories.
 
 use super::judge::{exact, ulps_from};
 use super::markdown::{count, number, table, ulps};

@@ -1,4 +1,4 @@
-//! Values against what is exact, and against the bound that was promised.
+//! Values compared with the exact result and with the guaranteed bound.
 
 use super::judge::{exact, ulps_from};
 use inpact_evaluation::table::ErrorBound;

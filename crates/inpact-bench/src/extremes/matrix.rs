@@ -1,4 +1,4 @@
-//! The matrix of extremes: each extreme number as each quantity of the electrical law, what comes out and why.
+//! The matrix of extremes: each extreme number as each quantity of the electrical law, the result and the reason for it.
 
 use super::judge::{Ending, Rows, exact, table_value, ulps_from};
 use super::markdown::{number, table, ulps};

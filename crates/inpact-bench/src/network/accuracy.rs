@@ -1,4 +1,4 @@
-//! The page of what the solvers make of all contrasts: docs/network.md.
+//! The page on the accuracy of the solvers at all contrasts: docs/network.md.
 
 use super::exact::{self, Exact, relative_error};
 use super::grid::Grid;

@@ -1,6 +1,6 @@
-//! Exact solutions of linear networks, the judge of the solvers.
+//! Exact solutions of linear networks, the reference for the solvers.
 //!
-//! Written from Kirchhoff's laws alone, in whole numbers: nothing of the solvers' own formulas is in it.
+//! Written from Kirchhoff's laws alone, in integer arithmetic: it shares no formula with the solvers.
 
 use inpact_network::linear::{LinearNetwork, Link};
 use num_bigint::{BigInt, Sign};

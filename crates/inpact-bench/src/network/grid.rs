@@ -1,4 +1,4 @@
-//! Grids of nodes with one interface, as large as wanted.
+//! Grids of nodes of any size with one interface.
 
 use crate::random::Random;
 use inpact_network::linear::{LinearNetwork, Link};

@@ -1,4 +1,4 @@
-//! The plain way to solve a network, for comparison: nodes as unknowns, one assembled matrix, one Cholesky factor.
+//! The textbook way to solve a network, for comparison: nodes as unknowns, one assembled matrix, one Cholesky factor.
 
 use super::grid::Assembled;
 use faer::linalg::solvers::Solve;

@@ -1,4 +1,4 @@
-//! One run of a solver on a grid: times of its parts, memory, and how good the solution is, as a line of JSON.
+//! One run of a solver on a grid: times of its phases, memory and the quality of the solution, as a line of JSON.
 
 use super::grid::Grid;
 use inpact_network::Error;

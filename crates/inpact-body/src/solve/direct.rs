@@ -1,4 +1,4 @@
-//! A Cholesky factor of the nodes that are not held.
+//! A Cholesky factor over the free nodes.
 
 use super::Equations;
 use inpact_network::linear::{Cholesky, NoSolution};

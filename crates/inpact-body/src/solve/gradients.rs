@@ -1,10 +1,10 @@
-//! Conjugate gradients for several right-hand sides, preconditioned by one symmetric sweep of Gauss and Seidel.
+//! Conjugate gradients for several right-hand sides, preconditioned by one symmetric Gauss–Seidel sweep.
 //!
 //! With the diagonal scaled to one, A = L + 1 + Lᵀ, and with the preconditioner (1 + L)(1 + Lᵀ) each step takes one solution with either factor and no product
 //! with A: (1 + L)⁻¹ A (1 + Lᵀ)⁻¹ p = t + (1 + L)⁻¹(p − t), t = (1 + Lᵀ)⁻¹ p (S. C. Eisenstat, Efficient implementation of a class of preconditioned conjugate
 //! gradient methods, SIAM J. Sci. Stat. Comput. 2, 1981). The preconditioner exists for every matrix that is positive definite, whatever the signs of its entries.
 //!
-//! Up to four right-hand sides go through the matrix together, whose entries are then read once for all.
+//! Up to four right-hand sides are multiplied together, so that the entries of the matrix are read once for all of them.
 
 use super::Equations;
 

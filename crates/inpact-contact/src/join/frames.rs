@@ -1,4 +1,4 @@
-//! A state in the making: what the frames of one time say, gathered node by node.
+//! A state under construction: the values of the frames of one time, collected node by node.
 
 use super::nodes::nodes_of;
 use super::quantities::Quantity;

@@ -1,9 +1,9 @@
-//! The node of the mesh of a label of a result file.
+//! Maps labels of a result file to nodes of the mesh.
 //!
-//! In a deck without instances labels are those of the deck, which coordinates of the file confirm where it has them.
-//! A deck with instances has a label several times, and Abaqus numbers its nodes anew: there coordinates identify them, else the instance that a report names, else the
-//! slave surface of the pair that a value is of.
-//! Nodes at one place, which touching surfaces that share a mesh have many of, are distinguished by the surfaces of the file.
+//! In a deck without instances labels are those of the deck; the coordinates in the file confirm them where it has any.
+//! A deck with instances has a label several times, and Abaqus renumbers its nodes: there coordinates identify them, else the instance that a report names, else the
+//! slave surface of the pair that a value belongs to.
+//! Coincident nodes, of which touching surfaces with matching meshes have many, are distinguished by the surfaces of the file.
 
 use crate::Error;
 use inpact_geometry::{NodeId, Point};

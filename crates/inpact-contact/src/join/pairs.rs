@@ -1,4 +1,4 @@
-//! The pair of the deck of a pair of a result file.
+//! Maps contact pairs of a result file to those of the deck.
 //!
 //! Abaqus writes names of surfaces in capitals, with the assembly and the instance before them: `ASSEMBLY_PLATE-1_TOP` for `Plate-1.Top`.
 

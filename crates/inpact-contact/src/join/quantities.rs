@@ -1,4 +1,4 @@
-//! Quantities of node tables in the columns of result files.
+//! Maps columns of result files to the quantities of node tables.
 
 use crate::state::{ContactQuantity, NodeQuantity};
 use inpact_evaluation::results::Output;

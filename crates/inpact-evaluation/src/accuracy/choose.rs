@@ -1,6 +1,6 @@
-//! How a table is evaluated: in the cheapest way whose error bound is within what the user accepts.
+//! Choice of the evaluation method of a table: the cheapest whose error bound is within the user's tolerance.
 //!
-//! The choice depends on the table and the tolerance alone, never on a measurement: what is cheaper follows from the shape of the table ([`Shape`]).
+//! The choice depends on the table and the tolerance alone, never on a measurement: the cost follows from the shape of the table ([`Shape`]).
 
 use super::grid::Grid;
 use super::{

@@ -1,11 +1,11 @@
-//! Tables of two and more axes resampled on a regular grid: no search, one multiplication finds the cell.
+//! Tables of two or more axes resampled on a regular grid: one multiplication finds the cell, without a search.
 //!
-//! The nodes have the table's values, between them the grid is multilinear. Within a cell of the common refinement of grid and table both are linear along each axis,
+//! The nodes have the table's values; between them the grid is multilinear. Within a cell of the common refinement of grid and table both are linear along each axis,
 //! and so is their difference: its largest magnitude is at a vertex of the refinement, and so is its largest ratio to the table's value.
-//! The bound is the largest found there, hence the true maximum, and what rounding can add.
-//! The refinement is gone through in bands between two neighbouring groups of the outermost axis, which need only the abscissae of these two.
+//! The bound is the largest found there, hence the true maximum, plus a bound on rounding.
+//! The refinement is processed in bands between two neighbouring groups of the outermost axis, which need only the abscissae of these two.
 //!
-//! A grid whose lines meet all abscissae is the table itself up to rounding ([`commensurate_cells`]). For one axis a grid gains nothing, see `docs/accuracy.md`.
+//! A grid whose lines contain all abscissae is the table itself up to rounding ([`commensurate_cells`]). For one axis a grid gains nothing, see `docs/accuracy.md`.
 
 use super::refusal::{MOST_AXES, MOST_NODES, MOST_VERTICES};
 use super::vertices::{abscissae, all_abscissae, for_each_vertex};

@@ -1,4 +1,4 @@
-//! Why a method is not taken for a table.
+//! Reasons why a method is not used for a table.
 
 use std::fmt;
 

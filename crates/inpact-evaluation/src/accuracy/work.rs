@@ -1,13 +1,13 @@
 //! Costs of a row in each method, by the shape of the table alone: searches, interpolations and divisions, counted.
 //!
-//! The unit is about a nanosecond of a present-day core with AVX2; what is chosen by it is the order, which follows from the counts:
+//! The unit is about a nanosecond of a present-day core with AVX2; only the order matters for the choice, and it follows from the counts:
 //!
 //! - `full` searches each axis, once for all groups that share their abscissae and once a group where they do not, and interpolates 2ⁿ⁻¹ times along the innermost axis;
-//!   each of the 2ⁿ⁻¹ − 1 interpolations along outer axes takes two divisions, since what is between is known only at the query;
-//! - a grid searches nothing and has 2ⁿ − 1 fused multiply-adds. With one axis it would save a search that takes no longer than its own loads,
-//!   and lose the abscissae: there it is no trade.
+//!   each of the 2ⁿ⁻¹ − 1 interpolations along outer axes takes two divisions, since the values between which it interpolates are known only at the query;
+//! - a grid needs no search and has 2ⁿ − 1 fused multiply-adds. With one axis it would save a search that takes no longer than its own loads,
+//!   and lose the abscissae: there it gains nothing.
 //!
-//! `cargo bench -p inpact-bench --bench kernels` shows the times of all of them beside each other.
+//! `cargo bench -p inpact-bench --bench kernels` compares the times of all of them.
 
 use crate::table::PiecewiseTable;
 use std::fmt;

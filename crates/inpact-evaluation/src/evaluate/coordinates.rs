@@ -1,7 +1,7 @@
-//! The points at which the tables of a plan are read: for each table in force, the coordinates of the rows that reach it.
+//! The points at which the tables of a plan are evaluated: for each table in force, the coordinates of the rows that reach it.
 //!
-//! They are the points an evaluation would read it at, kept for whoever measures tables on a user's own rows.
-//! View factors of radiation and the curves of CalculiX are not among them: they are evaluated in one form only.
+//! They are the points of an evaluation, kept to measure tables on a user's own rows.
+//! View factors of radiation and the curves of CalculiX are not included: they are evaluated in one form only.
 
 use super::laws::Laws;
 use super::worker::Worker;

@@ -1,4 +1,4 @@
-//! Tables of a part, evaluated before its rows are gone through.
+//! Table values of a part, evaluated by column before the pass over its rows.
 
 use crate::evaluator::TableValues;
 use crate::law::conductance::columns::ConductanceColumn;

@@ -1,4 +1,4 @@
-//! From kept rows to results: while some batches are written the next are evaluated.
+//! From kept rows to results: batches are evaluated while earlier ones are written.
 
 use super::Evaluation;
 use crate::nodes::{Batch, GivenBack};

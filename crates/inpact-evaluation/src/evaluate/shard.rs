@@ -1,4 +1,4 @@
-//! The histories of some of the nodes: their rows are gone through in their order, one after the other.
+//! A shard of the nodes with their histories: their rows are evaluated sequentially, in order.
 
 use super::found::Found;
 use super::laws::{InteractionLaws, Laws};

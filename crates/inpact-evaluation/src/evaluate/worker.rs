@@ -1,4 +1,4 @@
-//! The work of one thread on a batch: its rows by their interaction, all tables in columns, and every law in the rows that stand alone.
+//! The work of one thread on a batch: its rows partitioned by interaction, all tables by column, and every law of the rows without histories.
 
 use super::found::Found;
 use super::laws::{InteractionLaws, Laws, Summary};

@@ -1,4 +1,4 @@
-//! What rows add to the integrals of current and heat, in columns: each is a product with the duration and what its rounding took away.
+//! Contributions of rows to the integrals of current and heat, by column: each is a product with the duration and its rounding error.
 
 #![expect(
     clippy::inline_always,

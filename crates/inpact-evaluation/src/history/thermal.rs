@@ -1,6 +1,6 @@
 //! The integrals of the heat at one node: HTL and SFDRT and, times its area, HTLA and SFDRTA.
 //!
-//! Backward Euler, as the integrals of current are (O-5). The two flows have increments of their own, because a row may know one and not the other.
+//! Backward Euler, as the integrals of current are (O-5). The two flows have increments of their own, because a row may have one and not the other.
 
 use super::{HistoryStart, Integral};
 use crate::numbers::Amount;

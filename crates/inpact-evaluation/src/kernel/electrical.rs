@@ -1,7 +1,7 @@
 //! The electrical outputs of a block of rows in one pass: current, heat, their shares and products with the area.
 //!
-//! The same bits as [`ElectricalLaw::flow`](crate::law::electrical::ElectricalLaw::flow).
-//! A chunk of rows with an extreme input is done by that function, row by row; see `is_zero_or_ordinary`.
+//! Bitwise equal to [`ElectricalLaw::flow`](crate::law::electrical::ElectricalLaw::flow).
+//! A chunk of rows with an extreme input falls back to that function, row by row; see `is_zero_or_ordinary`.
 
 use super::InstructionSet;
 use crate::law::contact::PotentialJump;

@@ -1,4 +1,4 @@
-//! The instructions a kernel may use, found when the program runs.
+//! The instruction set of a kernel, detected at run time.
 
 use std::fmt;
 

@@ -4,7 +4,7 @@
 //! along an outer one both neighbouring groups are evaluated for the whole block and the values are interpolated as [`crate::numbers::between`] does.
 //! Coordinates are clamped to the range of their group first, which gives the value at its end.
 //!
-//! An axis whose groups all have the same abscissae is searched once a block, whatever the number of groups that a row's value needs; any other once for each of these.
+//! An axis whose groups all have the same abscissae is searched once per block, however many groups a row's value needs; any other once for each of these.
 
 use std::hint::select_unpredictable;
 use std::ops::Range;

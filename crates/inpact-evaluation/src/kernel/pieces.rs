@@ -1,8 +1,8 @@
-//! Half segments: the pieces of an axis on which interpolation starts from one and the same end.
+//! Half segments: the pieces of an axis on which interpolation starts from the same end.
 //!
 //! [`crate::numbers::interpolate`] starts from the left end while `x - x0 <= x1 - x` and from the right end after that.
-//! Both differences are monotone in x as computed, so that there is one last x of the left half, which is found here bit by bit:
-//! at a query one search over the halves then tells segment and end together.
+//! Both differences are monotone in x as computed, so that there is one last x of the left half, found here by bisection over the bits of f64:
+//! at a query one search over the halves then gives segment and end together.
 
 use std::hint::select_unpredictable;
 

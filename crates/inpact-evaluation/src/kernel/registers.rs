@@ -1,7 +1,7 @@
 //! Tables of one axis and at most 16 knots, held in AVX-512 registers.
 //!
-//! The segment is found by halving, each step a permutation that fetches the knot to compare with; another fetches where its right half begins,
-//! which tells the nearer end (see [`super::pieces`]), and the last four that end, the value there and the slope.
+//! The segment is found by binary search, each step a permutation that fetches the knot to compare with; another fetches the start of its right half,
+//! which gives the nearer end (see [`super::pieces`]), and the last four fetch that end, the value there and the slope.
 
 use std::arch::x86_64::{__m512d, __m512i, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_UNORD_Q};
 

@@ -1,6 +1,6 @@
-//! What a column of numbers holds, found in one vectorised look: its extremes, the numbers that are not finite, those of extreme size.
+//! Properties of a column, computed in one vectorised pass: minimum and maximum, counts of non-finite numbers and of numbers of extreme magnitude.
 //!
-//! A running minimum waits for the one before it; here each of [`LANES`] places of a block has its own, which are put together at the end.
+//! A running minimum depends on the previous one; here each of [`LANES`] lanes has its own, and the lanes are reduced at the end.
 
 #![expect(clippy::needless_bitwise_bool, reason = "a branch a number would keep a loop from its vectors")]
 

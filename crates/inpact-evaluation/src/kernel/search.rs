@@ -1,7 +1,7 @@
-//! Search by buckets: which piece of its group an abscissa lies in, without a loop and without a branch that could be mispredicted.
+//! Bucket search: which piece of its group an abscissa lies in, without a loop and without a branch that could be mispredicted.
 //!
-//! The range of a group is cut into buckets, numbered by a key that rises with x: x itself, scaled, or for abscissae over many decades the order-preserving bits of the f64.
-//! A bucket tells the piece at its left end; as it holds few breaks (one, if there is room), as many comparisons tell the rest.
+//! The range of a group is divided into buckets, numbered by a key that increases with x: x itself, scaled, or for abscissae over many decades the order-preserving bits of the f64.
+//! A bucket stores the piece at its left end; as it holds few breaks (one, if there is room), as many comparisons give the rest.
 //! The keys of the breaks are computed by the same expression as those of the queries, so that its rounding cannot matter: it is monotone.
 
 use super::pieces::ordered;

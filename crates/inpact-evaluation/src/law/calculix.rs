@@ -1,4 +1,4 @@
-//! Thermal gap conductance as CalculiX has it: the same keyword *GAP CONDUCTANCE, another law.
+//! Thermal gap conductance of CalculiX: the same keyword *GAP CONDUCTANCE, another law.
 //!
 //! The rows are (conductance, contact pressure, temperature); rows of one temperature make a curve against pressure. There is no table against clearance:
 //! a pair of faces conducts where it is closed, and nowhere else.
@@ -9,10 +9,10 @@
 //! | below the first curve, or at or above the last | that curve, constant outside its pressures |
 //! | from one curve up to the next | both curves, **clipped to the pressures that both have**, linear in temperature; constant outside these pressures |
 //!
-//! The clipping is what sets it apart from the nested tables of Abaqus (T-06), in which each curve is constant outside its own pressures.
+//! The clipping distinguishes it from the nested tables of Abaqus (T-06), in which each curve is constant outside its own pressures.
 //! It makes the conductance jump where the mean temperature reaches a curve of other pressures.
-//! Curves that share no pressures have no value between them, and ccx stops: such rows form no law here either.
-//! ccx keeps room for 20 rows a curve and reads beyond that without a word; that fault is not part of the law (rule T016 warns of it).
+//! Curves whose pressure ranges are disjoint have no value between them, and ccx stops: such rows form no law here either.
+//! ccx has room for 20 rows a curve and silently reads beyond that; that bug is not part of the law (rule T016 warns of it).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

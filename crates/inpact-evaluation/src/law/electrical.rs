@@ -15,7 +15,7 @@
 //! | P, q_g | dissipation, heat | J T⁻¹ L⁻² |
 //! | η, f | [`HeatGeneration`] | |
 //!
-//! Domain: σ_g >= 0, any finite jump; P and q_g are right wherever they are finite themselves, however large Δφ² or small σ_g.
+//! Domain: σ_g >= 0, any finite jump; P and q_g are accurate wherever they are finite themselves, however large Δφ² or small σ_g.
 //! Derivatives: ∂J/∂Δφ = σ_g, ∂J/∂x = (∂σ_g/∂x) Δφ with the slopes of the table (semantics 4.4: right-hand at an abscissa, zero outside).
 //! Limits: Δφ₀ = Δφ₁ gives the steady form; σ_g = 0 no current and no heat.
 //! Source: semantics H-01 to H-08; Analysis User's Guide 37.3.1 and 37.2.1, Theory Guide 5.2.6 (6.14).

@@ -8,7 +8,7 @@
 //! | γ̇ | slip rate along the same direction; of magnitudes both are positive | L T⁻¹ |
 //! | P, q_g | dissipation, heat | J T⁻¹ L⁻² |
 //!
-//! Domain: any finite numbers; heat is right wherever it is finite itself. Shear and slip rate of opposite signs give a negative heat, which no friction does.
+//! Domain: any finite numbers; heat is accurate wherever it is finite itself. Shear and slip rate of opposite signs give a negative heat, which is unphysical.
 //! Derivatives: ∂q_g/∂τ = η γ̇, ∂q_g/∂γ̇ = η τ.
 //! Source: semantics H-02 to H-04, K-38; Analysis User's Guide 37.2.1 (6.14).
 

@@ -1,6 +1,6 @@
-//! The laws of one surface interaction as functions of plain inputs, for those who have no node table: a solver asks them point by point.
+//! The laws of one surface interaction as functions of plain inputs, for use without a node table: a solver evaluates them point by point.
 //!
-//! An interaction of a deck is interpreted in the same places as for a plan; here nothing is folded, as nothing is known of the points yet.
+//! An interaction of a deck is interpreted by the same code as for a plan; here nothing is folded, as the points are not yet known.
 
 use crate::law::conductance::ConductanceTables;
 use crate::law::friction::plan::tells_of_friction;

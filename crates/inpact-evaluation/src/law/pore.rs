@@ -6,7 +6,7 @@
 //!   without a table the permeability is infinite, both pore pressures are equal and q_across is an unknown of the equations (P-30);
 //! - gap filling: q_gap,slave = −w ḃ, q_gap,master = −(1 − w) ḃ with w = k₁ / (k₁ + k₂) of the bulk permeabilities of slave and master,
 //!   and w = ½ where the interface's permeability is infinite or the bulk's unknown (P-40 to P-42); zero in steady state (P-13).
-//!   What is filled is the gap of width b = min(max(d, 0), cutoff): overclosure presses nothing out, and a closed cycle gives 0.
+//!   The gap that fills has the width b = min(max(d, 0), cutoff): overclosure expels nothing, and a closed cycle gives 0.
 //!   A rate of the clearance that is given counts where 0 < d ≤ cutoff, and at d = 0 where the gap opens.
 //!
 //! | symbol | meaning | unit |

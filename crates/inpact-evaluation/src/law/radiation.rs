@@ -10,11 +10,11 @@
 //! | θ | temperature of one side, on the scale of the deck | θ |
 //! | q_r | heat flux | J T⁻¹ L⁻² |
 //!
-//! In contact the surfaces radiate on, beside what they conduct (K-41), with the view factor at d = 0; overclosure counts as d = 0.
+//! In contact the surfaces still radiate, in addition to conduction (K-41), with the view factor at d = 0; overclosure counts as d = 0.
 //!
-//! The difference of fourth powers is computed as (θ_s − θ_m) (θ_s' + θ_m') (θ_s'² + θ_m'²), θ' from absolute zero: no digits are lost between temperatures that are nearly equal.
-//! Domain: any finite numbers; q_r is right wherever it is finite itself.
-//! For temperatures above absolute zero it is within 6 ulp of the exact value; below it, which is no temperature, the formula holds all the same.
+//! The difference of fourth powers is computed as (θ_s − θ_m) (θ_s' + θ_m') (θ_s'² + θ_m'²), θ' from absolute zero: no digits are lost where the temperatures are nearly equal.
+//! Domain: any finite numbers; q_r is accurate wherever it is finite itself.
+//! For temperatures above absolute zero it is within 6 ulp of the exact value; below it, where there is no temperature, the formula is evaluated as it stands.
 //! Derivatives: ∂q_r/∂θ_slave = 4 C F (θ_slave − θ_Z)³, ∂q_r/∂θ_master = −4 C F (θ_master − θ_Z)³.
 //! Limits: equal temperatures give zero; an emissivity of zero gives C = 0.
 //! Source: semantics H-06, 2.6, K-40, K-41, T-27, A-30, section 8; Analysis User's Guide 37.2.1, Theory Guide 5.2.4 (6.14).

@@ -1,4 +1,4 @@
-//! Heat across an interface: conduction by *GAP CONDUCTANCE, and the sum of all that crosses and arises there.
+//! Heat across an interface: conduction by *GAP CONDUCTANCE, and the sum of all heat that crosses it or is generated there.
 //!
 //! q_k = k (θ_slave − θ_master), positive leaving the slave surface.
 //! With radiation q_r and generated heat q_g of which the share f goes into the slave, the heat that leaves each side is
@@ -6,7 +6,7 @@
 //! - slave: q_k + q_r − f q_g (output HFL);
 //! - master: −q_k − q_r − (1 − f) q_g;
 //!
-//! so that both sides together take in q_g: the interface stores no heat (H-09).
+//! so that both sides together absorb q_g: the interface stores no heat (H-09).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -15,9 +15,9 @@
 //! | ṁ | mean of the magnitudes of the mass flow rates of both sides | M L⁻² T⁻¹ |
 //! | q | heat flux | J T⁻¹ L⁻² |
 //!
-//! Domain: any finite temperatures; q_k is right wherever it is finite, also where the difference of the temperatures is not.
+//! Domain: any finite temperatures; q_k is accurate wherever it is finite, even where the difference of the temperatures is not.
 //! Derivatives: ∂q_k/∂θ_slave = k + ½k'(θ_slave − θ_master), ∂q_k/∂θ_master = −k + ½k'(θ_slave − θ_master), k' the slope along the mean temperature.
-//! Limits: beyond the last clearance k is zero (K-31), beyond the pressures it is constant.
+//! Limits: beyond the last clearance k is zero (K-31), outside the range of pressures it is constant.
 //! Source: semantics 4.2, 5 (H-02 to H-06, H-09), 8, K-30 to K-32; Analysis User's Guide 37.2.1, Theory Guide 5.2.4 and 5.2.6 (6.14).
 
 pub(crate) mod columns;

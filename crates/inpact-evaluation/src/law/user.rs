@@ -1,7 +1,7 @@
-//! Conductance by a user's own routine: *GAP ELECTRICAL CONDUCTANCE, USER.
+//! Conductance by a user subroutine: *GAP ELECTRICAL CONDUCTANCE, USER.
 //!
-//! Abaqus hands a [`UserConductancePoint`] to its user subroutine GAPELECTR and gets a [`UserConductanceValue`] back.
-//! Whatever answers the one with the other is a [`UserConductance`]: a Fortran library behind the command line's `--user-library`, or a type of a program that uses this crate.
+//! Abaqus passes a [`UserConductancePoint`] to its user subroutine GAPELECTR, which returns a [`UserConductanceValue`].
+//! Anything that maps the one to the other is a [`UserConductance`]: a Fortran library (`--user-library` on the command line), or a type of a program that uses this crate.
 //!
 //! | symbol | meaning | unit | argument of GAPELECTR |
 //! |---|---|---|---|
@@ -13,7 +13,7 @@
 //!
 //! The contact pressure is no argument: the manual writes σ_g(θ_A, θ_B, d, p, f_A, f_B), but the interface of the subroutine passes no p (U-1).
 //! The slope of the conductance along the average temperature, output `dconductance_dtemp`, is the sum of both slopes.
-//! Domain: whatever the routine takes; a point with a NaN in clearance, temperature or field variable is not put to it.
+//! Domain: that of the routine; it is not called for a point with a NaN in clearance, temperature or field variable.
 //! Source: semantics 7.1, U-1, U-2, S-43; User Subroutines Reference Guide 1.1.11.
 //!
 //! A law as a Rust type:

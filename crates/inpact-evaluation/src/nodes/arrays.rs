@@ -1,6 +1,6 @@
-//! Arrays of Arrow as what node tables hold: numbers as f64, labels as whole numbers or texts; dictionaries as their values.
+//! Arrow arrays as the types of node tables: numbers as f64, labels as integers or texts; dictionaries as their values.
 //!
-//! The casts between all types of Arrow are a large library of which this is the part that is needed.
+//! Only the casts that are needed; those of Arrow between all types are a large library.
 
 use crate::arrow::array::{Array, ArrayRef, ArrowPrimitiveType, AsArray, Float64Array, PrimitiveArray, StringArray};
 use crate::arrow::datatypes::{

@@ -1,4 +1,4 @@
-//! The names that columns of a node table go by.
+//! The names and aliases of columns of a node table.
 
 use super::column::{Column, Part};
 use super::contract::plain_columns;

@@ -1,7 +1,7 @@
-//! Node tables as Parquet or Arrow IPC (file and stream): the columns that were asked for, copied as columns.
+//! Node tables as Parquet or Arrow IPC (file and stream): the requested columns, copied as columns.
 //!
 //! Numbers may be floats, integers, booleans, or dictionaries of these; a null is a missing number, NaN is NaN.
-//! Key columns keep their array, so that a result table has them as they are; their text is made when somebody asks for it.
+//! Key columns keep their array, so that a result table has them unchanged; their text is made lazily.
 
 use super::arrays;
 use super::batch::{Batch, LabelColumn, NumberColumn};

@@ -1,6 +1,6 @@
 //! The contract of node tables: each column with its names, its meaning, its unit and what reads it.
 //!
-//! The one place that says what columns mean, for the reader, `explain` and the documentation.
+//! The single definition of the columns, for the reader, `explain` and the documentation.
 //! Units are by dimension: M mass, L length, T time, θ temperature, φ electric potential, C charge.
 
 use super::column::{Column, Direction, Part};

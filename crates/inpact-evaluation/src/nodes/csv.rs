@@ -1,4 +1,4 @@
-//! A node table of comma-separated values: pieces of text read one after the other, decoded several at a time, given out in their order.
+//! A node table of comma-separated values: pieces of text are read sequentially, decoded in parallel and returned in order.
 
 use super::batch::Batch;
 use super::decode::{Decoded, Layout, Problem, ProblemKind};

@@ -1,6 +1,6 @@
-//! Rows of text into columns: only the cells that were asked for are looked at.
+//! Decodes rows of text into columns; only the requested cells are parsed.
 //!
-//! Pieces of a table are independent of each other, so that several can be decoded at a time; rows and lines are counted from the beginning of the piece.
+//! Pieces of a table are independent, so that they can be decoded in parallel; rows and lines are counted from the beginning of the piece.
 
 use super::batch::Batch;
 use super::lines::{Cells, Piece, end_of_row, is_blank};

@@ -1,4 +1,4 @@
-//! Files that are no node table: what their first bytes say they are, and what to do about it.
+//! Files that are not node tables: their type by the first bytes, and what to do about it.
 
 use std::io;
 

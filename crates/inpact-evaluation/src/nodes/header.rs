@@ -1,4 +1,4 @@
-//! The header of a node table: which of its columns mean what.
+//! The header of a node table: the meaning of its columns.
 
 use super::column::Column;
 use super::rules::{DUPLICATE_COLUMN, UNKNOWN_COLUMN};

@@ -1,4 +1,4 @@
-//! The rows of one reading, kept so that the table is read once: in memory up to a limit, the rest in a file that the caller gives.
+//! Rows kept so that the table is read once: in memory up to a limit, beyond it spilled to a file that the caller gives.
 
 use super::batch::Batch;
 use super::reader::Selection;

@@ -1,8 +1,8 @@
 //! The text of a node table cut into pieces of whole rows, and rows into cells (RFC 4180).
 //!
-//! Lines end with LF, CRLF or a lone CR; a lone CR outside of quotes becomes LF as it is read, so that all else knows one line end (S-02).
-//! Cells stand between commas, or between semicolons or tabs where the header does.
-//! A quote that begins a cell opens a quoted one, in which separators and line ends are text and two quotes are one; any other quote is a character.
+//! Lines end with LF, CRLF or a lone CR; a lone CR outside of quotes becomes LF as it is read, so that the rest of the code has one line end (S-02).
+//! Cells are separated by commas, or by semicolons or tabs where the header uses them.
+//! A quote at the beginning of a cell opens a quoted cell, in which separators and line ends are text and a doubled quote is one quote; any other quote is an ordinary character.
 
 use super::column::Column;
 use memchr::{memchr, memchr2, memchr3, memrchr};

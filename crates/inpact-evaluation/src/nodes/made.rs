@@ -1,4 +1,4 @@
-//! Node tables that are made row by row in memory instead of being read: from a mesh, for one.
+//! Node tables that are generated in memory instead of being read, for example from a mesh.
 
 use super::batch::Batch;
 use super::column::Column;

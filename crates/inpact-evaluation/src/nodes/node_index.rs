@@ -1,7 +1,7 @@
-//! Which rows belong to one history: the rows of one node under one interaction.
+//! Grouping of rows into histories: the rows of one node under one interaction.
 //!
-//! Where all rows of a node stand together, one history at a time is enough, and memory does not grow with the number of nodes:
-//! [`NodeRuns`] finds out in a first reading, [`NodeIndex::by_node`] makes use of it.
+//! Where the rows of each node are contiguous, one history at a time is enough, and memory does not grow with the number of nodes:
+//! [`NodeRuns`] detects this in a first pass, [`NodeIndex::by_node`] relies on it.
 
 use std::collections::hash_map::RandomState;
 use std::collections::{HashMap, HashSet};

@@ -1,6 +1,6 @@
-//! The number a cell of text holds: what Rust reads as f64, `nan` and `inf` among it.
+//! The number in a cell of text: anything that Rust parses as f64, including `nan` and `inf`.
 //!
-//! Short decimals are read as in decks; everything else is the standard library's business, so that both give the same bits.
+//! Short decimals are read as in decks; everything else is left to the standard library, so that both give the same bits.
 
 use inpact_parser::number::read_plain;
 

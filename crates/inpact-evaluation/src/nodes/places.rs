@@ -1,6 +1,6 @@
-//! Where the cells that findings are about stand in a text table: column and bytes.
+//! Locations of the cells of findings in a text table: column and bytes.
 //!
-//! A reader of rows counts lines and no bytes; the table is read once more, as far as the last finding, when there is something to point at.
+//! The reader counts lines, not bytes; where there are findings, the table is read again up to the last of them.
 
 use super::lines::{BYTE_ORDER_MARK, separator_of};
 use inpact_diagnostics::span::{Position, Span};

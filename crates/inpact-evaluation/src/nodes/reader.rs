@@ -1,6 +1,6 @@
 //! A node table, read in batches of rows.
 //!
-//! A row is never left out: what cannot be read is reported and stands there as missing.
+//! A row is never dropped: a cell that cannot be read is reported and becomes a missing number.
 //! A cell that is empty or blank is a missing number.
 
 use super::batch::Batch;

@@ -1,6 +1,6 @@
 //! Faults of node tables: rules D001 to D010 and D020 to D022.
 //!
-//! The rules of other data that belongs to a deck stand where that data is read.
+//! The rules about other data of a deck are defined where that data is read.
 
 use inpact_diagnostics::data_rules;
 

@@ -1,9 +1,9 @@
-//! Tables of columns from anywhere, made safe to read.
+//! Validation of columnar files from untrusted sources.
 //!
-//! The libraries that read Parquet and Arrow trust what a file says of itself: how long a message is, how many bytes come out of a
-//! compressed buffer, how many values a dictionary has. A file of eight bytes can say two gibibytes, and memory that cannot be had
-//! ends the program. So a file is walked first, without its values being read: nothing may be longer than the file can hold, or
-//! come to more than compression can make of it. What contradicts itself in other ways makes the libraries panic, which is caught.
+//! The libraries that read Parquet and Arrow trust the sizes a file declares: the length of a message, the number of bytes in a
+//! decompressed buffer, the number of values of a dictionary. A file of eight bytes can declare two gibibytes, and a failed allocation
+//! ends the program. So the structure of a file is walked first, without reading its values: nothing may be longer than the file, or
+//! larger than the maximum compression ratio allows. Other inconsistencies make the libraries panic, which is caught.
 
 pub(super) mod arrow;
 pub(super) mod parquet;

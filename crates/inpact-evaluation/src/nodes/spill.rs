@@ -1,4 +1,4 @@
-//! Batches as bytes: how rows look in a file that they wait in. Only the run that wrote it reads it, so that it has neither version nor byte order.
+//! Batches as bytes: the format of a spill file. Only the run that wrote it reads it, so it needs neither version nor fixed byte order.
 
 use super::batch::{Batch, LabelColumn, NumberColumn};
 use std::io::{self, Read, Write};

@@ -1,4 +1,4 @@
-//! Tables that are stored as columns: where they are read from, and what they say of their columns.
+//! Columnar files: their sources and the metadata of their columns.
 
 use std::io::{Read, Seek};
 

@@ -1,4 +1,4 @@
-//! Work that other threads do, where feature `threads` is on, and waiting for it.
+//! Work on other threads, where feature `threads` is on, and waiting for it.
 
 use std::io;
 use std::sync::mpsc::{Receiver, TryRecvError};

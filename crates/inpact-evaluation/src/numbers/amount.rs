@@ -1,4 +1,4 @@
-//! A number that is multiplied and summed up further, and that may leave the range of f64 on the way to what is wanted of it.
+//! An intermediate result that is multiplied and summed further, and may exceed the range of f64 in between.
 
 use super::float::is_moderate;
 use super::scaled::Scaled;

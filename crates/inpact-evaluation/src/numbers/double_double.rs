@@ -1,4 +1,4 @@
-//! Numbers of 106 bits within the exponents of f64: what a running difference or a residual is kept in.
+//! Double-double numbers, 106 bits with the exponents of f64: for running differences and residuals.
 
 use super::float::{scale_by_power, two_difference, two_product, two_sum};
 use std::iter::Sum;

@@ -1,4 +1,4 @@
-//! Means, products and ratios whose intermediate results must not spoil a finite answer.
+//! Means, products and ratios whose intermediate results must not overflow or underflow where the result is finite.
 
 use super::float::is_ordinary;
 use super::scaled::Scaled;

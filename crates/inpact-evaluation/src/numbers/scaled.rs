@@ -1,4 +1,4 @@
-//! Double-double numbers with an exponent that neither over- nor underflows, for the inputs at which plain arithmetic loses its way.
+//! Double-double numbers with an exponent that neither over- nor underflows, for inputs at which plain arithmetic does.
 
 use std::ops::{Add, Div, Mul, Neg};
 

@@ -1,9 +1,9 @@
 //! Linear interpolation on one segment, and its slope.
 //!
-//! Two forms, both from the nearer end, so that each end is met exactly and no digits are lost against a far larger value at the other:
+//! Two forms, both from the nearer end, so that both ends are exact and no digits are lost against a far larger value at the other:
 //!
 //! - [`interpolate`], for the segments of a table: one fused multiply-add of the offset x − x0 and a slope computed beforehand,
-//!   then a correction by what the roundings of offset and slope took away. Two roundings remain, of the fused operation and of the correction: 1 ulp,
+//!   then a correction by the rounding errors of offset and slope. Two roundings remain, of the fused operation and of the correction: 1 ulp,
 //!   or 1.5 where the first crosses a power of two that the second takes back. As the sum before the last rounding is off by half an ulp at most,
 //!   the result never turns back by more than one ulp, and near an end the correction is too small to leave it.
 //! - [`between`], for values known only at the query, as those of the groups of a nested table are: the same expression in twice the precision, 0.5 ulp.

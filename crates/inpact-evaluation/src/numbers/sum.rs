@@ -1,4 +1,4 @@
-//! Sums that keep what each addition rounds away.
+//! Compensated sums: the rounding error of each addition is kept.
 
 use super::float::{two_product, two_sum};
 use super::scaled::Scaled;

@@ -1,4 +1,4 @@
-//! Choices of a user for an evaluation, where the deck or the manuals leave one.
+//! Choices of a user for an evaluation, where deck and manuals leave them open.
 
 use crate::accuracy::Wanted;
 use crate::history::{ClosingHeat, HistoryStart};

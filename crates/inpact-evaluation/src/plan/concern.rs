@@ -1,15 +1,15 @@
-//! Which findings of a check concern the interactions of an evaluation: those about what feeds it, and about what could.
+//! Which findings of a check concern the interactions of an evaluation: those about their inputs, including possible ones.
 //!
 //! The one place that decides which errors of a deck are errors of a run.
 //!
-//! | what feeds an interaction | its findings concern it |
+//! | input of an interaction | findings that concern it |
 //! |---|---|
-//! | its block and those of its sub-options, rows in other files too | all |
-//! | an *INCLUDE inside or right behind these, which may go on with them (S-51) | all |
-//! | a sub-option that stands behind it and is misplaced: it may be meant for it | K012, K013 |
-//! | *PARAMETER, and every *INCLUDE, where a `<name>` stands in these blocks (S-61, S-65) | all |
+//! | its block and those of its sub-options, including rows in other files | all |
+//! | an *INCLUDE inside or directly after these, which may continue them (S-51) | all |
+//! | a misplaced sub-option after it, which may be meant for it | K012, K013 |
+//! | *PARAMETER, and every *INCLUDE, where a `<name>` occurs in these blocks (S-61, S-65) | all |
 //! | *PHYSICAL CONSTANTS, where it radiates (2.6) | all |
-//! | the procedure that says whether it is steady or transient, unless the run itself says so | all |
+//! | the procedure that decides between steady and transient, unless the run sets it | all |
 
 use inpact_parser::deck::{Block, Deck};
 use inpact_parser::expression::references;

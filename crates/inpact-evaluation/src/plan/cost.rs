@@ -1,6 +1,6 @@
-//! Costs of the parts of an evaluation, in nanoseconds a row on one core: enough to weigh cuts against each other, not a promise.
+//! Costs of the parts of an evaluation, in nanoseconds a row on one core: enough to compare simplifications, not a guarantee.
 //!
-//! Tables cost what their [`Shape`] says; the rest is measured with the speed page's benchmark on an x86-64 machine with AVX-512; other machines differ by a factor, hardly in the order.
+//! The cost of a table follows from its [`Shape`]; the rest is measured with the speed page's benchmark on an x86-64 machine with AVX-512; other machines differ by a factor, hardly in the order.
 
 use super::{AxisPlan, TablePlan};
 use crate::accuracy::{Method, Shape};

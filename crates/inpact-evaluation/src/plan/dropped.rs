@@ -1,4 +1,4 @@
-//! What was cut of a law while the plan was made.
+//! Parts of a law that the plan drops.
 
 use super::reason::Reason;
 

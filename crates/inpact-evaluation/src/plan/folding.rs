@@ -1,4 +1,4 @@
-//! Tables folded along the axes on which a scene has one value.
+//! Tables folded along axes whose variable is constant.
 
 use super::planner::Planner;
 use super::source::Source;

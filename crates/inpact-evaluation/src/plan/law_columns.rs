@@ -1,4 +1,4 @@
-//! Columns that several laws could use.
+//! Columns shared by several laws.
 
 use super::choices::Choices;
 use super::output_groups::{OF_AREA, is_of_history};

@@ -1,4 +1,4 @@
-//! From a deck's model, a survey of a node table and the user's choices to the plan.
+//! Makes the plan from a deck's model, a survey of a node table and the user's choices.
 
 use super::choices::Choices;
 use super::columns::column_plans;

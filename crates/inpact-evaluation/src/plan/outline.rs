@@ -1,4 +1,4 @@
-//! The plan as a tree with costs, before and after what the scene does not require is cut.
+//! The plan as a tree with costs, before and after simplification.
 
 use super::cost::{COMPUTE_OUTPUT, KEEP_HISTORY, READ_NUMBER, WRITE_NUMBER};
 use super::dropped::Dropped;

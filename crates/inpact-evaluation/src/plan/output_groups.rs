@@ -1,4 +1,4 @@
-//! Outputs by what they are: of which law, of area, of time, sums.
+//! Outputs by kind: by law, with area, with time, sums.
 
 use crate::results::Output;
 

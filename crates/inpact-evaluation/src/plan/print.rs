@@ -1,4 +1,4 @@
-//! The plan as text for a person.
+//! The plan as readable text.
 
 use super::{
     AxisPlan, Bulk, CharacteristicLength, ColumnPlan, ColumnRole, CurrentHeat, ElectricalPlan, FormPlan, GovernedBy,

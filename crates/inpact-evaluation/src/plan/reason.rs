@@ -1,4 +1,4 @@
-//! Why something is left out of an evaluation.
+//! Reasons why something is left out of an evaluation.
 
 use crate::error::Error;
 use crate::nodes::Column;

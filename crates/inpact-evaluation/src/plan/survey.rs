@@ -1,8 +1,8 @@
-//! The first reading of a node table: what its columns hold in the rows of each interaction, and whether it can be evaluated at all.
+//! The first pass over a node table: the contents of its columns for each interaction, and whether it can be evaluated at all.
 //!
-//! Everything that is wrong with cells is found here (D002 to D006, D008, D009), so that an evaluation begins only when it can end.
-//! Memory: bounds of each column for each interaction, and where there are histories the last time of the node the rows are at;
-//! of every node only where the rows of the nodes do not stand together. The rows themselves may be kept, so that the table is read once.
+//! All faults of cells are found here (D002 to D006, D008, D009), so that an evaluation only begins when it can complete.
+//! Memory: bounds of each column for each interaction, and where there are histories the last time of the current node;
+//! of every node only where the rows of a node are not contiguous. The rows themselves may be kept, so that the table is read once.
 
 use super::choices::Choices;
 use super::governing::{GovernedBy, NameFault, RowInteractions, find_interaction};

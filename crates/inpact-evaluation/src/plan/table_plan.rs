@@ -1,4 +1,4 @@
-//! Parts of the plans of all laws: columns that tell contact, histories, tables with their forms and axes.
+//! Parts of the plans of all laws: the columns that decide contact, histories, tables with their forms and axes.
 
 use crate::accuracy::{ErrorBound, Method, Shape, Wanted};
 use crate::error::Error;

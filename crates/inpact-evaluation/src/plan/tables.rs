@@ -1,4 +1,4 @@
-//! The tables of an interaction, compiled so that it is known which variables their values depend on.
+//! The tables of an interaction, compiled to find out which variables their values depend on.
 
 use crate::error::Error;
 use crate::law::conductance::ConductanceTables;

@@ -1,9 +1,9 @@
 //! A result table, or a node table, as Parquet or as an Arrow file.
 //!
-//! Key columns keep the type they have in the node table, dictionaries apart, which become their values;
+//! Key columns keep the type they have in the node table, except that dictionaries become their values;
 //! from comma-separated values `node` and `interaction` are texts and `time` is a float.
 //! Results are floats with nulls where there is no number.
-//! The columns of a batch are made, and for Parquet encoded, on the threads of rayon's current pool; the bytes do not depend on how many there are.
+//! The columns of a batch are made, and for Parquet encoded, on rayon's current thread pool; the bytes do not depend on its size.
 
 use super::format::TableFormat;
 use super::heading::{Heading, Values};

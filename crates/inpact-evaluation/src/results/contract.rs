@@ -1,6 +1,6 @@
 //! The contract of result tables: each column with its meaning, its unit, what it needs and where it comes from.
 //!
-//! The one place that says what outputs mean, for the reader, `explain` and the documentation.
+//! The single definition of the outputs, for the reader, `explain` and the documentation.
 //! Units are by dimension: M mass, L length, T time, θ temperature, φ electric potential, C charge.
 
 use super::output::{Along, Output};

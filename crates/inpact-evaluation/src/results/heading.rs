@@ -1,4 +1,4 @@
-//! The columns of a table that is written, behind its key columns.
+//! The columns of a written table after its key columns.
 
 use super::batch::{ResultBatch, Status};
 use super::output::Output;

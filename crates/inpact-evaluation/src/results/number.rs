@@ -1,4 +1,4 @@
-//! Numbers as tables and plans show them.
+//! Formatting of numbers in tables and plans.
 
 use std::io::Write;
 

@@ -1,7 +1,7 @@
-//! Columns of rows as a Parquet file, each encoded by itself.
+//! Columns as a Parquet file, each encoded independently.
 //!
 //! Floats are stored plain and nothing is compressed, which is fastest; row groups are bounded, and so is memory.
-//! A row group is written once its rows are complete, column after column: the file does not depend on the number of threads that encoded them.
+//! A row group is written once it is complete, column by column: the file does not depend on the number of threads that encoded it.
 
 use crate::arrow::array::{Array, ArrayRef};
 use crate::arrow::datatypes::{DataType, Schema, SchemaRef};

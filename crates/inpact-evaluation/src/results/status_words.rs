@@ -1,4 +1,4 @@
-//! Statuses as an Arrow array of words.
+//! Statuses as an Arrow array of strings.
 
 use super::Status;
 use crate::arrow::array::{Array, ArrayRef, StringArray};

@@ -1,6 +1,6 @@
 //! A result table, or a node table, as comma-separated values.
 //!
-//! Texts of the node table come out as they went in, quoted where they must be (RFC 4180).
+//! Texts of the node table are written unchanged, quoted where necessary (RFC 4180).
 //! Numbers are printed in the shortest form that reads back to the same f64; a missing number is an empty cell.
 
 use super::batch::ResultBatch;

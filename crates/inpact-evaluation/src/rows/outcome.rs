@@ -1,4 +1,4 @@
-//! What a law came to in a row.
+//! The outcome of a law in a row.
 
 use super::UserFaultInRow;
 use crate::law::contact::ContactState;

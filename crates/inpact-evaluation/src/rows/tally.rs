@@ -1,4 +1,4 @@
-//! Counts of an evaluation: rows in and out, contact, rows beyond tables, and what a user should know of them.
+//! Counts of an evaluation: rows in and out, contact, rows outside tables, and notes on them for the user.
 
 use super::{Row, Totals};
 use crate::evaluator::SeenError;

@@ -1,4 +1,4 @@
-//! Sums over the nodes of an interaction: what the whole interface conducts, generates and lets through.
+//! Sums over the nodes of an interaction: total current, heat and fluid flow of the interface.
 //!
 //! *CONTACT PRINT, TOTALS=YES prints such sums for each increment (semantics O-1); here they are those of the latest time, or of all rows where there is no time.
 //! Sums are compensated and taken in the order of the rows, so that they depend neither on threads nor on batches.

@@ -1,4 +1,4 @@
-//! The arithmetics in which a table is evaluated: f64, f64 with the sides noted, f64 with a slope, double-double, and double-double with exponents that cannot overflow.
+//! The arithmetics in which a table is evaluated: f64, f64 that records the sides, f64 with a slope, double-double, and double-double with exponents that cannot overflow.
 
 use std::cmp::Ordering;
 

@@ -1,8 +1,8 @@
-//! Values and slopes of a table at a point: one recursion over the axes, in the arithmetic that is wanted.
+//! Values and slopes of a table at a point: one recursion over the axes, generic over the arithmetic.
 //!
 //! In f64 the innermost axis is interpolated to 1.5 ulp, the outer ones to half an ulp each.
-//! In relative terms that is two roundings and one for each outer axis: a value of a table of non-negative rows is within n + 1 ulp of the exact one for n axes.
-//! In double-double every axis keeps 106 bits, so that the outer axes interpolate what the inner ones have found with both its parts.
+//! That is two roundings plus one for each outer axis: a value of a table of non-negative rows is within n + 1 ulp of the exact one for n axes.
+//! In double-double every axis keeps 106 bits: the outer axes interpolate the results of the inner ones with both parts.
 
 use std::cmp::Ordering;
 use std::ops::Range;

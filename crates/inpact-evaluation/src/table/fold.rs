@@ -1,10 +1,10 @@
-//! Tables with fewer axes: what is left of a table where one of its variables has the same value in every row of a scene.
+//! Tables with fewer axes: a table folded along a variable that has the same value in every row of a scene.
 //!
 //! The table is a nested piecewise-linear function (semantics T-05, T-06), so with one variable fixed it is one of the others:
 //! a group that is interpolated between two others has the abscissae of both, and at each of them the interpolated value.
-//! The new values are computed in 106 bits and rounded once, so that a folded table keeps the accuracy of the whole one.
+//! The new values are computed in 106 bits and rounded once, so that a folded table keeps the accuracy of the original.
 //!
-//! Knows nothing of scenes: the plan decides what to fold.
+//! Independent of scenes: the plan decides what to fold.
 
 use super::evaluate::Place;
 use super::marks::Marks;

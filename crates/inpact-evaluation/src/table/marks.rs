@@ -1,4 +1,4 @@
-//! Which points count as outside a table whose rows no longer tell: one that was folded, or whose groups all have one range.
+//! Points that count as outside a table whose rows no longer say so: one that was folded, or whose groups all have one range.
 
 use super::{PiecewiseTable, Point, Sides};
 

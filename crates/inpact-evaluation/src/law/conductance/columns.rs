@@ -1,4 +1,4 @@
-//! A conductance over the rows of a part: its rows are gathered by the table that they read, each table is evaluated over columns, and the values go back to their rows.
+//! A conductance over the rows of a part: rows are gathered by table, each table is evaluated over columns, and the values are scattered back to their rows.
 
 mod both;
 

@@ -1,4 +1,4 @@
-//! Contact over columns: the states of rows none of which lacks clearance or pressure, and how many rows have a state.
+//! Contact over columns: the states of rows that all have clearance and pressure, and the number of rows with a state.
 
 #![expect(
     clippy::inline_always,

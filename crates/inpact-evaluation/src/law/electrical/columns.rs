@@ -1,4 +1,4 @@
-//! The electrical law over the rows of a part: conductances in columns, and current and heat in columns too where no history and no extreme number is in the way.
+//! The electrical law over the rows of a part: conductances by column, and current and heat too where there is no history and no extreme number.
 
 use super::{Dissipation, ExactFlow, flow};
 use crate::accuracy::Wanted;

@@ -1,4 +1,4 @@
-//! Friction over the rows of a part: in columns where no number is missing or extreme, row by row where one is.
+//! Friction over the rows of a part: by column where no number is missing or extreme, row by row otherwise.
 
 use super::{ShearStress, SlipRate, frictional_heat_amounts};
 use crate::law::contact::ContactState;

@@ -1,4 +1,4 @@
-//! The pore fluid law over the rows of a part: permeabilities in columns, and steady flow in columns too where no extreme number is in the way.
+//! The pore fluid law over the rows of a part: permeabilities by column, and steady flow too where there is no extreme number.
 
 mod plain;
 

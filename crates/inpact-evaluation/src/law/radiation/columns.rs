@@ -1,4 +1,4 @@
-//! Radiation over the rows of a part: view factors in columns, and heat in columns too where no number is missing or extreme.
+//! Radiation over the rows of a part: view factors by column, and heat too where no number is missing or extreme.
 
 use super::{RadiationLaw, is_mild, plain_heat};
 use crate::kernel::TableKernel;

@@ -1,4 +1,4 @@
-//! The thermal law over the rows of a part: conductances and view factors in columns, and heat in columns too where no history and no extreme number is in the way.
+//! The thermal law over the rows of a part: conductances and view factors by column, and heat too where there is no history and no extreme number.
 
 mod plain;
 

@@ -1,9 +1,9 @@
 //! The plan of the thermal law of one interaction: conduction, radiation, friction, and their sum with the heat of the current.
 //!
-//! Each part is planned or left out by itself. The sum, HFL, is given where every part that the deck has is known:
-//! a conduction, a radiation or a heat of the current that is left out takes HFL with it.
-//! A deck with procedures none of which solves for current has no heat of it, whatever its interactions say (section 9.2).
-//! Friction is another matter: most decks have *FRICTION and few node tables tell of slip, so HFL without it is given, and the plan says so.
+//! Each part is planned or left out by itself. The sum, HFL, is given where every part that the deck defines can be evaluated:
+//! HFL is left out where conduction, radiation or the heat of the current is.
+//! A deck whose procedures do not solve for current has no Joule heat, whatever its interactions define (section 9.2).
+//! Friction is the exception: most decks have *FRICTION and few node tables have slip, so HFL without it is given, and the plan says so.
 
 use super::conduction::{ConductionPlan, plan_conduction};
 use super::planned::temperatures;

@@ -1,4 +1,4 @@
-//! Results of planning the parts of the thermal law, and the temperatures that several of them need.
+//! Plans of the parts of the thermal law, and the temperatures that several of them need.
 
 use crate::nodes::{Column, Part};
 use crate::plan::planner::{LeftOuts, Planner};

@@ -1,4 +1,4 @@
-//! The tables of heat across an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
+//! The thermal tables of an interaction: *GAP CONDUCTANCE in either dialect, *GAP RADIATION.
 
 use crate::error::Error;
 use crate::law::calculix::CalculixConductance;

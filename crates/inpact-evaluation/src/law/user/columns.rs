@@ -1,4 +1,4 @@
-//! The conductance of one row by a user's routine, which is asked in the order of the rows.
+//! The conductance of one row by a user's routine, which is called in the order of the rows.
 
 use super::{UserConductancePoint, UserConductanceValue, UserFault, UserLaw, UserNames};
 use crate::nodes::{Column, Part, coordinates};

@@ -1,6 +1,6 @@
-//! The plan of a conductance that a user's routine gives: what it is called with (semantics 7.1, U-1 to U-3).
+//! The plan of a conductance from a user's routine: the arguments of its calls (semantics 7.1, U-1 to U-3).
 //!
-//! The routine is opaque: what it looks at is not known, so all it may look at is read.
+//! The routine is opaque: which arguments it uses is unknown, so all of them are read.
 //! Without clearance or temperature there is no law; coordinates, times and counters that the node table lacks have defaults, and the plan says so.
 
 use crate::law::user::{NAME_LENGTH, UserName, UserNames};

@@ -1,4 +1,4 @@
-//! Soundness of Arrow files and streams: messages as they are stated, compared with the bytes that are there.
+//! Soundness of Arrow files and streams: declared sizes of messages compared with the bytes present.
 
 use super::{most_unpacked, unsound};
 use crate::arrow::ipc::{FieldNode, Message, MessageHeader, RecordBatch, root_as_footer, root_as_message};

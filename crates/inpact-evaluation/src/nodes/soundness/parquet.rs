@@ -1,4 +1,4 @@
-//! Soundness of Parquet files: sizes and places of parts as they are stated, compared with the bytes that are there.
+//! Soundness of Parquet files: declared sizes and offsets compared with the bytes present.
 
 use super::thrift::{Stop, Visitor, walk};
 use super::{most_unpacked, unsound};

@@ -1,7 +1,7 @@
-//! A walk over the compact protocol of Thrift, in which Parquet writes its footer and the headers of its pages.
+//! A visitor for the Thrift compact protocol, in which Parquet writes its footer and page headers.
 //!
-//! Nothing is made of what is read but numbers handed to a visitor: a list or a text that is longer than what is left is refused
-//! before anybody makes room for it.
+//! Nothing is built from the input; numbers are passed to a visitor: a list or a text longer than the remaining bytes is rejected
+//! before memory is allocated for it.
 
 /// How deep structures may lie in one another; Parquet's own go to five.
 const DEEPEST: usize = 16;

@@ -1,7 +1,7 @@
-//! Both branches of a conductance at all rows, of which each takes the one that its state reads.
+//! Both branches of a conductance evaluated at all rows; each row takes the one of its state.
 //!
-//! Where both tables are small, a value costs less than to part the rows and to put them together again: whether they are closed or open is as good as random.
-//! Rows that do not read a table are given an abscissa within it, so that they neither count as outside nor take the long way of a number that is none.
+//! Where both tables are small, a value costs less than partitioning the rows and merging them again: open and closed rows alternate unpredictably.
+//! Rows that do not use a table are given an abscissa within it, so that they neither count as outside nor take the slow path of a NaN.
 
 #![expect(
     clippy::inline_always,

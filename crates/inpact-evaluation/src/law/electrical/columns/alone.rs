@@ -1,6 +1,6 @@
-//! The electrical law over rows that stand alone and have no other law: results and statuses are written where they go, a chunk at a time.
+//! The electrical law over rows without histories and without other laws: results and statuses are written in place, a chunk at a time.
 //!
-//! The bits are those of [`ElectricalColumns::rows`]; what is saved are the columns and outcomes that would only be looked at by other laws.
+//! Bitwise equal to [`ElectricalColumns::rows`]; it saves the columns and outcomes that only other laws would use.
 
 #![expect(
     clippy::inline_always,

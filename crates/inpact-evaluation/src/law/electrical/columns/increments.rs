@@ -1,5 +1,5 @@
-//! The electrical law over rows that end increments of histories, a chunk at a time in three steps: each row learns from the row before how its increment began,
-//! current and heat are found in columns, and each row adds to the integrals of its node, whose memory is still in the cache.
+//! The electrical law over rows that end increments of histories, a chunk at a time in three steps: each row takes the start of its increment from the previous row,
+//! current and heat are computed by column, and each row adds to the integrals of its node, which are still in the cache.
 
 use super::alone::set_contact;
 use super::{CHUNK, ElectricalColumns, FlowInputs, PlainFlow, lost_digits};

@@ -1,4 +1,4 @@
-//! Pore fluid flow over the rows of a part without histories by plain arithmetic, in columns: the bits of [`PoreColumns::row`] where no number is missing and none is extreme.
+//! Pore fluid flow over the rows of a part without histories in plain arithmetic, by column: bitwise equal to [`PoreColumns::row`] where no number is missing and none is extreme.
 
 use super::{Length, PoreColumns};
 use crate::evaluator::TableValues;

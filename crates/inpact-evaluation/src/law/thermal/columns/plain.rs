@@ -1,4 +1,4 @@
-//! Heat over the rows of a part by plain arithmetic, in columns: the bits of [`ThermalColumns::row`] where no number is missing and none is extreme.
+//! Heat over the rows of a part in plain arithmetic, by column: bitwise equal to [`ThermalColumns::row`] where no number is missing and none is extreme.
 
 use super::{ThermalColumns, ThermalFound};
 use crate::kernel::scan::are_moderate;
