@@ -1,14 +1,14 @@
 //! The areas of a surface's nodes.
 //!
-//! Two ways, by the discretisation of the contact pair:
+//! Two methods, by the discretisation of the contact pair:
 //!
-//! - node to surface: each face gives its area to its nodes in equal shares (CalculiX's areas of a slave node, to every printed digit);
+//! - node to surface: each face distributes its area to its nodes in equal shares (as CalculiX's areas of slave nodes, to every printed digit);
 //! - surface to surface: a node of a first-order face has ∫ N dA, the integral of its shape function.
 //!
-//! On second-order faces ∫ N dA is negative or zero at corners (−A/12 on a flat eight-node face, 0 on a six-node one), which is no area that a current could
-//! flow through. There the diagonal ∫ N² dA is scaled to the area of the face instead (E. Hinton, T. Rock, O. C. Zienkiewicz, A note on mass lumping and
+//! On second-order faces ∫ N dA is negative or zero at corners (−A/12 on a flat eight-node face, 0 on a six-node one), which cannot serve as an area that a current
+//! flows through. There the diagonal ∫ N² dA is scaled to the area of the face instead (E. Hinton, T. Rock, O. C. Zienkiewicz, A note on mass lumping and
 //! related processes in the finite element method, Earthquake Eng. Struct. Dyn. 4, 1976): always positive, the same total, and on a straight segment with its
-//! node in the middle the same as ∫ N ds. How Abaqus distributes the area of second-order faces is documented nowhere.
+//! node in the middle the same as ∫ N ds. How Abaqus distributes the area of second-order faces is not documented.
 
 use crate::coordinates::Placed;
 use crate::face_shape::{MAX_NODES, evaluate, monomials};

@@ -1,9 +1,9 @@
 //! The point of a face that is closest to a given point.
 //!
 //! Half the squared distance is minimised over the face's own coordinates: Newton's iteration with the curvature term (the second derivatives of the face
-//! times the vector to the point), edges and corners as active constraints, steps that never ascend.
-//! A warped or curved face can have several minima. Where a bound of the second derivatives does not prove that there is only one, the face is cut in four and
-//! parts whose lower bound of the distance is above the best found are dropped, so that the minimum found is the least one.
+//! times the vector to the point), edges and corners as active constraints, monotone descent.
+//! A warped or curved face can have several minima. Where a bound on the second derivatives does not prove that there is only one, the face is subdivided into four and
+//! parts whose lower bound of the distance exceeds the best found are pruned (branch and bound), so that the result is the global minimum.
 
 use crate::patch::Patch;
 use crate::vector::{add, dot, norm, scale, sub};

@@ -1,4 +1,4 @@
-//! A surface at its place: faces with their coordinates, checked once.
+//! A surface with coordinates: its faces, validated once.
 
 use crate::patch::Patch;
 use crate::{Error, ErrorKind, FaceId, Point, Surface};

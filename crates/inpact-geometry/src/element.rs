@@ -1,9 +1,9 @@
-//! Elements by their shape: which of their nodes make which face.
+//! Elements by their shape: the nodes of each face.
 //!
 //! Numbers of faces and nodes are those of the Abaqus Elements Guide: "Three-dimensional solid element library", "Two-dimensional solid element library",
 //! "Axisymmetric solid element library", "Three-dimensional conventional shell element library", "Axisymmetric shell element library" and "Rigid element library",
 //! under "Element-based loading" and "Node ordering and face numbering on elements".
-//! There the nodes of a solid's face go round so that they are clockwise seen from outside; here they are the other way round, so that normals point out of
+//! There the nodes of a solid's face are clockwise seen from outside; here they are counterclockwise, so that normals point out of
 //! solids, and out of shells on the side that the face is.
 
 use crate::{Error, ErrorKind, FaceShape};

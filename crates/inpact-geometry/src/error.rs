@@ -1,4 +1,4 @@
-//! The one error of this crate: meshes without geometry.
+//! The error type of this crate: meshes without geometry.
 
 use crate::NodeId;
 

@@ -1,7 +1,7 @@
 //! The shapes of faces: nodes, edges, shape functions.
 //!
 //! Every shape function of every shape is a sum of the eight monomials 1, ξ, η, ξ², ξη, η², ξ²η, ξη² (Zienkiewicz and Taylor, The Finite Element Method,
-//! chapter on shape functions), so that one table a shape says everything, and a face is a polynomial with eight coefficients.
+//! chapter on shape functions), so that one table per shape defines them, and a face is a polynomial with eight coefficients.
 
 /// The most nodes of a face.
 pub const MAX_NODES: usize = 8;

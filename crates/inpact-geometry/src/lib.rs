@@ -1,10 +1,10 @@
-//! The geometry of contact surfaces and of what solids conduct: faces of elements, areas and normals of nodes, the closest point on the other surface,
+//! The geometry of contact surfaces and of conduction in solids: faces of elements, areas and normals of nodes, the closest point on the other surface,
 //! element matrices.
 //!
-//! Numbers in, numbers out: nothing here knows a deck, a law or a file. Nodes and faces are positions in arrays ([`NodeId`], [`FaceId`]).
+//! Numbers in, numbers out: independent of decks, laws and files. Nodes and faces are positions in arrays ([`NodeId`], [`FaceId`]).
 //! Lengths have the unit of the coordinates (L), areas its square (L²); weights, normals and places on faces have none.
 //!
-//! Topology is apart from numbers:
+//! Topology is separate from coordinates:
 //!
 //! | | symbolic: which | numeric: where |
 //! |---|---|---|

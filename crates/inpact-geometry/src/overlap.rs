@@ -1,7 +1,7 @@
-//! The part of a surface that has another one across from it: its area, and ∫ N dA over it, by its nodes.
+//! The part of a surface that is opposite another one: its area, and ∫ N dA over it, by its nodes.
 //!
-//! Faces are cut into cells, those at the edge of the other surface into ever smaller ones; what is left at the last cut counts by the points of it that are across.
-//! A face that is across as a whole has its integrals to rounding, and the area of one that is cut is within some 0.1 % of the face's.
+//! Faces are subdivided into cells, adaptively at the edge of the other surface; cells of the last level count by their integration points that are opposite.
+//! The integrals of a face that is opposite as a whole are exact to rounding; the area of one that is cut is within some 0.1 % of the face's.
 
 use crate::coordinates::Placed;
 use crate::face_shape::{MAX_NODES, evaluate, monomials};

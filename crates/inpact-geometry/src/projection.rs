@@ -3,7 +3,7 @@
 //! The closest point of the master's faces decides.
 //! Inside a face, and at an edge or corner where faces meet, the point lies on the master's normal (at an edge or corner: on one of the directions between the
 //! normals of the faces that meet), and the clearance is the distance, positive on the side that the normals point to.
-//! Beyond the outer edge of the master the clearance is what the normal of the nearest face measures, and `overhang` how far the point lies beside that normal.
+//! Beyond the outer edge of the master the clearance is measured along the normal of the nearest face, and `overhang` is the distance of the point from that normal.
 
 use crate::closest::Closest;
 use crate::normal::{longest_edge, node_normal};

@@ -1,7 +1,7 @@
-//! Points and weights that integrate over a face.
+//! Quadrature points and weights of faces.
 //!
-//! Flat faces with straight edges are integrated exactly, to rounding; of warped or curved ones the area is a root of a polynomial, and what is left out is far
-//! below what the mesh itself leaves out (the tests measure it).
+//! Flat faces with straight edges are integrated exactly, to rounding; the area element of warped or curved ones is the square root of a polynomial, and the quadrature error is far
+//! below the discretisation error of the mesh (the tests measure it).
 
 use crate::FaceShape;
 use std::sync::OnceLock;

@@ -1,4 +1,4 @@
-//! The master surface, ready to be searched: a tree of boxes around its faces.
+//! A spatial index of the master surface: a bounding volume hierarchy of its faces.
 
 use crate::closest::{Closest, bounds};
 use crate::coordinates::{Placed, finite};

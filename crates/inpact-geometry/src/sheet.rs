@@ -1,4 +1,4 @@
-//! Sheets with a thickness: where the side of a shell is, whose nodes lie on a surface of reference.
+//! Shells with a thickness: the position of a side, given nodes on the reference surface.
 
 use crate::{Error, ErrorKind, FaceLabel, Surface};
 

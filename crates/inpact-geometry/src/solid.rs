@@ -1,11 +1,11 @@
 //! Shape functions and integration points of solid elements.
 //!
-//! Functions are the textbook's (Zienkiewicz and Taylor, The Finite Element Method, chapter on shape functions): trilinear and serendipity bricks, linear and
+//! Shape functions follow Zienkiewicz and Taylor, The Finite Element Method, chapter on shape functions: trilinear and serendipity bricks, linear and
 //! quadratic tetrahedra in barycentric coordinates, and wedges as their products with a line. Nodes are in the order of the Abaqus Elements Guide.
 //!
-//! Points are those that Abaqus and CalculiX have for conduction: 1 and 4 in tetrahedra of 4 and 10 nodes, 2 and 9 in wedges of 6 and 15, 8 and 27 in bricks of 8
-//! and 20 nodes, and 8 in the reduced brick of 20. One point leaves a brick of 8 nodes with patterns of temperature that no flow opposes, so that it has all 8
-//! here where its type is reduced too.
+//! Integration points are those of Abaqus and CalculiX for conduction: 1 and 4 in tetrahedra of 4 and 10 nodes, 2 and 9 in wedges of 6 and 15, 8 and 27 in bricks of 8
+//! and 20 nodes, and 8 in the reduced brick of 20. With one point a brick of 8 nodes has zero-energy (hourglass) modes of the temperature, so that it has all 8
+//! here even where its type is reduced.
 
 use crate::ElementShape;
 use crate::quadrature::gauss;

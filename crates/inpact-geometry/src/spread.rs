@@ -1,4 +1,4 @@
-//! Work that is spread over the threads of rayon's current pool, where feature `threads` is on; otherwise it is done one after the other.
+//! Work spread over rayon's current thread pool, where feature `threads` is on; otherwise it runs sequentially.
 
 #[cfg(feature = "threads")]
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! The faces of a surface and their neighbours: nothing of coordinates.
+//! The topology of a surface: its faces and their neighbours, without coordinates.
 
 use crate::{Error, ErrorKind, FaceId, FaceShape, NodeId};
 

@@ -1,4 +1,4 @@
-//! Three numbers: points, vectors and what is done with them.
+//! Points and vectors in three dimensions, and operations on them.
 
 /// A place in space, in units of length; plane and axisymmetric meshes have 0 as their third coordinate.
 pub type Point = [f64; 3];

@@ -1,4 +1,4 @@
-//! From a scene at one time to the equations of one field: conductances of rows, sources and their sum as a linear network.
+//! Assembles the equations of one field from a scene at one time: conductances of rows and sources as a linear network.
 
 use crate::dependence::range_of_unknown;
 use crate::error::{Error, ErrorKind, RowFault};

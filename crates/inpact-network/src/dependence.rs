@@ -1,4 +1,4 @@
-//! Dependence of the laws of a row: the quantities that a scene has to give, and the fields that a law couples.
+//! Dependence of the laws of a row: the quantities that a scene must give, and the fields that a law couples.
 
 use crate::scene::Field;
 use inpact_evaluation::law::{Branch, ContactState, ElectricalSource, InterfaceLaws, Permeability, ThermalConductance};

@@ -1,8 +1,8 @@
-//! The time integrals of what flows at the rows, and what an increment adds to their error.
+//! Time integrals of the flows at the rows, and the error that an increment adds.
 //!
 //! ECDT, HTL and PTL are integrated by backward Euler, the flow at the end of an increment times its length h (O-5): the error of one is h/2 · |q₁ − q₀| to first order.
 //! SJDT takes the mean of Δφ² over the increment and the conductance at its end (H-08), so that its error is h/2 · |σ₁ − σ₀| times that mean.
-//! An error counts as a part of the largest integral of its kind, taken by magnitude so that flows to and fro do not cancel.
+//! Errors are relative to the largest integral of their kind, taken by magnitude so that flows of alternating sign do not cancel.
 
 use crate::problem::Problem;
 use crate::scene::{Field, SceneInterface};

@@ -1,12 +1,12 @@
-//! The laws of one interface row at one state: conductances, their slopes, and the heat and fluid that arise there.
+//! The laws of one interface row at one state: conductances, their slopes, and the heat and fluid generated there.
 //!
-//! | field | element from slave to master | what arises |
+//! | field | element from slave to master | sources |
 //! |---|---|---|
 //! | potential | σ A, current J A = σ A (φ_s − φ_m) | |
 //! | temperature | (k + h_r) A with h_r = C F (θ_s'² + θ_m'²)(θ_s' + θ_m'), θ' from absolute zero: conduction and radiation are one conductance times one jump | heat of current and friction, shared by f |
 //! | pore pressure | k A, infinite where no table is given | gap filling −w ḋ A and −(1 − w) ḋ A |
 //!
-//! The slopes of section 8 of the semantics: of a flow q = g Δ whose g depends on the mean of both sides, ½ g' Δ beside ± g.
+//! The slopes of section 8 of the semantics: for a flow q = g Δ whose g depends on the mean of both sides, ½ g' Δ in addition to ± g.
 //! Source: semantics T-20 to T-25, H-01 to H-08, K-41, P-30 to P-42, section 8.
 
 use crate::scene::SceneInterface;

@@ -1,7 +1,7 @@
 //! Solves networks of nodes that are coupled by the interface laws of a deck.
 //!
-//! [`scene`] reads a scene, [`Problem`] is what of it is solved with the laws of a deck, [`transient::run`] gives state after state, [`tables`] makes tables of them.
-//! [`linear`] solves linear networks by themselves:
+//! [`scene`] reads a scene, [`Problem`] is the part of it that is solved with the laws of a deck, [`transient::run`] gives the states one by one, [`tables`] makes tables of them.
+//! [`linear`] solves linear networks on their own:
 //!
 //! ```
 //! use inpact_network::linear::{LAST_DIGIT, LinearNetwork, Link, Method, Solver};

@@ -1,16 +1,16 @@
-//! Linear networks: conductances from zero over 1e-300 to 1e300 and infinite, in one network, to the last digits of f64.
+//! Linear networks with conductances of 0, 1e-300 to 1e300 and infinity in one network, solved to the last digits of f64.
 //!
-//! The way of a network, each step in the file of its name:
+//! The steps of a solution, each in the file of its name:
 //!
 //! 1. `components` refuses connected components without a path to a known value and names their nodes.
-//! 2. `core` merges nodes that infinite conductances join, and drops what conducts nothing.
-//! 3. `dead_ends` takes out parts into which nothing can flow, `series` nodes that only pass on what flows through them.
-//! 4. `strength` and `relative` choose the unknowns by the strengths of the conductances: plain where they are alike, jumps where they are not.
-//! 5. `matrix` assembles, `ordering` orders, `factor` factors in f64 or f32, `iterative` does without a factor.
-//! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; what does not get there is tried again by a safer method, at last by `elimination`.
-//! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` put back what was left out: values, the flows through infinite conductances, jumps that no flow determines.
+//! 2. `core` merges nodes that infinite conductances join, and drops zero conductances.
+//! 3. `dead_ends` eliminates parts into which nothing can flow, `series` nodes with two conductances and no source (series reduction).
+//! 4. `strength` and `relative` choose the unknowns by the strengths of the conductances: node values where they are alike, jumps where they are not.
+//! 5. `matrix` assembles, `ordering` orders, `factor` factors in f64 or f32, `iterative` avoids the complete factor.
+//! 6. `refinement` corrects until the balances in edge form (`edges`) and the estimated error are within the tolerance; a network that does not get there is solved again by a more robust method, as a last resort by `elimination`.
+//! 7. `series`, `dead_ends`, `infinite` and `spanning_forest` recover what was eliminated: values, the flows through infinite conductances, jumps that no flow determines.
 //!
-//! `symbolic` does steps 1 to 5 but for the factor, so that many networks on one graph share the order.
+//! `symbolic` does steps 1 to 5 except the factorisation, so that many networks on one graph share the ordering.
 
 mod cholesky;
 mod components;

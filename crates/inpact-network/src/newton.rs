@@ -1,18 +1,18 @@
 //! Newton's iteration for fields whose conductances depend on the unknowns.
 //!
 //! Unknowns are the relative ones of each field (`linear/relative.rs`), so that the blocks of single fields are the well-scaled matrices of the linear solver;
-//! beside them are the slopes of section 8 of the semantics, which make the whole unsymmetric (J-2):
+//! the slopes of section 8 of the semantics are added to them, which makes the Jacobian unsymmetric (J-2):
 //!
 //! - of a flow q = g Δ the slopes ½ g' Δ along the temperatures of both sides, ∂σ/∂θ̄ among them, and those of radiation;
 //! - of the heat of a current ∂q_g/∂Δφ and ∂q_g/∂θ̄.
 //!
-//! A step is taken as far as it lessens the residuals of the balances (line search by halves). Tables are piecewise linear: at a knot the slope is that of the right-hand side,
-//! and a step that overshoots a knot is cut short or, where no step lessens anything, replaced by one with the conductances held, which needs no slope.
-//! Where that ends short of a solution, pseudo-transient continuation follows: every equation gets a pseudo-capacity,
-//! which falls as the residuals do (Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
-//! It leads over hills that a descent does not leave. Currents have no pseudo-capacity: they are balanced anew after each step.
-//! In large scenes a step is found without a factor of the whole matrix (`newton/krylov.rs`).
-//! The result of the iteration is a state whose conductances are right to rounding; the linear solver then finds the flows of these to the last digit.
+//! A step is shortened until it reduces the residuals of the balances (backtracking line search by halves). Tables are piecewise linear: at a knot the slope is that of the right-hand side,
+//! and a step that overshoots a knot is shortened or, where no step reduces the residuals, replaced by one with frozen conductances (Picard), which needs no slope.
+//! Where that does not reach a solution, pseudo-transient continuation follows: every equation gets a pseudo-capacity,
+//! which decreases with the residuals (Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
+//! It leaves local minima of the residual in which descent stalls. Currents have no pseudo-capacity: they are balanced again after each step.
+//! In large scenes a step is computed without factoring the whole matrix (`newton/krylov.rs`).
+//! The result of the iteration is a state whose conductances are accurate to rounding; the linear solver then computes their flows to the last digit.
 
 mod equations;
 mod krylov;

@@ -2,11 +2,11 @@
 //!
 //! Only what a scene requires is modelled:
 //!
-//! - a field gets unknowns where the scene says something of it, and a law couples it or something drives it: a fixed value or a source that is not zero;
-//! - of a field only those nodes get one that a condition names, or that links and interfaces of the field join to such a node;
+//! - a field gets unknowns where the scene mentions it, and a law couples it or something drives it: a fixed value or a non-zero source;
+//! - only those nodes of a field get one that a condition names, or that links and interfaces of the field join to such a node;
 //! - pore fluid crosses an interface only where both sides carry pore pressure (P-01);
-//! - a field whose conductances depend on no other is solved before those that depend on it; fields that depend on each other are solved together;
-//! - a field that depends on nothing unsolved is linear: it takes one solve, no Newton.
+//! - a field whose conductances depend on no other is solved before those that depend on it; mutually dependent fields are solved together;
+//! - a field that depends on no unknown field is linear: it takes one solve, no Newton.
 
 mod certain;
 mod notes;

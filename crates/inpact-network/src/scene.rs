@@ -1,4 +1,4 @@
-//! Scenes: nodes, the conductances between them, the interfaces of a deck that couple them, and what is held or flows in.
+//! Scenes: nodes, the conductances between them, the interfaces of a deck that couple them, held values and sources.
 //!
 //! A scene file is TOML ([`read`]); large parts of it can be in tables beside it. No file is opened here: the caller gives bytes.
 

@@ -1,4 +1,4 @@
-//! Solves a scene at one time: stage by stage, each field with what the stages before have found.
+//! Solves a scene at one time stage by stage, each field with the results of the previous stages.
 
 mod relaxation;
 

@@ -1,4 +1,4 @@
-//! The state of a scene at one time: values, flows, and what they were found with.
+//! The state of a scene at one time: values, flows, and the report of their solution.
 
 use crate::linear::{LinearReport, LinearSolution};
 use crate::problem::Problem;

@@ -1,11 +1,11 @@
-//! A transient: increments of backward Euler from the state at the start to the end.
+//! A transient: backward Euler increments from the state at the start to the end.
 //!
-//! The local error of an increment of length h is h²/2 · |x''| to first order; x'' is the change of the rate from the increment before, over h.
-//! Increments by error are as long as that allows, and end where a course of the scene has a corner; one that errs too much is taken back and cut.
-//! The error is compared with the range that the field's values have had so far. So that nothing is lost in a scene that begins, or has come, to rest,
-//! one increment to the next corner is tried after each corner, and what it does to the range counts: backward Euler overshoots nothing.
-//! Where time integrals of the rows are wanted, their error in an increment counts as well, as a part of the integrals (`integrals.rs`).
-//! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the control of lengths.
+//! The local error of an increment of length h is h²/2 · |x''| to first order; x'' is the change of the rate from the previous increment, divided by h.
+//! Adaptive increments are as long as that allows, and end where a time course of the scene has a kink; one with too large an error is rejected and shortened.
+//! The error is compared with the range of the field's values so far. So that this works in a scene that starts at rest or has come to rest,
+//! one increment to the next kink is tried after each kink and counted in the range: backward Euler does not overshoot.
+//! Where time integrals of the rows are requested, their error in an increment counts as well, relative to the integrals (`integrals.rs`).
+//! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8, for the step size control.
 
 use crate::error::Error;
 use crate::integrals::{Added, Integrals, RowFlows};

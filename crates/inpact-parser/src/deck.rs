@@ -1,8 +1,8 @@
 //! The deck as it is in its files: blocks of a keyword line and the rows after it.
 //!
 //! Lossless: the blocks printed in order are the file, byte for byte, whatever the bytes are.
-//! Never fails: a line that means nothing is still a line of some block.
-//! Rows are a range of bytes until somebody reads them, so a mesh costs no number parsing (S-03 to S-37).
+//! Never fails: a line without a meaning is still a line of some block.
+//! Rows are a range of bytes and parsed lazily, so a mesh costs no number parsing (S-03 to S-37).
 
 mod data_line;
 mod edited;

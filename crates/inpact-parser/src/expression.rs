@@ -3,11 +3,11 @@
 //! The data lines of *PARAMETER are a part of Python: `name = expression`.
 //! Up to release 2023 it is Python 2, whose integers divide as integers; from 2024 on Python 3, whose division is true ([`Division`]).
 //! [`define`] executes the lines of one block; called for every block of the deck in order, it leaves the final values
-//! in [`Parameters`], which [`substitute`] then puts in place of every `<name>`, also of one further up (S-61).
+//! in [`Parameters`], which [`substitute`] then puts in place of every `<name>`, even of one before the definition (S-61).
 //!
-//! Knows nothing of keywords, blocks or files, and executes nothing but arithmetic.
-//! Whatever the text is, time and memory follow its length: nesting, the length of texts, the size of integers and the
-//! number of arguments are limited, and what passes a limit is an [`ExpressionProblem`].
+//! Independent of keywords, blocks and files; it executes nothing but arithmetic.
+//! For any input, time and memory are bounded by its length: nesting, the length of texts, the size of integers and the
+//! number of arguments are limited, and exceeding a limit is an [`ExpressionProblem`].
 //!
 //! Cases that S-60 leaves open follow Python 2: `//` and `%` exist, `**` binds to the right and before a sign on
 //! its left, `pow` is that of the `math` module and gives a real number, `str` gives twelve digits.

@@ -1,6 +1,6 @@
 //! One style for the blocks of contact interfaces; every other byte of a deck stays as it is.
 //!
-//! [`format()`] goes from a [`Deck`] to the bytes of one of its files, and knows nothing of files or of the model.
+//! [`format()`] goes from a [`Deck`] to the bytes of one of its files, independent of the file system and of the model.
 //! Blocks that are formatted:
 //!
 //! | blocks | keyword line | rows |
@@ -9,11 +9,11 @@
 //! | *CONTACT PAIR (C-02), *CONTACT PROPERTY ASSIGNMENT (C-05) | yes | yes |
 //! | any other, sub-options of another keyword such as *MATERIAL or *CHANGE FRICTION among them | no | no |
 //!
-//! The style: keyword and parameters in full, in upper case, with single blanks; `, ` between items; the items of a
-//! table below one another, numbers by their decimal points.
-//! Line breaks, line ends, comments, blank lines, the spelling of every number and of every value stay.
-//! A line in which something is malformed stays as it is, and so does whatever would grow beyond 256 characters (S-06).
-//! The model before and after is the same, and formatting what is formatted changes nothing.
+//! The style: keyword and parameters in full, in upper case, with single blanks; `, ` between items; the items of the rows of a
+//! table aligned in columns, numbers by their decimal points.
+//! Line breaks, line ends, comments, blank lines and the spelling of every number and value are preserved.
+//! A malformed line is left unchanged, and so is one that would grow beyond 256 characters (S-06).
+//! The model before and after is the same, and formatting is idempotent.
 
 mod columns;
 mod keyword_line;

@@ -1,9 +1,9 @@
-//! The keyword language as data: which keywords there are, what parameters and rows they take, and how names are matched.
+//! The keyword language as data: the keywords, their parameters and rows, and how names are matched.
 //!
 //! Everything here comes from the files of `grammar/` in the repository: two lists of names, one TOML a keyword,
-//! and one for every keyword that means something else in CalculiX.
+//! and one for every keyword with another meaning in CalculiX.
 //! They are compiled in; a definition is parsed when it is first looked up.
-//! Knows nothing of decks, files or spans: it looks up names (S-11 to S-16) and about the layout of rows (K-50 to K-56).
+//! Independent of decks, files and spans: it looks up names (S-11 to S-16) and the layout of rows (K-50 to K-56).
 
 mod data;
 mod definition;

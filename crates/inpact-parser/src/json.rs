@@ -1,8 +1,8 @@
 //! The deck as JSON, in two views, and back.
 //!
-//! [`model`] is what the deck says: schema `inpact/model/1`.
-//! [`syntax`] is how it says it: schema `inpact/syntax/1`, from which the files come back byte for byte.
-//! Reading is strict: an unknown field, a wrong type or a missing field is refused with its JSON path.
+//! [`model`] is the content of the deck: schema `inpact/model/1`.
+//! [`syntax`] is its text: schema `inpact/syntax/1`, from which the files are restored byte for byte.
+//! Reading is strict: an unknown field, a wrong type or a missing field is rejected with its JSON path.
 //! Each view has a JSON Schema, generated from the types that are read and written.
 
 mod layout;

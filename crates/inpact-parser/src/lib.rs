@@ -1,9 +1,9 @@
 //! Reads Abaqus `.inp` decks without losing a byte, and builds the typed model of their contact interfaces.
 //!
 //! Data flows one way: bytes, [`deck::Deck`], [`model::Model`].
-//! [`deck::Scanner`] cuts bytes into blocks, [`model::read`] turns the blocks of contact interfaces into typed values,
+//! [`deck::Scanner`] splits bytes into blocks, [`model::read`] turns the blocks of contact interfaces into typed values,
 //! [`mesh::read`] finds the surfaces of contact pairs, and [`json`] writes deck or model as JSON and reads it back.
-//! Nothing here opens a file, prints, or stops at bad input: what is wrong with a deck is a value ([`Problem`]).
+//! Nothing here opens a file, prints, or stops at bad input: faults of a deck are values ([`Problem`]).
 //!
 //! The rule numbers in this crate (S-13, T-05, K-52, Q-1, …) are those of the project's semantics,
 //! which restate the Abaqus Analysis User's Guide, Keywords Reference Guide and Theory Guide.

@@ -1,8 +1,8 @@
 //! The typed model of a deck: its interactions, their properties, and where they are used.
 //!
-//! Built by [`read`] from the blocks of a [`Deck`](crate::deck::Deck); knows nothing of how lines are cut,
-//! and judges nothing: a table that does not ascend is a table all the same.
-//! Options that cannot be placed, or are replaced by a later definition, are in [`Model::set_aside`], so that they can be judged too.
+//! Built by [`read`] from the blocks of a [`Deck`](crate::deck::Deck); independent of how lines are split,
+//! and without validation: a table that does not ascend is still a table.
+//! Options that cannot be placed, or are replaced by a later definition, are in [`Model::set_aside`], so that they can be checked too.
 
 mod interactions;
 mod name;

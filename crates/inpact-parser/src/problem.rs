@@ -1,7 +1,7 @@
-//! Problems with rows and places, as the reader finds them: values, not errors.
+//! Problems found by the reader: values, not errors.
 //!
-//! The reader says what it met and where; the rules of validation say what that means, how grave it is and what to do.
-//! A problem that a rule can see from the deck, the grammar and the model alone is not among them.
+//! The reader records the problem and its place; the rules of validation give meaning, severity and help.
+//! Problems that a rule can find from the deck, the grammar and the model alone are not among them.
 
 use crate::grammar::{KeywordId, Level};
 use crate::number::NumberError;

@@ -1,4 +1,4 @@
-//! Cholesky factors of symmetric positive definite matrices that are no networks: with the orders that networks have, for those who assemble their own.
+//! Cholesky factors of other symmetric positive definite matrices, with the orderings used for networks.
 
 use super::factor::{Factor, Solves};
 use super::matrix::Matrix;

@@ -1,4 +1,4 @@
-//! Connected components of a network. One without a held value and without a store floats, and is found before anything is factored.
+//! Connected components of a network. One without a held value and without a capacity is singular, and is found before anything is factored.
 
 use super::network::LinearNetwork;
 use super::sets::{Sets, index};

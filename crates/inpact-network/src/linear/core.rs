@@ -1,4 +1,4 @@
-//! The network that is left to solve once infinite conductances have merged their nodes: free nodes, known values, finite conductances.
+//! The reduced network after infinite conductances have merged their nodes: free nodes, known values, finite conductances.
 
 use super::network::LinearNetwork;
 use super::sets::{Sets, index};

@@ -1,10 +1,10 @@
-//! Parts of a network into which nothing can flow are taken out before anything is factored, and put back exactly.
+//! Eliminates the parts of a network into which nothing can flow before anything is factored, and recovers their values exactly.
 //!
-//! A part that is joined to the rest by a single node, or by known values that are all the same, and has no source, has that value everywhere and no flow.
-//! To solve for it would make flows of rounding, which refinement can only make smaller, some sixteen decades a step, until they leave the range of f64.
+//! A part that is joined to the rest by a single node, or by known values that are all equal, and has no source, has that value everywhere and no flow.
+//! Solving for it would give spurious flows from rounding, which refinement can only reduce, some sixteen decades a step, until they underflow.
 //!
-//! They are found by depth-first search: below a node from which no conductance leads past its parent, all nodes are joined to the rest by the parent alone (Tarjan, SIAM J. Comput. 1 (1972) 146–160).
-//! All known values are one node of that walk, its root.
+//! They are found by depth-first search, as articulation points: below a node from which no conductance leads past its parent, all nodes are joined to the rest by the parent alone (Tarjan, SIAM J. Comput. 1 (1972) 146–160).
+//! All known values are one node of the search, its root.
 
 use super::core::{Core, NONE};
 use super::found::CoreFound;

@@ -1,7 +1,7 @@
 //! Flows and balances in edge form: differences first, then conductances, then sums.
 //!
-//! The balance of a node from an assembled diagonal, s x − Σ c x', has lost whatever the strongest conductance rounds away;
-//! Σ c (x − x') has not. Jumps and flows are kept in 106 bits, so that what refinement makes of a balance is limited by no rounding of f64.
+//! The balance of a node from an assembled diagonal, s x − Σ c x', loses the digits that the strongest conductance rounds away;
+//! Σ c (x − x') does not. Jumps and flows are kept in 106 bits, so that refinement is not limited by the rounding of f64.
 
 use super::core::{Core, NONE, ROUNDING};
 use super::largest::largest_or_nan;

@@ -1,13 +1,13 @@
-//! Elimination without subtraction, entry by entry as exact as its numbers: the reference, and the last resort.
+//! Subtraction-free (GTH) elimination, accurate entry by entry: the reference, and the last resort.
 //!
 //! A node with conductances g_j to its neighbours, S = Σ g_j, is replaced by conductances g_i g_j / S between each two of them (star–mesh transformation),
 //! and its source by shares g_j / S of it. Only positive numbers are added, multiplied and divided, so that no conductance loses digits, whatever their contrast.
 //!
-//! Differences are found without subtraction of values as well: the difference of node and neighbour i is Σ_j (g_j / S) (x_j − x_i) + b / S,
-//! in which all x_j − x_i are differences of neighbours of each other, found before. Terms of both signs cancel only as far as the network makes them.
-//! In 106 bits that leaves all digits of f64 but in contrived cases.
+//! Differences are computed without subtracting values, too: the difference of node and neighbour i is Σ_j (g_j / S) (x_j − x_i) + b / S,
+//! in which all x_j − x_i are differences between neighbours, computed before. Terms of opposite sign cancel only as far as the problem is ill-conditioned.
+//! In 106 bits that leaves all digits of f64 except in contrived cases.
 //!
-//! It costs the operations of a simple sparse factorization, in numbers some fifteen times as slow, and the memory of the filled network once more for the differences.
+//! It costs the operations of a simple sparse factorisation in an arithmetic some fifteen times as slow, and the memory of the filled network a second time for the differences.
 //! Source: Grassmann, Taksar and Heyman, Operations Research 33 (1985) 1107–1116; Peña, ETNA 18 (2004) 198–208.
 
 use super::core::{Core, Element};

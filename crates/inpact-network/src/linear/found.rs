@@ -1,4 +1,4 @@
-//! The solution of a core, before it is put in terms of the network.
+//! The solution of a core, before it is mapped back to the network.
 
 use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::DoubleDouble;

@@ -1,7 +1,7 @@
-//! Flows through infinite conductances: the multipliers of the condition that both ends have one value.
+//! Flows through infinite conductances: the Lagrange multipliers of the constraint that both ends have one value.
 //!
-//! All flows through finite conductances are known here. The residual of each node must flow through its infinite ones.
-//! Where they form no ring that determines their flows. In a ring it does not; there they share as equal conductances would, however large,
+//! All flows through finite conductances are known here; the residual of each node must flow through its infinite ones.
+//! Where they form no cycle, that determines their flows. In a cycle it does not; there they share the flow as equal conductances would, however large,
 //! and the report says how many there are.
 
 use super::core::{Core, Element, NONE, ROUNDING};

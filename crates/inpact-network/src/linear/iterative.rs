@@ -1,8 +1,8 @@
-//! Conjugate gradients with an incomplete factor, for networks whose factor would not fit.
+//! Conjugate gradients with an incomplete factor, for networks whose complete factor would not fit into memory.
 //!
-//! The incomplete factor has the entries of the matrix and no others; what would fill in elsewhere is added to the diagonal, most of it,
-//! so that constant vectors, on which slow modes look, are treated nearly right (modified incomplete Cholesky).
-//! A pivot that is not safely above zero is replaced by the diagonal of the matrix: the preconditioner stays positive definite whatever it approximates.
+//! The incomplete factor has the pattern of the matrix; most of the fill-in elsewhere is added to the diagonal,
+//! so that constant vectors, which slow modes resemble, are reproduced nearly exactly (modified incomplete Cholesky).
+//! A pivot that is not safely positive is replaced by the diagonal of the matrix, so that the preconditioner stays positive definite.
 //!
 //! Source: Gustafsson, A class of first order factorization methods, BIT 18 (1978) 142–156; the conjugate gradients are faer's.
 

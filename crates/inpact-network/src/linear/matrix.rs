@@ -1,4 +1,4 @@
-//! The symmetric matrix of the scaled jumps: its pattern and its values, as faer wants them.
+//! The symmetric matrix of the scaled jumps: its pattern and its values, in faer's format.
 
 use super::core::Core;
 use super::edges::Edges;

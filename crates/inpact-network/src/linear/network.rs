@@ -1,4 +1,4 @@
-//! A linear network as it is given: nodes, conductances between them, what is held and what flows in.
+//! A linear network as given: nodes, conductances between them, held values and sources.
 
 use inpact_evaluation::numbers::DoubleDouble;
 

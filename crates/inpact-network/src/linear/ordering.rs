@@ -1,7 +1,7 @@
-//! Orders in which unknowns are eliminated so that few entries fill in.
+//! Fill-reducing orderings.
 //!
-//! Approximate minimum degree is cheap and, in two dimensions, as good as any. In three dimensions nested dissection leaves half the entries and a third of the operations,
-//! and costs more to find: it is tried where the factor by minimum degree would cost more than that, and taken at once where the network is plainly one of three dimensions.
+//! Approximate minimum degree is cheap and, in two dimensions, as good as any. In three dimensions nested dissection needs half the entries and a third of the operations,
+//! and costs more to compute: it is tried where the factorisation by minimum degree would cost more than that, and used at once where the network is clearly three-dimensional.
 
 use super::sets::index;
 use arael_faer::nd::{Graph, NdParams, order_graph};

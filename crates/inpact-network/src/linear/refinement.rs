@@ -1,12 +1,12 @@
-//! Refinement: a rough solver makes a solution that is right to the last digits of f64.
+//! Iterative refinement: an approximate solver gives a solution accurate to the last digits of f64.
 //!
-//! The balance of each unknown is taken in edge form and in 106 bits, the rough solver gives a correction, and so on.
-//! Each step gains as many digits as the solver is good for. The largest relative change of a flow in the last step, times the factor by which the changes shrink,
-//! is an estimate of the error that is left; a solution is taken only when that and the balances are within the tolerance.
-//! After the first step that factor is unknown: there the estimate is the residual of the balances, as a part of the flows, times the condition.
-//! Conjugate gradients stop when most is corrected, so that small flows may be wrong and not change: there the larger of both estimates counts.
-//! A balance is not better than its rounding: what is left of it below that is no reason to go on. What rounding may have done to a flow counts as its error;
-//! a flow that is no more than that is none. Steps that gain nothing more end in a solution where rounding accounts for the error that is left, and in a failure elsewhere.
+//! The residual of each unknown is computed in edge form and in 106 bits, the approximate solver gives a correction, and so on.
+//! Each step gains as many digits as the solver has. The largest relative change of a flow in the last step, times the factor by which the changes shrink,
+//! estimates the remaining error; a solution is accepted only when that and the balances are within the tolerance.
+//! After the first step that factor is unknown: there the estimate is the residual of the balances, relative to the flows, times the condition number.
+//! Conjugate gradients stop when most of the residual is corrected, so that small flows may be wrong and not change: there the larger of both estimates counts.
+//! A residual below the rounding of its balance is no reason to continue. The rounding error of a flow counts as its error;
+//! a flow no larger than that counts as zero. When steps gain nothing more, the result is a solution where rounding accounts for the remaining error, and a failure elsewhere.
 
 use super::core::{Core, ROUNDING};
 use super::edges::{Balance, Edges};

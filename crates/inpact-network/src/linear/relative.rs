@@ -1,20 +1,20 @@
 //! The unknowns in relative form: no large conductance is ever added to a small one.
 //!
-//! Where a conductance is far stronger than its surroundings, the two nodes it joins have nearly one value, and an equation for either says almost only that.
+//! Where a conductance is far stronger than its surroundings, the two nodes it joins have nearly one value, and the equation of either says little else.
 //! In plain assembly the sum of both equations, which is what the surroundings act on, is lost to rounding.
 //! Here the second node's unknown is its *jump* from the first: the strong conductance is in the equation of the jump alone,
 //! and the first node's equation is the balance of both, in which the strong conductance does not occur.
 //!
-//! For any mixture of strengths: conductances fall into levels of strength (`strength.rs`), and a spanning forest of the strongest conductances joins every free node to a known value,
-//! level by level, so that the way between two nodes uses no weaker level than it must. Nodes that the levels down to some strength join are a cluster; its top node in the forest represents it.
+//! For any mixture of strengths: conductances are grouped into levels of strength (`strength.rs`), and a spanning forest of the strongest ones joins every free node to a known value,
+//! level by level, so that the path between two nodes uses no weaker level than necessary. Nodes that the levels down to some strength join are a cluster; its top node in the forest represents it.
 //! A node's unknown is its jump from the top of the cluster into which its own conductance in the forest leads, and its equation is the balance of all nodes below it.
-//! With one level every jump is from a known value: that is plain assembly.
+//! With one level every jump is from a known value, which is plain assembly.
 //!
-//! The matrix of the jumps, each scaled by the strength of its level, has entries of at most about one whatever the strengths, and no cancellation in them:
-//! its condition depends on the shape of the network and on the width of a level, not on the contrast.
+//! The matrix of the jumps, each scaled by the strength of its level, has entries of at most about 1 whatever the strengths, computed without cancellation:
+//! its condition number depends on the shape of the network and on the width of a level, not on the contrast.
 //!
 //! Source: relative displacements across an interface as unknowns of their own, J. Ghaboussi, E. L. Wilson and J. Isenberg, Finite element for rock joints and interfaces,
-//! J. Soil Mech. Found. Div. ASCE 99 (1973) 833–848, there for joints that somebody has marked; here for every conductance by its strength.
+//! J. Soil Mech. Found. Div. ASCE 99 (1973) 833–848, there for joints marked by the user; here for every conductance by its strength.
 //!
 //! The largest relative errors of a potential and of a flow in a grid of 100 × 100 nodes with one interface, whose conductances are larger than the others by the factor given (docs/network.md, which
 //! also has those of random networks):
@@ -27,7 +27,7 @@
 //! | 1e8 | 1.5e-7 | 6.7e-3 | 0 | 0 |
 //! | 1e15 and above | no pivot above zero | | 0 | 0 |
 //!
-//! The solution is *kept* as the jump along each conductance of the forest, so that a flow of 1e-100 beside one of 1 has all its digits.
+//! The solution is *stored* as the jump along each conductance of the forest, so that a flow of 1e-100 beside one of 1 has all its digits.
 
 use super::core::{Core, Element, NONE};
 use super::sets::{Sets, index};

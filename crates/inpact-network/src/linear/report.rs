@@ -1,4 +1,4 @@
-//! The method, size and quality of a solution, and the reasons why methods fall short: plain values.
+//! The method, size and quality of a solution, and the reasons why methods fail: plain values.
 
 use super::ordering::Ordering;
 use super::work::{Phases, Work};

@@ -1,11 +1,11 @@
-//! Nodes that only pass on what flows through them are taken out before anything is factored, and put back exactly.
+//! Series reduction: nodes that only pass on their flow are eliminated before anything is factored, and recovered exactly.
 //!
-//! A free node with two conductances g₁ and g₂ and no source makes one conductance g₁g₂/(g₁+g₂) of them.
+//! A free node with two conductances g₁ and g₂ and no source is replaced by one conductance g₁g₂/(g₁+g₂).
 //! A free node with one conductance sends its source through that.
-//! So the slave node between a body's link and an interface of constant conductance is no unknown, and a chain of links has none at all.
-//! Sums and quotients of positive numbers lose nothing, and they are made in 106 bits, so that a chain of any length is as exact as one link.
-//! Where the one conductance would be below the range of f64 the node stays.
-//! A node with two conductances *and* a source stays: to share its source between its neighbours would make flows that cancel far larger than those that flow.
+//! So the slave node between a body's link and an interface of constant conductance is not an unknown, and a chain of links has none at all.
+//! Sums and quotients of positive numbers do not cancel, and they are computed in 106 bits, so that a chain of any length is as accurate as one link.
+//! Where the single conductance would underflow the node stays.
+//! A node with two conductances *and* a source stays: distributing its source to its neighbours would give cancelling flows far larger than the actual ones.
 
 use super::core::{Core, Element, NONE};
 use super::dead_ends::DeadEnds;

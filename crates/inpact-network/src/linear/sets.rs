@@ -1,4 +1,4 @@
-//! Disjoint sets of nodes that grow together (union and find).
+//! Disjoint sets of nodes (union–find).
 
 /// Sets of the numbers below some count; at first each is a set of its own.
 #[derive(Clone, Debug)]

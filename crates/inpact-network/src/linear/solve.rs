@@ -1,4 +1,4 @@
-//! From a linear network to its solution: what can be left out is left out, the rest is factored, refined and checked, and what was left out is put back.
+//! From a linear network to its solution: reduction, factorisation, refinement and checks, and recovery of the eliminated parts.
 
 use super::components::refuse_floating;
 use super::core::{Core, NONE, Origins};

@@ -1,8 +1,8 @@
-//! The spanning forest from known values to free nodes, with the step along each branch: it determines the jump across a link whose flow does not.
+//! The spanning forest from known values to free nodes, with the jump along each branch: it determines the jump across a link whose flow does not.
 //!
 //! No flow determines the jump across a link that conducts nothing, or so little that the flow is below the range of f64,
 //! and the difference of two values of 100 has lost a jump of 1e-40.
-//! The steps along the forest and along what was taken out have all their digits; the jump is the sum of those on the way from one node to the other.
+//! The jumps along the forest and along the eliminated parts have all their digits; the jump is their sum along the path from one node to the other.
 
 use super::core::{Core, NONE, ROUNDING};
 use inpact_evaluation::numbers::DoubleDouble;

@@ -1,6 +1,6 @@
-//! The symbolic factorisation of a network: which unknowns are coupled, and in which order they are eliminated.
+//! The symbolic factorisation of a network: the sparsity pattern and the elimination ordering.
 //!
-//! It is what the conductances of a graph have in common: made once, it serves any number of solvers, each of which factors numbers alone and keeps its factor for further right-hand sides.
+//! It depends on the graph only: made once, it serves any number of solvers, each of which does the numeric factorisation and keeps its factor for further right-hand sides.
 
 use super::components::refuse_floating;
 use super::core::Core;

@@ -1,4 +1,4 @@
-//! Times and counts of solving, for one solution and summed over many.
+//! Times and counts of a solution, and their sums over many.
 
 use std::ops::AddAssign;
 use std::time::Duration;

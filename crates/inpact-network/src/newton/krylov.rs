@@ -1,12 +1,12 @@
-//! Steps of Newton's in large scenes, without a factor of the whole unsymmetric matrix.
+//! Newton–Krylov steps for large scenes, without factoring the whole unsymmetric matrix.
 //!
-//! The coupling of two fields, or of a conductance to its own field, is small beside the symmetric blocks of the single fields, which have the pattern of their networks:
-//! minimum degree or nested dissection order them, and one Cholesky factor each, in f32 as it need not be exact, makes a preconditioner;
-//! with `iterative` an incomplete factor does. Between the fields it is block-triangular: what the first field gives is taken from the second.
-//! GMRES then solves for the step, restarted so that its memory is that of a few vectors, which it keeps in f32: what that costs in digits a restart brings back,
-//! since it begins with what is missing in f64. A step that is solved to a few digits is a step all the same: the line search judges it.
+//! The coupling of two fields, or of a conductance to its own field, is small compared with the symmetric blocks of the single fields, which have the pattern of their networks:
+//! minimum degree or nested dissection orders them, and one Cholesky factor each, in f32 as it need not be accurate, is the preconditioner;
+//! with `iterative` it is an incomplete factor. Between the fields it is block-triangular.
+//! Restarted GMRES then solves for the step; its memory is that of a few vectors in f32. A restart recovers the digits that this costs,
+//! since it begins with the residual in f64. A step that is solved to a few digits is still a step (inexact Newton): the line search judges it.
 //!
-//! An unsymmetric factor that may choose its pivots needs room for the pattern of AᵀA, 50 KiB for each contact of a plate; it is left to small scenes, and to those where GMRES comes to nothing.
+//! An unsymmetric factor with pivoting needs memory for the pattern of AᵀA, 50 KiB for each contact of a plate; it is used for small scenes, and where GMRES does not converge.
 //! Source: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., sections 6.5 and 9.3; a basis of fewer digits: Aliaga and others, Compressed basis GMRES on high-performance graphics processing units, Int. J. High Perform. Comput. Appl. 37 (2023) 82–100.
 
 use super::system::System;

@@ -1,4 +1,4 @@
-//! One field of Newton's iteration: its network in relative unknowns, and its state at some jumps.
+//! One field of Newton's iteration: its network in relative unknowns, and its state at given jumps.
 
 use crate::assembly::{Capacities, HeatTerm, RowTerms, network};
 use crate::knowledge::Knowledge;

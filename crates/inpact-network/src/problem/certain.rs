@@ -1,6 +1,6 @@
-//! Failures that are certain before anything is solved: bodies that nothing holds, nodes that are one and held apart, and laws that give no conductance.
+//! Failures found before solving: bodies without a held value, merged nodes held at different values, and laws that give no conductance.
 //!
-//! Laws are evaluated where they depend on nothing that is sought.
+//! Laws are evaluated where they do not depend on unknowns.
 
 use super::{FieldNodes, Problem};
 use crate::assembly::row_terms;

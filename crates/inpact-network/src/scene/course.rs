@@ -1,4 +1,4 @@
-//! Numbers that may follow time.
+//! Numbers that may vary with time.
 
 use inpact_evaluation::numbers::between;
 

@@ -1,6 +1,6 @@
-//! The scene file as it is written: TOML whose every key is known, with the places of what may be wrong.
+//! The scene file as written: TOML without unknown keys, with the places of values for findings.
 //!
-//! The form is a contract; its JSON Schema is committed (`schema/scene.schema.json`).
+//! The format is a contract; its JSON Schema is committed (`schema/scene.schema.json`).
 
 use super::values::{Entries, Entry, Keyed, List, Number, Pair};
 use serde::Deserialize;

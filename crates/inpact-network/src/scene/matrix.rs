@@ -1,9 +1,9 @@
 //! Links as a Matrix Market file of conductances; the nodes of a link are the numbers of row and column, from 1.
 //!
-//! The file is `matrix coordinate real symmetric`. Its entries beside the diagonal are conductances between the nodes of row and column, or all of them the negative of those,
+//! The file is `matrix coordinate real symmetric`. Its off-diagonal entries are conductances between the nodes of row and column, or all of them the negative of those,
 //! as an assembled conductance matrix has them; the rows of such a matrix add up to zero.
 //! Each pair of nodes has one entry, in either triangle: a file with both triangles would conduct twice what its matrix does.
-//! Memory follows the entries that are there, not the size that the file declares.
+//! Memory grows with the entries present, not with the size that the file declares.
 
 use super::Field;
 use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};

@@ -1,4 +1,4 @@
-//! Names that may be meant by one that does not exist.
+//! Suggestions for names that do not exist.
 
 use inpact_parser::grammar::nearest_names;
 

@@ -1,6 +1,6 @@
 //! From the text of a scene file, and of the tables it names, to a scene.
 //!
-//! Every problem found is reported, with its line; a scene with errors is not given.
+//! Every problem is reported with its line; no scene is returned where there are errors.
 
 mod entries;
 mod files;

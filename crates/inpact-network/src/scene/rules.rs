@@ -1,4 +1,4 @@
-//! Rules about scenes, D011 to D019 and D023 to D025, beside those of node tables.
+//! Rules about scenes, D011 to D019 and D023 to D025.
 
 use inpact_diagnostics::data_rules;
 

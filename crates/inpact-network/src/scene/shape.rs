@@ -1,7 +1,7 @@
 //! The shape of a scene file: its keys and the kinds of their values, checked against the text in one pass.
 //!
-//! Every departure is reported, with its place: keys that are unknown or missing, values of another kind. Faulty parts are taken out,
-//! an entry as a whole, so that the rest can be read and its problems are reported in the same run.
+//! Every deviation is reported with its place: unknown or missing keys, values of another type. Faulty parts are removed,
+//! an entry as a whole, so that the rest can be read and its problems reported in the same run.
 //! The keys are those of `file.rs`; a test compares them with its schema.
 
 use super::file;

@@ -1,7 +1,7 @@
-//! Places where the text of a scene file is no TOML: all of them in one pass, with our messages.
+//! Syntax errors in the TOML of a scene file: all of them in one pass, with our messages.
 //!
-//! The parser of TOML goes on after what it cannot read and says where that was; what is wrong there is found out from the text.
-//! Faulty lines are read as empty, so that the rest of the scene can be read and its problems are reported in the same run.
+//! The TOML parser recovers from errors and gives their places; the message is derived from the text there.
+//! Faulty lines are read as empty, so that the rest of the scene can be read and its problems reported in the same run.
 
 use super::rules::MALFORMED_SCENE;
 use super::shape::{Part, Problem, expected_of};

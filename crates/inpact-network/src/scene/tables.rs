@@ -1,4 +1,4 @@
-//! The tables beside a scene file: nodes, links and interfaces as values between commas, semicolons or tabs, found from the header.
+//! The tables of a scene file: nodes, links and interfaces as values separated by commas, semicolons or tabs, detected from the header.
 //!
 //! | table | columns |
 //! |---|---|

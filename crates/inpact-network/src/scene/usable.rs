@@ -1,4 +1,4 @@
-//! Limits of the values of scenes: the one home of the refusals that the scene file and the tables beside it share.
+//! Limits of the values of scenes, shared by the scene file and its tables.
 
 use super::Field;
 use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};

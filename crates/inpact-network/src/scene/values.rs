@@ -1,4 +1,4 @@
-//! The values of a scene file: read by serde with the place of each number; a value of another type gives a finding.
+//! The values of a scene file, read by serde with the place of each number; a value of another type gives a finding.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};

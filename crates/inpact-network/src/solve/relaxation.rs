@@ -1,4 +1,4 @@
-//! Relaxed substitution: how far a value goes towards its next one.
+//! Fixed-point iteration of each value, under-relaxed or by bisection.
 
 /// The part of the way that substitution goes at most.
 const FIRST_PART: f64 = 0.5;

@@ -1,6 +1,6 @@
-//! One data line: items between commas (S-31 to S-37).
+//! One data line: items separated by commas (S-31 to S-37).
 //!
-//! nom takes the items one by one; what an item means is decided by whoever reads the row.
+//! nom parses the items one by one; the reader of the row interprets them.
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_till, take_while1};

@@ -1,8 +1,8 @@
-//! The text of a file that is being edited, in pieces of which only those that change are looked at again.
+//! The text of a file that is being edited, in pieces of which only those that change are rescanned.
 //!
-//! A deck of a hundred megabytes is mostly mesh. What a piece of it holds is surveyed once; a scan passes over a piece of mesh rows
-//! without touching its bytes, and gives the very deck that the whole text would.
-//! A piece ends after a line end, and no CR is parted from its LF; only the last piece may end in the middle of a line.
+//! A deck of a hundred megabytes is mostly mesh. Each piece is surveyed once; a scan skips a piece of mesh rows
+//! without touching its bytes, and gives the same deck as the whole text would.
+//! A piece ends after a line end, and a CR is not separated from its LF; only the last piece may end in the middle of a line.
 
 use super::Scanner;
 use super::lines::{count_line_ends, lines, without_line_end};

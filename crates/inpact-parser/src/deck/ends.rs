@@ -1,10 +1,10 @@
-//! Tables in order, of which the ends of the groups say all that there is to judge.
+//! Well-ordered tables, of which the checks need only the first and last row of each group.
 //!
 //! A deck that is only checked may be a hundred megabytes of tables in which nothing is wrong.
-//! Where the rows of a block are plain numbers that ascend as they must, with the same abscissae in every group and values that
-//! go one way, whatever holds at the first and the last row of each group holds between them.
-//! Those rows are read once, while their text is at hand, and then neither text nor numbers of the others are kept.
-//! Any table of which that is not certain is kept whole.
+//! Where the rows of a block are plain numbers in the required ascending order, with the same abscissae in every group and values that
+//! are monotone, whatever holds at the first and the last row of each group holds between them.
+//! Those rows are read once, while their text is in memory; the text and numbers of the rows between are then dropped.
+//! Any table for which that is not certain is kept whole.
 
 use super::KeywordLine;
 use super::lines::next_line;

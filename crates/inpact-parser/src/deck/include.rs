@@ -1,8 +1,8 @@
-//! Puts included files in their places (S-50 to S-54).
+//! Inserts included files in place (S-50 to S-54).
 //!
-//! A file is scanned by itself; its blocks then follow the *INCLUDE that named it.
-//! Rows before the first keyword of an included file, and rows after the *INCLUDE itself, go on with the block that is
-//! open there (S-51). What could not be read is said in [`Include::outcome`], and the rest of the deck is read all the same.
+//! Each file is scanned separately; its blocks then follow the *INCLUDE that named it.
+//! Rows before the first keyword of an included file, and rows after the *INCLUDE itself, continue the block that is
+//! open there (S-51). A file that could not be read is recorded in [`Include::outcome`], and the rest of the deck is still read.
 
 use super::scan::LeadingRows;
 use super::{Block, Deck, Excerpts, KeywordLine, RowsKept, ScanOptions, Scanner, Source};

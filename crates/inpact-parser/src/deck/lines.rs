@@ -1,4 +1,4 @@
-//! Physical lines: where one ends, and whether it is a comment, a keyword line or data (S-02 to S-05).
+//! Physical lines: line ends, and the classification as comment, keyword line or data (S-02 to S-05).
 //!
 //! Works on bytes alone; an LF, a CR LF and a lone CR each end a line.
 

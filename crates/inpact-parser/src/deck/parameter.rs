@@ -1,6 +1,6 @@
-//! The parameters of a keyword line, in little memory: a deck may be nothing but short lines.
+//! The parameters of a keyword line in compact form: a deck may consist of short lines only.
 //!
-//! They are kept by their places in the line, and given out with their spans.
+//! They are stored by their offsets in the line, and returned with their spans.
 
 use super::KeywordLine;
 use crate::grammar::{Dialect, Lookup};

@@ -1,6 +1,6 @@
-//! Rows of nothing but numbers, as nearly all are: read in one go, without looking for items first.
+//! Fast path for rows of numbers only, as nearly all are: parsed in one pass, without splitting into items first.
 //!
-//! The numbers are those that a reader of items finds; a row that has anything else is left to it.
+//! The numbers are the same as from the reader of items, which reads any row that has anything else.
 
 use crate::number::{FLOAT_CHARACTERS, read_float, read_plain};
 use std::ops::Range;

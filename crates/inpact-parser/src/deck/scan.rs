@@ -1,4 +1,4 @@
-//! Cuts bytes into blocks: the arrow from a file to a [`Deck`].
+//! Splits bytes into blocks: from a file to a [`Deck`].
 //!
 //! Bytes are pushed in pieces of any size, so a file is read once and need not fit into memory.
 //! Knows the grammar only to find the keyword of a line, whether its rows are worth keeping,

@@ -1,7 +1,7 @@
 //! Properties of a stretch of bytes, found in one vectorised pass.
 //!
-//! Mesh rows are plain: short ASCII lines that end in LF, without an asterisk. One look shows it, and then nobody has to
-//! look closer. The loop is written for a compiler that vectorises it, for whatever the processor has.
+//! Mesh rows are plain: short ASCII lines that end in LF, without an asterisk. One pass finds out, and the scan can then
+//! skip them. The loop is written so that the compiler vectorises it for any instruction set.
 
 /// The lanes that are looked at side by side.
 const LANES: usize = 64;

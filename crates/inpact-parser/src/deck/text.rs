@@ -1,6 +1,6 @@
-//! The bytes of one source file that the scan kept, found again by their offset in the file.
+//! The bytes of one source file that the scan kept, looked up by their offset in the file.
 //!
-//! A deck is mostly mesh, and nobody needs the text of a mesh: the store holds stretches of a file, not the file.
+//! A deck is mostly mesh, whose text is not needed: the store holds ranges of a file, not the whole file.
 
 use std::ops::Range;
 

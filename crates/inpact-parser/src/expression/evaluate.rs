@@ -1,6 +1,6 @@
-//! Computes an expression while it is read: operands wait on a stack of their own until their operator is due.
+//! Evaluates an expression while it is parsed, with an explicit stack (shunting-yard).
 //!
-//! No recursion, so that no text, however deep it nests, can use up the stack of the program.
+//! No recursion, so that no text, however deeply nested, can overflow the call stack.
 
 use super::arithmetic::{Operator, binary, negate, unsigned, with_remainder};
 use super::functions::{Function, function, names};

@@ -1,6 +1,6 @@
-//! Words of a logical line: names, numbers, texts, operators.
+//! Tokens of a logical line: names, numbers, texts, operators.
 //!
-//! Never fails: what is no word of the language is a token too, and whoever meets it says so.
+//! Never fails: invalid text is a token too, and the parser reports it.
 
 use super::arithmetic::Operator;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! Logical lines: physical lines joined where a statement goes on, without their comments.
+//! Logical lines: physical lines joined where a statement continues, without comments.
 
 use super::lexer::{Lexer, Token, is_blank};
 use crate::span::Span;

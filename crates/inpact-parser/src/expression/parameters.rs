@@ -1,4 +1,4 @@
-//! The parameters of a deck: every definition, and the value that counts in the end.
+//! The parameters of a deck: every definition, and the final value.
 
 use super::division::{Division, IntegerDivision};
 use super::value::Value;

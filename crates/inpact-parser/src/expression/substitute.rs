@@ -1,4 +1,4 @@
-//! `<name>` in keyword values and data lines, and what takes its place (S-62).
+//! Substitution of `<name>` in keyword values and data lines (S-62).
 
 use super::lexer::{is_blank, is_name, is_name_byte};
 use super::parameters::Parameters;

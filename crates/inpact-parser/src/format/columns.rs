@@ -1,4 +1,4 @@
-//! Items below one another: numbers by their decimal points, everything else by its first character.
+//! Alignment of items in columns: numbers by their decimal points, everything else by its first character.
 
 use crate::number::read_float;
 use std::ops::Range;

@@ -1,6 +1,6 @@
-//! One keyword line in the one style: names in full and in upper case, `, ` between the parameters (S-10 to S-19).
+//! Formats one keyword line: names in full and in upper case, `, ` between the parameters (S-10 to S-19).
 //!
-//! The pieces between the commas are replaced and so is the text between them; a value is never changed.
+//! The pieces between the commas and the separators are replaced; a value is never changed.
 
 use super::LINE_CHARACTERS;
 use crate::deck::lines::{LineKind, line_kind, lines, without_line_end};

@@ -1,7 +1,7 @@
-//! The rows of a block in the one style: items below one another, `, ` between them (S-31 to S-33).
+//! Formats the rows of a block: items aligned in columns, `, ` between them (S-31 to S-33).
 //!
 //! The text of an item is never changed, and a line keeps its items; only empty ones at the end of a row of numbers
-//! are left out, since they mean what nothing means (S-33).
+//! are left out, since they are equivalent to nothing (S-33).
 
 use super::LINE_CHARACTERS;
 use super::columns::{Cell, Columns, is_number_or_symbol};

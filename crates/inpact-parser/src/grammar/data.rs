@@ -1,4 +1,4 @@
-//! The rows of an option: their shape, their columns, and how a row lies on its lines (2.9).
+//! The rows of an option: their shape, their columns, and how a row is split into lines (2.9).
 
 use super::dimension::Dimension;
 use serde::Deserialize;

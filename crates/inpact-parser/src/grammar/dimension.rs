@@ -1,6 +1,6 @@
 //! Dimensions of data columns in the manual's base quantities M, L, T, θ, φ, C.
 //!
-//! Abaqus has no units, only dimensions (O-2): whoever writes a deck keeps them consistent.
+//! Abaqus has no units, only dimensions (O-2): the author of a deck keeps them consistent.
 //! Energy J and force F of the manual are written out: J = M L^2 T^-2, F = M L T^-2.
 
 use crate::Error;

@@ -1,6 +1,6 @@
 //! Lookup of a written name: blanks and case removed, exact or abbreviated (S-11 to S-13).
 //!
-//! The same for keywords, parameters and enumerated values. Works on bytes, allocates only to list what an ambiguous word may mean.
+//! The same for keywords, parameters and enumerated values. Works on bytes; allocates only to list the candidates of an ambiguous name.
 
 /// Result of looking up a written name among a set of names.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Names that are spelt nearly like a word, for the help of a message.
+//! Names with a spelling close to a word, for the help of a message.
 //!
 //! Bounded work for any input: only the first [`Folded::LONGEST`] characters of a word are looked at.
 

@@ -1,4 +1,4 @@
-//! Layout of JSON on lines: objects and lists of objects go over lines, a list of numbers or texts stays on one.
+//! Layout of JSON on lines: objects and lists of objects are spread over several lines, a list of numbers or texts stays on one.
 //!
 //! So a row of a table is a line, as in the deck.
 

@@ -1,8 +1,8 @@
-//! The model view: what a deck says, as typed data.
+//! The model view: the content of a deck as typed data.
 //!
-//! The structs of `document` are the JSON, field by field; the model itself knows nothing of JSON.
+//! The structs of `document` are the JSON, field by field; the model itself is independent of JSON.
 //! Places (`span`) are byte ranges of the deck the JSON was made from; they are optional on the way back.
-//! `schema/model.schema.json` is generated from `document`, and a test holds it fresh.
+//! `schema/model.schema.json` is generated from `document`, and a test keeps it up to date.
 
 mod document;
 mod read;

@@ -1,6 +1,6 @@
 //! The JSON Schemas of both views: generated here, and compared with the committed ones.
 //!
-//! They describe what is written; reading takes whatever they allow, and checks beside it what a schema cannot say.
+//! They describe the written form; reading accepts whatever they allow, and checks in addition what a schema cannot express.
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;

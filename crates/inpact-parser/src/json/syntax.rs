@@ -1,9 +1,9 @@
-//! The lossless view: every line of every file as it is.
+//! The lossless view: every line of every file, unchanged.
 //!
-//! A line is a string when it is UTF-8 and ends the way most lines of its file do; otherwise it is an object that says
-//! its bytes or its line end. What is derived from the lines (`keyword`, `parameters`) is there for reading;
-//! when the JSON comes back it must still agree with them, so that an edit to it is refused rather than ignored.
-//! `schema/syntax.schema.json` is generated from the types here, and a test holds it fresh.
+//! A line is a string when it is UTF-8 and has the most common line end of its file; otherwise it is an object with
+//! its bytes or its line end. Derived fields (`keyword`, `parameters`) are for readers;
+//! when the JSON is read back they must still agree with the lines, so that an edit to them is rejected rather than ignored.
+//! `schema/syntax.schema.json` is generated from the types here, and a test keeps it up to date.
 
 use super::{layout, parse, required};
 use crate::Error;

@@ -1,4 +1,4 @@
-//! *AMPLITUDE: the course of a condition in time, where it is tabular.
+//! *AMPLITUDE: the time variation of a condition, where it is tabular.
 
 use super::layout::canonical;
 use super::reader::Reader;

@@ -1,6 +1,6 @@
 //! Bodies: the solid elements of a deck with their nodes and materials, and the surfaces and node sets that are their terminals.
 //!
-//! Everything is read once, straight from the rows; elements keep nothing but their numbers and the positions of their nodes.
+//! Everything is read once, straight from the rows; of elements only their numbers and the positions of their nodes are kept.
 
 use super::elements::{ElementRows, RawFace};
 use super::layout::{Entry, canonical};

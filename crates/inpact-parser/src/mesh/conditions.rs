@@ -1,8 +1,8 @@
-//! Conditions of steps: what is held, what flows in, and films, each with the nodes or faces it is on.
+//! Conditions of steps: held values, fluxes and films, each with its nodes or faces.
 //!
 //! *BOUNDARY of the temperature (degree of freedom 11), the potential (9) and the pore pressure (8), *CFLUX, *CECURRENT, *DFLUX of faces, *DSFLUX, *DSECURRENT,
-//! *FILM and *SFILM; what else acts on these fields, or is given in a way that is not read, is named in [`DeckConditions::not_taken`].
-//! A condition lasts until a later step changes it (OP=MOD) or takes all of its kind away (OP=NEW).
+//! *FILM and *SFILM; other conditions on these fields, and those in a form that is not read, are listed in [`DeckConditions::not_taken`].
+//! A condition lasts until a later step changes it (OP=MOD) or removes all of its kind (OP=NEW).
 
 use super::MeshNote;
 use super::amplitudes::Amplitude;

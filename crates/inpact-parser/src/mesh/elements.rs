@@ -1,4 +1,4 @@
-//! Elements: from the rows of *ELEMENT to the faces that surfaces pick.
+//! Elements: from the rows of *ELEMENT to the faces that surfaces select.
 
 use super::layout::Entry;
 use super::reader::{Context, Reader};

@@ -1,7 +1,7 @@
 //! *INITIAL CONDITIONS of the nodes of surfaces: temperature, pore pressure, field variables; by node, set and instance.
 //!
-//! The last row that names a node counts.
-//! A quantity that no row names is not there: what a solver would then begin with is for others to say.
+//! The last row for a node takes precedence.
+//! A quantity without a row is absent: the solver's default is not assumed here.
 
 use super::Mesh;
 use super::layout::{Entry, canonical};

@@ -1,4 +1,4 @@
-//! Sets of numbers of nodes or elements, as ranges: a set of a million neighbours is one range.
+//! Sets of node or element numbers as ranges: a set of a million consecutive numbers is one range.
 
 /// Numbers, added in any order, looked up once all are there.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! The nodes of surfaces that were found.
+//! The located nodes of surfaces.
 
 use super::MeshNode;
 use super::nodes::Wanted;

@@ -1,7 +1,7 @@
 //! The axes of materials: *ORIENTATION of a section, with SYSTEM=RECTANGULAR and the coordinates of points of its axes.
 //!
 //! The first row has a point on the local x axis, a point in the local plane of x and y, and the origin (0 unless given; CalculiX reads none);
-//! the second, where there is one, a local axis and the angle in degrees by which the system is turned about it.
+//! the second, where there is one, a local axis and the angle in degrees by which the system is rotated about it.
 
 use super::layout::{Entry, canonical};
 use super::placement::Placement;

@@ -1,4 +1,4 @@
-//! Lines of notes: rows of meshes are not kept, so that their lines are counted in the bytes themselves.
+//! Line numbers of notes: rows of meshes are not kept, so their lines are counted in the bytes of the file.
 
 use super::RowBytes;
 use crate::deck::{Block, Deck};

@@ -1,4 +1,4 @@
-//! Where an instance is in the assembly.
+//! The position of an instance in the assembly.
 
 use inpact_geometry::Point;
 

@@ -1,4 +1,4 @@
-//! State that all readers of a mesh share: the options of each scope, where instances are, and notes.
+//! State shared by all readers of a mesh: the options of each scope, positions of instances, and notes.
 
 use super::MeshNote;
 use super::layout::{Definitions, Entry, Layout, MaterialEntries, StepEntry};

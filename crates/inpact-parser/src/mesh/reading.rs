@@ -1,4 +1,4 @@
-//! The way from a deck to its mesh: surfaces, sets, elements, nodes, in this order.
+//! Reads the mesh of a deck: surfaces, sets, elements, nodes, in this order.
 
 use super::Mesh;
 use super::conditions::{Target, Targets};

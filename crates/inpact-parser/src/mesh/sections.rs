@@ -1,4 +1,4 @@
-//! Thickness and offset of the sections that plane elements, shells and membranes have.
+//! Thickness and offset of the sections of plane elements, shells and membranes.
 
 use super::elements::RawFace;
 use super::layout::{Entry, canonical};

@@ -1,6 +1,6 @@
-//! The interactions of a deck by their names, in its order.
+//! The interactions of a deck by name, in the order of the deck.
 //!
-//! An interaction has its name already: it is not kept a second time, since a deck may have more interactions than anything else.
+//! An interaction holds its name already, so it is not stored a second time: a deck may have more interactions than anything else.
 
 use super::{Interaction, Name};
 use indexmap::set::MutableValues;

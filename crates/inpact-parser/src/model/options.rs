@@ -1,7 +1,7 @@
-//! The sub-options of an interaction by what they are, and those of heat and friction as they are meant.
+//! The sub-options of an interaction by kind, and the meaning of those of heat and friction.
 //!
-//! An interaction keeps *GAP CONDUCTANCE, *GAP RADIATION and *FRICTION as they are written, each with its parameters and in the order of the deck, since a deck may give them several times.
-//! [`Interaction::gap_conductance`], [`Interaction::gap_radiation`] and [`Interaction::friction`] say what they give.
+//! An interaction keeps *GAP CONDUCTANCE, *GAP RADIATION and *FRICTION as written, each with its parameters and in the order of the deck, since a deck may give them several times.
+//! [`Interaction::gap_conductance`], [`Interaction::gap_radiation`] and [`Interaction::friction`] interpret them.
 
 use super::{Interaction, SubOption, Table, TableKind};
 use crate::expression::Parameters;

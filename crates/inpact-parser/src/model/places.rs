@@ -1,4 +1,4 @@
-//! A model without the places it was read from: what two decks that mean the same agree in.
+//! A model without its source locations, to compare decks by meaning.
 
 use super::{GivenParameter, Interaction, Model, Reference, SubOption, Table};
 use crate::span::Span;

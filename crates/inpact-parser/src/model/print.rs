@@ -1,6 +1,6 @@
-//! A deck written from a model: what `inpact inp` makes of the model view.
+//! Writes a deck from a model, for `inpact inp` on the model view.
 //!
-//! The text is read again and compared with the model, so a model that no deck can hold is refused, never bent.
+//! The text is read again and compared with the model, so a model that no deck can express is rejected rather than altered.
 
 use super::{
     ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter, Interaction, Model,

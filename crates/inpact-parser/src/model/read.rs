@@ -1,6 +1,6 @@
 //! From the blocks of a deck to its [`Model`].
 //!
-//! Walks the blocks once, in reading order, and knows at each where it is: in a part, in a step, inside which interaction.
+//! Walks the blocks once, in reading order, and tracks the context of each: part, step, interaction.
 //! Collects problems and never stops at one (T-44).
 
 mod constants;

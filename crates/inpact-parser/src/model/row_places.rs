@@ -1,4 +1,4 @@
-//! Places of the rows of a table, in little memory: a deck may hold more rows than anything else.
+//! Places of the rows of a table in compact form: a deck may hold more rows than anything else.
 
 use crate::span::Span;
 

@@ -1,6 +1,6 @@
 //! Rows of numbers: from the lines of a block to a [`Table`] (S-30 to S-37, K-50 to K-56).
 //!
-//! Knows the layout of a row, not what its numbers mean. Reads every line, whatever is wrong with the one before.
+//! Knows the layout of a row, not the meaning of its numbers. Reads every line, even after a faulty one.
 
 use super::SubOption;
 use super::row_places::RowPlaces;

@@ -1,4 +1,4 @@
-//! Texts of options that are not interpreted, in little memory: a deck may have more of them than numbers.
+//! Texts of options that are not interpreted, in compact form: a deck may have more of them than numbers.
 
 use std::fmt;
 use std::ops::Deref;

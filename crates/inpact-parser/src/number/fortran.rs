@@ -1,8 +1,8 @@
 //! Numbers as CalculiX reads them: by the Fortran format F20.0 (CX-05).
 //!
-//! Blanks vanish; the first 20 characters that are left count, whatever follows.
+//! Blanks are removed; the first 20 remaining characters count, whatever follows.
 //! The exponent may occur after E, D or Q, or after its sign alone.
-//! A text without digits before the exponent is 0 for Fortran; it is no number here, nor are `nan` and `inf`, which Fortran takes.
+//! A text without digits before the exponent is 0 for Fortran; it is not a number here, nor are `nan` and `inf`, which Fortran accepts.
 
 use super::{FLOAT_CHARACTERS, NumberError};
 

@@ -1,4 +1,4 @@
-//! Numbers of few digits, as nearly all in a deck are, at a fraction of the cost of any number.
+//! Fast path for numbers of few digits, as nearly all in a deck are.
 //!
 //! The digits are an integer below 2⁵³ and the power of ten is at most 10²²: both are exact as f64, and one product or
 //! quotient of them is rounded once, to the number nearest to the decimal (Clinger, PLDI 1990). Everything else is left to the

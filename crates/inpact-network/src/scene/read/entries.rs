@@ -1,4 +1,4 @@
-//! Nodes, links and interfaces of a scene file, into the scene.
+//! Reads nodes, links and interfaces of a scene file into the scene.
 
 use super::{CheckedCondition, Reader, put_condition, start};
 use crate::scene::course::Course;

@@ -1,4 +1,4 @@
-//! The tables and matrices beside a scene file, into the scene.
+//! Reads the tables and matrices of a scene file into the scene.
 
 use super::{Reader, SceneFiles, put_condition};
 use crate::scene::file::{self, LinkFileEntry};

@@ -1,4 +1,4 @@
-//! Numbers of nodes by their names: definitions, references, and names that are near an unknown one.
+//! Node numbers by name: definitions, references, and suggestions for unknown names.
 
 use super::Reader;
 use crate::linear::index;

@@ -1,4 +1,4 @@
-//! Nodes that stand for a part of the deck's mesh, and the step whose conditions they take.
+//! Nodes that represent a part of the deck's mesh, and the step whose conditions they take.
 
 use super::{Reader, start};
 use crate::scene::file::ConditionsEntry;

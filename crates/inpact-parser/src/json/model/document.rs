@@ -1,6 +1,6 @@
 //! The JSON of the model view, field by field: `schema/model.schema.json` is generated from these types.
 //!
-//! Knows nothing of the model; the doc comment of a field is its description in the schema.
+//! Independent of the model; the doc comment of a field is its description in the schema.
 //! Units are those of the deck, given by their dimensions: M mass, L length, T time, θ temperature, φ electric potential,
 //! C electric charge.
 

@@ -1,4 +1,4 @@
-//! From the document to the model: what the types of the document cannot say is checked here.
+//! From the document to the model, with the checks that the types of the document cannot express.
 
 use super::SCHEMA;
 use super::document::{

@@ -1,6 +1,6 @@
 //! The constants of *SURFACE BEHAVIOR and *FRICTION that CalculiX reads: which items must be numbers (CX-08).
 //!
-//! Their rows stay texts in the model; what is no number there is a problem all the same, because ccx stops at it.
+//! Their rows stay texts in the model; an item that is not a number is still a problem, because ccx stops at it.
 
 use super::Reader;
 use super::entry::Entry;
