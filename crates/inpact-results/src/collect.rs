@@ -1,4 +1,4 @@
-//! Fields gathered row by row.
+//! Fields collected row by row.
 
 use crate::results::{Column, Field, Name, NotRead, Region, Rows};
 use std::collections::HashMap;

@@ -1,11 +1,11 @@
 //! Printed output of CalculiX, `.dat` (`*CONTACT PRINT`, `*NODE PRINT`, `*SECTION PRINT` with FLUX).
 //!
 //! Source: CalculiX CrunchiX manual, *CONTACT PRINT and *NODE PRINT, and what ccx 2.20 prints.
-//! A table has a title with its time, which is that from the beginning of the analysis, a blank line and rows.
+//! A table has a title with its total time, a blank line and rows.
 //! Contact of faces is printed by integration points, `slave element+face`, contact of nodes by `slave node`.
 //! The clearance is negative where surfaces overlap, as CalculiX prints it; the normal force is positive in tension.
 //! CalculiX titles the totals of CF, CFN and CFS alike in some releases: they keep the order of the file.
-//! The total flux of heat through a surface (SURFACE_FLUX) is positive where heat leaves the body that the surface is of.
+//! The total heat flux through a surface (SURFACE_FLUX) is positive where heat leaves the body of the surface.
 
 use crate::collect::{self, PassedOver, Row};
 use crate::error::Read;

@@ -1,4 +1,4 @@
-//! The one error of this crate.
+//! The error type of this crate.
 
 use crate::problem::Problem;
 use crate::results::Results;

@@ -1,7 +1,7 @@
 //! Results files of Abaqus in ASCII, `.fil` (`*FILE FORMAT, ASCII` with `*NODE FILE` and `*CONTACT FILE`).
 //!
 //! Source: Abaqus Output Reference, "Results file output format".
-//! Nodes are numbered anew by the solver where a model has parts and instances; record 1901 gives their coordinates.
+//! The solver renumbers nodes where a model has parts and instances; record 1901 gives their coordinates.
 
 mod quantities;
 mod records;

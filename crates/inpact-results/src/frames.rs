@@ -1,4 +1,4 @@
-//! Reading state by state: what of a file is in memory is what belongs to no state, and the state that is being read.
+//! Streaming state by state: only the current state and data outside of states are in memory.
 
 use crate::error::{Error, Read};
 use crate::format::Format;

@@ -1,9 +1,9 @@
 //! Results of CalculiX in ASCII, `.frd` (`*NODE FILE`, `*EL FILE`, `*CONTACT FILE`), in the short and the long format.
 //!
-//! Source: CalculiX GraphiX manual, "Result Format": columns are fixed, and numbers may touch each other.
-//! Times are those from the beginning of the analysis.
-//! `DISP` becomes `U`, `NDTEMP` `NT`, `FORC` `RF` and `FLUX` `HFL`, these and `RFL` with Abaqus' names of components; the rest keep their names.
-//! COPEN is negative where surfaces overlap; some releases write contact for all nodes, 0 where a node is none of a slave surface.
+//! Source: CalculiX GraphiX manual, "Result Format": columns have fixed widths, and numbers may touch each other.
+//! Times are total times.
+//! `DISP` becomes `U`, `NDTEMP` `NT`, `FORC` `RF` and `FLUX` `HFL`, these and `RFL` with Abaqus' component names; the rest keep their names.
+//! COPEN is negative where surfaces overlap; some releases write contact for all nodes, with 0 at nodes that are not on a slave surface.
 
 use crate::collect::{self, PassedOver, Row};
 use crate::error::Read;

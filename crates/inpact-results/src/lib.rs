@@ -11,8 +11,8 @@
 //! | `.dat` | CalculiX | `*NODE PRINT`, `*CONTACT PRINT` | [`read_dat`] |
 //! | `.vtu` | inpact, ParaView | | [`read_vtu`], [`vtu::read_grid`] |
 //!
-//! [`read`] finds out which of them bytes are, [`read_frames`] reads a source of any length state by state.
-//! A file that is cut short or damaged is an [`Error`]: the problem with its place and what to do, and the part before it.
+//! [`read`] detects the format from the bytes, [`read_frames`] streams a source of any length state by state.
+//! A truncated or damaged file is an [`Error`]: the problem with its place and what to do, and the part before it.
 //!
 //! ```
 //! let text = "\n relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time 0.5\n\n    \

@@ -1,4 +1,4 @@
-//! Lines with their places, whichever end of line a system writes: of bytes that are at hand, or of a source that is read piece by piece.
+//! Lines with their places, with any line end: of bytes in memory, or of a source that is read in pieces.
 
 use crate::problem::Place;
 use std::io;

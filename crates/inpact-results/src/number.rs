@@ -1,4 +1,4 @@
-//! Numbers as solvers print them.
+//! Parsing of numbers as solvers print them.
 
 /// The most characters of a number: Fortran's widest formats stay far below.
 const MOST: usize = 64;

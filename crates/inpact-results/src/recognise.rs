@@ -1,4 +1,4 @@
-//! The kind of a file by its bytes, never by a name.
+//! Detects the format of a file from its bytes, never from its name.
 
 use crate::format::Format;
 use crate::lines::Lines;

@@ -1,6 +1,6 @@
 //! The common form of result files: frames of fields, each a set of columns over the same rows.
 //!
-//! Values are those of the file, in its units, in its order; nothing is interpolated, merged or sorted.
+//! Values are those of the file, in its units and order; nothing is interpolated, merged or sorted.
 //! Columns have the identifiers of Abaqus where the quantity has one, whichever program wrote it: `U1`, `NT11`, `COPEN`, `CPRESS`.
 
 use crate::format::Format;

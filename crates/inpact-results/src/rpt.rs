@@ -1,8 +1,8 @@
 //! Reports of Abaqus/Viewer, `.rpt`: field output and XY data, several in one file, since the Viewer appends.
 //!
 //! Source: Abaqus/CAE User's Guide, "Generating tabular data reports"; read from real files.
-//! A field report says the time within its step; a row of XY data has the time of its `X`, which the Viewer counts from the
-//! beginning of the analysis unless its user chose otherwise.
+//! A field report gives the step time; a row of XY data has the time of its `X`, which the Viewer counts from the
+//! beginning of the analysis unless the user chose otherwise.
 //! Numbers are in columns of equal width, in fixed, scientific or engineering form (`644.116E-06`, `125.E-03`, `0.`).
 
 mod names;

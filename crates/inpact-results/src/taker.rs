@@ -1,4 +1,4 @@
-//! Handing over the states of a file, one after the other: what readers of formats have in common.
+//! Hands over the states of a file one by one, for all readers of formats.
 
 use crate::error::{Read, ended};
 use crate::lines::LineStream;

@@ -1,7 +1,7 @@
-//! Pictures for ParaView: unstructured grids of VTK in XML, `.vtu`, and their order in time, `.pvd`.
+//! Output for ParaView: VTK unstructured grids in XML, `.vtu`, and their time series, `.pvd`.
 //!
 //! Source: VTK User's Guide, "VTK XML formats".
-//! Numbers are written inline in base64, without compression: VTK, ParaView and meshio all read that.
+//! Numbers are written inline in base64, uncompressed, which VTK, ParaView and meshio all read.
 
 mod numbers;
 mod read;

@@ -1,4 +1,4 @@
-//! Comments that speak to inpact: `** inpact: ignore T005, P008 -- reason` silences these rules for the next block.
+//! Suppression comments: `** inpact: ignore T005, P008 -- reason` silences these rules for the next block.
 
 use crate::rules::RULES;
 use inpact_diagnostics::Diagnostic;

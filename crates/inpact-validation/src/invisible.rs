@@ -1,4 +1,4 @@
-//! Characters that look like nothing, or like another one: blanks, marks and dashes that a text editor puts in (S-01).
+//! Invisible and confusable characters: blanks, marks and dashes that a text editor inserts (S-01).
 
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
-//! The rules of `inpact check`: over a deck and its model, one file a rule.
+//! The rules of `inpact check`, over a deck and its model, one file per rule.
 //!
 //! [`check`] runs every rule and gives the [`Diagnostic`]s in the order of the deck.
-//! A rule sees the deck, the grammar, the model and what the reader met; it opens no file, prints nothing and cannot fail.
+//! A rule sees the deck, the grammar, the model and the reader's problems; it opens no file, prints nothing and cannot fail.
 //! Its doc comment is its page, its `explain` text and its test: the examples in it are run.
 //!
 //! ```

@@ -1,6 +1,6 @@
-//! Keyword lines that have lost their asterisk, and what follows from that in their block.
+//! Keyword lines that have lost their asterisk, and the findings that follow from it in their block.
 //!
-//! They are rows of the option above, and so are the rows after them: what is wrong with these has one cause (S021).
+//! They are read as rows of the option above, and so are the rows after them: all faults of these have one cause (S021).
 
 use crate::invisible;
 use inpact_parser::Problem;

@@ -1,7 +1,7 @@
 //! Order and groups of the rows of a table (T-01 to T-11).
 //!
-//! A row with a cell that is no number (a parameter without a value, something malformed) takes no part: it has a finding
-//! of its own, and its other cells may not be what they seem. What is left of an ascending table by leaving rows out
+//! A row with a cell that is not a number (a parameter without a value, something malformed) is skipped: it has a finding
+//! of its own, and its other cells may be misread. A subset of the rows of an ascending table
 //! ascends as well.
 
 use crate::rule::Context;

@@ -1,7 +1,7 @@
-//! Parameters as a keyword line gives them, beside what the grammar says of them.
+//! Parameters as given on a keyword line, compared with the grammar.
 //!
-//! Shared by the rules on values (S006 to S008, K006 to K011, K014, K016, K017): what is one question here is one
-//! answer there, so that one fault gives one finding.
+//! Shared by the rules on values (S006 to S008, K006 to K011, K014, K016, K017), so that each question is answered
+//! once and one fault gives one finding.
 
 use crate::rule::{Context, DefinedBlock};
 use inpact_parser::deck::{Parameter, Resolved};

@@ -1,6 +1,6 @@
-//! Misplaced keywords, run by run: a sub-option goes where the keyword before it goes.
+//! Misplaced keywords, in runs: a sub-option belongs where the keyword before it belongs.
 //!
-//! Shared by the rules on places (K012, K013), so that a block at a wrong place gives one finding and not one a keyword.
+//! Shared by the rules on places (K012, K013), so that a misplaced block gives one finding and not one per keyword.
 
 use crate::rule::Context;
 use inpact_parser::deck::KeywordLine;

@@ -1,4 +1,4 @@
-//! The reader's problems, block by block: a fault that all rows of a block share is one finding.
+//! The reader's problems by block: a fault shared by all rows of a block is one finding.
 
 use crate::rule::{Context, DefinedBlock};
 use crate::tables::columns_are_unclear;

@@ -1,4 +1,4 @@
-//! Rules: what they see, and how they report.
+//! Rules: their input, and how they report.
 
 use crate::lost::LostLine;
 use inpact_diagnostics::{Diagnostic, Label, Rule};

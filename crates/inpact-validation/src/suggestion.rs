@@ -1,4 +1,4 @@
-//! Turns of phrase that several messages share.
+//! Phrases shared by several messages.
 
 /// The most names that a message lists.
 const MOST: usize = 10;

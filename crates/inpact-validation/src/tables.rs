@@ -1,7 +1,7 @@
-//! Shared parts of the rules on tables: the tables to judge, and how they must start.
+//! Shared parts of the rules on tables: the tables to check, and how they must start.
 //!
-//! A table is judged by its numbers only where they can be trusted to be what was meant: a row with too many items, a
-//! misspelt parameter or an unreadable DEPENDENCIES has a finding of its own, and what follows from it has none.
+//! The numbers of a table are checked only where they can be trusted: a row with too many items, a
+//! misspelt parameter or an unreadable DEPENDENCIES has a finding of its own, and its consequences have none.
 
 use crate::parameter::given;
 use crate::rule::{Context, DefinedBlock, trimmed};

@@ -1,7 +1,7 @@
 //! Pictures: points over two logarithmic axes, and panels of curves.
 //!
-//! A [`Chart`] says what there is to see of a trade-off; [`Chart::svg`] draws it. [`sheet`] draws [`crate::curves`], a [`panel`] a law, [`terminal`] in letters.
-//! `png::render` makes pixels of a drawing. Knows no decks and no measurements. Text is drawn with fonts of the viewer in SVG; for PNG the font comes with the program.
+//! A [`Chart`] is the content of a trade-off diagram; [`Chart::svg`] draws it. [`sheet`] draws [`crate::curves`], a [`panel`] a law, [`terminal`] as text.
+//! `png::render` rasterises a drawing. Independent of decks and measurements. Text uses fonts of the viewer in SVG; for PNG the font is embedded in the program.
 
 mod axis;
 mod colours;

@@ -1,6 +1,6 @@
-//! The command line as a function: what the program `inpact` is, and what other packages carry as their command.
+//! The command line as a function, for the program `inpact` and for packages that install the same command.
 //!
-//! No domain logic lives here; only here are colours known and exit codes chosen.
+//! No domain logic here; this is the only place that knows colours and chooses exit codes.
 //! Exit codes: 0 done, no errors found; 1 the deck or the data has errors; 2 wrong usage, or a file that cannot be read or written.
 //! A closed pipe (`inpact check … | head`) ends quietly with 0.
 

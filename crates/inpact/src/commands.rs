@@ -1,4 +1,4 @@
-//! The commands, one file each: its arguments, and the way from them to a result.
+//! The commands, one file each: arguments, and the way from them to a result.
 
 pub(crate) mod body;
 pub(crate) mod check;

@@ -1,10 +1,10 @@
 //! Drawings of a deck's laws: curves of conductance, permeability and view factor against clearance and contact pressure.
 //!
-//! A [`Panel`] is one law of one interaction as figure 37.3.1-1 of the Analysis User's Guide (6.14) has it: clearance to the left of contact, pressure to the right.
-//! Every value is the law's own, found as an evaluation finds it; nothing is interpolated here.
-//! Rows that form no table have no values, and are shown as they are.
+//! A [`Panel`] is one law of one interaction as in figure 37.3.1-1 of the Analysis User's Guide (6.14): clearance to the left of contact, pressure to the right.
+//! Every value is computed by the law as in an evaluation; nothing is interpolated here.
+//! Rows that form no table have no values, and are shown unchanged.
 //!
-//! Knows no pixels and no files: pictures, text plots and pages are made of it.
+//! Independent of pixels and files: pictures, text plots and pages are made from it.
 
 mod build;
 mod changes;

@@ -1,4 +1,4 @@
-//! A deck that was read with everything it includes.
+//! A deck, read with everything it includes.
 
 use crate::curves::{self, Figure, Request};
 use crate::error::Error;

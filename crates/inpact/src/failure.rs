@@ -1,4 +1,4 @@
-//! Ends of a command: exit codes, and messages when it cannot go on.
+//! Outcomes of a command: exit codes, and messages when it cannot continue.
 
 use inpact_diagnostics::visible::{visible, visible_json};
 use std::borrow::Cow;

@@ -1,6 +1,6 @@
 //! Decks in, results out: the only place where files are opened.
 //!
-//! Files read here are recorded, and none of them is written over, but by a [`transaction`] that replaces what it was made from.
+//! Files read here are recorded, and none of them is overwritten, except by a [`transaction`] that replaces its own input.
 
 mod access;
 mod holders;

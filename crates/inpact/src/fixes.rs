@@ -1,4 +1,4 @@
-//! Fixes of a deck's findings, applied in memory, and written back where that is wanted.
+//! Fixes of a deck's findings, applied in memory, and written back on request.
 
 use crate::deck::Deck;
 use crate::difference;

@@ -1,7 +1,7 @@
-//! `check --fix`: applies the fixes of findings to the files that were read, until nothing is left to mend.
+//! `check --fix`: applies the fixes of findings to the files that were read, until none is left.
 //!
-//! All decks of a run share the files that are held, so that a file is mended once, by whatever names and from however many decks it is reached.
-//! Nothing is written here: what changes is for a transaction to write.
+//! All decks of a run share the files in memory, so that a file is fixed once, however many names and decks refer to it.
+//! Nothing is written here; changes are written by a transaction.
 
 mod edits;
 

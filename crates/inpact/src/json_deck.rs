@@ -1,4 +1,4 @@
-//! From JSON, either view, to the files of a deck.
+//! Reads JSON, either view, into the files of a deck.
 
 use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::json::{self, View};

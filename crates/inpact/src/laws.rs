@@ -1,4 +1,4 @@
-//! The laws of one interaction by themselves: a conductance at points and over columns, without a table of nodes.
+//! The laws of one interaction on their own: a conductance at points and over columns, without a node table.
 
 use crate::deck::Deck;
 use crate::error::Error;

@@ -1,8 +1,8 @@
 //! Checks, converts, evaluates and solves the contact interfaces of Abaqus input decks.
 //!
-//! This is the front door: decks with what they include, as their configuration has it; findings and their fixes; JSON both ways; the pages of `explain`;
+//! The facade of the other crates: decks with their included files and configuration; findings and their fixes; JSON both ways; the pages of `explain`;
 //! interface laws over record batches; scenes.
-//! Each is built on a crate that does it without files and settings, and may be used by itself: `inpact-parser`, `inpact-validation`, `inpact-evaluation`,
+//! Each is built on a crate that works without files and settings, and can be used on its own: `inpact-parser`, `inpact-validation`, `inpact-evaluation`,
 //! `inpact-contact`, `inpact-network`.
 //! The command line is [`cli::run`].
 //!

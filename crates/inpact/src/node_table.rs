@@ -1,4 +1,4 @@
-//! Node tables from the mesh of a deck, and from what its job wrote.
+//! Node tables from the mesh of a deck and its job's result files.
 
 use crate::commands::job_results::{States, join};
 use crate::commands::mesh_rows::{refuse_none, rows_of_pairs};

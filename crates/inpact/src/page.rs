@@ -1,4 +1,4 @@
-//! The pages of rules, keywords and columns as Markdown: what `explain` prints, and what the documentation is made of.
+//! The pages of rules, keywords and columns as Markdown, for `explain` and the documentation.
 
 use inpact_diagnostics::{FixKind, Rule};
 use inpact_evaluation::nodes::{COLUMN_PAGES, ColumnPage};

@@ -1,4 +1,4 @@
-//! The pages of rules, keywords and columns as Markdown: what `explain` prints, and what an editor shows.
+//! The pages of rules, keywords and columns as Markdown, as `explain` prints and editors show them.
 
 use crate::error::Error;
 use crate::failure::Failure;

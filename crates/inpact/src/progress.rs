@@ -1,4 +1,4 @@
-//! A progress bar for long inputs, when somebody is looking at standard error.
+//! A progress bar for long inputs, when standard error is a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;

@@ -1,8 +1,8 @@
-//! Files that a deck from elsewhere may reach.
+//! Files that an untrusted deck may read.
 //!
-//! Only regular files are: no folders, devices, pipes or sockets, and none of the files that the system makes up when they are
-//! read, such as `/proc/self/environ`, which has the secrets of a CI job. With roots (`--include-root`) nothing outside of them is
-//! read, whatever a name looks like and wherever a symbolic link leads; files are judged by their whole paths.
+//! Only regular files: no folders, devices, pipes or sockets, and none of the virtual files that the system generates when they are
+//! read, such as `/proc/self/environ`, which may hold the secrets of a CI job. With roots (`--include-root`) nothing outside of them is
+//! read, whatever the name and wherever a symbolic link leads; files are judged by their canonical paths.
 
 use crate::files;
 use std::fs::Metadata;

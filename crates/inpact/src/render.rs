@@ -1,4 +1,4 @@
-//! Diagnostics as text: one plain function a format, over the one [`Diagnostic`], be it about a deck or about data.
+//! Diagnostics as text: one plain function per format, over the same [`Diagnostic`] for decks and data.
 
 mod concise;
 mod excerpt;

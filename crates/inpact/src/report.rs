@@ -1,8 +1,8 @@
-//! A report on a deck: one HTML file that says what its interfaces are, opens from a mail and asks nothing of a network.
+//! A report on a deck: one self-contained HTML file about its interfaces that opens from an e-mail and needs no network.
 //!
-//! Its content is decided here, section by section; [`page`] makes HTML of it, in which nothing of a deck can run:
-//! text is escaped, data is JSON that cannot end its element, and the page's own policy allows two scripts only, by their hashes.
-//! Charts are drawn by uPlot 1.6.32, whose built file stands in `uplot/` with its licence as its registry package has it.
+//! Its content is decided here, section by section; [`page`] makes HTML of it, in which nothing from a deck can run:
+//! text is escaped, data is JSON that cannot close its element, and the content security policy allows two scripts only, by their hashes.
+//! Charts are drawn by uPlot 1.6.32, whose built file and licence are in `uplot/`, unchanged from its registry package.
 
 mod charts;
 mod inputs;

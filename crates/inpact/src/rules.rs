@@ -1,4 +1,4 @@
-//! All rules there are: those of decks, of their geometry, of node tables, of scenes and of bodies.
+//! All rules: those of decks, of their geometry, of node tables, of scenes and of bodies.
 
 use inpact_body::BODY_RULES;
 use inpact_contact::GEOMETRY_RULES;

@@ -1,9 +1,9 @@
 //! `inpact server`: the language server, over standard input and output.
 //!
-//! Everything that it says comes from the crates that `check`, `fmt` and `explain` stand on: there is no second parser and no rule here.
-//! Messages are taken in order, one at a time. A change of a text costs the change; decks are read when somebody asks for them, or
-//! when nothing else is waiting. A request that fails, even by a fault of ours, is answered with an error and changes nothing, and so is one that
-//! is cancelled while it is answered: its work looks for that (`stop`) between pieces of a text, blocks, rules and lines.
+//! It is built on the same crates as `check`, `fmt` and `explain`: there is no second parser and no rule here.
+//! Messages are handled in order, one at a time. A change of a text is applied incrementally; decks are read when a request needs them, or
+//! when the queue is empty. A request that fails, even by a panic, is answered with an error and changes nothing, and so is one that
+//! is cancelled while it is answered: its work checks for that (`stop`) between pieces of a text, blocks, rules and lines.
 
 mod actions;
 mod analysis;

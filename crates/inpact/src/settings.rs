@@ -1,4 +1,4 @@
-//! Settings of reading and judging a deck: `inpact.toml`, found upward from the deck, and the options or arguments that override it.
+//! Settings for reading and checking a deck: `inpact.toml`, searched upwards from the deck, and the options or arguments that override it.
 
 mod arguments;
 

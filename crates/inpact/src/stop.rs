@@ -1,8 +1,8 @@
-//! Work that is given up because nobody wants what comes of it.
+//! Cancellation of work whose result is no longer needed.
 //!
-//! Long work looks at a [`Stop`] again and again.
-//! Where it has been requested, the work unwinds to whoever began it, who catches [`Stopped`]: no function on the way need know of it, and none may leave anything half done.
-//! The language server does so with requests that are cancelled; everything else has a `Stop` that nobody can request.
+//! Long work polls a [`Stop`].
+//! Once it is requested, the work unwinds to its starter, which catches [`Stopped`]: no function in between needs to know of it, and all must be unwind-safe.
+//! The language server does so with cancelled requests; everything else has a `Stop` that is never requested.
 
 use std::panic::resume_unwind;
 use std::sync::Arc;

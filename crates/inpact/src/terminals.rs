@@ -1,6 +1,6 @@
-//! Terminals: parts of a mesh that are one node of a scene each, and what the deck says of them.
+//! Terminals: parts of a mesh that are one node of a scene each, with their conditions in the deck.
 //!
-//! Used where a scene takes its conditions from the deck, and where a deck becomes a scene: one meaning of *BOUNDARY, of fluxes and of films on a set.
+//! Used where a scene takes its conditions from the deck, and where a deck becomes a scene: one interpretation of *BOUNDARY, of fluxes and of films on a set.
 
 use inpact_geometry::{NodeId, Placed, face_areas};
 use inpact_network::scene::{Course, Field};

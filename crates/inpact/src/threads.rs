@@ -1,7 +1,7 @@
-//! The threads that share the work.
+//! The thread pool.
 //!
-//! If the system gives no more threads (a container's limit of processes), the work is done on the one that is there:
-//! results do not depend on how many there are.
+//! If no threads can be created (a container's process limit), the work is done on the current one:
+//! results do not depend on their number.
 
 use rayon::ThreadPoolBuilder;
 use std::num::NonZero;

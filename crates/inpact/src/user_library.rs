@@ -1,6 +1,6 @@
-//! The user's own conductance: a shared library with the Fortran routine GAPELECTR (semantics 7.1, U-1, U-2, S-43).
+//! User-defined conductance: a shared library with the Fortran routine GAPELECTR (semantics 7.1, U-1, U-2, S-43).
 //!
-//! The only place where native code that is not ours is loaded and called, and so the only one with `unsafe`.
+//! The only place where foreign native code is loaded and called, and so the only one with `unsafe`.
 //!
 //! ## Calling convention
 //!
@@ -15,20 +15,20 @@
 //! ```
 //!
 //! - The symbol is the name in lower case with an underscore: `gapelectr_`.
-//! - Every argument is passed by address. Reals are REAL*8, which `ABA_PARAM.INC` says with `IMPLICIT REAL*8 (A-H,O-Z)`; integers are default INTEGER.
-//! - Arrays lie column by column: COORDS(1,1), COORDS(2,1), COORDS(1,2) and so on; PREDEF(1,1), PREDEF(2,1), PREDEF(1,2) and so on.
-//! - The lengths of the three CHARACTER arguments follow after all others, by value, as `size_t`.
+//! - Every argument is passed by address. Reals are REAL*8, as `ABA_PARAM.INC` declares with `IMPLICIT REAL*8 (A-H,O-Z)`; integers are default INTEGER.
+//! - Arrays are in column-major order: COORDS(1,1), COORDS(2,1), COORDS(1,2) and so on; PREDEF(1,1), PREDEF(2,1), PREDEF(1,2) and so on.
+//! - The lengths of the three CHARACTER arguments follow after all other arguments, by value, as `size_t`.
 //!
-//! ## Why the calls are sound, as far as that can be
+//! ## Why the calls are sound, as far as possible
 //!
 //! - The routine is given copies that live as long as the call, so that it may write to its arguments, as Fortran allows.
-//!   SIGMA has room for eight numbers: a routine that writes more than three of them is found out, not obeyed.
-//! - Integers lie in eight bytes with the value in the first four (and, little-endian, in all eight), so that a routine compiled with `-fdefault-integer-8` reads them as well.
-//! - One call at a time in the whole process: COMMON and SAVE have no protection of their own.
-//! - The library is never unloaded, so the address of the routine stays good, and so does the code that threads of the library's own (OpenMP) run when the work is done.
-//! - The library is loaded by a thread of its own: one that was linked with `-ffast-math` switches subnormal numbers off in the thread that loads it.
+//!   SIGMA has room for eight numbers: a routine that writes more than three of them is detected.
+//! - Integers are stored in eight bytes with the value in the first four (and, little-endian, in all eight), so that a routine compiled with `-fdefault-integer-8` reads them as well.
+//! - One call at a time in the whole process: COMMON and SAVE are not thread-safe.
+//! - The library is never unloaded, so the address of the routine stays valid, and so does the code of the library's own threads (OpenMP).
+//! - The library is loaded by a separate thread: one that was linked with `-ffast-math` disables subnormal numbers in the thread that loads it.
 //!
-//! Further misuse by the routine (a wild address, another list of arguments) cannot be checked: it is run because the user names the file, and a crash in it ends the program.
+//! Other misuse by the routine (a wild pointer, another argument list) cannot be checked: it runs because the user names the file, and a crash in it ends the program.
 //! A STOP in it ends the program too, with a message.
 
 #![allow(unsafe_code)]

@@ -1,4 +1,4 @@
-//! Quantities by keys of records.
+//! Quantities by record key.
 //!
 //! Source: Abaqus Output Reference, "Results file output format", records written for any node file output request (101 to
 //! 237) and for any contact surface file output request (1511 to 1578); the manual's order gives 1530 as HTL.

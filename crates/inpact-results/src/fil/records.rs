@@ -1,4 +1,4 @@
-//! The stream of words that an ASCII `.fil` is: cut into lines of 80 characters without regard to words.
+//! The stream of words in an ASCII `.fil` file, which is broken into lines of 80 characters regardless of word boundaries.
 
 use crate::lines::{LineEnd, LineStream};
 use crate::number;

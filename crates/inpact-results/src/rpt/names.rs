@@ -1,4 +1,4 @@
-//! The names of columns: of which variable, node and region they are.
+//! Column names: the variable, node and region of each.
 
 use crate::number;
 use crate::results::{Name, Region};

@@ -1,4 +1,4 @@
-//! Numbers as VTK stores them: ASCII, or blocks of bytes with their length before them, compressed or not.
+//! Numbers as VTK stores them: ASCII, or length-prefixed blocks of bytes, compressed or not.
 
 use super::Values;
 use super::xml::Tag;

@@ -1,4 +1,4 @@
-//! Reads grids: those written here, and those of VTK's own writers, whose numbers are ASCII, base64 or appended raw bytes.
+//! Reads grids: those written here, and those of VTK's own writers, with numbers as ASCII, base64 or appended raw bytes.
 
 use super::numbers::{Encoding, NumberType, decoded, numbers_of};
 use super::xml::{CUT, DAMAGED, Tag, Tags};

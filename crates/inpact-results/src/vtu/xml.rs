@@ -1,4 +1,4 @@
-//! The little XML that VTK writes: elements with attributes, and text; no more is needed, and none is built in memory.
+//! A streaming parser for the subset of XML that VTK writes: elements with attributes, and text.
 
 use crate::problem::{Place, Problem, shown};
 

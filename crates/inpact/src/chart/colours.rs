@@ -1,4 +1,4 @@
-//! Colours of curves: an ordered ramp that is distinguished without red and green, and by its lightness alone in black and white.
+//! Colours of curves: an ordered, colour-blind-safe ramp that is also distinguishable by lightness alone.
 
 /// From dark blue over purple to orange.
 const RAMP: [(f64, f64, f64); 7] = [

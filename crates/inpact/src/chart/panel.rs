@@ -1,4 +1,4 @@
-//! A panel of curves as figure 37.3.1-1 of the Analysis User's Guide has it: clearance to the left of contact, pressure to the right, one axis of values.
+//! A panel of curves as in figure 37.3.1-1 of the Analysis User's Guide: clearance to the left of contact, pressure to the right, one axis of values.
 
 use super::colours;
 use super::scale::{Scale, ScaleKind};

@@ -1,4 +1,4 @@
-//! Pictures of pixels, made from the drawing; the font comes with the program, whatever the machine has.
+//! Rasterises a drawing to PNG; the font is embedded in the program.
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};

@@ -1,4 +1,4 @@
-//! Scales of curves: from the numbers of an axis to parts of its length, for all finite numbers.
+//! Scales of curves: map the numbers of an axis to fractions of its length, for all finite numbers.
 
 use crate::curves::{number, range};
 

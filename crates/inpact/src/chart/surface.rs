@@ -1,4 +1,4 @@
-//! Interfaces as they lie in space, face by face in the colour of a result.
+//! Interfaces in space, face by face in the colour of a result.
 
 use super::colours;
 use super::scale::Scale;

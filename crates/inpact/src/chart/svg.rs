@@ -1,6 +1,6 @@
 //! Lines, circles and text as an SVG document.
 //!
-//! Colours are attributes of each shape, so that every viewer and renderer draws them alike on a light ground.
+//! Colours are attributes of each shape, so that every viewer and renderer draws them alike on a light background.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Panels of curves in letters, for a terminal of 80 columns without colours.
+//! Panels of curves as text, for a terminal of 80 columns without colours.
 
 use super::panel::{Scales, remarks, values_of, wrapped};
 use super::scale::{Scale, ScaleKind};

@@ -1,4 +1,4 @@
-//! `inpact body`: a deck with a mesh in; out what its bodies conduct and hold between surfaces and node sets.
+//! `inpact body`: a deck with a mesh in; conductances and capacities of its bodies between surfaces and node sets out.
 
 mod scene;
 mod text;

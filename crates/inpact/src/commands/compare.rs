@@ -1,4 +1,4 @@
-//! `inpact compare`: what is computed of a deck's interfaces, beside what its solver says of them, node by node.
+//! `inpact compare`: computed results of a deck's interfaces beside those of its solver, node by node.
 
 mod geometry;
 mod measure;

@@ -1,7 +1,7 @@
-//! Decks by what arguments name: files as they are, folders by the decks in them.
+//! Expands arguments to decks: files as given, folders to the decks in them.
 //!
-//! In a folder every `.inp` counts, and what `include` of the configuration adds; what `.gitignore` or `exclude` names does not, nor
-//! does what is hidden. The order is that of the names, whatever the file system says.
+//! In a folder every `.inp` counts, and whatever `include` of the configuration adds; files that `.gitignore` or `exclude` names do not, nor
+//! do hidden files. The order is by name, independent of the file system.
 
 mod changed;
 

@@ -1,4 +1,4 @@
-//! Drawings as files, for `plot` and `tradeoff`: the format that a name says, and the bytes of it.
+//! Drawings as files, for `plot` and `tradeoff`: the format by file name, and the bytes.
 
 use crate::failure::Failure;
 use std::path::Path;

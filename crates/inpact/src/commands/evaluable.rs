@@ -1,4 +1,4 @@
-//! A deck and a node table that can be evaluated, and the choices between them: what `eval`, `plan` and `tradeoff` have in common.
+//! A deck and a node table that can be evaluated, with the user's choices: shared by `eval`, `plan` and `tradeoff`.
 
 use super::findings::{Messages, Reporter};
 use super::job_results::{RESULTS_HELP, States, states};

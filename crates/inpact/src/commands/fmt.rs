@@ -1,6 +1,6 @@
-//! `inpact fmt`: decks rewritten in one style where inpact interprets them.
+//! `inpact fmt`: formats the parts of decks that inpact interprets.
 //!
-//! A file is formatted by itself; what it includes is formatted only when it is named as well.
+//! Files are formatted one by one; included files are formatted only when they are named as well.
 
 use super::decks::{self, Same};
 use crate::difference;

@@ -1,4 +1,4 @@
-//! `inpact inp`: JSON in, a deck out, and the files it includes where the lossless form has them.
+//! `inpact inp`: JSON in, a deck out, with the files it includes where the lossless form has them.
 
 mod into;
 

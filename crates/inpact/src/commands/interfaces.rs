@@ -1,4 +1,4 @@
-//! `inpact interfaces`: a deck with a mesh in, and what its job wrote; the interfaces of a scene out, a row a slave node or one a pair.
+//! `inpact interfaces`: a deck with a mesh and its job's result files in; the interfaces of a scene out, one row per slave node or per pair.
 
 use super::findings::{Messages, with_messages};
 use super::job_results::{RESULTS_HELP, States, states};

@@ -1,4 +1,4 @@
-//! The heat of the current in bodies: what their links turn into heat, and what the deck does not say of it.
+//! Joule heat in bodies: the fraction that their links turn into heat, and notes where the deck does not define it.
 
 use inpact_body::{BodyField, JouleHeat, Lumped};
 use inpact_parser::mesh::MeshNote;

@@ -1,4 +1,4 @@
-//! Rows of node tables that are made of a deck's mesh and of what its job wrote, and what is said of them: for `nodes`, `eval`, `plan` and `tradeoff`.
+//! Rows of node tables from a deck's mesh and its job's result files, with their notes: for `nodes`, `eval`, `plan` and `tradeoff`.
 
 use super::findings::Messages;
 use super::meshed::MeshedDeck;

@@ -1,4 +1,4 @@
-//! A deck with the mesh around its contact pairs, and what is said of what was not read.
+//! A deck with the mesh around its contact pairs, and notes on the parts that were not read.
 
 use super::findings::Messages;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! Points of an evaluated node table for curves and interfaces: where its rows are, and what they add up to time by time. For `plot` and `report`.
+//! Points of an evaluated node table for curves and interfaces: the positions of its rows, and their sums for each time. For `plot` and `report`.
 
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::picture::Drawn;

@@ -1,4 +1,4 @@
-//! `inpact nodes`: a deck with a mesh in, and what its job wrote; the node table of its contact pairs out.
+//! `inpact nodes`: a deck with a mesh and its job's result files in; the node table of its contact pairs out.
 
 use super::findings::{Messages, with_messages};
 use super::job_results::{RESULTS_HELP, States, states};

@@ -1,4 +1,4 @@
-//! Pictures for ParaView: a `.vtu` of the slave surfaces for each state, with every column as values of points, and a `.pvd` that says their times.
+//! Pictures for ParaView: a `.vtu` of the slave surfaces for each state, with every column as point data, and a `.pvd` with their times.
 
 use crate::failure::Failure;
 use crate::files::{ResultFile, check_targets};

@@ -1,4 +1,4 @@
-//! `inpact plan`: a deck and a node table in, what an evaluation of them would do out.
+//! `inpact plan`: a deck and a node table in, the plan of their evaluation out.
 
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::{Messages, PrintedAs, with_messages};

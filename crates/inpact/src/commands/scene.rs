@@ -1,6 +1,6 @@
 //! `inpact scene`: a deck with a mesh in; a scene out, of its contact pairs, its bodies between terminals, and its conditions.
 //!
-//! Nothing is invented: what the deck does not say is missing in the scene, and what cannot be taken over is listed with its line.
+//! Nothing is invented: values that the deck does not define are missing in the scene, and options that cannot be converted are listed with their lines.
 
 mod lumping;
 mod terminals;

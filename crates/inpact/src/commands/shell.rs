@@ -1,4 +1,4 @@
-//! `inpact completions` and `inpact man`: what a package puts beside the program.
+//! `inpact completions` and `inpact man`: files that a package installs with the program.
 
 use crate::failure::{Failure, Outcome};
 use crate::files;

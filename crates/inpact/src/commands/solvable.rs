@@ -1,4 +1,4 @@
-//! A scene that can be solved, with its deck: what `solve` and `tradeoff --scene` have in common, and what they say where it is wrong.
+//! A scene that can be solved, with its deck, or its findings: shared by `solve` and `tradeoff --scene`.
 
 mod deck_conditions;
 mod failures;

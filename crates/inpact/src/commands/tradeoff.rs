@@ -1,4 +1,4 @@
-//! `inpact tradeoff`: what accuracy costs on a user's own data, as a work–precision diagram.
+//! `inpact tradeoff`: the cost of accuracy on a user's own data, as a work–precision diagram.
 //!
 //! `tables` measures the modes of evaluation on a deck and its node table, `solvers` the linear solvers on a scene; their files have the same names.
 

@@ -1,4 +1,4 @@
-//! The laws that have curves, and their values at a point: what an evaluation of a node row would find there.
+//! The laws that have curves, and their values at a point, as an evaluation of a node row would compute them.
 
 use super::{Reach, Side};
 use clap::ValueEnum;

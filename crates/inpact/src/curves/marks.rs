@@ -1,4 +1,4 @@
-//! Findings of a check at their places on the curves.
+//! Findings of a check, located on the curves.
 
 use super::rows::LawRows;
 use super::{Figure, Panel, Side};

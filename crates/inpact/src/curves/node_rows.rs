@@ -1,4 +1,4 @@
-//! Rows of a node table on the curves of a law: where the nodes are, and how many of them are where no row of the table says a value.
+//! Rows of a node table on the curves of a law: the positions of the nodes, and how many of them lie outside the table.
 
 use super::Side;
 use crate::text::counted;

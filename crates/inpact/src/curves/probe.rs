@@ -1,4 +1,4 @@
-//! Values of a law at stops of its temperature and field variables, found beforehand: what a page without the law itself can show by sliders.
+//! Precomputed values of a law at sampled temperatures and field variables, for the sliders of a page that cannot evaluate the law itself.
 
 use super::law::Law;
 use super::sample::{Side as SideRows, sort_and_dedup, spread, thinned_together};

@@ -1,4 +1,4 @@
-//! The rows of a law's tables, as the deck has them.
+//! The rows of a law's tables, as in the deck.
 
 use super::{LawKind, Side, range};
 use inpact_parser::model::{Interaction, Model, Table, TableKind};

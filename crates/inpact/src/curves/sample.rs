@@ -1,6 +1,6 @@
-//! Abscissae of a curve, and the number of its values that are kept.
+//! Abscissae at which a curve is sampled, and the number of values kept.
 //!
-//! On linear axes a curve is straight between the abscissae of its rows, so that these would do; logarithmic axes, and readers who point at a curve, want more of them.
+//! On linear axes a curve is straight between the abscissae of its rows, so that these would suffice; logarithmic axes and pointing at a curve need more.
 
 use super::request::Detail;
 use super::rows::Rows;

@@ -1,4 +1,4 @@
-//! Units of axes: the dimensions of the grammar, or the names that a user has for them.
+//! Units of axes: the dimensions of the grammar, or the user's unit names.
 
 use super::Quantity;
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! Whose a file is and who may read it: a new file that takes the place of another is the same in this.
+//! Owner and permissions of a file: a file that replaces another keeps them.
 
 use std::fs::{File, Metadata};
 use std::io;

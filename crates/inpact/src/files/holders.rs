@@ -1,4 +1,4 @@
-//! Other programs that have a file open for writing: one that opened it before its name changed hands may write to it afterwards.
+//! Other programs that have a file open for writing: one that opened it before the exchange of names may still write to it afterwards.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The files that this run has read, in one place for all commands: no result is ever written over one of them.
+//! The files that this run has read, for all commands: no result ever overwrites one of them.
 
 use crate::failure::Failure;
 use std::collections::{BTreeMap, BTreeSet};

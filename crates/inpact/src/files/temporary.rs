@@ -1,8 +1,8 @@
-//! Files that have their name only for a while: they lie beside what they will become, and are removed however the run ends.
+//! Temporary files: they lie beside their target, and are removed however the run ends.
 //!
-//! A run that is stopped by a signal, or that a routine of the user ends, runs no destructors: the list of what is there is kept here,
+//! A run that is stopped by a signal, or ended by a user's routine, runs no destructors: the list of temporary files is kept here,
 //! and a thread that waits for signals removes it.
-//! Ends that cannot be caught (SIGKILL, a crash of the user's routine) leave the files; their names begin with `.inpact-`.
+//! Ends that cannot be caught (SIGKILL, a crash of the user's routine) leave the files behind; their names begin with `.inpact-`.
 
 use std::fs::File;
 use std::io;

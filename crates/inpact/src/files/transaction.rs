@@ -1,13 +1,13 @@
-//! Several files get new content, or none does.
+//! Atomic replacement of several files: all get new content, or none does.
 //!
 //! 1. *Prepare*: every new content is written beside its target, with the target's owner and permissions, and synced.
-//! 2. *Verify*: every target still is the file that was read, byte for byte.
-//! 3. *Exchange*: new and old swap their names in one step of the system, so that no moment is without a whole file, and what was swapped out can be looked at.
-//! 4. *Look*: what was swapped out is what was read, and nobody has it open for writing; otherwise everything is swapped back.
+//! 2. *Verify*: every target is still the file that was read, byte for byte.
+//! 3. *Exchange*: new and old swap names atomically, so that a complete file exists at all times, and the old one can be inspected.
+//! 4. *Check*: the old file is the one that was read, and no program has it open for writing; otherwise everything is swapped back.
 //!
-//! So an edit that another program makes at any time is not lost: before 3 it is seen, after 3 it is made to the new file.
+//! So a concurrent edit by another program is never lost: before 3 it is detected, after 3 it applies to the new file.
 //! Where a system cannot exchange names (some network drives), the old file gets a second name instead and the new one is renamed over it: another
-//! program that puts a file of its own there between these two calls is not noticed.
+//! program that creates a file there between these two calls is not detected.
 
 use super::inputs::Identity;
 use super::temporary::{Access, Hold, Temporary, hold};

@@ -1,4 +1,4 @@
-//! Files read to their end, given up as soon as they prove to be of another kind: a device such as `/dev/zero` has no end.
+//! Reads whole files, and stops as soon as they prove to be of another type: a device such as `/dev/zero` has no end.
 
 use super::{PIECE, open};
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! The fixes of a deck in one round: those that do not touch the same bytes, in files that may be mended.
+//! The fixes of a deck in one round: those that do not overlap, in files that may be changed.
 
 use super::{FixReach, FixSelection, Purpose};
 use crate::files;

@@ -1,4 +1,4 @@
-//! Files that are read once and held: what is found in them is mended in the very bytes that were read.
+//! Files read once and kept in memory: findings are fixed in the same bytes that were checked.
 
 use crate::failure::Failure;
 use crate::files;

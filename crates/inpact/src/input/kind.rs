@@ -1,4 +1,4 @@
-//! Decks and scenes told apart: by their names, or by what they begin with where a name says nothing.
+//! Distinguishes decks and scenes: by name, or by content where the name does not tell.
 
 use crate::failure::Failure;
 use crate::files::STANDARD_STREAM;

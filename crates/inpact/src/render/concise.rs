@@ -1,4 +1,4 @@
-//! A line a finding: `file:line:col: severity[CODE] message`.
+//! One line per finding: `file:line:col: severity[CODE] message`.
 
 use super::Sources;
 use inpact_diagnostics::visible::visible_line;

@@ -1,7 +1,7 @@
 //! The lines of a file around the labels of a finding, in a form the renderer can show.
 //!
-//! A deck may hold any bytes and lines of any length: what is no UTF-8 is shown as `?`, byte for byte, so that offsets
-//! stay what they are, and of an endless line only the surroundings of the label are shown.
+//! A deck may hold any bytes and lines of any length: invalid UTF-8 is shown as `?`, byte for byte, so that offsets
+//! are unchanged, and of a very long line only the surroundings of the label are shown.
 
 use super::Sources;
 use super::sources::place_of;

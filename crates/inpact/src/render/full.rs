@@ -1,4 +1,4 @@
-//! The full format: an excerpt of the file with labels, the reason and the cure, drawn by miette.
+//! The full format: an excerpt of the file with labels, the reason and the help, drawn by miette.
 
 use super::excerpt::Excerpt;
 use super::sources::{Shown, place_of};

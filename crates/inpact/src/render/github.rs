@@ -1,4 +1,4 @@
-//! Workflow commands of GitHub Actions: findings that show up beside the lines of a pull request.
+//! Workflow commands of GitHub Actions: annotations on the lines of a pull request.
 
 use inpact_diagnostics::visible::visible;
 use inpact_validation::{Diagnostic, Severity};

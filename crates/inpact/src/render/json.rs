@@ -1,4 +1,4 @@
-//! A JSON object a line, for other programs.
+//! One JSON object per line, for other programs.
 
 use super::Sources;
 use inpact_validation::Diagnostic;

@@ -1,4 +1,4 @@
-//! SARIF 2.1.0: findings for code scanning, with fingerprints that outlive a change of line numbers.
+//! SARIF 2.1.0: findings for code scanning, with fingerprints that do not depend on line numbers.
 
 use super::{Document, Sources};
 use crate::rules;

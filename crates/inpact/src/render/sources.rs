@@ -1,4 +1,4 @@
-//! The files that findings are about, as far as they are kept.
+//! The source files of findings, as far as they are kept.
 
 use inpact_diagnostics::{Diagnostic, Extent, Label};
 use inpact_parser::deck::{Deck, Excerpts};

@@ -1,4 +1,4 @@
-//! Charts of a report: a drawing for paper and for those without scripts, and beside it the data that the page's script draws from.
+//! Charts of a report: a static drawing for print and for browsers without scripts, and the data for the page's script.
 
 use super::History;
 use super::page::Page;

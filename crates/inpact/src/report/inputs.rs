@@ -1,4 +1,4 @@
-//! The files that a report was made from, with their hashes.
+//! The input files of a report, with their hashes.
 
 use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};

@@ -1,4 +1,4 @@
-//! The interfaces of a deck: where each interaction is used, what it says, its tables row by row, its curves.
+//! The interfaces of a deck: the uses of each interaction, its content, its tables row by row, its curves.
 
 use super::page::Page;
 use super::{Report, charts};

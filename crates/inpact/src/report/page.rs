@@ -1,4 +1,4 @@
-//! HTML in which text is text: elements are opened and closed here, and whatever comes from a deck goes through one escape.
+//! Safe HTML: elements are opened and closed here, and all text from a deck goes through one escape function.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

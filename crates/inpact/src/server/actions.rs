@@ -1,4 +1,4 @@
-//! Code actions: the fixes of findings, all safe ones at once, silence for a rule, and what the other dialect would have mended.
+//! Code actions: the fixes of findings, all safe fixes at once, suppression of a rule, and a switch of dialect.
 
 use super::analysis::Analysis;
 use super::blocks;

@@ -1,4 +1,4 @@
-//! A deck as it stands in the editor: what was read, and what is wrong with it.
+//! Analysis of a deck in the editor: what was read, and its findings.
 
 use crate::input::{self, LocatedDeck};
 use crate::settings::{ReadOptions, Settings};

@@ -1,4 +1,4 @@
-//! The blocks of a document: which one is at a place, what its keyword means, and at which level of the deck it stands.
+//! The blocks of a document: lookup by position, with keyword and level in the deck.
 
 use super::analysis::Analysis;
 use super::workspace::View;

@@ -1,4 +1,4 @@
-//! Completion: keywords that may stand here, parameters, their values, names of what the deck defines, files.
+//! Completion: keywords that are valid here, parameters, their values, names that the deck defines, files.
 
 use super::blocks::{self, Context, Entry};
 use super::names::{self, Kind};

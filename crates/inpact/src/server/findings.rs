@@ -1,4 +1,4 @@
-//! Findings as an editor shows them.
+//! Findings as LSP diagnostics.
 
 use super::analysis::{Analysis, Fault};
 use super::workspace::{View, Workspace};

@@ -1,4 +1,4 @@
-//! Formatting: what `inpact fmt` makes of the document by itself, as edits.
+//! Formatting: the result of `inpact fmt` on the single document, as edits.
 
 use super::refusal::{self, Refusal};
 use super::workspace::{View, Workspace};

@@ -1,4 +1,4 @@
-//! Hints between the lines of a deck: names of columns, values of parameters, shapes of tables.
+//! Inlay hints: names of columns, values of parameters, shapes of tables.
 
 use super::blocks;
 use super::cells::{self, ColumnOf};

@@ -1,4 +1,4 @@
-//! Hover: what stands at a place, in words.
+//! Hover: describes the element at a position.
 
 use super::blocks::{self, Entry};
 use super::cells::{self, Cell};

@@ -1,7 +1,7 @@
-//! Long messages, whose texts never stand in memory as a whole: a deck of 100 MB comes as one string of JSON.
+//! Long messages, whose texts are never in memory as a whole: a deck of 100 MB arrives as one JSON string.
 //!
-//! The text around the long strings of a message is kept as it is, with a mark in the place of each; their characters are decoded as they
-//! come and cut into the pieces that a document consists of.
+//! The text around the long strings of a message is kept, with a placeholder for each; their characters are decoded as they
+//! arrive and split into the pieces of a document.
 
 use inpact_parser::deck::{EditedText, TextInParts};
 use serde_json::Value;

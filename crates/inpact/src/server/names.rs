@@ -1,8 +1,8 @@
 //! The names of a deck: where each is defined and where it is used, in all of its files.
 //!
-//! Interactions, surfaces, sets of nodes and of elements, and parameters. What the typed model knows is asked there; beyond it names are
-//! found by the parameters that hold them (NSET, ELSET, SURFACE, …) and by the items of rows, since most keywords of a deck are none
-//! that inpact interprets. An item that could be a surface or a set of either kind is taken for whatever the deck defines by that name.
+//! Interactions, surfaces, sets of nodes and of elements, and parameters. Names in the typed model are looked up there; others are
+//! found by the parameters that hold them (NSET, ELSET, SURFACE, …) and by the items of rows, since most keywords of a deck are not
+//! interpreted by inpact. An item that could be a surface or a set of either kind is taken for whichever the deck defines by that name.
 
 use super::blocks::{self, Entry, LEVELS};
 use super::workspace::View;

@@ -1,4 +1,4 @@
-//! From a name to its definition, to its uses, to another name; and from *INCLUDE to the file.
+//! Go to definition, find references, rename; and from *INCLUDE to the file.
 
 use super::names::{self, Kind, Occurrence};
 use super::refusal::{self, Refusal};

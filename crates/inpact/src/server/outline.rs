@@ -1,4 +1,4 @@
-//! The outline of a document: nested symbols, what folds, and what a selection grows to.
+//! The outline of a document: nested symbols, folding ranges and selection ranges.
 
 use super::blocks::{self, Entry, LEVELS};
 use super::cells;

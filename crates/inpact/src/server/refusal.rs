@@ -1,4 +1,4 @@
-//! The answers to requests that cannot be answered.
+//! Error responses to requests.
 
 use super::workspace::{View, Workspace};
 use gen_lsp_types as lsp;

@@ -1,4 +1,4 @@
-//! Requests by their methods.
+//! Dispatch of requests by method.
 
 use super::refusal::Refusal;
 use super::workspace::Workspace;

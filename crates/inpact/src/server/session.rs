@@ -1,4 +1,4 @@
-//! A session with one editor: what it tells us, and what it is told without asking.
+//! A session with one editor: its notifications, and those sent to it.
 
 use super::capabilities::{self, ClientTraits};
 use super::findings;

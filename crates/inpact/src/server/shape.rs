@@ -1,4 +1,4 @@
-//! The shape of a table in words: `2 temperatures × 5 clearances`.
+//! The shape of a table as text: `2 temperatures × 5 clearances`.
 
 use crate::text::counted;
 use inpact_parser::model::Table;

@@ -1,4 +1,4 @@
-//! Snippets: what a keyword looks like in a deck, with places to fill in.
+//! Snippets: a keyword as it appears in a deck, with placeholders.
 //!
 //! Made from the example that the grammar has for each keyword, which is checked by a test: rows of a snippet are legal rows.
 

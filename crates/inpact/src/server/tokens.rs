@@ -1,6 +1,6 @@
 //! Semantic tokens: keywords, parameters, names, and each column of rows in a colour of its own.
 //!
-//! The types are those that every editor has colours for; a column takes the next of them, over and over.
+//! The types are standard ones that every editor has colours for; columns cycle through them.
 
 use super::blocks::{self, Entry};
 use super::cells;

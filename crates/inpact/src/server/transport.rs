@@ -1,7 +1,7 @@
 //! Messages over standard input and output: a header with a length, then JSON.
 //!
-//! A thread of its own reads, so that a request can be cancelled while another is answered, and so that neither side waits for the other.
-//! Bytes that are no message are answered, and the next one is read: a client that sends nonsense ends nothing.
+//! A separate thread reads, so that a request can be cancelled while another is answered, and so that neither side waits for the other.
+//! Malformed messages are answered with an error, and the next one is read: invalid input does not end the server.
 
 use super::long::{self, LongMessage};
 use crate::stop::Stop;

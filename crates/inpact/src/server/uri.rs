@@ -1,4 +1,4 @@
-//! URIs of an editor and paths of files, both ways.
+//! Conversion between URIs and file paths.
 
 use std::path::{Path, PathBuf};
 

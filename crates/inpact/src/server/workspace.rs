@@ -1,8 +1,8 @@
 //! Documents that the editor has open, with their analysis.
 //!
 //! A document is text; a deck is a document with what it includes, open or not, saved or not.
-//! An open document that another one includes is no deck of its own: it is judged where it stands.
-//! Decks are read again when they are asked for, not at every keystroke.
+//! An open document that another one includes is not a deck of its own: it is checked as part of that deck.
+//! Decks are read again lazily, not at every keystroke.
 
 use super::analysis::{Analysis, Fault};
 use super::uri;

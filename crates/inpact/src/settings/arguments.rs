@@ -1,4 +1,4 @@
-//! The arguments that say how a deck is read.
+//! The arguments for reading a deck.
 
 use super::{Configuration, DialectName, ReadOptions, RelativeTo, Settings};
 use crate::failure::Failure;

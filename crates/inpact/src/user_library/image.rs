@@ -1,4 +1,4 @@
-//! The kind of a library file, from its first bytes: loaders of systems say little of a file that is none, or one for another machine.
+//! The type of a library file, from its first bytes: system loaders give poor messages for a file that is not a library, or one for another machine.
 
 use super::COMPILE_COMMAND;
 use crate::failure::Failure;

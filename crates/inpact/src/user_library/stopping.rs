@@ -1,4 +1,4 @@
-//! A routine that ends the program: Fortran's STOP calls `exit`, and a run that was cut short would end with exit code 0.
+//! A routine that ends the program: Fortran's STOP calls `exit`, and an incomplete run would end with exit code 0.
 
 use crate::failure::say;
 use crate::files;

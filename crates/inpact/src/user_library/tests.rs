@@ -1,4 +1,4 @@
-//! Real libraries, compiled by gfortran, and files that are none.
+//! Real libraries, compiled by gfortran, and files that are not libraries.
 //!
 //! Without gfortran the tests of real libraries do nothing and say so; where `INPACT_REQUIRE_GFORTRAN` is set, as in the gate, they fail instead.
 

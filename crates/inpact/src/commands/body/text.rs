@@ -1,4 +1,4 @@
-//! Conductances and capacities as tables for a person.
+//! Conductances and capacities as readable tables.
 
 use super::Found;
 use crate::text::{aligned, number_text};

@@ -1,6 +1,6 @@
 //! Conductances and capacities as JSON.
 //!
-//! The form is a contract; its JSON Schema is committed (`schema/body.schema.json`).
+//! The format is a contract; its JSON Schema is committed (`schema/body.schema.json`).
 
 use super::Found;
 use inpact_body::{BodyField, BodySummary, Conductances, JouleHeat, Lumped, Solution, SolutionMethod};

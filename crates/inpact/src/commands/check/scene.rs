@@ -1,4 +1,4 @@
-//! Scenes among what is checked: judged as `solve` judges them, with their tables and the part of their deck that they need, and not solved.
+//! Scenes among the inputs: checked as `solve` checks them, with their tables and the part of their deck that they need, but not solved.
 
 use super::tally::Tally;
 use super::{CheckArguments, Checked};

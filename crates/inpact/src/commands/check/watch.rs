@@ -1,6 +1,6 @@
-//! `check --watch`: looks at the files again and again, and checks the decks whose files changed.
+//! `check --watch`: polls the files, and checks the decks whose files changed.
 //!
-//! Files are asked for their time and size: that works wherever decks lie, on a drive of another machine too.
+//! It compares modification time and size, which works on network drives, too.
 
 use super::{CheckArguments, check_all};
 use crate::commands::decks::{self, Named};

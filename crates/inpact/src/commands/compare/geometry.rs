@@ -1,4 +1,4 @@
-//! Quantities compared beside outputs: clearances and areas of the moved mesh, heat as the bodies conduct it, and sums over a pair.
+//! Quantities compared in addition to outputs: clearances and areas of the deformed mesh, heat conducted by the bodies, and sums over a pair.
 
 use super::CompareArguments;
 use super::measure::{Quantity, RowsOf};

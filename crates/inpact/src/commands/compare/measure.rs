@@ -1,4 +1,4 @@
-//! Differences of both values of each quantity.
+//! Differences between the two values of each quantity.
 
 use crate::commands::evaluable::Evaluable;
 use inpact_evaluation::results::Output;

@@ -1,4 +1,4 @@
-//! The files that a branch changes, as git knows them.
+//! The files that a branch changes, from git.
 
 use crate::failure::Failure;
 use crate::files;

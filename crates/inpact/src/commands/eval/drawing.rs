@@ -1,4 +1,4 @@
-//! Results as a picture: on the slave surfaces of the deck's mesh, with the columns of numbers that were read.
+//! Results as a picture: on the slave surfaces of the deck's mesh, with the numeric columns that were read.
 
 use super::super::evaluable::Evaluable;
 use super::super::findings::refuse_configured_errors;

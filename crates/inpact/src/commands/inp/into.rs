@@ -1,4 +1,4 @@
-//! `--into`: the files of the lossless form below a folder, all of them or none.
+//! `--into`: writes the files of the lossless form into a folder, all of them or none.
 
 use crate::failure::{Failure, say_failures};
 use crate::files;

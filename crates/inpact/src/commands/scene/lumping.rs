@@ -1,8 +1,8 @@
-//! The cost of one temperature a terminal, and of one pressure a joint.
+//! The lumping error of one temperature per terminal, and of one pressure per joint.
 //!
-//! A body conducts most where each terminal has one temperature, and least where its flow is spread evenly; a joint conducts most where both sides have one
-//! temperature (the mean of its conductances by area), and least where its flow is spread evenly (their harmonic mean). Between two held values a network of such
-//! parts scales with them: if none is off by more than a share, no flow is. Even flows go over the part of a surface that has the other across.
+//! A body conducts most where each terminal is isothermal, and least where its flow is uniform; a joint conducts most where both sides are isothermal
+//! (the area-weighted mean of its conductances), and least where its flow is uniform (their harmonic mean). Between two held values the conductance of a network of such
+//! parts scales with them: if the relative error of none exceeds a bound, nor does that of any flow. Uniform flows are taken over the part of a surface that is opposite the other.
 
 use super::terminals::Terminal;
 use super::{SAME_AREA, network_field};

@@ -1,4 +1,4 @@
-//! Where the bodies of a deck end: the surfaces of its contact pairs, and the sets and surfaces with conditions.
+//! The terminals of the bodies of a deck: the surfaces of its contact pairs, and the sets and surfaces with conditions.
 
 use crate::commands::meshed::MeshedDeck;
 use crate::terminals::nodes_of;

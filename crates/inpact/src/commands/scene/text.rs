@@ -1,4 +1,4 @@
-//! A scene as TOML, with a head that says what it stands on.
+//! A scene as TOML, with a head comment that names its sources.
 
 use super::network_field;
 use super::terminals::Terminal;

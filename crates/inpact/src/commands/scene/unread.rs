@@ -1,4 +1,4 @@
-//! Keywords of a deck that a scene knows nothing of.
+//! Keywords of a deck that a scene ignores.
 
 use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;

@@ -1,4 +1,4 @@
-//! Conditions that a scene takes from its deck, at the nodes that stand for a set or a surface.
+//! Conditions that a scene takes from its deck, at the nodes that represent a set or a surface.
 
 use crate::commands::meshed::MeshedDeck;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! The results of solving, written as they come.
+//! The results of solving, streamed to their files.
 
 use super::super::findings::Messages;
 use super::summary::balances;

@@ -1,4 +1,4 @@
-//! The Pareto front: what nothing else beats.
+//! The Pareto front: points that no other dominates.
 
 /// For each pair of a time and an error, whether it is on the front: no other is as fast and as exact, and better in one of the two.
 pub(super) fn front(places: &[(f64, f64)]) -> Vec<bool> {

@@ -1,4 +1,4 @@
-//! The least times of things that are run in turns.
+//! Minimum times of subjects that are run in interleaved rounds.
 
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! The linear solvers on a scene.
 //!
-//! Every solver solves the scene at tolerances from the last digit to a thousandth, each time with nothing kept from before:
-//! a steady scene whole, Newton's iteration included, of a transient the state at its start and one increment.
+//! Every solver solves the scene at tolerances from the last digit to a thousandth, each time from scratch:
+//! a steady scene as a whole, including Newton's iteration; of a transient the state at its start and one increment.
 //! The rounds of all solvers are interleaved, and the least time of each counts.
 
 mod diagram;

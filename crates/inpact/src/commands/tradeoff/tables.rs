@@ -1,6 +1,6 @@
 //! The modes of evaluation on the tables of a deck.
 //!
-//! Every mode evaluates the tables that the plan has in force, folded as the plan folds them, on the rows that reach them.
+//! Every mode evaluates the tables in force, folded as in the plan, on the rows that reach them.
 //! Columns stay in memory, the rounds of all modes are interleaved, and the least time of each counts.
 
 mod diagram;

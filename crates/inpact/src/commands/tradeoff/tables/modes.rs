@@ -1,6 +1,6 @@
-//! The modes that are measured: a list, each with how it evaluates a table, its bound and what it moves in memory.
+//! The list of measured modes, each with its evaluation of a table, its error bound and its memory traffic.
 //!
-//! Values alone are computed, columns in, columns out, in blocks of the size that an evaluation has.
+//! Only values are computed, columns in, columns out, in blocks of the size that an evaluation uses.
 
 use super::subjects::Subject;
 use inpact_evaluation::table::{
