@@ -1,4 +1,4 @@
-//! A session with one editor: its notifications, and those sent to it.
+//! A session with one editor: notifications in both directions.
 
 use super::capabilities::{self, ClientTraits};
 use super::findings;
