@@ -193,12 +193,32 @@ fn pressed_cubes(count: usize) -> String {
     )
 }
 
-/// A surface was sought among all others, what is rounding among all conductances for each of them, and a body was lumped over the nodes of all.
+/// So many instances of a cube on each other, a pair between each and the next, and a temperature for each.
+fn stacked_instances(count: usize) -> String {
+    let instance = |number| format!("*INSTANCE, NAME=I{number}, PART=P\n0., 0., {number}.\n*END INSTANCE\n");
+    let pair = |number| format!("*CONTACT PAIR, INTERACTION=I\nI{}.B, I{number}.T\n", number + 1);
+    let instances: String = (0..count).map(instance).collect();
+    let pairs: String = (0..count - 1).map(pair).collect();
+    let temperatures: String = (0..count).map(|number| format!("I{number}.1, {number}.\n")).collect();
+    format!(
+        "*PART, NAME=P\n*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n\
+         7, 1., 1., 1.\n8, 0., 1., 1.\n*ELEMENT, TYPE=DC3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SURFACE, NAME=T\nE, S2\n\
+         *SURFACE, NAME=B\nE, S1\n*END PART\n*ASSEMBLY, NAME=A\n{instances}*END ASSEMBLY\n\
+         *SURFACE INTERACTION, NAME=I\n1.,\n*GAP CONDUCTANCE, PRESSURE\n10., 0.\n20., 1.\n{pairs}\
+         *INITIAL CONDITIONS, TYPE=TEMPERATURE\n{temperatures}"
+    )
+}
+
+/// A surface was sought among all others, what is rounding among all conductances for each of them, a body was lumped over the nodes of all, and a name was held against all instances.
 #[cfg(target_os = "linux")]
 #[test]
 fn many_pairs_of_a_mesh_cost_no_square() {
-    for (count, arguments) in [(3_000, &["nodes", "a.inp", "-o", "out"][..]), (750, &["scene", "a.inp", "-o", "out"])] {
-        let folder = Folder::with(&[("a.inp", &pressed_cubes(count))]);
+    for (deck, arguments) in [
+        (pressed_cubes(3_000), &["nodes", "a.inp", "-o", "out"][..]),
+        (pressed_cubes(750), &["scene", "a.inp", "-o", "out"]),
+        (stacked_instances(15_000), &["nodes", "a.inp", "-o", "out"]),
+    ] {
+        let folder = Folder::with(&[("a.inp", &deck)]);
         let plain = command(folder.path(), arguments);
         let mut limited = std::process::Command::new("prlimit");
         // Seconds of work, whatever else the machine does.

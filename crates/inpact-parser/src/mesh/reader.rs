@@ -54,6 +54,8 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) dialect: Dialect,
     assembly: Definitions<'deck>,
     assembly_name: Option<Name>,
+    /// The instances by the canonical forms of their names, the first of each.
+    by_name: HashMap<String, usize>,
     pub(super) notes: Vec<MeshNote>,
     /// The same, so that each is said once.
     noted: HashSet<MeshNote>,
@@ -74,9 +76,16 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
                 entry: Some(instance.entry),
             });
         }
+        let mut by_name = HashMap::new();
+        for (index, instance) in instances.iter().enumerate() {
+            if let Some(name) = &instance.name {
+                by_name.entry(name.canonical().to_owned()).or_insert(index);
+            }
+        }
         Self {
             rows,
             instances,
+            by_name,
             sets: HashMap::new(),
             clearances: layout.clearances,
             initial_conditions: layout.initial_conditions,
@@ -124,23 +133,24 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
     }
 
     pub(super) fn instance_named(&self, name: &Name) -> Option<usize> {
-        self.instances.iter().position(|instance| instance.name.as_ref() == Some(name))
+        self.by_name.get(name.canonical()).copied()
     }
 
     /// Takes the name of an instance or of the assembly from the front of a dotted name (S-44).
     pub(super) fn without_prefix(&self, context: Context, name: Name) -> (Context, Name) {
         let written = name.canonical();
-        let rest = |prefix: &Name| {
-            let rest = written.strip_prefix(prefix.canonical())?.strip_prefix('.')?;
+        let rest_after = |dot: usize| {
+            let rest = &written[dot + 1..];
             // In quotes it stays as it is.
             (!rest.is_empty()).then(|| Name::new(&format!("\"{rest}\"")))
         };
-        if let Some(name) = self.assembly_name.as_ref().and_then(rest) {
+        let assembly = self.assembly_name.as_ref().map(Name::canonical);
+        let dots = || written.match_indices('.').map(|(dot, _)| dot);
+        if let Some(name) = dots().find(|dot| assembly == Some(&written[..*dot])).and_then(rest_after) {
             return self.without_prefix(Context::Top, name);
         }
-        let instance =
-            self.instances.iter().enumerate().find_map(|(i, instance)| Some((i, rest(instance.name.as_ref()?)?)));
-        match instance {
+        let of_instance = |dot| Some((*self.by_name.get(&written[..dot])?, rest_after(dot)?));
+        match dots().filter_map(of_instance).min_by_key(|(instance, _)| *instance) {
             Some((instance, name)) => (Context::Instance(instance), name),
             None => (context, name),
         }
