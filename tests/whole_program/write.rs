@@ -44,6 +44,19 @@ fn a_read_only_file_is_left_alone() {
     assert_eq!((run.code, folder.read("page.txt").as_str()), (2, "old\n"), "{}", run.errors);
 }
 
+#[test]
+fn a_file_that_cannot_be_made_is_named_as_it_was_asked_for() {
+    let folder = Folder::with(&[("a.inp", "*SURFACE INTERACTION, NAME=A\n"), ("file", "x\n")]);
+    for (target, why) in
+        [("no/such/a.out", "No such file or directory (os error 2)"), ("file/a.out", "Not a directory (os error 20)")]
+    {
+        for command in [["explain", "T001"], ["json", "a.inp"], ["check", "a.inp"]] {
+            let run = folder.inpact(&[&command[..], &["-o", target]].concat());
+            assert_eq!((run.code, run.errors), (2, format!("error: cannot write `{target}`: {why}\n")), "{command:?}");
+        }
+    }
+}
+
 /// A result never replaces what it is made from: the deck, what it includes, its configuration, tables, scenes, libraries, JSON.
 #[test]
 fn the_inputs_are_not_overwritten() {

@@ -5,6 +5,7 @@
 use std::cmp::Ordering;
 use std::fmt;
 use std::num::NonZeroU32;
+use std::ops::Range;
 
 /// One of the deck's files; the deck itself is [`SourceId::ROOT`], included files follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -76,6 +77,17 @@ impl Span {
     #[must_use]
     pub fn to(self, other: Self) -> Self {
         Self::new(self.source(), self.start().min(other.start()), self.end().max(other.end()))
+    }
+
+    /// A part of the span, by the places of its bytes in it.
+    #[must_use]
+    pub fn part(self, range: Range<usize>) -> Self {
+        Self::new(self.source(), self.start() + range.start as u64, self.start() + range.end as u64)
+    }
+
+    /// Whether the spans have a byte or an end in common.
+    pub fn touches(self, other: Self) -> bool {
+        self.source == other.source && self.start() <= other.end() && other.start() <= self.end()
     }
 
     /// Whether `other` lies wholly inside this span.

@@ -157,7 +157,10 @@ impl IncludedFiles for FilesOnDisk<'_> {
                 return Ok(FoundFile { name: path.display().to_string(), path: files::whole_path(&path) });
             }
             return match reach::irregular(&path) {
-                None => identify(&path),
+                None => match path.canonicalize() {
+                    Ok(whole) => Ok(FoundFile { name: path.display().to_string(), path: whole }),
+                    Err(error) => Err(error.to_string()),
+                },
                 Some(reason) => Err(reason.to_owned()),
             };
         }
@@ -219,11 +222,6 @@ fn expand(name: &str, value_of: impl Fn(&str) -> Option<String>) -> Result<Strin
         rest = after;
     }
     Ok(expanded + rest)
-}
-
-fn identify(path: &Path) -> Result<FoundFile, String> {
-    let whole = path.canonicalize().map_err(|error| error.to_string())?;
-    Ok(FoundFile { name: path.display().to_string(), path: whole })
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -1,11 +1,12 @@
 //! Node tables from the mesh of a deck and its job's result files.
 
-use crate::commands::job_results::{States, join};
+use crate::commands::job_results::join;
 use crate::commands::mesh_rows::{refuse_none, rows_of_pairs};
 use crate::commands::meshed::MeshedDeck;
 use crate::deck::Deck;
 use crate::error::Error;
 use crate::failure::Failure;
+use inpact_contact::Joined;
 use inpact_evaluation::arrow::array::RecordBatch;
 use inpact_evaluation::results::node_record_batch;
 use inpact_parser::mesh::MeshNote;
@@ -51,7 +52,7 @@ impl Deck {
     pub fn nodes<P: AsRef<Path>>(&self, results: &[P]) -> Result<NodeTable, Error> {
         let results: Vec<PathBuf> = results.iter().map(|path| path.as_ref().to_owned()).collect();
         let meshed = MeshedDeck::read(Path::new(self.name()), &self.settings)?;
-        let (States { states, .. }, notes) = join(&results, &meshed)?;
+        let Joined { states, notes, .. } = join(&results, &meshed)?;
         let mut rows = rows_of_pairs(&meshed, &states)?;
         let of_mesh =
             |note: &MeshNote| format!("{}: {}", meshed.read.deck.source(note.span.source()).name(), note.message);

@@ -7,36 +7,29 @@ use std::path::Path;
 /// Less than this is done before anybody wonders.
 const LONG: u64 = 200_000_000;
 
-/// The progress over some files, by their sizes.
+/// The progress over some files, by their sizes; hidden where nobody looks, or it is over at once.
 #[derive(Debug)]
-pub(crate) struct Progress {
-    bar: Option<ProgressBar>,
-}
+pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
     /// A bar over the files, if they are long and standard error is a terminal.
     pub(crate) fn over<'a>(files: impl Iterator<Item = &'a Path>, is_quiet: bool) -> Self {
         let total: u64 = files.map(size).sum();
         if is_quiet || total < LONG || !std::io::stderr().is_terminal() {
-            return Self { bar: None };
+            return Self(ProgressBar::hidden());
         }
         let style = ProgressStyle::with_template("{bar:40} {bytes}/{total_bytes}, {eta} left");
-        let bar = ProgressBar::new(total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { bar: Some(bar) }
+        Self(ProgressBar::new(total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
     }
 
     /// One of the files is done.
     pub(crate) fn advance(&self, file: &Path) {
-        if let Some(bar) = &self.bar {
-            bar.inc(size(file));
-        }
+        self.0.inc(size(file));
     }
 
     /// All are done: the bar goes away.
     pub(crate) fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
+        self.0.finish_and_clear();
     }
 }
 

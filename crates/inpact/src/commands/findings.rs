@@ -76,6 +76,12 @@ impl Messages<'static> {
     /// A line each.
     pub(crate) const LINES: Self = Self::at_once(Format::Concise);
 
+    /// Does some work of which nothing is to be heard.
+    pub(crate) fn unheard<T>(work: impl FnOnce(Messages<'_>) -> T) -> T {
+        // They are gathered, and nobody says them.
+        work(Messages { format: Format::Sarif, gathered: &Gathered(Mutex::default()) })
+    }
+
     /// In a format of which nothing is gathered.
     pub(crate) const fn at_once(format: Format) -> Self {
         Self { format, gathered: &NOTHING }

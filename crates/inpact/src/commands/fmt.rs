@@ -60,20 +60,16 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     });
     for (path, read) in formatted {
         let done = read.and_then(|(before, after)| {
-            let is_changed = *before.bytes() != after;
-            let to_standard_output = if !only_shown {
-                match before {
-                    Before::Standard(_) => after,
-                    Before::File(file) if is_changed => {
-                        write_back(file, after)?;
-                        Vec::new()
-                    }
-                    Before::File(_) => Vec::new(),
-                }
+            let is_changed = *before.bytes != *after;
+            let to_standard_output = if !only_shown && path.as_os_str() == STANDARD_STREAM {
+                after
             } else if !is_changed {
                 Vec::new()
+            } else if !only_shown {
+                write_back(before, after)?;
+                Vec::new()
             } else if arguments.diff {
-                difference::unified(&path.display().to_string(), before.bytes(), &after).into_bytes()
+                difference::unified(&path.display().to_string(), &before.bytes, &after).into_bytes()
             } else {
                 format!("{}\n", path.display()).into_bytes()
             };
@@ -104,31 +100,16 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     }
 }
 
-/// A deck before formatting.
-enum Before {
-    Standard(Vec<u8>),
-    File(Snapshot),
-}
-
-impl Before {
-    fn bytes(&self) -> &[u8] {
-        match self {
-            Self::Standard(bytes) => bytes,
-            Self::File(file) => &file.bytes,
-        }
-    }
-}
-
 /// A file before, and its bytes after.
-fn read(path: &Path, arguments: &FormatArguments) -> Result<(Before, Vec<u8>), Failure> {
+fn read(path: &Path, arguments: &FormatArguments) -> Result<(Snapshot, Vec<u8>), Failure> {
     input::refuse_scene(path)?;
     let settings = arguments.reading.settings(path)?;
     let before = if path.as_os_str() == STANDARD_STREAM {
-        Before::Standard(files::read_lines(path)?)
+        Snapshot::of_text(path, files::read_lines(path)?.into())
     } else {
-        Before::File(Snapshot::read(path)?)
+        Snapshot::read(path)?
     };
-    let deck = scan(&path.display().to_string(), before.bytes(), settings.grammar);
+    let deck = scan(&path.display().to_string(), &before.bytes, settings.grammar);
     let after = format(&deck, SourceId::ROOT, settings.grammar);
     Ok((before, after))
 }

@@ -1,7 +1,7 @@
 //! `inpact interfaces`: a deck with a mesh and its job's result files in; the interfaces of a scene out, one row per slave node or per pair.
 
 use super::findings::{Messages, with_messages};
-use super::job_results::{RESULTS_HELP, States, states};
+use super::job_results::{RESULTS_HELP, states};
 use super::mesh_rows::{RowsSummary, node_rows};
 use super::meshed::MeshedDeck;
 use crate::failure::{Failure, Outcome};
@@ -10,7 +10,7 @@ use crate::render::Format;
 use crate::settings::DeckArguments;
 use crate::text::{counted, csv, number_text};
 use clap::Args;
-use inpact_contact::{Interfaces, LumpedPair, PairInterfaces, State, WeightedMean};
+use inpact_contact::{Interfaces, Joined, LumpedPair, PairInterfaces, State, WeightedMean};
 use inpact_diagnostics::visible::visible_line;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ fn make(arguments: &InterfacesArguments, messages: Messages<'_>) -> Result<Outco
     let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
     // The included files are known now.
     files::check_targets(&targets)?;
-    let States { states, files } = states(&arguments.results, &meshed, messages)?;
+    let Joined { states, files, .. } = states(&arguments.results, &meshed, messages)?;
     let mut rows = node_rows(&meshed, &states, messages)?;
     let Some(state) = states.last() else { return Err(Failure::Data("the result files have no state".to_owned())) };
     let interfaces = rows.interfaces(state)?;

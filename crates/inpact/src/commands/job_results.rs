@@ -4,7 +4,7 @@ use super::findings::Messages;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
 use crate::files;
-use inpact_contact::{FileSummary, Join, Joined, ResultFile, ResultNote, State};
+use inpact_contact::{Join, Joined, ResultFile, ResultNote, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_results::{ErrorKind, Frame, Problem, Results, read_frames};
 use serde_json::json;
@@ -17,30 +17,23 @@ const MOST_NOTES: usize = 100;
 
 pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
-/// States of a mesh at the times of result files, or at the beginning where there are none.
-pub(crate) struct States {
-    pub(crate) states: Vec<State>,
-    pub(crate) files: Vec<FileSummary>,
-}
-
 /// Reads result files and joins them with the mesh, after saying what could not be used.
-pub(crate) fn states(results: &[PathBuf], meshed: &MeshedDeck, messages: Messages<'_>) -> Result<States, Failure> {
-    let (states, notes) = join(results, meshed)?;
-    say_notes(&notes, messages);
-    Ok(states)
+pub(crate) fn states(results: &[PathBuf], meshed: &MeshedDeck, messages: Messages<'_>) -> Result<Joined, Failure> {
+    let joined = join(results, meshed)?;
+    say_notes(&joined.notes, messages);
+    Ok(joined)
 }
 
-/// Reads result files and joins them with the mesh; gives what could not be used as well.
-pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<(States, Vec<ResultNote>), Failure> {
+/// The states of a mesh at the times of result files, or at the beginning where there are none.
+pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<Joined, Failure> {
     if results.is_empty() || meshed.mesh.pairs.is_empty() {
-        return Ok((States { states: vec![State::initial(&meshed.mesh)], files: Vec::new() }, Vec::new()));
+        return Ok(Joined { states: vec![State::initial(&meshed.mesh)], files: Vec::new(), notes: Vec::new() });
     }
     let mut join = Join::new(&meshed.mesh, &meshed.read.model);
     for path in results {
         join.add(&path.display().to_string(), &FileOnDisk::open(path)?)?;
     }
-    let Joined { states, files, notes } = join.finish()?;
-    Ok((States { states, files }, notes))
+    Ok(join.finish()?)
 }
 
 /// A result file on disk.

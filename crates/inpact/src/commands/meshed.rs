@@ -31,6 +31,13 @@ pub(crate) struct MeshedDeck {
 }
 
 impl MeshedDeck {
+    /// Reads a deck without its mesh.
+    pub(crate) fn without_mesh(path: &Path, settings: &Settings) -> Result<Self, Failure> {
+        let read = ReadDeck::read(path, Keep::Interpreted, settings)?;
+        let (mesh, conditions) = (Mesh::default(), DeckConditions::default());
+        Ok(Self { name: path.display().to_string(), read, mesh, conditions, files: RefCell::default() })
+    }
+
     /// Reads a deck, and the rows of its mesh that contact pairs need.
     pub(crate) fn read(path: &Path, settings: &Settings) -> Result<Self, Failure> {
         let read = Self::read_parts(path, settings, |_| None)?;

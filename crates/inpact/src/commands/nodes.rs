@@ -1,7 +1,7 @@
 //! `inpact nodes`: a deck with a mesh and its job's result files in; the node table of its contact pairs out.
 
 use super::findings::{Messages, with_messages};
-use super::job_results::{RESULTS_HELP, States, states};
+use super::job_results::{RESULTS_HELP, states};
 use super::mesh_rows::{RowsSummary, node_rows};
 use super::meshed::MeshedDeck;
 use super::picture::{Drawn, PictureWriter};
@@ -12,7 +12,7 @@ use crate::render::Format;
 use crate::settings::DeckArguments;
 use crate::text::counted;
 use clap::Args;
-use inpact_contact::{NodeRows, State};
+use inpact_contact::{Joined, NodeRows, State};
 use inpact_diagnostics::visible::visible_line;
 use inpact_evaluation::results::{ResultWriter, TableFormat};
 use serde_json::json;
@@ -49,7 +49,7 @@ fn make(arguments: &NodesArguments, messages: Messages<'_>) -> Result<Outcome, F
     let meshed = MeshedDeck::read(&arguments.deck, &settings)?;
     // The included files are known now.
     files::check_targets(&[arguments.output.target()])?;
-    let States { states, files } = states(&arguments.results, &meshed, messages)?;
+    let Joined { states, files, .. } = states(&arguments.results, &meshed, messages)?;
     let mut rows = node_rows(&meshed, &states, messages)?;
     if let Some(target) = arguments.output.picture() {
         let drawn = Drawn { faces: rows.slave_faces(), states };

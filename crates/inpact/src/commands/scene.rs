@@ -62,13 +62,6 @@ pub(crate) struct SceneArguments {
     format: Format,
 }
 
-/// Fields of the bodies that a scene has.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Fields {
-    pub(super) thermal: bool,
-    pub(super) electrical: bool,
-}
-
 /// A list of what is said of a scene, each with its place in the deck.
 type Lines = Vec<String>;
 
@@ -151,7 +144,6 @@ fn make(
     let step = meshed.conditions.step;
     let procedure = procedure(model, step);
     let regime = procedure.and_then(Procedure::regime).unwrap_or(Regime::SteadyState);
-    let fields = fields_of(procedure);
     let joined = states(&arguments.results, meshed, messages)?;
     let mut rows = node_rows(meshed, &joined.states, messages)?;
     let Some(state) = joined.states.last() else {
@@ -171,7 +163,7 @@ fn make(
     }
     notes.extend(taker.left_out().into_iter().map(|(span, message)| MeshNote { span, message }));
     let mut unplaced = Vec::new();
-    let lumped = lumped(arguments, settings, meshed, &terminals, (fields, regime), (&mut notes, &mut unplaced))?;
+    let lumped = lumped(arguments, settings, meshed, &terminals, (procedure, regime), (&mut notes, &mut unplaced))?;
     let names: Vec<&Name> = terminals.iter().map(|terminal| &terminal.name).collect();
     let heats = JouleHeats::of(&names, &lumped);
     notes.extend(heats.refused.iter().cloned());
@@ -228,10 +220,11 @@ fn joint_area(
 const SAME_AREA: f64 = 1e-9;
 
 /// The fields of a procedure; heat where the deck does not say.
-fn fields_of(procedure: Option<&Procedure>) -> Fields {
-    let electrical = procedure.is_some_and(Procedure::solves_electrical);
+fn fields_of(procedure: Option<&Procedure>) -> Vec<BodyField> {
     let is_of_fluid = procedure.is_some_and(Procedure::solves_pore_pressure);
-    Fields { thermal: !is_of_fluid, electrical }
+    let is_electrical = procedure.is_some_and(Procedure::solves_electrical);
+    let thermal = (!is_of_fluid).then_some(BodyField::Thermal);
+    thermal.into_iter().chain(is_electrical.then_some(BodyField::Electrical)).collect()
 }
 
 /// The bodies between their terminals, a field each; what keeps them from being lumped goes to the notes.
@@ -240,7 +233,7 @@ fn lumped(
     settings: &Settings,
     meshed: &MeshedDeck,
     terminals: &[Terminal],
-    (fields, regime): (Fields, Regime),
+    (procedure, regime): (Option<&Procedure>, Regime),
     (notes, unplaced): (&mut Vec<MeshNote>, &mut Lines),
 ) -> Result<Vec<Lumped>, Failure> {
     let names: Vec<Name> = terminals.iter().map(|terminal| terminal.name.clone()).collect();
@@ -267,8 +260,11 @@ fn lumped(
             .push(format!("the body of node {node}, {elements} elements: it has no contact surface and no condition"));
     }
     let mut found = Vec::new();
-    let wanted = [(fields.thermal, BodyField::Thermal), (fields.electrical, BodyField::Electrical)];
-    for (_, field) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
+    let fields = fields_of(procedure);
+    if fields.is_empty() {
+        unplaced.push("what bodies conduct of pore fluid: give `hydraulic` links".to_owned());
+    }
+    for field in fields {
         // Of another field the same body may be sound.
         let mut reduced: Option<Body> = None;
         loop {
@@ -300,9 +296,6 @@ fn lumped(
                 }
             }
         }
-    }
-    if !fields.thermal && !fields.electrical {
-        unplaced.push("what bodies conduct of pore fluid: give `hydraulic` links".to_owned());
     }
     Ok(found)
 }

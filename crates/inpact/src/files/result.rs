@@ -99,6 +99,14 @@ impl ResultFile {
         Ok(None)
     }
 
+    fn writer(&mut self) -> &mut dyn Write {
+        match self {
+            Self::Standard(output) => output,
+            Self::Stream { stream, .. } => stream,
+            Self::File { file, .. } => file,
+        }
+    }
+
     /// The failure of an error of writing.
     pub(crate) fn failure(&self, error: io::Error) -> Failure {
         match self {
@@ -139,18 +147,10 @@ fn is_open_descriptor(path: &Path) -> bool {
 
 impl Write for ResultFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Self::Standard(output) => output.write(bytes),
-            Self::Stream { stream, .. } => stream.write(bytes),
-            Self::File { file, .. } => file.write(bytes),
-        }
+        self.writer().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::Standard(output) => output.flush(),
-            Self::Stream { stream, .. } => stream.flush(),
-            Self::File { file, .. } => file.flush(),
-        }
+        self.writer().flush()
     }
 }

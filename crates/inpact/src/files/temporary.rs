@@ -59,33 +59,36 @@ impl Temporary {
         }
         // A routine of the user may change the working folder.
         let folder = std::path::absolute(folder)?;
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(PREFIX);
+        let mut options = File::options();
+        options.read(true).write(true).create_new(true);
         #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            let mode = match access {
+        std::os::unix::fs::OpenOptionsExt::mode(
+            &mut options,
+            match access {
                 Access::OfNewFile => 0o666,
                 Access::Private => 0o600,
-            };
-            builder.permissions(std::fs::Permissions::from_mode(mode));
-        }
+            },
+        );
         #[cfg(not(unix))]
         let _ = access;
-        let mut hold = hold();
-        let (file, path) = builder.tempfile_in(folder)?.keep().map_err(|error| error.error)?;
-        hold.0.push(path.clone());
-        Ok((Self { path, is_there: true }, file))
+        Self::make(&folder, &mut hold(), |path| options.open(path))
     }
 
     /// Gives the file at `original` a second name that goes as a temporary file does.
     pub(super) fn link(original: &Path, hold: &mut Hold) -> io::Result<Self> {
         let folder = original.parent().unwrap_or(Path::new("."));
-        let made =
-            tempfile::Builder::new().prefix(PREFIX).make_in(folder, |path| std::fs::hard_link(original, path))?;
-        let ((), path) = made.keep().map_err(|error| error.error)?;
+        Ok(Self::make(folder, hold, |path| std::fs::hard_link(original, path))?.0)
+    }
+
+    fn make<T>(folder: &Path, hold: &mut Hold, make: impl Fn(&Path) -> io::Result<T>) -> io::Result<(Self, T)> {
+        let mut code = None;
+        let make = |path: &Path| make(path).inspect_err(|error| code = error.raw_os_error());
+        let made = tempfile::Builder::new().prefix(PREFIX).make_in(folder, make);
+        // The library names the file that it could not make, and the user knows the target alone.
+        let made = made.map_err(|error| code.map_or(error, io::Error::from_raw_os_error))?;
+        let (made, path) = made.keep().map_err(|error| error.error)?;
         hold.0.push(path.clone());
-        Ok(Self { path, is_there: true })
+        Ok((Self { path, is_there: true }, made))
     }
 
     pub(super) fn path(&self) -> &Path {

@@ -41,15 +41,8 @@ pub(crate) struct Change {
     /// Its path, links followed.
     target: PathBuf,
     content: Arc<[u8]>,
-    expected: Expected,
-}
-
-/// The expected content of the target.
-#[derive(Debug)]
-enum Expected {
-    AsRead(Snapshot),
-    /// Any file, or none.
-    Anything,
+    /// What the target was when it was read; `None` where it may be anything, or nothing.
+    expected: Option<Snapshot>,
 }
 
 impl Snapshot {
@@ -107,20 +100,17 @@ fn has_content(file: &mut File, mut expected: &[u8]) -> io::Result<bool> {
 impl Change {
     /// New content for a file that was read, on condition that it still is what was read.
     pub(crate) fn of_read(snapshot: Snapshot, content: Arc<[u8]>) -> Self {
-        Self { target: snapshot.path.clone(), content, expected: Expected::AsRead(snapshot) }
+        Self { target: snapshot.path.clone(), content, expected: Some(snapshot) }
     }
 
     /// A result, whatever is there.
     pub(crate) fn result(path: &Path, content: Arc<[u8]>) -> Self {
-        Self { target: whole_path(path), content, expected: Expected::Anything }
+        Self { target: whole_path(path), content, expected: None }
     }
 
     /// The name of the file for messages.
     fn name(&self) -> &Path {
-        match &self.expected {
-            Expected::AsRead(snapshot) => &snapshot.name,
-            Expected::Anything => &self.target,
-        }
+        self.expected.as_ref().map_or(&self.target, |snapshot| &snapshot.name)
     }
 
     fn failed(&self, error: io::Error) -> Failure {
@@ -130,14 +120,10 @@ impl Change {
     /// Refuses a target that is not what was read.
     fn verify(&self, path: &Path) -> io::Result<()> {
         match &self.expected {
-            Expected::AsRead(snapshot) => {
-                if snapshot.is_unchanged_at(path)? {
-                    Ok(())
-                } else {
-                    Err(io::Error::other("another program changed it after it was read"))
-                }
+            Some(snapshot) if !snapshot.is_unchanged_at(path)? => {
+                Err(io::Error::other("another program changed it after it was read"))
             }
-            Expected::Anything => Ok(()),
+            _ => Ok(()),
         }
     }
 }
@@ -168,11 +154,7 @@ enum State {
 /// The obstacles, a failure for each file; nothing is changed then.
 pub(crate) fn commit(changes: &[Change]) -> Result<(), Vec<Failure>> {
     let mut prepared = all(changes.iter().map(|change| prepare(change).map_err(|error| change.failed(error))))?;
-    let there = |change: &&Change| matches!(change.expected, Expected::AsRead(_));
-    all(changes
-        .iter()
-        .filter(there)
-        .map(|change| change.verify(&change.target).map_err(|error| change.failed(error))))?;
+    all(changes.iter().map(|change| change.verify(&change.target).map_err(|error| change.failed(error))))?;
     let mut hold = hold();
     let mut refused = Vec::new();
     for ready in &mut prepared {
@@ -235,7 +217,7 @@ fn prepare(change: &Change) -> io::Result<Prepared<'_>> {
 fn look(prepared: &[Prepared<'_>]) -> Vec<Failure> {
     let read: Vec<(&Prepared<'_>, &Path)> = prepared
         .iter()
-        .filter(|ready| matches!(ready.change.expected, Expected::AsRead(_)))
+        .filter(|ready| ready.change.expected.is_some())
         .filter_map(|ready| Some((ready, ready.old()?)))
         .collect();
     // Whoever has it open now can still write to it; whoever had it open before has written all he will, and that is seen in the content.
@@ -270,14 +252,14 @@ impl Prepared<'_> {
                 self.state = State::Exchanged;
                 Ok(())
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => match self.change.expected {
-                Expected::AsRead(_) => Err(io::Error::other("another program removed it after it was read")),
-                Expected::Anything => {
-                    self.beside.rename(target, hold)?;
-                    self.state = State::Created;
-                    Ok(())
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                if self.change.expected.is_some() {
+                    return Err(io::Error::other("another program removed it after it was read"));
                 }
-            },
+                self.beside.rename(target, hold)?;
+                self.state = State::Created;
+                Ok(())
+            }
             // The system knows no such thing.
             Err(_) => self.replace(hold),
         }

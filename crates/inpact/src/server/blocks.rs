@@ -91,6 +91,19 @@ pub(super) const LEVELS: [(&str, &str, Level); 4] = [
     ("STEP", "END STEP", Level::Step),
 ];
 
+/// Opens the level that a keyword opens, of which something is kept, or closes the one that it closes.
+pub(super) fn pass_level<T>(open: &mut Vec<(Level, T)>, keyword: &str, kept: impl Fn() -> T) {
+    for (opens, closes, level) in LEVELS {
+        if keyword == opens {
+            open.push((level, kept()));
+        } else if keyword == closes
+            && let Some(at) = open.iter().rposition(|(other, _)| *other == level)
+        {
+            open.truncate(at);
+        }
+    }
+}
+
 /// Blocks that are open at a place of a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Context<'a> {
@@ -101,27 +114,19 @@ pub(super) struct Context<'a> {
 
 /// Blocks that are open where a line begins.
 pub(super) fn context_at(analysis: &Analysis, source: SourceId, offset: u64) -> Context<'_> {
-    let mut open: Vec<Level> = Vec::new();
+    let mut open: Vec<(Level, ())> = Vec::new();
     let mut parent = None;
     for entry in entries(analysis) {
         let span = entry.keyword.span;
         if span.source() == source && offset <= span.start() {
             break;
         }
-        for (opens, closes, level) in LEVELS {
-            if entry.name == opens {
-                open.push(level);
-            } else if entry.name == closes
-                && let Some(at) = open.iter().rposition(|other| *other == level)
-            {
-                open.truncate(at);
-            }
-        }
+        pass_level(&mut open, entry.name, || ());
         let grammar = analysis.settings.grammar;
         let is_option = entry.keyword.id().is_some_and(|id| grammar.is_interaction_option(id));
         if !is_option && !matches!(entry.name, "INCLUDE" | "PARAMETER") {
             parent = Some(entry.name);
         }
     }
-    Context { level: open.last().copied().unwrap_or(Level::Model), parent }
+    Context { level: open.last().map_or(Level::Model, |(level, ())| *level), parent }
 }

@@ -40,9 +40,8 @@ struct Place<'a> {
 }
 
 fn items_at(view: View<'_>, offset: u64) -> Option<Vec<CompletionItem>> {
-    let text = view.text_of(view.source)?;
-    let (number, start) = text.line_of(offset);
-    let (_, line) = text.line(number);
+    let (span, line) = view.line_at(offset)?;
+    let start = span.start();
     let at = usize::try_from(offset - start).ok()?.min(line.len());
     let place = Place { view, offset, before: line[..at].to_vec(), start, after: line[at..].to_vec() };
     match line_kind(line) {
@@ -131,7 +130,7 @@ impl<'a> Place<'a> {
         let typed = typed.trim_ascii_start();
         let here = Span::new(self.view.source, self.offset - typed.len() as u64, self.offset);
         let is_given = |parameter: &ParameterDefinition| {
-            let others = entry.keyword.parameters().filter(|given| !touches(given.name, here));
+            let others = entry.keyword.parameters().filter(|given| !given.name.touches(here));
             others.filter_map(|given| given.index()).any(|index| definition.parameters[index].name == parameter.name)
         };
         let has_value = self.after.trim_ascii_start().first() == Some(&b'=');
@@ -292,10 +291,6 @@ fn detail(parameter: &ParameterDefinition) -> String {
 
 fn markdown(value: String) -> Documentation {
     MarkupContent { kind: MarkupKind::Markdown, value }.into()
-}
-
-fn touches(span: Span, other: Span) -> bool {
-    span.source() == other.source() && span.start() <= other.end() && other.start() <= span.end()
 }
 
 /// The last comma outside of quotes.

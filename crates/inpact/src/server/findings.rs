@@ -123,9 +123,7 @@ fn of_configuration(message: &str) -> Diagnostic {
 
 /// The findings of a deck that are in one of its files and touch some bytes of it.
 pub(super) fn touching(analysis: &Analysis, bytes: Span) -> impl Iterator<Item = &found::Diagnostic> {
-    let touches =
-        move |span: Span| span.source() == bytes.source() && span.start() <= bytes.end() && bytes.start() <= span.end();
-    analysis.findings.iter().filter(move |finding| touches(finding.primary.span))
+    analysis.findings.iter().filter(move |finding| finding.primary.span.touches(bytes))
 }
 
 /// The whole of a file of a deck.

@@ -22,11 +22,9 @@ pub(super) fn hints(workspace: &mut Workspace, params: &InlayHintParams) -> Resu
     let shown = view.bytes(params.range);
     let mut hints = Vec::new();
     for entry in blocks::entries(view.analysis) {
-        let span = entry.block.span();
-        if span.source() != view.source || shown.end() < span.start() || span.end() < shown.start() {
-            continue;
+        if entry.block.span().touches(shown) {
+            hints.extend(names_of_columns(view, &entry));
         }
-        hints.extend(names_of_columns(view, &entry));
     }
     hints.extend(values(view, shown));
     hints.sort_by_key(|hint| hint.position);

@@ -5,8 +5,7 @@ use super::cells::{self, Cell};
 use super::names::{self, Kind, parameter_at};
 use super::refusal::{self, Refusal};
 use super::shape::shape;
-use super::workspace::View;
-use super::workspace::Workspace;
+use super::workspace::{View, Workspace};
 use crate::{page, rules};
 use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind};
 use inpact_parser::deck::Parameter;
@@ -32,25 +31,21 @@ fn page_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
         return Some(found);
     }
     let entry = blocks::owner_at(view.analysis, view.source, offset)?;
-    if touches(entry.keyword.span, view, offset) && offset < entry.keyword.span.end() {
+    if entry.keyword.span.touches(view.at(offset)) && offset < entry.keyword.span.end() {
         return on_keyword_line(view, &entry, offset);
     }
     if let Some(found) = interaction(view, offset) {
         return Some(found);
     }
-    let row =
-        cells::rows(view.analysis, &entry).find(|row| row.cells.iter().any(|cell| touches(cell.span, view, offset)))?;
-    let cell = row.cells.iter().find(|cell| touches(cell.span, view, offset))?;
+    let row = cells::rows(view.analysis, &entry)
+        .find(|row| row.cells.iter().any(|cell| cell.span.touches(view.at(offset))))?;
+    let cell = row.cells.iter().find(|cell| cell.span.touches(view.at(offset)))?;
     Some((cell.span, cell_page(view, &entry, cell)))
-}
-
-fn touches(span: Span, view: View<'_>, offset: u64) -> bool {
-    span.source() == view.source && span.start() <= offset && offset <= span.end()
 }
 
 /// `** inpact: ignore T005`: the page of the rule.
 fn directive(view: View<'_>, offset: u64) -> Option<(Span, String)> {
-    let span = *view.analysis.deck.directives().iter().find(|span| touches(**span, view, offset))?;
+    let span = *view.analysis.deck.directives().iter().find(|span| span.touches(view.at(offset)))?;
     let word = word_at(view, span, offset, u8::is_ascii_alphanumeric)?;
     let rule = rules::of_code(&view.shown(word))?;
     Some((word, page::of_rule(rule)))
@@ -87,12 +82,12 @@ fn place_of(view: View<'_>, span: Span) -> String {
 }
 
 fn on_keyword_line(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<(Span, String)> {
-    let given = entry.keyword.parameters().find(|given| touches(given.span(), view, offset));
+    let given = entry.keyword.parameters().find(|given| given.span().touches(view.at(offset)));
     if let Some(given) = given {
         return interaction(view, offset).or_else(|| on_parameter(entry, given));
     }
     let span = entry.keyword.name();
-    if !touches(span, view, offset) && offset + 1 != span.start() {
+    if !span.touches(view.at(offset)) && offset + 1 != span.start() {
         return None;
     }
     let text = match entry.definition {

@@ -4,7 +4,7 @@
 //! found by the parameters that hold them (NSET, ELSET, SURFACE, …) and by the items of rows, since most keywords of a deck are not
 //! interpreted by inpact. An item that could be a surface or a set of either kind is taken for whichever the deck defines by that name.
 
-use super::blocks::{self, Entry, LEVELS};
+use super::blocks::{self, Entry};
 use super::workspace::View;
 use inpact_parser::deck::items;
 use inpact_parser::expression::{names as names_of_statement, references};
@@ -133,16 +133,8 @@ fn meaning_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> Option<Mea
 fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'_>, &[u8], Span, &str)) {
     let mut open: Vec<(Level, String)> = Vec::new();
     for entry in blocks::entries(view.analysis) {
-        for (opens, closes, level) in LEVELS {
-            if entry.name == opens {
-                let name = entry.value_written(view, "NAME").map(|name| view.shown(name)).unwrap_or_default();
-                open.push((level, name));
-            } else if entry.name == closes
-                && let Some(at) = open.iter().rposition(|(other, _)| *other == level)
-            {
-                open.truncate(at);
-            }
-        }
+        let name = || entry.value_written(view, "NAME").map(|name| view.shown(name)).unwrap_or_default();
+        blocks::pass_level(&mut open, entry.name, name);
         let in_part = open.iter().rev().find(|(level, _)| matches!(level, Level::Part | Level::Instance));
         let scope = in_part.map_or("", |(_, name)| name.as_str());
         for given in entry.keyword.parameters() {
@@ -170,8 +162,7 @@ fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'
                     {
                         continue;
                     }
-                    let span =
-                        Span::new(line.source(), line.start() + range.start as u64, line.start() + range.end as u64);
+                    let span = line.part(range.clone());
                     if let Some(meaning) = meaning_of_item(&entry, view, index) {
                         take(meaning, &entry, item, span, scope);
                     }
@@ -239,9 +230,6 @@ fn occurrences_of_parameter(view: View<'_>, name: &Name) -> Vec<Occurrence> {
         let (name, scope) = (name.clone(), String::new());
         found.push(Occurrence { kind: Kind::Parameter, name, span, is_definition, is_guess: false, scope });
     };
-    let part = |line: Span, range: std::ops::Range<usize>| {
-        Span::new(line.source(), line.start() + range.start as u64, line.start() + range.end as u64)
-    };
     for block in view.analysis.deck.blocks() {
         let entry = Entry::of(view.analysis, block);
         if let Some(keyword) = &block.keyword {
@@ -263,7 +251,7 @@ fn occurrences_of_parameter(view: View<'_>, name: &Name) -> Vec<Occurrence> {
                     let before = text[..range.start].trim_ascii();
                     let after = text[range.end..].trim_ascii_start();
                     let assigns = before.is_empty() && after.first() == Some(&b'=') && after.get(1) != Some(&b'=');
-                    take(part(line, range), assigns);
+                    take(line.part(range), assigns);
                 }
             } else {
                 for reference in references(&text).filter(|reference| reference.name == name.written()) {
@@ -279,8 +267,7 @@ fn occurrences_of_parameter(view: View<'_>, name: &Name) -> Vec<Occurrence> {
 fn inner(text: &[u8], range: std::ops::Range<usize>, line: Span) -> Span {
     let within = &text[range.start + 1..range.end - 1];
     let start = range.start + 1 + (within.len() - within.trim_ascii_start().len());
-    let end = start + within.trim_ascii().len();
-    Span::new(line.source(), line.start() + start as u64, line.start() + end as u64)
+    line.part(start..start + within.trim_ascii().len())
 }
 
 /// The name at a place, as what it is there.
@@ -291,21 +278,17 @@ pub(super) fn at(view: View<'_>, offset: u64) -> Option<Occurrence> {
     }
     let entry = blocks::owner_at(view.analysis, view.source, offset)?;
     let dialect = view.analysis.settings.grammar.dialect();
-    let touches = |span: Span| span.source() == view.source && span.start() <= offset && offset <= span.end();
+    let touches = |span: Span| span.touches(view.at(offset));
     let (text, span, meaning) = if offset < entry.keyword.span.end() && touches(entry.keyword.span) {
         let given = entry.keyword.parameters().find(|given| given.value.is_some_and(touches))?;
         let value = given.value?;
         (view.text(value).into_owned(), value, meaning_of_value(entry.name, &view.text(given.name))?)
     } else {
-        let file = view.text_of(view.source)?;
-        let (number, start) = file.line_of(offset);
-        let (_, line) = file.line(number);
+        let (line_span, line) = view.line_at(offset)?;
         if line.trim_ascii_start().starts_with(b"**") {
             return None;
         }
-        let part = |range: &std::ops::Range<usize>| {
-            Span::new(view.source, start + range.start as u64, start + range.end as u64)
-        };
+        let part = |range: &std::ops::Range<usize>| line_span.part(range.clone());
         if entry.name == "PARAMETER" {
             let range = names_of_statement(line).find(|range| touches(part(range)))?;
             let name = String::from_utf8_lossy(&line[range.clone()]).into_owned();
@@ -404,17 +387,10 @@ pub(super) fn kinds_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> &
 
 /// The `<name>` at a place: its bytes, brackets included, and the name.
 pub(super) fn parameter_at(view: View<'_>, offset: u64) -> Option<(Span, String)> {
-    let text = view.text_of(view.source)?;
-    let (_, start) = text.line_of(offset);
-    let (line_number, _) = text.line_of(offset);
-    let (_, line) = text.line(line_number);
+    let (line_span, line) = view.line_at(offset)?;
     if line.trim_ascii_start().starts_with(b"**") {
         return None;
     }
-    let found = references(line).find(|reference| {
-        let (from, to) = (start + reference.range.start as u64, start + reference.range.end as u64);
-        from <= offset && offset <= to
-    })?;
-    let span = Span::new(view.source, start + found.range.start as u64, start + found.range.end as u64);
-    Some((span, found.name.to_owned()))
+    let mut found = references(line).map(|reference| (line_span.part(reference.range), reference.name.to_owned()));
+    found.find(|(span, _)| span.touches(view.at(offset)))
 }

@@ -34,8 +34,7 @@ pub(super) fn definition(
 /// The file that the *INCLUDE at a place names.
 fn included_at(view: View<'_>, offset: u64) -> Option<SourceId> {
     view.analysis.deck.includes().iter().find_map(|include| {
-        let name =
-            include.name.filter(|name| name.source() == view.source && name.start() <= offset && offset <= name.end());
+        let name = include.name.filter(|name| name.touches(view.at(offset)));
         match include.outcome {
             IncludeOutcome::Read(source) => name.map(|_| source),
             _ => None,

@@ -191,7 +191,7 @@ pub(super) fn selection(
 fn selection_at(view: View<'_>, tree: &[Node<'_>], offset: u64) -> SelectionRange {
     let mut spans = vec![super::findings::whole(view, view.source)];
     let mut nodes = tree;
-    while let Some(node) = nodes.iter().find(|node| node.span.start() <= offset && offset <= node.span.end()) {
+    while let Some(node) = nodes.iter().find(|node| node.span.touches(view.at(offset))) {
         spans.push(trimmed(view, node.span));
         let block = node.entry.block;
         if node.children.iter().all(|child| offset < child.span.start() || child.span.end() < offset) {
@@ -204,18 +204,14 @@ fn selection_at(view: View<'_>, tree: &[Node<'_>], offset: u64) -> SelectionRang
         }
         nodes = &node.children;
     }
-    if let Some(text) = view.text_of(view.source) {
-        let (number, start) = text.line_of(offset);
-        let (_, line) = text.line(number);
-        spans.push(Span::new(view.source, start, start + line.len() as u64));
-        let at = offset - start;
-        let item = items(line).find(|range| range.start as u64 <= at && at <= range.end as u64);
-        spans.extend(item.map(|range| Span::new(view.source, start + range.start as u64, start + range.end as u64)));
+    if let Some((span, line)) = view.line_at(offset) {
+        spans.push(span);
+        spans.extend(items(line).map(|range| span.part(range)).find(|item| item.touches(view.at(offset))));
         // On *CONTACT PAIR, INTERACTION=X the name by itself as well.
         spans.extend(names::at(view, offset).map(|found| found.span));
     }
-    let holds = |span: &Span| span.start() <= offset && offset <= span.end();
-    let ranges = spans.into_iter().filter(holds).map(|span| view.range(span));
+    let holding = spans.into_iter().filter(|span| span.touches(view.at(offset)));
+    let ranges = holding.map(|span| view.range(span));
     let mut selection: Option<SelectionRange> = None;
     for range in ranges {
         match &selection {
@@ -233,9 +229,7 @@ fn is_within(inner: Range, outer: Range) -> bool {
 /// The group of a table that a place lies in.
 fn group_at(view: View<'_>, entry: &Entry<'_>, offset: u64) -> Option<Span> {
     let table = cells::table_of(view.analysis, entry)?;
-    let row = table
-        .row_spans()
-        .position(|row| row.source() == view.source && row.start() <= offset && offset <= row.end())?;
+    let row = table.row_spans().position(|row| row.touches(view.at(offset)))?;
     let group = table.groups().find(|group| group.contains(&row))?;
     let (first, last) = (table.row_span(group.start), table.row_span(group.end - 1));
     (first.source() == view.source && last.source() == view.source).then(|| first.to(last))

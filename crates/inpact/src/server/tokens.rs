@@ -46,8 +46,7 @@ pub(super) fn range(
 }
 
 fn tokens(view: View<'_>, shown: Span) -> SemanticTokens {
-    let is_shown =
-        |span: Span| span.source() == view.source && span.start() <= shown.end() && shown.start() <= span.end();
+    let is_shown = |span: Span| span.touches(shown);
     let mut found: Vec<(Span, u32)> = Vec::new();
     for entry in blocks::entries(view.analysis) {
         if is_shown(entry.keyword.span) {

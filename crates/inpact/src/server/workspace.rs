@@ -294,6 +294,19 @@ impl<'a> View<'a> {
         Span::new(self.source, start.min(end), start.max(end))
     }
 
+    /// The place before a byte of the document.
+    pub(super) fn at(&self, offset: u64) -> Span {
+        Span::new(self.source, offset, offset)
+    }
+
+    /// The line of the document that a byte is in.
+    pub(super) fn line_at(&self, offset: u64) -> Option<(Span, &'a [u8])> {
+        let text = self.text_of(self.source)?;
+        let (number, start) = text.line_of(offset);
+        let (_, line) = text.line(number);
+        Some((Span::new(self.source, start, start + line.len() as u64), line))
+    }
+
     /// A span as the editor counts it.
     pub(super) fn range(&self, span: Span) -> Range {
         self.workspace.stop.look();
@@ -320,8 +333,7 @@ impl<'a> View<'a> {
         let of = |range: std::ops::Range<usize>| {
             self.workspace.stop.look();
             let line = without_line_end(&bytes[range.clone()]);
-            let start = rows.start() + range.start as u64;
-            (Span::new(rows.source(), start, start + line.len() as u64), line.to_vec())
+            (rows.part(range.start..range.start + line.len()), line.to_vec())
         };
         found.map(of).collect()
     }

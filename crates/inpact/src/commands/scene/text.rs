@@ -13,7 +13,6 @@ use inpact_network::scene::{Course, Field};
 use inpact_parser::model::{Procedure, Regime};
 use inpact_parser::number::read_float;
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 /// Conductances below this share of the largest may be rounding.
 const ROUNDING: f64 = 1e-12;
@@ -42,7 +41,7 @@ impl Head {
         for input in &self.inputs {
             let hash =
                 input.hash.as_ref().map_or_else(|| "read from a stream".to_owned(), |hash| format!("sha256 {hash}"));
-            put(&mut text, format_args!("# {}: {hash}\n", comment(&input.name)));
+            text += &format!("# {}: {hash}\n", comment(&input.name));
         }
         for (title, lines) in [
             ("Not taken over", not_taken),
@@ -50,9 +49,9 @@ impl Head {
             ("Lumping", lumping),
         ] {
             if !lines.is_empty() {
-                put(&mut text, format_args!("#\n# {title}:\n"));
+                text += &format!("#\n# {title}:\n");
                 for line in lines {
-                    put(&mut text, format_args!("#   {}\n", comment(line)));
+                    text += &format!("#   {}\n", comment(line));
                 }
             }
         }
@@ -64,10 +63,10 @@ impl SceneText {
     pub(super) fn new(deck: &str, regime: Regime, time: StepTime, procedure: Option<&Procedure>) -> Self {
         let mut written = format!("deck = {}\n", toml_text(deck));
         if regime == Regime::Transient {
-            put(&mut written, format_args!("procedure = \"transient\"\n\n[time]\nend = {:?}\n", time.period));
+            written += &format!("procedure = \"transient\"\n\n[time]\nend = {:?}\n", time.period);
             // Increments of one length are said by the deck, others are chosen by the solver as it goes.
             if let Some(step) = procedure.and_then(given_increment) {
-                put(&mut written, format_args!("step = {step:?}\n"));
+                written += &format!("step = {step:?}\n");
             }
         }
         Self { written, regime, films: Vec::new() }
@@ -113,7 +112,7 @@ impl SceneText {
         for field in Field::ALL {
             let keys = keys(field);
             if !keys.is_empty() {
-                put(&mut text, format_args!("{} = {{ {} }}\n", field.key(), keys.join(", ")));
+                text += &format!("{} = {{ {} }}\n", field.key(), keys.join(", "));
             }
         }
         self.written += &text;
@@ -156,7 +155,7 @@ impl SceneText {
 
     fn link(&mut self, first: &str, second: &str, keys: &[String]) {
         let names = [first, second].map(toml_text).join(", ");
-        put(&mut self.written, format_args!("\n[[link]]\nnodes = [{names}]\n{}\n", keys.join("\n")));
+        self.written += &format!("\n[[link]]\nnodes = [{names}]\n{}\n", keys.join("\n"));
     }
 
     /// The contact pairs, one interface each, with its area.
@@ -175,13 +174,13 @@ impl SceneText {
                     Column::FieldVariable(number, Part::Both) => fields.push((number, mean.mean)),
                     // Nodes have temperatures of their own.
                     Column::Temperature(_) => {}
-                    quantity => put(&mut text, format_args!("{quantity} = {:?}\n", mean.mean)),
+                    quantity => text += &format!("{quantity} = {:?}\n", mean.mean),
                 }
             }
             fields.sort_by_key(|(number, _)| *number);
             if fields.iter().zip(1..).all(|((number, _), place)| *number == place) && !fields.is_empty() {
                 let values: Vec<String> = fields.iter().map(|(_, value)| format!("{value:?}")).collect();
-                put(&mut text, format_args!("fv = [{}]\n", values.join(", ")));
+                text += &format!("fv = [{}]\n", values.join(", "));
             }
             self.written += &text;
         }
@@ -208,9 +207,4 @@ fn course(course: &Course) -> String {
 /// A text in a comment, which ends with its line and has no control characters.
 fn comment(text: &str) -> String {
     text.chars().map(|character| if character.is_control() { '\u{FFFD}' } else { character }).collect()
-}
-
-/// Adds to a text, which has no reason to fail.
-fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
-    let _ = text.write_fmt(what);
 }

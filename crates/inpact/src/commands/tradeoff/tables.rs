@@ -24,7 +24,8 @@ pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments
 }
 
 fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
-    let prepared = table.prepare(&arguments.laws, &arguments.reading, arguments.format.messages())?;
+    let messages = arguments.format.messages();
+    let prepared = table.prepare_in_rounds(&arguments.laws, &arguments.reading, messages, arguments.rounds)?;
     let Some(mut scene) = prepared.filter(|scene| !scene.deck_has_errors) else { return Ok(None) };
     // The included files are known now.
     files::check_targets(&arguments.targets())?;
@@ -52,7 +53,7 @@ pub(crate) fn diagram(scene: &mut Evaluable, nodes_path: &Path) -> Result<(Chart
 }
 
 fn measured_tables(scene: &mut Evaluable, nodes_path: &Path, most: u64, rounds: u32) -> Result<Measured, Failure> {
-    let sample = subjects::gather(scene, nodes_path, most)?;
+    let sample = subjects::gather(scene, nodes_path, (most, rounds))?;
     if sample.subjects.is_empty() {
         let message = format!("no table of `{}` varies on these rows: there is nothing to trade", scene.deck_name);
         return Err(Failure::Data(message));

@@ -12,7 +12,7 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
     let points = group.entries.iter().map(|entry| Point {
         x: entry.time,
         y: entry.errors.largest.max(LEAST_ERROR),
-        bar_to: Some(entry.bound.of_largest.max(LEAST_ERROR)).filter(|bound| bound.is_finite()),
+        bar_to: Some(entry.bound.relative_to_largest.max(LEAST_ERROR)).filter(|bound| bound.is_finite()),
         label: format!("{}, {} ns, {:.0} B/row", entry.mode, short(entry.time), entry.bytes),
         on_front: entry.on_front,
     });

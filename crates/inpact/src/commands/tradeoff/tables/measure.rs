@@ -47,21 +47,12 @@ pub(super) struct Entry {
     /// The least time of a row, in ns.
     pub(super) time: f64,
     pub(super) errors: Errors,
-    /// The largest error there can be.
-    pub(super) bound: Bound,
+    /// The largest error there can be on any row.
+    pub(super) bound: ErrorBound,
     /// Read and written for a row.
     pub(super) bytes: f64,
     /// No other mode is as fast and as exact, and better in one of the two.
     pub(super) on_front: bool,
-}
-
-/// The largest error there can be on any row.
-#[derive(Clone, Copy)]
-pub(super) struct Bound {
-    /// As a part of the largest value of the table.
-    pub(super) of_largest: f64,
-    /// As a part of the exact value of the row; infinite where that can be zero.
-    pub(super) pointwise: f64,
 }
 
 /// Differences from the exact value.
@@ -111,7 +102,7 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
     let rows = repeated.rows();
     let mut runs: Vec<Box<dyn FnMut() + '_>> = vec![Box::new(|| copied.run())];
     for (_, prepared) in &mut modes {
-        runs.push(Box::new(|| prepared.run.run()));
+        runs.push(Box::new(|| prepared.run()));
     }
     // The first round fills caches and is not counted.
     least_times(1, &mut runs);
@@ -122,7 +113,7 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
         time,
         errors: errors(subject, &prepared),
         form: prepared.form,
-        bound: Bound::of(&prepared.bound),
+        bound: prepared.bound,
         bytes: (size_of::<f64>() * (repeated.axes() + 1)) as f64,
         on_front: false,
     });
@@ -146,9 +137,9 @@ fn errors(subject: &Subject, prepared: &Prepared<'_>) -> Errors {
     let mut rows = 0;
     for row in 0..subject.rows() {
         for (axis, coordinate) in point.iter_mut().enumerate() {
-            *coordinate = prepared.run.coordinate(axis, row);
+            *coordinate = prepared.coordinate(axis, row);
         }
-        let value = prepared.run.value(row);
+        let value = prepared.value(row);
         let Some(exact) = subject.table.reference_at(point[0], &point[1..]) else { continue };
         let error = if value.is_finite() { (Scaled::new(value) + -exact).to_f64().abs() } else { f64::INFINITY };
         let part = if error == 0.0 { 0.0 } else { error / greatest };
@@ -168,12 +159,6 @@ fn errors(subject: &Subject, prepared: &Prepared<'_>) -> Errors {
         errors.rms_ulp = (ulp_squares.total() / f64::from(rows)).sqrt();
     }
     errors
-}
-
-impl Bound {
-    fn of(bound: &ErrorBound) -> Self {
-        Self { of_largest: bound.relative_to_largest, pointwise: bound.pointwise }
-    }
 }
 
 /// The modes over all tables, each row in its own; a table that a mode does not serve is evaluated in `full`.
@@ -200,8 +185,9 @@ fn all_of(groups: &[Group]) -> Group {
                 largest_ulp: largest(|entry| entry.errors.largest_ulp),
                 rms_ulp: mean(|entry| entry.errors.rms_ulp.powi(2)).sqrt(),
             },
-            bound: Bound {
-                of_largest: largest(|entry| entry.bound.of_largest),
+            bound: ErrorBound {
+                absolute: largest(|entry| entry.bound.absolute),
+                relative_to_largest: largest(|entry| entry.bound.relative_to_largest),
                 pointwise: largest(|entry| entry.bound.pointwise),
             },
             bytes: mean(|entry| entry.bytes),

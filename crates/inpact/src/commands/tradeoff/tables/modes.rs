@@ -14,25 +14,18 @@ pub(super) struct Mode {
     pub(super) of: for<'a> fn(&'a Subject) -> Result<Prepared<'a>, String>,
 }
 
-/// A mode made ready for a table and its rows.
+/// A mode made ready for a table and its rows: f64 columns through a function of blocks.
 pub(super) struct Prepared<'a> {
-    pub(super) run: Box<dyn Run + 'a>,
+    columns: Vec<&'a [f64]>,
+    of_block: OfBlock<'a>,
+    output: Vec<f64>,
     pub(super) form: String,
     /// The largest error there can be.
     pub(super) bound: ErrorBound,
 }
 
-/// Something that can be timed, over all rows of its columns.
-pub(super) trait Run {
-    /// Evaluates every row.
-    fn run(&mut self);
-
-    /// The value of a row, from the run before.
-    fn value(&self, row: usize) -> f64;
-
-    /// The coordinate of a row as its columns have it; NaN along an axis that makes no difference.
-    fn coordinate(&self, axis: usize, row: usize) -> f64;
-}
+/// Finds the values of a block of rows from its coordinates, a column an axis.
+type OfBlock<'a> = Box<dyn FnMut(&[&[f64]], &mut [f64]) + 'a>;
 
 /// The least exact that are timed beside [`MODES`] have these cells along each axis, by how many axes there are; the finest that stay in cache first.
 const GRIDS: [[usize; 3]; 3] = [[128, 32, 8], [30, 12, 4], [12, 6, 2]];
@@ -53,7 +46,7 @@ pub(super) const MODES: &[Mode] = &[
                     *value = table.reference_value_at(coordinate(0, row), &others);
                 }
             };
-            Ok(prepared(Doubles::new(subject, of_block), "double-double", reference_bound(table)))
+            Ok(Prepared::new(subject, Box::new(of_block), "double-double", reference_bound(table)))
         },
     },
     Mode {
@@ -61,7 +54,7 @@ pub(super) const MODES: &[Mode] = &[
         of: |subject| {
             let kernel = TableKernel::new(&subject.table);
             let of_block = move |columns: &[&[f64]], values: &mut [f64]| kernel.values(columns, values);
-            Ok(prepared(Doubles::new(subject, of_block), "kernel", full_bound(&subject.table)))
+            Ok(Prepared::new(subject, Box::new(of_block), "kernel", full_bound(&subject.table)))
         },
     },
     Mode { name: "grid exact", of: exact_grid },
@@ -73,8 +66,26 @@ pub(super) const MODES: &[Mode] = &[
 /// Rows are evaluated in blocks of so many, as the batches of an evaluation have.
 const ROWS_OF_A_BLOCK: usize = 1024;
 
-fn prepared<'a>(run: impl Run + 'a, form: &str, bound: ErrorBound) -> Prepared<'a> {
-    Prepared { run: Box::new(run), form: form.to_owned(), bound }
+impl<'a> Prepared<'a> {
+    fn new(subject: &'a Subject, of_block: OfBlock<'a>, form: &str, bound: ErrorBound) -> Self {
+        let columns = subject.columns.iter().map(Vec::as_slice).collect();
+        Self { columns, of_block, output: vec![0.0; subject.rows()], form: form.to_owned(), bound }
+    }
+
+    /// Evaluates every row.
+    pub(super) fn run(&mut self) {
+        each_block(&self.columns, &mut self.output, &mut self.of_block);
+    }
+
+    /// The value of a row, from the run before.
+    pub(super) fn value(&self, row: usize) -> f64 {
+        self.output[row]
+    }
+
+    /// The coordinate of a row as its columns have it; NaN along an axis that makes no difference.
+    pub(super) fn coordinate(&self, axis: usize, row: usize) -> f64 {
+        self.columns[axis].get(row).copied().unwrap_or(f64::NAN)
+    }
 }
 
 /// The table on a grid.
@@ -83,7 +94,7 @@ fn resampled<'a>(subject: &'a Subject, cells: &[usize]) -> Result<Prepared<'a>, 
     let bound = grid.bound();
     let cells: Vec<String> = cells.iter().map(usize::to_string).collect();
     let of_block = move |columns: &[&[f64]], values: &mut [f64]| grid.values(columns, values);
-    Ok(prepared(Doubles::new(subject, of_block), &format!("grid {}", cells.join("x")), bound))
+    Ok(Prepared::new(subject, Box::new(of_block), &format!("grid {}", cells.join("x")), bound))
 }
 
 /// The grid that is the table itself up to rounding.
@@ -101,34 +112,6 @@ fn grid(subject: &Subject, size: usize) -> Result<Prepared<'_>, String> {
     let axes = subject.axes();
     let cells = GRIDS.get(axes.saturating_sub(2)).map_or(1, |sizes| sizes[size]);
     resampled(subject, &vec![cells; axes])
-}
-
-/// f64 columns through a function of blocks.
-struct Doubles<'a, F> {
-    columns: Vec<&'a [f64]>,
-    of_block: F,
-    output: Vec<f64>,
-}
-
-impl<'a, F: FnMut(&[&[f64]], &mut [f64])> Doubles<'a, F> {
-    fn new(subject: &'a Subject, of_block: F) -> Self {
-        let columns = subject.columns.iter().map(Vec::as_slice).collect();
-        Self { columns, of_block, output: vec![0.0; subject.rows()] }
-    }
-}
-
-impl<F: FnMut(&[&[f64]], &mut [f64])> Run for Doubles<'_, F> {
-    fn run(&mut self) {
-        each_block(&self.columns, &mut self.output, &mut self.of_block);
-    }
-
-    fn value(&self, row: usize) -> f64 {
-        self.output[row]
-    }
-
-    fn coordinate(&self, axis: usize, row: usize) -> f64 {
-        self.columns[axis].get(row).copied().unwrap_or(f64::NAN)
-    }
 }
 
 fn each_block(columns: &[&[f64]], output: &mut [f64], mut of_block: impl FnMut(&[&[f64]], &mut [f64])) {

@@ -19,11 +19,12 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
              * marks the Pareto front\n";
     let whole = measured.whole;
     text += &format!(
-        "a whole row of `eval` takes {:.0} ns, in which tables are one part of the laws: read {:.0}, laws {:.0}, write {:.0} (once, with the accuracy that was asked for)\n",
+        "a whole row of `eval` takes {:.0} ns, in which tables are one part of the laws: read {:.0}, laws {:.0}, write {:.0} (least of at most {}, with the accuracy that was asked for)\n",
         whole.total(),
         whole.read,
         whole.laws,
-        whole.write
+        whole.write,
+        counted(measured.rounds, "round")
     );
     for group in &measured.groups {
         text += &format!("\n{} ({})\n", group.name, size(group));
@@ -37,7 +38,7 @@ pub(super) fn text(measured: &Measured, names: Names<'_>) -> String {
                 format!("{time:.2}"),
                 format!("{:.3e}", 1e9 / time),
                 error(errors.largest),
-                error(bound.of_largest),
+                error(bound.relative_to_largest),
                 error(errors.rms),
                 error(errors.pointwise),
                 error(bound.pointwise),
@@ -119,7 +120,7 @@ pub(super) fn csv(measured: &Measured) -> String {
                 errors.pointwise,
                 errors.largest_ulp,
                 errors.rms_ulp,
-                bound.of_largest,
+                bound.relative_to_largest,
                 bound.pointwise,
                 *bytes,
             ];
@@ -148,7 +149,7 @@ pub(super) fn json(measured: &Measured, names: Names<'_>) -> String {
                 "pointwise_error": errors.pointwise,
                 "largest_ulp": errors.largest_ulp,
                 "rms_ulp": errors.rms_ulp,
-                "bound": bound.of_largest,
+                "bound": bound.relative_to_largest,
                 "pointwise_bound": bound.pointwise,
                 "bytes_per_row": bytes,
                 "pareto": on_front,
