@@ -86,9 +86,6 @@ impl fmt::Debug for Error {
 
 impl error::Error for Error {
     fn source(&self) -> Option<&(dyn error::Error + 'static)> {
-        match &self.failure {
-            Failure::Read { error, .. } | Failure::Write { error, .. } | Failure::Output(error) => Some(error),
-            Failure::Usage(_) | Failure::AlreadySaid | Failure::Data(_) => None,
-        }
+        self.failure.source()
     }
 }

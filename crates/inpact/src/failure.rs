@@ -21,13 +21,21 @@ pub(crate) enum Outcome {
 pub(crate) enum Failure {
     /// A file that cannot be read.
     #[error("cannot read `{}`: {error}", path.display())]
-    Read { path: PathBuf, error: io::Error },
+    Read {
+        path: PathBuf,
+        #[source]
+        error: io::Error,
+    },
     /// A file that cannot be written.
     #[error("cannot write `{}`: {error}", path.display())]
-    Write { path: PathBuf, error: io::Error },
+    Write {
+        path: PathBuf,
+        #[source]
+        error: io::Error,
+    },
     /// Standard output that cannot be written.
     #[error("cannot write to standard output: {0}")]
-    Output(io::Error),
+    Output(#[source] io::Error),
     /// Arguments that do not go together.
     #[error("{0}")]
     Usage(String),

@@ -33,6 +33,7 @@ pub(crate) struct Report<'a> {
 }
 
 /// An evaluation of a node table in words.
+#[derive(Default)]
 pub(crate) struct Evaluation {
     /// The name of the node table.
     pub(crate) nodes: String,

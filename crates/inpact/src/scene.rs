@@ -1,7 +1,7 @@
 //! Scenes: nodes, bulk conductances and the interfaces of a deck that couple them.
 
 use crate::commands::findings::Collected;
-use crate::commands::solvable::SolvableScene;
+use crate::commands::solvable::{Ended, SolvableScene};
 use crate::error::Error;
 use crate::settings::ReadOptions;
 use crate::threads::with_threads;
@@ -151,9 +151,9 @@ impl Scene {
         let mut states: Vec<SolvedState> = Vec::new();
         let ran = transient::run(&mut equations, |state| {
             states.push(SolvedState::of(&problem, state));
-            if watch(state.time).is_break() { Err(Ended::Stopped) } else { Ok(()) }
+            if watch(state.time).is_break() { Err(Ended::Taking(())) } else { Ok(()) }
         });
-        if let Err(Ended::Failed(failure)) = ran {
+        if let Err(Ended::Solving(failure)) = ran {
             let found = self.solvable.findings(&failure, states.last().map(|state| state.time));
             let found = self.solvable.settings.apply(found);
             return Err(Error::of_first(&format!("`{name}` has no solution"), found));
@@ -166,18 +166,6 @@ impl Scene {
             left_out: problem.left_out.clone(),
             states,
         })
-    }
-}
-
-/// Reasons why a transient ended early.
-enum Ended {
-    Failed(inpact_network::Error),
-    Stopped,
-}
-
-impl From<inpact_network::Error> for Ended {
-    fn from(failure: inpact_network::Error) -> Self {
-        Self::Failed(failure)
     }
 }
 

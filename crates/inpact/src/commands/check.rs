@@ -27,7 +27,6 @@ use inpact_parser::model;
 use inpact_validation::RULES;
 use inpact_validation::{Severity, check_with};
 use rayon::prelude::*;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -210,7 +209,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
                 }
                 is_first &= checked.text.is_empty();
                 text += &checked.text;
-                output.write_all(text.as_bytes()).map_err(|error| output.failure(error))?;
+                output.put(text.as_bytes())?;
                 text.clear();
                 total.add(&checked.tally);
             }
@@ -227,7 +226,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         text += &document.tail;
     }
     text += &mending.differences;
-    output.write_all(text.as_bytes()).map_err(|error| output.failure(error))?;
+    output.put(text.as_bytes())?;
     output.finish()?;
     if !arguments.quiet && (!kinds.is_empty() || changed.is_some()) {
         for remark in &remarks {

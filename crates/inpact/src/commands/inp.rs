@@ -7,7 +7,7 @@ use crate::files;
 use crate::json_deck;
 use clap::Args;
 use inpact_parser::grammar::{Dialect, Release};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct InpArguments {
@@ -26,7 +26,8 @@ pub(crate) fn run(arguments: &InpArguments) -> Result<Outcome, Failure> {
     files::name_as_inputs(&[&arguments.json]);
     files::check_targets(&[arguments.output.as_deref()])?;
     let text = files::read_text(&arguments.json)?;
-    let decks = decks(&text).map_err(|message| in_file(&arguments.json, &message))?;
+    let unreadable = |message| Failure::Data(format!("`{}` is no deck as JSON: {message}", arguments.json.display()));
+    let decks = decks(&text).map_err(unreadable)?;
     match (&arguments.into, decks.as_slice()) {
         (Some(folder), _) => into::write(folder, &decks)?,
         (None, [(_, bytes)]) => files::write_result(arguments.output.as_deref(), bytes)?,
@@ -49,8 +50,4 @@ fn decks(text: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
         say(&format!("the deck says this in {language} alone"));
     }
     Ok(files)
-}
-
-fn in_file(path: &Path, message: &str) -> Failure {
-    Failure::Data(format!("`{}` is no deck as JSON: {message}", path.display()))
 }

@@ -190,7 +190,7 @@ pub(crate) fn lumped_lines(interfaces: &Interfaces, lumped: &LumpedPair) -> Vec<
 }
 
 /// `0.5, mean over 9 nodes by area, 0.2 to 0.8`.
-pub(crate) fn mean_text(mean: &WeightedMean) -> String {
+fn mean_text(mean: &WeightedMean) -> String {
     let nodes = counted(mean.nodes, "node");
     let WeightedMean { mean: value, least, largest, .. } = *mean;
     if mean.is_uniform() {

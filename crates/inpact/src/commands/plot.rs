@@ -244,7 +244,7 @@ fn scales(arguments: &PlotArguments) -> Scales {
 }
 
 /// The reason why there is no curve at all.
-pub(crate) fn nothing_to_draw(figures: &[Figure]) -> Failure {
+fn nothing_to_draw(figures: &[Figure]) -> Failure {
     let decks: Vec<String> = figures.iter().map(|figure| format!("`{}`", figure.deck)).collect();
     let notes: Vec<&str> = figures.iter().flat_map(|figure| &figure.notes).map(String::as_str).collect();
     let reasons = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };

@@ -149,14 +149,7 @@ impl Evaluated {
             },
             None => {
                 let nothing = "The deck is wrong where the node table needs it: nothing was evaluated.";
-                Evaluation {
-                    nodes,
-                    plan,
-                    summary: vec![nothing.to_owned()],
-                    histories: Vec::new(),
-                    surfaces: Vec::new(),
-                    tradeoff: None,
-                }
+                Evaluation { nodes, plan, summary: vec![nothing.to_owned()], ..Evaluation::default() }
             }
         }
     }

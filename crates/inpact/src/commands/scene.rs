@@ -84,7 +84,7 @@ fn write(arguments: &SceneArguments, messages: Messages<'_>) -> Result<Outcome, 
     refuse_step(arguments, steps)?;
     let made = make(arguments, &settings, &meshed, messages)?;
     files::write_result(arguments.output.as_deref(), made.whole.as_bytes())?;
-    let lines = || made.lines().map(|line| visible_line(&line).into_owned()).collect();
+    let lines = || made.lines().iter().map(|line| visible_line(line).into_owned()).collect();
     let summary = || {
         let summary = json!({
             "nodes": made.nodes,
@@ -120,17 +120,17 @@ struct Made {
 }
 
 impl Made {
-    fn lines(&self) -> impl Iterator<Item = String> {
-        let head = |title: &str, lines: &Lines| if lines.is_empty() { None } else { Some(title.to_owned()) };
-        let listed = |title: &str, lines: &Lines| {
-            let title = head(title, lines);
-            title.into_iter().chain(lines.iter().map(|line| format!("  {line}"))).collect::<Vec<_>>()
-        };
-        let nodes = std::iter::once(format!("{} nodes", self.nodes));
-        nodes
-            .chain(listed("not taken over:", &self.not_taken))
-            .chain(listed("missing, because the deck does not say it:", &self.missing))
-            .chain(listed("lumping:", &self.lumping))
+    fn lines(&self) -> Lines {
+        let mut all = vec![format!("{} nodes", self.nodes)];
+        for (title, lines) in [
+            ("not taken over:", &self.not_taken),
+            ("missing, because the deck does not say it:", &self.missing),
+            ("lumping:", &self.lumping),
+        ] {
+            all.extend((!lines.is_empty()).then(|| title.to_owned()));
+            all.extend(lines.iter().map(|line| format!("  {line}")));
+        }
+        all
     }
 }
 

@@ -13,7 +13,7 @@ use crate::settings::{ReadOptions, Settings};
 use inpact_diagnostics::{Diagnostic, Findings, keep_lines};
 use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
-use inpact_network::{Problem, report_unknown_interactions};
+use inpact_network::{Error, Problem, report_unknown_interactions};
 use inpact_parser::deck::Keep;
 use inpact_parser::grammar::{Dialect, Grammar};
 use inpact_parser::model::{Model, Name, Regime};
@@ -31,6 +31,18 @@ pub(crate) struct SolvableScene {
     pub(crate) deck_name: String,
     /// The text of the scene file.
     text: String,
+}
+
+/// Reasons why solving ended early: there is no solution, or whoever takes the states has had enough.
+pub(crate) enum Ended<T> {
+    Solving(Error),
+    Taking(T),
+}
+
+impl<T> From<Error> for Ended<T> {
+    fn from(error: Error) -> Self {
+        Self::Solving(error)
+    }
 }
 
 /// Choices about the laws of a deck in its regime.
@@ -142,7 +154,7 @@ impl SolvableScene {
     }
 
     /// The findings of a failure after the time of the last state.
-    pub(crate) fn findings(&self, failure: &inpact_network::Error, after: Option<f64>) -> Vec<Diagnostic> {
+    pub(crate) fn findings(&self, failure: &Error, after: Option<f64>) -> Vec<Diagnostic> {
         let after = after.filter(|_| self.scene.is_transient());
         failures::findings(failure, &self.scene, (&self.name, after))
     }

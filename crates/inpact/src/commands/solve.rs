@@ -8,7 +8,7 @@ use self::output::{Outputs, StateFormat};
 use super::evaluable::tolerance;
 use super::findings::{Messages, with_messages};
 use super::laws::LawArguments;
-use super::solvable::SolvableScene;
+use super::solvable::{Ended, SolvableScene};
 use crate::failure::{Failure, Outcome};
 use crate::files::{self, STANDARD_STREAM};
 use crate::render::Format;
@@ -17,7 +17,7 @@ use crate::threads::with_threads;
 use clap::{Args, ValueEnum};
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::transient;
-use inpact_network::{Equations, Error, Histories, State};
+use inpact_network::{Equations, Histories, State};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -51,7 +51,7 @@ pub(crate) struct SolveArguments {
 
 /// Options of solvers.
 #[derive(Debug, Clone, Copy, Args)]
-pub(crate) struct SolverArguments {
+struct SolverArguments {
     /// How linear equations are solved.
     #[arg(long, value_enum, default_value_t = SolverChoice::Direct)]
     solver: SolverChoice,
@@ -68,18 +68,6 @@ enum SolverChoice {
     Mixed,
     /// Conjugate gradients with an incomplete factor: for networks whose factor would not fit.
     Iterative,
-}
-
-/// Reasons why solving ended early.
-enum Stopped {
-    Solving(Error),
-    Writing(Failure),
-}
-
-impl From<Error> for Stopped {
-    fn from(failure: Error) -> Self {
-        Self::Solving(failure)
-    }
 }
 
 impl SolverArguments {
@@ -115,14 +103,14 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
     let mut outputs = Outputs::create(arguments, &prepared, &problem)?;
     let mut last: Option<State> = None;
     let ran = transient::run(&mut equations, |state| {
-        outputs.take(state).map_err(Stopped::Writing)?;
+        outputs.take(state).map_err(Ended::Taking)?;
         last = Some(state.clone());
         Ok(())
     });
     let ran = match ran {
         Ok(report) => Some(report),
-        Err(Stopped::Writing(failure)) => return Err(failure),
-        Err(Stopped::Solving(failure)) => {
+        Err(Ended::Taking(failure)) => return Err(failure),
+        Err(Ended::Solving(failure)) => {
             let found = prepared.findings(&failure, last.as_ref().map(|state| state.time));
             messages.data(prepared.quoted(found, &messages), &prepared.settings);
             None

@@ -142,43 +142,38 @@ impl Builder<'_> {
 
     fn panels(&self, subject: &Subject<'_>) -> Vec<Panel> {
         let is_free = |variable: &Variable| variable.chosen.is_none() && 1 < variable.values.len();
-        let free: Vec<&Variable> = subject.variables.iter().filter(|variable| is_free(variable)).collect();
-        let family = free.iter().find(|variable| variable.quantity.column == "temp").or(free.first()).copied();
-        let is_family = |variable: &Variable| family.is_some_and(|family| std::ptr::eq(family, variable));
-        let multiple = free.iter().copied().find(|variable| !is_family(variable));
+        let all = &subject.variables;
+        let free: Vec<usize> = (0..all.len()).filter(|index| is_free(&all[*index])).collect();
+        let is_temperature = |index: &&usize| all[**index].quantity.column == "temp";
+        let family = free.iter().find(is_temperature).or(free.first()).copied();
+        let multiple = free.iter().copied().find(|index| Some(*index) != family);
         let places = multiple.map_or_else(
             || vec![None],
-            |multiple| spread(&multiple.values, MOST_MULTIPLES).into_iter().map(Some).collect(),
+            |multiple| spread(&all[multiple].values, MOST_MULTIPLES).into_iter().map(Some).collect(),
         );
         let mut panels = Vec::new();
         for place in places {
-            let mut held = Vec::new();
-            let at = |variable: &Variable| {
-                let is_multiple = multiple.is_some_and(|multiple| std::ptr::eq(multiple, variable));
-                let first = variable.values.first().copied().unwrap_or(0.0);
-                variable.chosen.unwrap_or(if is_multiple { place.unwrap_or(first) } else { first })
+            let at = |(index, variable): (usize, &Variable)| {
+                let place = place.filter(|_| Some(index) == multiple);
+                variable.chosen.or(place).or(variable.values.first().copied()).unwrap_or(0.0)
             };
-            let variables: Vec<f64> = subject.variables.iter().map(at).collect();
-            for (variable, at) in subject.variables.iter().zip(&variables) {
-                if !is_family(variable) && (1 < variable.values.len() || variable.chosen.is_some()) {
-                    let is_multiple = multiple.is_some_and(|multiple| std::ptr::eq(multiple, variable));
-                    let of = variable.values.len();
-                    let left_out = if is_multiple { of.saturating_sub(MOST_MULTIPLES) } else { of.saturating_sub(1) };
-                    held.push(Held { quantity: variable.quantity.clone(), at: *at, of, left_out });
-                }
-            }
-            let family = family.and_then(|family| {
-                let index = subject.variables.iter().position(|variable| std::ptr::eq(variable, family))?;
-                Some((index, family))
+            let variables: Vec<f64> = all.iter().enumerate().map(at).collect();
+            let is_held =
+                |index: usize| Some(index) != family && (1 < all[index].values.len() || all[index].chosen.is_some());
+            let held = (0..all.len()).filter(|index| is_held(*index)).map(|index| {
+                let of = all[index].values.len();
+                let drawn = if Some(index) == multiple { MOST_MULTIPLES } else { 1 };
+                let (quantity, left_out) = (all[index].quantity.clone(), of.saturating_sub(drawn));
+                Held { quantity, at: variables[index], of, left_out }
             });
-            panels.push(self.panel(subject, &variables, family, held));
+            let family = family.map(|index| (index, &all[index]));
+            panels.push(self.panel(subject, &variables, family, held.collect()));
         }
         if let (Some(law), Some(first), Probing::On) = (subject.law, panels.first_mut(), self.request.probing) {
-            let movable = subject.variables.iter().enumerate().filter(|(_, variable)| is_free(variable));
-            let movable: Vec<_> =
-                movable.map(|(index, variable)| (index, &variable.quantity, variable.values.as_slice())).collect();
+            let movable = free.iter().map(|index| (*index, &all[*index].quantity, all[*index].values.as_slice()));
+            let movable: Vec<_> = movable.collect();
             let variables: Vec<f64> =
-                subject.variables.iter().map(|of| of.chosen.or(of.values.first().copied()).unwrap_or(0.0)).collect();
+                all.iter().map(|of| of.chosen.or(of.values.first().copied()).unwrap_or(0.0)).collect();
             let halves = [first.open.clone(), first.closed.clone()];
             first.probe = probe(law, &subject.sides, &halves, &variables, &movable);
             let branches = first.probe.iter().flat_map(|probe| &probe.branches);

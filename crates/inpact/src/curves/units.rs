@@ -58,7 +58,7 @@ fn is_column(name: &str) -> bool {
 }
 
 /// Whether a column is that of a field variable: `fv1`, `fv2`, ….
-pub(super) fn is_field(column: &str) -> bool {
+fn is_field(column: &str) -> bool {
     column.strip_prefix("fv").is_some_and(|number| number.parse::<u32>().is_ok_and(|number| 0 < number))
 }
 

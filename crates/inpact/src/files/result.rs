@@ -29,7 +29,7 @@ pub(crate) enum ResultFile {
 /// Writes a result to `target`, or to standard output when there is none or it is `-`.
 pub(crate) fn write_result(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let mut output = ResultFile::create(target)?;
-    output.write_all(bytes).map_err(|error| output.failure(error))?;
+    output.put(bytes)?;
     output.finish()
 }
 
@@ -97,6 +97,11 @@ impl ResultFile {
     #[allow(clippy::unnecessary_wraps)]
     fn of_standard_stream(_named: &Path, _present: &std::fs::Metadata) -> Result<Option<Self>, Failure> {
         Ok(None)
+    }
+
+    /// Writes bytes.
+    pub(crate) fn put(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        self.write_all(bytes).map_err(|error| self.failure(error))
     }
 
     fn writer(&mut self) -> &mut dyn Write {

@@ -72,7 +72,7 @@ impl Analysis {
     }
 
     /// The settings for a deck; those without a configuration where that is no good.
-    pub(super) fn settings_of(root: &Path, options: &ReadOptions) -> (Settings, Option<Fault>) {
+    fn settings_of(root: &Path, options: &ReadOptions) -> (Settings, Option<Fault>) {
         match Settings::of(root, options) {
             Ok(settings) => (settings, None),
             Err(failure) => {

@@ -9,42 +9,18 @@ use gen_lsp_types::{
 };
 use inpact_diagnostics::ColumnUnit;
 
-/// Facts about a client.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ClientTraits {
-    /// Whether it watches files when it is asked to.
-    pub(super) watches_files: bool,
-    /// Whether it asks again for hints, lenses and colours when it is told that they have changed.
-    pub(super) refreshes: Refreshes,
-}
-
-/// Requests that a client repeats.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Refreshes {
-    pub(super) lenses: bool,
-    pub(super) hints: bool,
-    pub(super) tokens: bool,
-}
-
-pub(super) fn of_client(params: &InitializeParams) -> ClientTraits {
-    let workspace = params.capabilities.workspace.as_ref();
-    let watches = workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref());
-    let refreshes = Refreshes {
-        lenses: workspace.and_then(|workspace| workspace.code_lens.as_ref()?.refresh_support) == Some(true),
-        hints: workspace.and_then(|workspace| workspace.inlay_hint.as_ref()?.refresh_support) == Some(true),
-        tokens: workspace.and_then(|workspace| workspace.semantic_tokens.as_ref()?.refresh_support) == Some(true),
-    };
-    ClientTraits { watches_files: watches.and_then(|watches| watches.dynamic_registration) == Some(true), refreshes }
-}
-
-/// Forms that a client understands.
-pub(super) fn traits(params: &InitializeParams) -> Traits {
+/// Abilities of the client.
+pub(super) fn of_client(params: &InitializeParams) -> Traits {
     let item =
         params.capabilities.text_document.as_ref().and_then(|text| text.completion.as_ref()?.completion_item.as_ref());
-    let edit = params.capabilities.workspace.as_ref().and_then(|workspace| workspace.workspace_edit.as_ref());
+    let workspace = params.capabilities.workspace.clone().unwrap_or_default();
     Traits {
         knows_snippets: item.and_then(|item| item.snippet_support) == Some(true),
-        knows_versions: edit.and_then(|edit| edit.document_changes) == Some(true),
+        knows_versions: workspace.workspace_edit.and_then(|edit| edit.document_changes) == Some(true),
+        watches_files: workspace.did_change_watched_files.and_then(|files| files.dynamic_registration) == Some(true),
+        refreshes_lenses: workspace.code_lens.and_then(|lens| lens.refresh_support) == Some(true),
+        refreshes_hints: workspace.inlay_hint.and_then(|hint| hint.refresh_support) == Some(true),
+        refreshes_tokens: workspace.semantic_tokens.and_then(|tokens| tokens.refresh_support) == Some(true),
     }
 }
 

@@ -5,7 +5,7 @@
 
 use inpact_parser::deck::{EditedText, TextInParts};
 use serde_json::Value;
-use std::io::{self, BufRead};
+use std::io::{self, BufRead, Read, Take};
 
 /// The beginning of the mark of a long string; its number follows. Nobody writes a NUL.
 const MARK: &str = "\u{0}long string ";
@@ -65,61 +65,31 @@ impl From<io::Error> for Fault {
 
 /// Reads a message of that many bytes; strings longer than `longest` are taken out.
 pub(super) fn read(input: &mut impl BufRead, length: u64, longest: usize) -> Result<LongMessage, Fault> {
-    let mut input = Bounded { input, left: length };
+    let mut input = input.take(length);
     let mut message = LongMessage::default();
     let found = message.read(&mut input, longest);
     if matches!(found, Err(Fault::Text(_))) {
-        input.pass_over()?;
+        io::copy(&mut input, &mut io::sink())?;
+        if 0 < input.limit() {
+            return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
+        }
     }
     found.map(|()| message)
 }
 
-/// The bytes of one message.
-struct Bounded<'a, R> {
-    input: &'a mut R,
-    left: u64,
-}
-
-impl<R: BufRead> Bounded<'_, R> {
-    /// The bytes that are there; none at the end of the message.
-    fn available(&mut self) -> io::Result<&[u8]> {
-        if self.left == 0 {
-            return Ok(&[]);
-        }
-        let bytes = self.input.fill_buf()?;
-        if bytes.is_empty() {
-            return Err(io::ErrorKind::UnexpectedEof.into());
-        }
-        let here = usize::try_from(self.left).unwrap_or(usize::MAX).min(bytes.len());
-        Ok(&bytes[..here])
-    }
-
-    fn consume(&mut self, count: usize) {
-        self.input.consume(count);
-        self.left -= count as u64;
-    }
-
-    fn next(&mut self) -> io::Result<Option<u8>> {
-        let byte = self.available()?.first().copied();
-        if byte.is_some() {
-            self.consume(1);
-        }
-        Ok(byte)
-    }
-
-    fn pass_over(&mut self) -> io::Result<()> {
-        while self.left > 0 {
-            let count = self.available()?.len();
-            self.consume(count);
-        }
-        Ok(())
+/// The bytes of one message that are there; none at its end.
+fn available<R: BufRead>(input: &mut Take<R>) -> io::Result<&[u8]> {
+    let is_over = input.limit() == 0;
+    match input.fill_buf()? {
+        [] if !is_over => Err(io::ErrorKind::UnexpectedEof.into()),
+        bytes => Ok(bytes),
     }
 }
 
 impl LongMessage {
-    fn read<R: BufRead>(&mut self, input: &mut Bounded<'_, R>, longest: usize) -> Result<(), Fault> {
+    fn read<R: BufRead>(&mut self, input: &mut Take<R>, longest: usize) -> Result<(), Fault> {
         loop {
-            let bytes = input.available()?;
+            let bytes = available(input)?;
             if bytes.is_empty() {
                 return Ok(());
             }
@@ -135,11 +105,11 @@ impl LongMessage {
     }
 
     /// Reads a string whose quote has been read; a long one goes to the texts.
-    fn string<R: BufRead>(&mut self, input: &mut Bounded<'_, R>, longest: usize) -> Result<(), Fault> {
+    fn string<R: BufRead>(&mut self, input: &mut Take<R>, longest: usize) -> Result<(), Fault> {
         let start = self.json.len();
         self.json.push(b'"');
         loop {
-            let bytes = input.available()?;
+            let bytes = available(input)?;
             let Some(end) = memchr::memchr2(b'"', b'\\', bytes) else {
                 if bytes.is_empty() {
                     return Ok(());
@@ -159,7 +129,10 @@ impl LongMessage {
                 return Ok(());
             }
             // What is escaped is never the end.
-            self.json.extend(input.next()?);
+            if let Some(byte) = available(input)?.first().copied() {
+                self.json.push(byte);
+                input.consume(1);
+            }
             if longest < self.json.len() - start {
                 return self.long(input, start);
             }
@@ -167,7 +140,7 @@ impl LongMessage {
     }
 
     /// Goes on with a string that is long: what of it stands in the JSON already comes first.
-    fn long<R: BufRead>(&mut self, input: &mut Bounded<'_, R>, start: usize) -> Result<(), Fault> {
+    fn long<R: BufRead>(&mut self, input: &mut Take<R>, start: usize) -> Result<(), Fault> {
         let begun = self.json.split_off(start);
         let mark = format!("{MARK}{}", self.texts.len());
         self.json.extend_from_slice(Value::String(mark).to_string().as_bytes());
@@ -175,7 +148,7 @@ impl LongMessage {
         decoder.push(&begun[1..])?;
         drop(begun);
         loop {
-            let bytes = input.available()?;
+            let bytes = available(input)?;
             if bytes.is_empty() {
                 return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
             }

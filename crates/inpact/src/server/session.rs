@@ -1,6 +1,6 @@
 //! A session with one editor: notifications in both directions.
 
-use super::capabilities::{self, ClientTraits};
+use super::capabilities;
 use super::findings;
 use super::refusal::Refusal;
 use super::requests;
@@ -28,7 +28,6 @@ use std::path::PathBuf;
 #[derive(Debug)]
 pub(super) struct Session {
     workspace: Workspace,
-    client: ClientTraits,
     /// Findings published for each file, by its URI.
     published: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)>,
     /// Whether something may have changed since.
@@ -56,14 +55,12 @@ impl Session {
         let params: InitializeParams = serde_json::from_value(params)
             .map_err(|error| Refusal::new(ErrorCode::InvalidParams, format!("`initialize`: {error}")))?;
         let unit = capabilities::column_unit(&params);
-        let traits = capabilities::traits(&params);
-        let mut workspace = Workspace::new(unit, traits, stop);
+        let mut workspace = Workspace::new(unit, capabilities::of_client(&params), stop);
         // What is wrong with the settings is said when they come again; nothing may be sent before the answer.
         if let Some(Ok(options)) = params.initialization_options.as_ref().map(options_of) {
             workspace.set_options(options);
         }
-        let client = capabilities::of_client(&params);
-        let session = Self { workspace, client, published: BTreeMap::new(), has_news: false };
+        let session = Self { workspace, published: BTreeMap::new(), has_news: false };
         Ok((session, capabilities::of_server(unit)))
     }
 
@@ -125,7 +122,7 @@ impl Session {
 
     /// Asks the editor to tell us when files change that decks may include, and configurations.
     fn watch<W: Write>(&self, client: &mut Client<W>) -> io::Result<()> {
-        if !self.client.watches_files {
+        if !self.workspace.traits.watches_files {
             return Ok(());
         }
         let watcher =
@@ -179,11 +176,11 @@ impl Session {
                 self.published.insert(uri, (version, diagnostics));
             }
         }
-        let refreshes = self.client.refreshes;
+        let traits = self.workspace.traits;
         let requests = [
-            (refreshes.lenses, "workspace/codeLens/refresh"),
-            (refreshes.hints, "workspace/inlayHint/refresh"),
-            (refreshes.tokens, "workspace/semanticTokens/refresh"),
+            (traits.refreshes_lenses, "workspace/codeLens/refresh"),
+            (traits.refreshes_hints, "workspace/inlayHint/refresh"),
+            (traits.refreshes_tokens, "workspace/semanticTokens/refresh"),
         ];
         for (_, method) in requests.iter().filter(|(is_wanted, _)| *is_wanted) {
             client.request(method, Value::Null)?;

@@ -46,6 +46,12 @@ pub(super) struct Traits {
     pub(super) knows_snippets: bool,
     /// Whether edits may say for which version of a document they are.
     pub(super) knows_versions: bool,
+    /// Whether it watches files when it is asked to.
+    pub(super) watches_files: bool,
+    /// Whether it asks again for lenses, hints and colours when it is told that they have changed.
+    pub(super) refreshes_lenses: bool,
+    pub(super) refreshes_hints: bool,
+    pub(super) refreshes_tokens: bool,
 }
 
 #[derive(Debug)]

@@ -3,7 +3,6 @@
 use crate::failure::Failure;
 use crate::files;
 use std::collections::BTreeSet;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -20,21 +19,14 @@ impl Changed {
         if reference.starts_with('-') {
             return Err(Failure::Usage(format!("`--since`: `{reference}` is no reference of git")));
         }
-        let top = git(&["rev-parse", "--show-toplevel"])?;
+        let here = Path::new(".");
+        let top = git(here, &["rev-parse", "--show-toplevel"])?;
         let top = path_of(top.strip_suffix(b"\n").unwrap_or(&top));
-        let base = git(&["merge-base", "HEAD", reference])?;
+        let base = git(here, &["merge-base", "HEAD", reference])?;
         let base = String::from_utf8_lossy(&base).trim().to_owned();
-        let changed = git(&["diff", "--name-only", "--no-renames", "-z", &base, "--"])?;
+        let changed = git(here, &["diff", "--name-only", "--no-renames", "-z", &base, "--"])?;
         // Asked at the top: names of new files are relative to where one is.
-        let top_argument = top.as_os_str().to_owned();
-        let new = git_with([
-            OsString::from("-C"),
-            top_argument,
-            "ls-files".into(),
-            "--others".into(),
-            "--exclude-standard".into(),
-            "-z".into(),
-        ])?;
+        let new = git(&top, &["ls-files", "--others", "--exclude-standard", "-z"])?;
         let names = changed.split(|byte| *byte == 0).chain(new.split(|byte| *byte == 0));
         let names = names.filter(|name| !name.is_empty());
         Ok(Self(names.map(|name| files::whole_path(&top.join(path_of(name)))).collect()))
@@ -46,12 +38,11 @@ impl Changed {
     }
 }
 
-fn git(arguments: &[&str]) -> Result<Vec<u8>, Failure> {
-    git_with(arguments.iter().map(OsString::from))
-}
-
-fn git_with(arguments: impl IntoIterator<Item = OsString>) -> Result<Vec<u8>, Failure> {
+/// The output of git in a folder.
+fn git(folder: &Path, arguments: &[&str]) -> Result<Vec<u8>, Failure> {
     let output = Command::new("git")
+        .arg("-C")
+        .arg(folder)
         .args(arguments)
         .output()
         .map_err(|error| Failure::Usage(format!("`--since` asks git, which cannot be run: {error}")))?;

@@ -14,7 +14,6 @@ use inpact_network::scene::Field;
 use inpact_network::tables::{InterfaceTable, Times, link_header, link_rows, state_header, state_rows};
 use inpact_network::{Problem, State};
 use serde_json::{Map, Value, json};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -92,10 +91,10 @@ impl<'a> Outputs<'a> {
     /// Writes the head above all states.
     fn begin(&mut self) -> Result<(), Failure> {
         if self.format == StateFormat::Csv {
-            write(&mut self.states, state_header(self.times).as_bytes())?;
+            self.states.put(state_header(self.times).as_bytes())?;
         }
         if let Some(links) = &mut self.link_file {
-            write(links, link_header(self.times).as_bytes())?;
+            links.put(link_header(self.times).as_bytes())?;
         }
         Ok(())
     }
@@ -110,7 +109,7 @@ impl<'a> Outputs<'a> {
         match self.format {
             StateFormat::Csv => {
                 state_rows(problem, state, times, &mut text);
-                write(&mut self.states, &text)?;
+                self.states.put(&text)?;
             }
             StateFormat::Json => self.documents.push(document(problem, state, self.appended_links.is_some())),
         }
@@ -120,7 +119,7 @@ impl<'a> Outputs<'a> {
         if let Some(file) = &mut self.link_file {
             text.clear();
             link_rows(problem, state, times, &mut text);
-            write(file, &text)?;
+            file.put(&text)?;
         }
         if let Some(Interfaces { table, rows, taken, target }) = &mut self.interfaces {
             let batch = table.rows(state, *taken);
@@ -135,13 +134,13 @@ impl<'a> Outputs<'a> {
         match self.format {
             StateFormat::Csv => {
                 if let Some(links) = &self.appended_links {
-                    write(&mut self.states, format!("\n{}", link_header(self.times)).as_bytes())?;
-                    write(&mut self.states, links)?;
+                    self.states.put(format!("\n{}", link_header(self.times)).as_bytes())?;
+                    self.states.put(links)?;
                 }
             }
             StateFormat::Json => {
                 let whole = self.whole(last);
-                write(&mut self.states, format!("{whole:#}\n").as_bytes())?;
+                self.states.put(format!("{whole:#}\n").as_bytes())?;
             }
         }
         // The solution does not depend on whether its interfaces can be evaluated.
@@ -200,8 +199,4 @@ fn document(problem: &Problem<'_>, state: &State, with_links: bool) -> Value {
         document.insert("links".to_owned(), links.collect());
     }
     Value::Object(document)
-}
-
-fn write(file: &mut ResultFile, bytes: &[u8]) -> Result<(), Failure> {
-    file.write_all(bytes).map_err(|error| file.failure(error))
 }
