@@ -37,16 +37,16 @@ pub enum Accuracy {
     Fast,
 }
 
-/// How far a form of a table can be from the table, over all finite queries.
+/// The error bound of a method for a table, over all finite queries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorBound {
     /// The largest error, in the unit of the table's values.
     pub absolute: f64,
-    /// [`Self::absolute`] as a part of the largest magnitude among the table's values.
+    /// [`Self::absolute`] relative to the largest magnitude among the table's values.
     pub relative_to_largest: f64,
-    /// The largest error as a part of the exact value at the same point.
-    /// Where that value is below the smallest normal f64, 2.2e-308, the error is taken as a part of the latter.
-    /// Infinite where the value can be zero, or arbitrarily small, and the error not.
+    /// The largest error relative to the exact value at the same point.
+    /// Where that value is below the smallest normal f64, 2.2e-308, the error is taken relative to the latter.
+    /// Infinite where the value can be zero, or arbitrarily small, while the error is not.
     pub pointwise: f64,
 }
 
@@ -74,16 +74,16 @@ impl ErrorBound {
     }
 }
 
-/// The error bound of the table's own kernel, n + 1 ulp for n axes that matter.
+/// The error bound of the table's own kernel, n + 1 ulp for n axes that the value depends on.
 ///
-/// An ulp is 2⁻⁵² of a value at most. The error of values of opposite sign is one of the larger value: where the sum is near zero, nothing is known of its relative error,
+/// An ulp is at most 2⁻⁵² of a value. The error for values of opposite sign is relative to the larger value: where the result is near zero, its relative error is unbounded,
 /// so the pointwise bound of such a table is infinite.
 pub fn full_bound(table: &PiecewiseTable) -> ErrorBound {
     let axes = table.axes().iter().filter(|axis| axis.matters()).count();
     bound_in_ulps(table, if axes == 0 { 0.0 } else { axes as f64 + 1.0 })
 }
 
-/// The error bound of the reference: one rounding, and what 106 bits lack.
+/// The error bound of the reference: one rounding, plus the error of 106-bit arithmetic.
 pub fn reference_bound(table: &PiecewiseTable) -> ErrorBound {
     bound_in_ulps(table, if table.axes().iter().any(AxisSummary::matters) { 0.501 } else { 0.0 })
 }

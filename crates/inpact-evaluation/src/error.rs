@@ -6,7 +6,7 @@ use std::fmt;
 
 /// Rows that do not form a table, or a table that cannot be folded or resampled.
 ///
-/// A fault of a node table is no error but a finding; streams that cannot be read or written are [`std::io::Error`]s.
+/// A fault of a node table is a finding, not an error; streams that cannot be read or written are [`std::io::Error`]s.
 ///
 /// ```
 /// use inpact_evaluation::table::{PiecewiseTable, Tail};

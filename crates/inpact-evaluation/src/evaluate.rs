@@ -29,7 +29,7 @@ use crate::rows::Tally;
 use crate::spread;
 use inpact_parser::model::Model;
 
-/// An evaluation under way: the laws, the histories of the nodes so far, and a count of what happened.
+/// The state of an evaluation: the laws, the histories of the nodes so far, and counts.
 #[derive(Debug)]
 pub struct Evaluation<'a> {
     laws: Laws,
@@ -45,12 +45,12 @@ impl<'a> Evaluation<'a> {
         Self::shared_by(1, model, plan, choices)
     }
 
-    /// The same, shared by the threads of rayon's current pool where feature `threads` is on.
+    /// The same, spread over rayon's current thread pool where feature `threads` is on.
     pub fn on_all_threads(model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
         Self::shared_by(spread::threads(), model, plan, choices)
     }
 
-    /// The same, cut into so many shares, one at least; what comes out is the same.
+    /// The same, split into this number of shares, at least one; the results are the same.
     pub fn shared_by(shares: usize, model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
         let laws = Laws::of(model, plan, choices);
         let shares = if laws.asks_user { 1 } else { shares.max(1) };
@@ -63,7 +63,7 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// Leaves out what only a summary says: the totals over each interface, and the errors of its conductances in a sample of rows.
+    /// Leaves out the data of the summary: the totals over each interface, and the errors of its conductances in a sample of rows.
     #[must_use]
     pub fn without_summary(mut self) -> Self {
         self.laws.leave_out_summary();
@@ -71,22 +71,22 @@ impl<'a> Evaluation<'a> {
         self
     }
 
-    /// How many batches [`Self::evaluate_all`] should be given at a time to keep every share at work.
+    /// The number of batches to pass to [`Self::evaluate_all`] at a time to keep every share busy.
     pub fn batches_at_a_time(&self) -> usize {
         /// Of each share.
         const BATCHES: usize = 4;
         if self.workers.len() == 1 { 1 } else { BATCHES * self.workers.len() }
     }
 
-    /// Evaluates the rows of a batch, which go on where the batch before ended.
+    /// Evaluates the rows of a batch, which continue the previous batch.
     pub fn evaluate(&mut self, batch: &Batch, results: &mut ResultBatch) {
         self.evaluate_all(std::slice::from_ref(batch), std::slice::from_mut(results));
     }
 
-    /// Evaluates the rows of some batches, each of which goes on where the one before ended.
+    /// Evaluates the rows of several batches, each of which continues the previous one.
     ///
     /// # Panics
-    /// Where there are not as many results as batches.
+    /// If the numbers of results and batches differ.
     pub fn evaluate_all(&mut self, batches: &[Batch], results: &mut [ResultBatch]) {
         assert_eq!(batches.len(), results.len(), "results for every batch");
         let Self { laws, workers, shards, .. } = self;

@@ -9,7 +9,7 @@ use crate::kernel::{OnlyRange, TableKernel};
 use crate::numbers::Scaled;
 use crate::table::{PiecewiseTable, Sides};
 
-/// A table ready for columns of coordinates; it is made once and shared.
+/// A table with its evaluation method, for columns of coordinates; built once and shared.
 #[derive(Clone, Debug)]
 pub struct Evaluator(Arc<Ready>);
 
@@ -34,9 +34,9 @@ struct Resampled {
 pub struct FoundValue {
     /// The value, rounded.
     pub value: f64,
-    /// The part lost by rounding, where the form knows it.
+    /// The part lost by rounding, where the method gives it.
     pub rest: Option<f64>,
-    /// Where the point lies outside the table.
+    /// On which sides of the table the point lies outside.
     pub sides: Sides,
 }
 
@@ -45,38 +45,38 @@ pub struct FoundValue {
 pub struct TableValues {
     /// The values, rounded.
     pub values: Vec<f64>,
-    /// The part lost by rounding; empty unless the form knows it.
+    /// The part lost by rounding; empty unless the method gives it.
     pub rests: Vec<f64>,
-    /// Where each row lies outside the table; empty where all of them lie within.
+    /// On which sides of the table each row lies outside; empty where all of them lie within.
     pub sides: Vec<Sides>,
 }
 
 impl TableValues {
-    /// Where a row lies outside the table.
+    /// On which sides of the table a row lies outside.
     #[inline]
     pub fn sides_of(&self, row: usize) -> Sides {
         self.sides.get(row).copied().unwrap_or_default()
     }
 }
 
-/// The largest error met in a sample of rows, against the reference.
+/// The largest error in a sample of rows, against the reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SeenError {
-    /// How many rows were compared.
+    /// The number of rows compared.
     pub rows: u64,
-    /// The largest error as a part of the reference value of its row; infinite where that is zero.
+    /// The largest error relative to the reference value of its row; infinite where that is zero.
     pub pointwise: f64,
-    /// The largest error as a part of the largest magnitude in the table.
+    /// The largest error relative to the largest magnitude in the table.
     pub relative_to_largest: f64,
 }
 
 impl Evaluator {
-    /// The table, evaluated as is chosen for it.
+    /// The table, with the method chosen for it here.
     pub fn new(table: &PiecewiseTable, wanted: Wanted) -> Self {
         Self::of_choice(table, choose(table, wanted))
     }
 
-    /// The table, evaluated as was chosen for it.
+    /// The table, with the method already chosen for it.
     pub fn of_choice(table: &PiecewiseTable, choice: Choice) -> Self {
         let grid = choice.grid.map(|grid| Resampled { grid, marked: table.with_marks() });
         let (table, kernel) = (table.clone(), TableKernel::new(table));
@@ -139,7 +139,7 @@ impl Evaluator {
         FoundValue { value, rest: None, sides }
     }
 
-    /// Compares some of the values found, evenly spread, with the reference.
+    /// Compares an evenly spaced sample of the values with the reference.
     pub fn compare(&self, columns: &[&[f64]], values: &[f64], seen: &mut SeenError) {
         let largest = self.largest();
         for row in Self::compared(values.len()) {
@@ -199,7 +199,7 @@ impl SeenError {
         }
     }
 
-    /// Takes the errors of another sample as well.
+    /// Merges the errors of another sample.
     pub fn merge(&mut self, other: &Self) {
         self.rows += other.rows;
         self.pointwise = self.pointwise.max(other.pointwise);

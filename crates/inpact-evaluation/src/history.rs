@@ -70,7 +70,7 @@ struct ElectricalRow {
     conducts: bool,
 }
 
-/// Quantities of the row before that an increment of the electrical law needs.
+/// Quantities of the previous row that an increment of the electrical law needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElectricalIncrement {
     /// Δt; `None` in the first row of a history.
@@ -82,12 +82,12 @@ pub struct ElectricalIncrement {
 }
 
 impl ElectricalHistory {
-    /// A history that starts so, and whose increments that close a circuit have this heat.
+    /// A history with this start, and this heat of increments that close a circuit.
     pub fn new(start: HistoryStart, closing_heat: ClosingHeat) -> Self {
         Self { start, closing_heat, ..Self::default() }
     }
 
-    /// Goes on to the row at `time` with its jump of potential and its conductance.
+    /// Advances to the row at `time` with its jump of potential and its conductance.
     pub fn begin(&mut self, time: f64, jump: PotentialJump, conductance: f64) -> ElectricalIncrement {
         let at_rest = |time| ElectricalRow { time, jump: PotentialJump(0.0), conducts: true };
         let before = self.previous.or_else(|| self.start.before(time).map(at_rest));
@@ -110,7 +110,7 @@ impl ElectricalHistory {
         increment
     }
 
-    /// Adds the increment's flow; `area` is the node's area at its end, if known, and `rest` what rounding took away from the current density.
+    /// Adds the increment's flow; `area` is the node's area at its end, if known, and `rest` the rounding error of the current density.
     pub fn finish(&mut self, increment: &ElectricalIncrement, flow: &ElectricalFlow, rest: f64, area: Option<f64>) {
         self.current.add(Amount::new(flow.current_density), increment.duration, area);
         // Where currents of either sign cancel, the roundings of each would be what is left.
@@ -184,24 +184,24 @@ pub fn contradicts(given: f64, rate: f64) -> bool {
     CONTRADICTION * rate.abs().max(given.abs()) < (rate - given).abs()
 }
 
-/// Quantities of the row before that an increment of the pore law needs.
+/// Quantities of the previous row that an increment of the pore law needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoreIncrement {
     /// Δt; `None` in the first row of a history.
     pub duration: Option<f64>,
-    /// The gap in a transient: it changes at the rate that is given, otherwise as the clearance has changed over the increment, and not at all in the first row.
+    /// The gap in a transient: it changes at the given rate, otherwise by the change of the clearance over the increment, and not at all in the first row.
     pub gap: Gap,
-    /// ḋ as the clearance has changed, where a rate is given that contradicts it.
+    /// ḋ from the change of the clearance, where a given rate contradicts it.
     pub contradicted: Option<ClearanceRate>,
 }
 
 impl PoreHistory {
-    /// A history that starts so.
+    /// A history with this start.
     pub fn new(start: HistoryStart) -> Self {
         Self { start, ..Self::default() }
     }
 
-    /// Goes on to the row at `time` with its clearance and, where the data has it, the rate of the clearance.
+    /// Advances to the row at `time` with its clearance and, where the data has it, the rate of the clearance.
     pub fn begin(&mut self, time: f64, clearance: Clearance, given_rate: Option<ClearanceRate>) -> PoreIncrement {
         let before = self.previous.or_else(|| self.start.before(time).map(|start| (start, clearance)));
         let is_measured = self.previous.is_some();
@@ -219,9 +219,9 @@ impl PoreHistory {
         PoreIncrement { duration: Some(duration), gap, contradicted }
     }
 
-    /// Adds the increment's flow; `gap` is what the law was given, `area` the node's area at its end, if known.
+    /// Adds the increment's flow; `gap` is the input of the law, `area` the node's area at its end, if known.
     ///
-    /// The flow across counts for the whole increment, and so does a given rate; otherwise the gap counts with the change of its filled width.
+    /// The flow across and a given rate hold for the whole increment; otherwise the gap contributes the change of its filled width.
     pub fn finish(&mut self, increment: &PoreIncrement, gap: Gap, flow: &PoreFlow, area: Option<f64>) {
         let Some(duration) = increment.duration else {
             self.volume.add(Amount::ZERO, None, area);

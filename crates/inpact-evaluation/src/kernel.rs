@@ -31,7 +31,7 @@ pub use search::Search;
 use crate::table::{PiecewiseTable, Sides};
 use nested::NestedKernel;
 
-/// A table made ready to be evaluated over columns.
+/// A table prepared for evaluation over columns.
 #[derive(Clone, Debug)]
 pub struct TableKernel {
     /// Evaluates the rows that the vectors leave over.
@@ -82,7 +82,7 @@ enum Shape {
 }
 
 impl TableKernel {
-    /// Makes a table ready.
+    /// Prepares a table.
     pub fn new(table: &PiecewiseTable) -> Self {
         let shape = if table.levels().is_empty() {
             Shape::Constant(table.values()[0])
@@ -96,9 +96,9 @@ impl TableKernel {
         Self { table: table.clone(), shape, set: InstructionSet::best() }
     }
 
-    /// The values of all rows: `columns` holds a slice an axis, axis 0 first.
+    /// The values of all rows: `columns` holds one slice per axis, axis 0 first.
     ///
-    /// An axis that the table does not depend on may be an empty slice or left out, any other must have `values.len()` rows.
+    /// The slice of an axis that the table does not depend on may be empty or left out, any other must have `values.len()` rows.
     /// A row with NaN along an axis the table depends on gives NaN.
     ///
     /// # Panics
@@ -115,7 +115,7 @@ impl TableKernel {
         self.values_and_sides_with(self.set, columns, values, sides);
     }
 
-    /// [`Self::values`] with the instructions of `set`, for tests and measurements. A set this machine lacks is replaced by plain instructions.
+    /// [`Self::values`] with the instructions of `set`, for tests and measurements. A set that this machine lacks is replaced by scalar instructions.
     pub fn values_with(&self, set: InstructionSet, columns: &[&[f64]], values: &mut [f64]) {
         match &self.shape {
             Shape::Constant(value) => values.fill(*value),
@@ -185,7 +185,7 @@ impl TableKernel {
         Some(OnlyRange { axis: level.axis, below, above })
     }
 
-    /// How the rows' places in the table are found.
+    /// The search method for the rows' segments.
     pub fn search(&self) -> Search {
         match &self.shape {
             Shape::Constant(_) => Search::Constant,

@@ -66,7 +66,7 @@ use std::sync::Arc;
 /// The plan of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// How many rows the node table has.
+    /// The number of rows of the node table.
     pub rows: u64,
     /// The source of the interaction that governs a row.
     pub governed_by: GovernedBy,
@@ -76,7 +76,7 @@ pub struct Plan {
     pub unused: Vec<Name>,
     /// The role of each column of the node table, in the order of its header.
     pub columns: Vec<ColumnPlan>,
-    /// In which order the rows of the nodes come, where they have histories.
+    /// The order of the rows by node, where they have histories.
     pub order: HistoryOrder,
     /// The columns an evaluation reads.
     pub selection: Selection,
@@ -89,17 +89,17 @@ pub struct Plan {
 pub struct InteractionPlan {
     /// Its name.
     pub name: Name,
-    /// Its place in the model.
+    /// Its index in the model.
     pub index: usize,
-    /// How many rows it governs.
+    /// The number of rows it governs.
     pub rows: u64,
-    /// How many of them are closed.
+    /// The number of closed rows.
     pub closed: u64,
-    /// How many of them are open.
+    /// The number of open rows.
     pub open: u64,
-    /// How many nodes it has, where they have histories.
+    /// The number of its nodes, where they have histories.
     pub histories: Option<u64>,
-    /// The columns that say what is closed.
+    /// The columns that decide contact.
     pub contact: ContactColumns,
     /// The electrical law.
     pub electrical: Option<Box<ElectricalPlan>>,
@@ -113,7 +113,7 @@ pub struct InteractionPlan {
     pub outputs: Vec<Output>,
     /// The parts left out, and why.
     pub left_out: Vec<LeftOut>,
-    /// The parts of its laws that were cut, with their costs.
+    /// The parts of its laws that were dropped, with their costs.
     pub dropped: Vec<Dropped>,
     /// Notes.
     pub notes: Vec<String>,
@@ -151,7 +151,7 @@ impl Plan {
         &self.selection.labels
     }
 
-    /// Gives the rows of a batch the name of the interaction that was chosen for all of them, whatever the node table calls theirs.
+    /// Gives the rows of a batch the name of the interaction chosen for all of them, overriding the node table.
     pub fn name_rows(&self, batch: &mut Batch) {
         let GovernedBy::Chosen(chosen) = self.governed_by else { return };
         let name =
@@ -161,7 +161,7 @@ impl Plan {
         }
     }
 
-    /// Reports each column that something is left out for (D001): for a plan that leaves nothing to evaluate.
+    /// Reports each column whose absence leaves something out (D001): for a plan with nothing to evaluate.
     pub fn report_missing(&self, findings: &mut Findings) {
         for interaction in &self.interactions {
             for LeftOut { what, reason, .. } in &interaction.left_out {

@@ -29,12 +29,12 @@ use marks::Marks;
 
 /// A nested piecewise-linear function of any number of variables ("axes"), compiled for evaluation.
 ///
-/// Axis 0 is the first variable of the deck's rows and runs fastest; the last axis runs slowest.
-/// Without any axis the function is a constant.
+/// Axis 0 is the first variable of the deck's rows and varies fastest; the last axis varies slowest.
+/// Without axes the function is a constant.
 ///
-/// Between rows the function is linear along each axis, outside the rows of a group it is constant (T-04), or zero beyond the last row where [`Tail::Zero`] says so for axis 0.
-/// A group with one row is constant along its axis (T-07), but for axis 0 under [`Tail::Zero`], which holds beyond a single row too.
-/// It is built once and shared: a clone costs nothing.
+/// Between rows the function is linear along each axis, outside the rows of a group it is constant (T-04), or zero beyond the last row of axis 0 with [`Tail::Zero`].
+/// A group with one row is constant along its axis (T-07), except axis 0 with [`Tail::Zero`], which applies beyond a single row too.
+/// It is built once and reference-counted: a clone is cheap.
 #[derive(Clone, Debug)]
 pub struct PiecewiseTable(Arc<Content>);
 
@@ -59,7 +59,7 @@ struct Content {
 
 /// Continuations of a table beyond the last abscissa of axis 0 within each group.
 ///
-/// Electrical conductance against clearance is constant by the words of Analysis User's Guide 37.3.1 and zero by its figure;
+/// Electrical conductance against clearance is constant by the text of Analysis User's Guide 37.3.1 and zero by its figure;
 /// thermal conductance against clearance is zero (37.2.1). At the last abscissa itself the row's value holds in either case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tail {
@@ -70,18 +70,18 @@ pub enum Tail {
     Zero,
 }
 
-/// One axis of a table as its rows have it.
+/// One axis of a table, from its rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisSummary {
     /// The smallest abscissa.
     pub least: f64,
     /// The largest abscissa.
     pub greatest: f64,
-    /// How many groups of this axis there are: 1 for the last axis, and for the others one for each row of the axis outside it.
+    /// The number of groups of this axis: 1 for the last axis, and for the others one for each row of the next outer axis.
     pub group_count: usize,
-    /// How many abscissae the groups have together.
+    /// The total number of abscissae of the groups.
     pub knot_count: usize,
-    /// How many of these differ.
+    /// The number of distinct ones.
     pub distinct_count: usize,
     /// Whether the value drops to zero beyond the last abscissa of each group: axis 0 under [`Tail::Zero`].
     pub drops: bool,
@@ -138,7 +138,7 @@ impl PartialEq for PiecewiseTable {
 }
 
 impl PiecewiseTable {
-    /// A table of one value that depends on nothing.
+    /// A constant table.
     pub fn constant(value: f64) -> Self {
         Self(Arc::new(Content {
             axis_count: 0,
@@ -166,12 +166,12 @@ impl PiecewiseTable {
         &self.0.slopes
     }
 
-    /// How many axes the rows have, those the value does not depend on included.
+    /// The number of axes of the rows, including those that the value does not depend on.
     pub fn axis_count(&self) -> usize {
         self.0.axis_count
     }
 
-    /// How many rows the table was built from.
+    /// The number of rows from which the table was built.
     pub fn row_count(&self) -> usize {
         self.0.values.len()
     }
@@ -181,7 +181,7 @@ impl PiecewiseTable {
         &self.0.axes
     }
 
-    /// How many groups of axis 0 there are, that is combinations of the outer variables; 1 for a table without axes.
+    /// The number of groups of axis 0, that is, combinations of the outer variables; 1 for a table without axes.
     pub fn group_count(&self) -> usize {
         self.0.axes.first().map_or(1, |axis| axis.group_count)
     }

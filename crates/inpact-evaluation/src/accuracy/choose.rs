@@ -9,16 +9,16 @@ use super::{
 };
 use crate::table::PiecewiseTable;
 
-/// One way that was considered.
+/// A method that was considered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// The way.
+    /// The method.
     pub method: Method,
-    /// Its error bound; none where it cannot be made.
+    /// Its error bound; `None` where it is not possible.
     pub bound: Option<ErrorBound>,
-    /// The cost of a row by the shape of the table, in about a nanosecond.
+    /// The cost of a row by the shape of the table, in units of about a nanosecond.
     pub cost: f64,
-    /// Why it was not chosen; none for the one that was.
+    /// Why it was not chosen; `None` for the one that was.
     pub refusal: Option<Refusal>,
 }
 
@@ -27,16 +27,16 @@ pub struct Candidate {
 pub struct Choice {
     /// The grid, if one was chosen.
     pub(crate) grid: Option<Grid>,
-    /// The way that was chosen.
+    /// The chosen method.
     pub chosen: Candidate,
-    /// The others, the cheapest first, each with the reason.
+    /// The others, cheapest first, each with the reason.
     pub refused: Vec<Candidate>,
 }
 
 /// Chooses how to evaluate `table`.
 ///
-/// [`Accuracy::Fast`] and a tolerance take the cheapest way whose bound is acceptable.
-/// Where none is, [`Accuracy::Fast`] takes [`Method::Full`], and a tolerance the most exact, [`Method::Reference`].
+/// [`Accuracy::Fast`] and a tolerance take the cheapest method whose bound is acceptable.
+/// Where none is, [`Accuracy::Fast`] takes [`Method::Full`], and a tolerance the most accurate, [`Method::Reference`].
 pub fn choose(table: &PiecewiseTable, wanted: Wanted) -> Choice {
     let shape = Shape::of(table);
     let full = Candidate::of(shape, Method::Full, Some(full_bound(table)));

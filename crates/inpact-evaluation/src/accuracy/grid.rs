@@ -14,7 +14,7 @@ use crate::error::{Error, ErrorKind};
 use crate::kernel::{InstructionSet, Lanes, Operation};
 use crate::table::PiecewiseTable;
 
-/// A table of two to four axes that matter, resampled on a regular grid over these.
+/// A table whose value depends on two to four axes, resampled on a regular grid over these.
 #[derive(Clone, Debug)]
 pub struct Grid {
     bound: ErrorBound,
@@ -49,10 +49,10 @@ const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
 const BLOCK: usize = 64;
 
 impl Grid {
-    /// The grid with `cells` along each axis that matters, fastest first.
+    /// The grid with `cells` along each axis that the value depends on, fastest first.
     ///
     /// # Errors
-    /// Why there is none: the table depends on fewer than two or more than four axes, its numbers are so extreme that a sum could overflow,
+    /// There is none: the table depends on fewer than two or more than four axes, its numbers are so extreme that a sum could overflow,
     /// or the grid, or the refinement its error is computed on, is too large.
     pub fn new(table: &PiecewiseTable, cells: &[usize]) -> Result<Self, Error> {
         Self::made(table, cells).map_err(|refusal| ErrorKind::Grid(refusal).into())
@@ -103,17 +103,17 @@ impl Grid {
         Ok(grid)
     }
 
-    /// How many cells it has along each axis that matters, fastest first.
+    /// The number of cells along each axis that the value depends on, fastest first.
     pub fn cells(&self) -> Vec<usize> {
         self.axes.iter().map(|axis| axis.cells).collect()
     }
 
-    /// How far a value can be from the table's, over all queries.
+    /// The error bound, over all queries.
     pub fn bound(&self) -> ErrorBound {
         self.bound
     }
 
-    /// The value at `point`, one coordinate an axis; the same bits as [`Self::values`] gives.
+    /// The value at `point`, one coordinate per axis; bitwise equal to [`Self::values`].
     ///
     /// NaN where a coordinate the value depends on is NaN or missing, as in [`PiecewiseTable::value`].
     pub fn value(&self, point: &[f64]) -> f64 {
@@ -128,10 +128,10 @@ impl Grid {
         value[0]
     }
 
-    /// The values at many points, one for each place of `values`: `columns` has a column an axis of the table, which may be empty where the value does not depend on the axis.
+    /// The values at many points, one for each element of `values`: `columns` has one column per axis of the table, which may be empty where the value does not depend on the axis.
     ///
     /// # Panics
-    /// If a column that matters is missing or shorter than `values`.
+    /// If a column that the value depends on is missing or shorter than `values`.
     pub fn values(&self, columns: &[&[f64]], values: &mut [f64]) {
         let mut along = [&columns[self.axes[0].axis][..values.len()]; MOST_AXES];
         for (along, axis) in along.iter_mut().zip(&self.axes) {
@@ -309,7 +309,7 @@ impl GridAxis {
     }
 }
 
-/// Cells along each axis such that the lines of the grid meet all the table's abscissae; none if that takes too many nodes.
+/// Cells along each axis such that the grid lines contain all the table's abscissae; `None` if that takes too many nodes.
 pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
     const MOST_CELLS: usize = 512;
     let height = table.levels().len();

@@ -11,7 +11,7 @@ pub(super) const MOST_NODES: usize = 1 << 15;
 /// The most vertices of the refinement of table and grid.
 pub(super) const MOST_VERTICES: usize = 1 << 20;
 
-/// Why a method cannot be had for a table, or was not chosen.
+/// The reason why a method is not possible for a table, or was not chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refusal {

@@ -49,7 +49,7 @@ impl Default for Wanted {
 }
 
 impl Wanted {
-    /// Whether values are wanted in twice the precision of f64.
+    /// Whether values are requested in double-double precision.
     pub fn is_reference(self) -> bool {
         self == Self::Mode(Accuracy::Reference)
     }

@@ -55,7 +55,7 @@ impl fmt::Display for Method {
 /// The properties of a table that decide the cost of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// How many axes the value depends on.
+    /// The number of axes that the value depends on.
     pub axes: usize,
     /// Whether all groups of each axis have the same abscissae.
     pub is_rectilinear: bool,
@@ -68,7 +68,7 @@ impl Shape {
         Self { axes: table.levels().len(), is_rectilinear }
     }
 
-    /// The cost of a row, in about a nanosecond; 0 where the value depends on nothing.
+    /// The cost of a row, in units of about a nanosecond; 0 for a constant.
     pub fn cost(self, method: &Method) -> f64 {
         if self.axes == 0 {
             return 0.0;

@@ -15,18 +15,18 @@ use crate::rows::{Part, Tally};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::Model;
 
-/// A table in force and the points it is read at.
+/// A table in force and the points at which it is evaluated.
 #[derive(Debug, Clone)]
 pub struct TableReads {
-    /// The place of its interaction in the model.
+    /// The index of its interaction in the model.
     pub interaction: usize,
     /// The quantity it gives.
     pub quantity: TabulatedQuantity,
     /// The first of its variables.
     pub against: Along,
-    /// The table as it is evaluated: folded along the axes on which the scene has one value.
+    /// The table as evaluated: folded along the axes on which the scene has one value.
     pub table: PiecewiseTable,
-    /// The coordinates, one column an axis; empty for axes that make no difference.
+    /// The coordinates, one column per axis; empty for axes that the value does not depend on.
     pub columns: Vec<Vec<f64>>,
 }
 
@@ -41,7 +41,7 @@ pub enum TabulatedQuantity {
     Permeability,
 }
 
-/// Coordinates in the making.
+/// Collects coordinates.
 #[derive(Debug)]
 pub struct Coordinates<'a> {
     laws: Laws,
@@ -50,7 +50,7 @@ pub struct Coordinates<'a> {
 }
 
 impl<'a> Coordinates<'a> {
-    /// Begins with no row, for a plan that was made from this model and these choices.
+    /// Starts without rows, for a plan that was made from this model and these choices.
     pub fn new(model: &'a Model, plan: &Plan, choices: &Choices) -> Self {
         let laws = Laws::of(model, plan, choices);
         let tally = Tally::new(plan, laws.summed_outputs(), model.interactions.len());
@@ -58,7 +58,7 @@ impl<'a> Coordinates<'a> {
         Self { laws, worker, reads: Vec::new() }
     }
 
-    /// Takes one of so many rows of the table: for each table it reaches its coordinates, if it has them all.
+    /// Adds one in `one_of` rows: for each table that a row reaches its coordinates, if it has them all.
     pub fn take(&mut self, batch: &Batch, one_of: u64) {
         for part in self.worker.parts(&self.laws, batch) {
             let Some(of) = &self.laws.interactions[part.interaction] else { continue };

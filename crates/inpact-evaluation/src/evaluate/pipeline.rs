@@ -15,10 +15,10 @@ struct Window {
 }
 
 impl Evaluation<'_> {
-    /// Evaluates all rows of a plan; `write` gets them in their order, a batch at a time.
+    /// Evaluates all rows of a plan; `write` gets them in order, a batch at a time.
     ///
     /// # Errors
-    /// Rows that cannot be read back; within, the first error of `write`, after which nothing more is written.
+    /// Rows that cannot be read back; in the inner result, the first error of `write`, after which nothing more is written.
     pub fn run<E: Send>(
         &mut self,
         rows: &mut GivenBack,

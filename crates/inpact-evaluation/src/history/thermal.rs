@@ -35,7 +35,7 @@ impl FlowHistory {
         Self { start, ..Self::default() }
     }
 
-    /// Goes on to the row at `time`, whose flow holds since the row before, or since the start; `area` is the area of the node, if known.
+    /// Advances to the row at `time`, whose flow holds since the previous row, or since the start; `area` is the area of the node, if known.
     pub fn add(&mut self, time: f64, flow: Amount, area: Option<f64>) {
         let duration = self.previous.or_else(|| self.start.before(time)).map(|start| time - start);
         self.previous = Some(time);

@@ -12,7 +12,7 @@ use crate::numbers::is_zero_or_ordinary;
 /// Rows that are gone through together, so that what one step writes is still in the first cache for the next.
 const CHUNK: usize = 512;
 
-/// The inputs of the electrical law in a block of rows, a column each.
+/// The inputs of the electrical law in a block of rows, one column each.
 #[derive(Clone, Copy, Debug)]
 pub struct ElectricalInputs<'a> {
     /// Δφ, the jump of potential at the end of the increment.
@@ -23,7 +23,7 @@ pub struct ElectricalInputs<'a> {
     pub area: Option<&'a [f64]>,
 }
 
-/// The columns to be written, as long as the inputs; what is not asked for is not computed.
+/// The columns to be written, as long as the inputs; only these are computed.
 #[derive(Debug, Default)]
 pub struct ElectricalOutputs<'a> {
     /// Current density J (ECD).
@@ -40,10 +40,10 @@ pub struct ElectricalOutputs<'a> {
     pub heat_master: Option<&'a mut [f64]>,
 }
 
-/// The outputs of rows whose conductance is known.
+/// The outputs of rows with known conductance.
 ///
 /// # Panics
-/// Where an input or output is shorter than `conductance`, or an output times the area is asked for without one.
+/// If an input or output is shorter than `conductance`, or an output times the area is requested without one.
 pub fn electrical_outputs(
     set: InstructionSet,
     generation: HeatGeneration,

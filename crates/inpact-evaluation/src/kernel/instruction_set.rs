@@ -26,7 +26,7 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// The sets of this machine, the fastest last.
+    /// The sets that this machine supports, the fastest last.
     pub fn available() -> Vec<Self> {
         let mut sets = vec![Self::Scalar];
         #[cfg(target_arch = "x86_64")]
@@ -39,7 +39,7 @@ impl InstructionSet {
         sets
     }
 
-    /// The fastest set of this machine.
+    /// The fastest set that this machine supports.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         return match (V4::try_new(), V3::try_new()) {

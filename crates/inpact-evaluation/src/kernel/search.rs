@@ -6,7 +6,7 @@
 
 use super::pieces::ordered;
 
-/// How a kernel finds the rows' places in a table.
+/// The method by which a kernel finds the segments of rows in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Search {

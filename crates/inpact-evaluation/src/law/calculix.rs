@@ -45,13 +45,13 @@ pub struct CalculixConductance {
 const WIDTH: usize = CalculixConductance::WIDTH;
 
 impl CalculixConductance {
-    /// How many numbers a row has: conductance, pressure, temperature.
+    /// The number of columns of a row: conductance, pressure, temperature.
     pub const WIDTH: usize = 3;
 
     /// The conductance of `cells`, rows of conductance, pressure and temperature.
     ///
     /// # Errors
-    /// Rows that do not ascend, which ccx would take without a word and read wrongly; and neighbouring curves without pressures in common, at which it stops.
+    /// Rows that do not ascend, which ccx silently misreads; and neighbouring curves without pressures in common, at which it stops.
     pub fn from_rows(cells: &[f64]) -> Result<Self, Error> {
         let rows = PiecewiseTable::from_rows(cells, WIDTH, Tail::Constant)?;
         let (rows_of_table, _) = cells.as_chunks::<WIDTH>();
@@ -68,7 +68,7 @@ impl CalculixConductance {
         Ok(Self { temperatures: curves.iter().map(|curve| curve[0][2]).collect(), outermost, between, rows })
     }
 
-    /// The conductance at a point, of whose variables the first is the mean temperature; zero where it is open.
+    /// The conductance at a point whose first variable is the mean temperature; zero where it is open.
     ///
     /// NaN where the state is undetermined, or pressure or temperature is NaN and the conductance depends on it.
     pub fn conductance(&self, point: &ContactPoint<'_>) -> Conductance {

@@ -33,7 +33,7 @@ pub enum ConductanceTables {
     },
 }
 
-/// The state of one point of contact as far as a conductance depends on it.
+/// The variables of a conductance at one point of contact.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPoint<'a> {
     /// Clearance d.
@@ -69,7 +69,7 @@ pub struct Conductance {
 }
 
 impl ConductanceTables {
-    /// The conductance of the tables there are; `None` without any.
+    /// The conductance of the given tables; `None` without any.
     pub fn of(clearance: Option<PiecewiseTable>, pressure: Option<PiecewiseTable>) -> Option<Self> {
         match (clearance, pressure) {
             (Some(clearance), None) => Some(Self::Clearance(clearance)),
@@ -132,7 +132,7 @@ impl ConductanceTables {
     /// The slope of the conductance along axis 0 of the branch in force, and along temperature and field variables in `variables`.
     ///
     /// Slope of the containing segment, right-hand at an abscissa, zero outside the table (semantics 4.4).
-    /// So it is zero in overclosure and where a closed point has a clearance, which does not count, and at d = 0 it is that of the first segment; where the conductance jumps, the jump has no part in it.
+    /// So it is zero in overclosure and where a closed point has a clearance, which is ignored, and at d = 0 it is that of the first segment; jumps of the conductance do not contribute.
     pub fn slopes(&self, point: &ContactPoint<'_>, variables: &mut [f64]) -> ConductanceSlopes {
         for (variable, slope) in variables.iter_mut().enumerate() {
             *slope = self.slope(SlopeAlong::Variable(variable), point);
@@ -151,7 +151,7 @@ impl ConductanceTables {
         axis.map_or(0.0, |axis| table.slope_at(axis, abscissa(branch, point), point.variables))
     }
 
-    /// The table that holds in a state, if one does.
+    /// The table in force in a state, if any.
     pub fn branch_in(&self, state: ContactState) -> Option<(Branch, &PiecewiseTable)> {
         let (branch, table) = self.branch(state);
         Some((branch, table?))

@@ -20,12 +20,12 @@ pub struct PorePressure(pub f64);
 
 /// Jump of the electric potential across the interface, Δφ = φ_slave − φ_master (φ).
 ///
-/// A quantity of its own, because the difference of two stored potentials may have lost its digits: at potentials near 300 a jump of 1e-8 keeps two or three of them.
+/// A separate quantity, because the difference of two stored potentials suffers from cancellation: at potentials near 300 a jump of 1e-8 keeps two or three digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct PotentialJump(pub f64);
 
 impl PotentialJump {
-    /// The jump from the potentials of the two sides, where it is not known by itself.
+    /// The jump from the potentials of the two sides, where it is not given directly.
     pub fn between(slave: f64, master: f64) -> Self {
         Self(slave - master)
     }
@@ -55,9 +55,9 @@ impl ContactState {
         }
     }
 
-    /// The state of a point of which not everything is known: as `closed` says (0 is open), otherwise by clearance and pressure (T-22); a missing pressure counts as none.
+    /// The state of a point with partial data: by `closed` (0 is open), otherwise by clearance and pressure (T-22); a missing pressure counts as zero.
     ///
-    /// `None` where there is not enough to tell: without a clearance only a pressure does.
+    /// `None` where the data do not suffice: without a clearance only a pressure decides.
     #[inline]
     pub fn of(closed: Option<f64>, clearance: Option<f64>, pressure: Option<f64>) -> Option<Self> {
         match (closed, clearance, pressure) {
@@ -73,10 +73,10 @@ impl ContactState {
         }
     }
 
-    /// The clearance at which every table against clearance is read, of conductance and of view factors alike; `None` where it is not known and would decide.
+    /// The clearance at which all tables against clearance are evaluated, of conductance and of view factors; `None` where it is needed and unknown.
     ///
-    /// A closed point reads its tables at d = 0 whatever its clearance, which counts while it is open only; overclosure is no clearance (J-5).
-    /// NaN stays NaN, and where contact cannot be told the clearance is NaN, as closed and open points read different values.
+    /// A closed point uses d = 0 whatever its clearance, which matters only while open; overclosure counts as zero clearance (J-5).
+    /// NaN stays NaN, and where the state of contact is undetermined the clearance is NaN, as closed and open points use different values.
     #[inline]
     pub fn table_clearance(self, clearance: Option<f64>) -> Option<f64> {
         match self {

@@ -37,7 +37,7 @@ pub struct ElectricalLaw {
     pub heat_generation: HeatGeneration,
 }
 
-/// Over what the dissipation is taken.
+/// The interval over which the dissipation is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dissipation {
     /// At the end of the increment (H-07).
@@ -50,7 +50,7 @@ pub enum Dissipation {
 }
 
 impl ElectricalLaw {
-    /// Current and heat for a conductance found with [`ConductanceTables::conductance`].
+    /// Current and heat for a conductance from [`ConductanceTables::conductance`].
     #[inline]
     pub fn flow(&self, conductance: f64, jump: PotentialJump, dissipation: Dissipation) -> ElectricalFlow {
         flow(conductance, jump, dissipation, self.heat_generation)
@@ -71,7 +71,7 @@ pub(crate) fn flow(
     }
 }
 
-/// Current and heat in twice the precision of f64 and without a limit to their size, for what they are multiplied with and summed up to.
+/// Current and heat in double-double precision without overflow, for products and sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactFlow {
     /// J.

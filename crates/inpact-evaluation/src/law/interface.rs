@@ -15,7 +15,7 @@ use crate::plan::{Choices, InteractionTables, LeftOut, Reason, generation_of};
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Interaction, Model, OptionKind, Procedure};
 
-/// The laws of an interaction; what it does not have, or what cannot be evaluated, is `None`.
+/// The laws of an interaction; a law that it does not have, or that cannot be evaluated, is `None`.
 #[derive(Debug, Clone)]
 pub struct InterfaceLaws {
     /// Electrical conductance.
@@ -26,13 +26,13 @@ pub struct InterfaceLaws {
     pub thermal: Option<ThermalConductance>,
     /// Radiation across the gap.
     pub radiation: Option<RadiationLaw>,
-    /// Whether the deck tells of friction, which generates heat where shear stress and slip rate are known.
+    /// Whether the deck defines friction, which generates heat where shear stress and slip rate are known.
     pub friction: Option<FrictionSource>,
-    /// Pore fluid across the interface and into its gap; without *CONTACT PERMEABILITY that of an infinite permeability (P-03).
+    /// Pore fluid across the interface and into its gap; without *CONTACT PERMEABILITY the permeability is infinite (P-03).
     pub pore: Option<PoreLaw>,
-    /// Whether the deck tells of pore fluid: by *CONTACT PERMEABILITY, or by a procedure that solves for it.
+    /// Whether the deck has pore fluid: by *CONTACT PERMEABILITY, or by a procedure that solves for it.
     pub tells_of_pore: bool,
-    /// The parts that cannot be evaluated, of which flow they are, and why.
+    /// The parts that cannot be evaluated, with their flow and the reason.
     pub left_out: Vec<(FlowOf, LeftOut)>,
 }
 
@@ -56,12 +56,12 @@ pub enum ElectricalSource {
     User(UserLaw, Box<UserNames>),
 }
 
-/// How heat of friction is found.
+/// Inputs of the heat of friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionSource {
     /// The slip rate that the deck gives (K-38, CalculiX).
     pub slip_rate: Option<f64>,
-    /// CalculiX takes shear and slip rate by their magnitudes.
+    /// CalculiX uses the magnitudes of shear and slip rate.
     pub takes_magnitudes: bool,
 }
 

@@ -38,9 +38,9 @@ use crate::table::{PiecewiseTable, Sides};
 pub struct PoreLaw {
     /// Resistance to flow across.
     pub permeability: Permeability,
-    /// How far apart the surfaces may be.
+    /// The cutoff distances.
     pub cutoffs: Cutoffs,
-    /// Whether a part is in force at its very cutoff.
+    /// Whether a part is in force exactly at its cutoff.
     pub boundary: CutoffBoundary,
 }
 
@@ -72,7 +72,7 @@ pub enum CutoffBoundary {
     Exclusive,
 }
 
-/// The state of one point of the interface as far as pore flow depends on it.
+/// The variables of pore flow at one point of the interface.
 #[derive(Clone, Copy, Debug)]
 pub struct PorePoint<'a> {
     /// Clearance d.
@@ -85,7 +85,7 @@ pub struct PorePoint<'a> {
     pub slave: PorePressure,
     /// Pore pressure at the master surface.
     pub master: PorePressure,
-    /// p_slave − p_master, where it is known by itself: the difference of two nearly equal pressures has lost its digits.
+    /// p_slave − p_master, where it is given directly: the difference of two nearly equal pressures suffers from cancellation.
     pub jump: Option<f64>,
     /// The mean of the two pore pressures, the mean temperature, then the field variables, as far as the table depends on them; the rest may be NaN or left out.
     pub variables: &'a [f64],
@@ -95,7 +95,7 @@ pub struct PorePoint<'a> {
     pub bulk: Option<BulkPermeabilities>,
     /// The change of the gap.
     pub gap: Gap,
-    /// q_across where it is known although the permeability is infinite, from a solution of the equations it is an unknown of.
+    /// q_across where it is known although the permeability is infinite, from a solution of the equations in which it is an unknown.
     pub multiplier: Option<f64>,
 }
 
@@ -135,16 +135,16 @@ pub enum Flow {
     NeedsCharacteristicLength,
 }
 
-/// Flows at one point of the interface. `None` is a number nobody knows here: see `across` and `gap_fill` for why.
+/// Flows at one point of the interface. `None` is unknown: see `across` and `gap_fill` for the reason.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoreFlow {
     /// Whether fluid crosses the interface.
     pub across: Flow,
-    /// Whether the gap takes up fluid, were it to change.
+    /// Whether a changing gap would take up fluid.
     pub gap_fill: Flow,
     /// k in force: 0 beyond the cutoff, `None` where it is infinite.
     pub permeability: Option<f64>,
-    /// Whether an infinite permeability holds the two pore pressures equal here.
+    /// Whether an infinite permeability constrains the two pore pressures to be equal here.
     pub is_constrained: bool,
     /// Flow from master to slave.
     pub crossing: Option<Amount>,
@@ -152,7 +152,7 @@ pub struct PoreFlow {
     pub filling: Option<[Amount; 2]>,
     /// w, the slave's share of gap filling.
     pub slave_share: f64,
-    /// Δb, the change of the filled width over the increment, and what its rounding took away; zeros but for [`Gap::Since`].
+    /// Δb, the change of the filled width over the increment, and its rounding error; zeros except for [`Gap::Since`].
     pub width_change: (f64, f64),
     /// Along which axes of the table the point lies outside.
     pub sides: Sides,
@@ -199,7 +199,7 @@ impl PoreLaw {
         })
     }
 
-    /// [`Self::flow`] with the table's values as `find` gives them.
+    /// [`Self::flow`] with the table's values from `find`.
     pub fn flow_with(
         &self,
         point: &PorePoint<'_>,

@@ -30,7 +30,7 @@ use crate::table::{PiecewiseTable, Sides};
 /// The radiation law of one surface interaction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadiationLaw {
-    /// C, the heat radiated per fourth power of temperature between surfaces that see all of each other.
+    /// C, the heat radiated per fourth power of temperature at a view factor of 1.
     pub coefficient: RadiationCoefficient,
     /// θ_Z.
     pub absolute_zero: f64,
@@ -52,7 +52,7 @@ pub struct Emissivities {
 }
 
 impl Emissivities {
-    /// Whether both are from 0 to 1, as those of any surface are.
+    /// Whether both are from 0 to 1, the physical range.
     pub fn are_possible(self) -> bool {
         [self.slave, self.master].iter().all(|emissivity| (0.0..=1.0).contains(emissivity))
     }
@@ -79,7 +79,7 @@ impl RadiationCoefficient {
 impl RadiationLaw {
     /// The view factor, and whether the clearance lies beyond its table.
     ///
-    /// In contact it is that of d = 0, whatever the clearance. NaN where the state cannot be told, or the clearance of an open point is NaN.
+    /// In contact it is that of d = 0, whatever the clearance. NaN where the state is undetermined, or the clearance of an open point is NaN.
     #[inline]
     pub fn view_factor(&self, clearance: Clearance, state: ContactState) -> (f64, Sides) {
         match state.table_clearance(Some(clearance.0)) {
@@ -89,13 +89,13 @@ impl RadiationLaw {
         }
     }
 
-    /// The heat q_r that is radiated out of the slave surface, for a view factor found with [`Self::view_factor`].
+    /// The heat q_r that is radiated out of the slave surface, for a view factor from [`Self::view_factor`].
     #[inline]
     pub fn heat(&self, view_factor: f64, temperatures: Temperatures) -> f64 {
         radiated_heat(self.coefficient, view_factor, self.absolute_zero, temperatures)
     }
 
-    /// [`Self::heat`] for what it is multiplied with and summed up to.
+    /// [`Self::heat`] without overflow, for products and sums.
     pub fn heat_amount(&self, view_factor: f64, temperatures: Temperatures) -> Amount {
         let Temperatures { slave, master, jump } = temperatures;
         let inputs = [self.coefficient.0, view_factor, self.absolute_zero, slave, master, jump.unwrap_or(0.0)];

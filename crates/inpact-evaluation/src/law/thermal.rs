@@ -68,17 +68,17 @@ pub struct Temperatures {
     pub slave: f64,
     /// Of the master surface.
     pub master: f64,
-    /// θ_slave − θ_master, where it is known by itself: the difference of two nearly equal temperatures has lost its digits.
+    /// θ_slave − θ_master, where it is given directly: the difference of two nearly equal temperatures suffers from cancellation.
     pub jump: Option<f64>,
 }
 
 impl Temperatures {
-    /// Those of two surfaces, of which no more is known.
+    /// The temperatures of two surfaces, without a given difference.
     pub fn of(slave: f64, master: f64) -> Self {
         Self { slave, master, jump: None }
     }
 
-    /// Those of two surfaces of which only θ_slave − θ_master is known: enough for what they conduct, and for nothing that depends on the temperatures themselves.
+    /// Those of two surfaces with only θ_slave − θ_master known: enough for conduction, but not for anything that depends on the temperatures themselves.
     pub fn of_jump(jump: f64) -> Self {
         Self { slave: jump, master: 0.0, jump: Some(jump) }
     }
@@ -88,7 +88,7 @@ impl Temperatures {
         self.jump.map_or_else(|| Scaled::difference(self.slave, self.master), Scaled::new)
     }
 
-    /// Their mean, which conductances depend on.
+    /// Their mean, on which conductances depend.
     pub fn mean(self) -> f64 {
         mean(self.slave, self.master)
     }
@@ -138,7 +138,7 @@ pub fn conducted_heat_slopes(conductance: f64, along_mean: f64, temperatures: Te
     SideSlopes { slave: by_mean + conductance, master: by_mean - conductance }
 }
 
-/// The mean of the magnitudes of the mass flow rates of both sides; a side without one counts as standing still (K-32).
+/// The mean of the magnitudes of the mass flow rates of both sides; a side without one counts as at rest (K-32).
 #[inline]
 pub fn mean_mass_flow(slave: Option<f64>, master: Option<f64>) -> f64 {
     mean(slave.map_or(0.0, f64::abs), master.map_or(0.0, f64::abs))

@@ -41,12 +41,12 @@ use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
-/// How long a name is for a user subroutine: CHARACTER*80.
+/// The length of a name for a user subroutine: CHARACTER*80.
 pub const NAME_LENGTH: usize = 80;
 
-/// A conductance that a routine of the user's gives.
+/// A user-defined conductance.
 ///
-/// An evaluation asks one point after the other, in the order of the rows: a routine may keep what it saw (Fortran has COMMON and SAVE), so nothing is asked twice or at the same time.
+/// An evaluation calls it sequentially, in the order of the rows: a routine may keep state (COMMON and SAVE in Fortran), so no call is repeated or concurrent.
 pub trait UserConductance: Send + Sync {
     /// The conductance at one slave node in one increment.
     ///
@@ -55,7 +55,7 @@ pub trait UserConductance: Send + Sync {
     fn conductance(&self, point: &UserConductancePoint<'_>) -> Result<UserConductanceValue, UserFault>;
 }
 
-/// One slave node in one increment, as a user's routine sees it; pairs are slave and master.
+/// One slave node in one increment, the arguments of a user's routine; pairs are slave and master.
 #[derive(Clone, Copy, Debug)]
 pub struct UserConductancePoint<'a> {
     /// Clearance d, L; negative in overclosure.
@@ -70,7 +70,7 @@ pub struct UserConductancePoint<'a> {
     pub names: &'a UserNames,
     /// Coordinates of the slave node and of the point opposite to it on the master surface, L.
     pub coordinates: [[f64; 3]; 2],
-    /// The number of the slave node; 0 where its label is no number.
+    /// The number of the slave node; 0 where its label is not a number.
     pub node: i32,
     /// The number of the step, from 1.
     pub step: i32,
@@ -87,7 +87,7 @@ pub struct UserConductanceValue {
     pub slopes: [f64; 2],
 }
 
-/// Why the answer of a user's routine is no conductance.
+/// Reasons why the result of a user's routine is not a conductance.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum UserFault {
@@ -104,7 +104,7 @@ pub enum UserFault {
     Refused(String),
 }
 
-/// The names a user's routine is called with.
+/// The names passed to a user's routine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UserNames {
     /// The surface interaction, CINAME.
@@ -115,16 +115,16 @@ pub struct UserNames {
     pub master: UserName,
 }
 
-/// A name as Fortran has it: 80 characters, filled up with blanks.
+/// A name as in Fortran: 80 characters, padded with blanks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct UserName([u8; NAME_LENGTH]);
 
-/// A [`UserConductance`] that several may hold; two are equal when they are one and the same.
+/// A shared [`UserConductance`]; two are equal when they are the same object.
 #[derive(Clone)]
 pub struct UserLaw(Arc<dyn UserConductance>);
 
 impl UserConductanceValue {
-    /// Itself, if it is a conductance: all of it finite and the conductance not negative.
+    /// Itself, if it is valid: all numbers finite and the conductance not negative.
     ///
     /// # Errors
     /// The fault.
@@ -141,7 +141,7 @@ impl UserConductanceValue {
         Ok(Self { conductance: self.conductance + 0.0, ..self })
     }
 
-    /// The slope along the average temperature: both sides grow warmer alike.
+    /// The slope along the average temperature: both sides change equally.
     #[inline]
     pub fn slope_along_mean_temperature(&self) -> f64 {
         self.slopes[0] + self.slopes[1]
@@ -149,7 +149,7 @@ impl UserConductanceValue {
 }
 
 impl UserName {
-    /// The first 80 bytes of `text`, which has the case it is to have (S-43), or fewer where a character would be cut.
+    /// The first 80 bytes of `text`, whose case is kept (S-43), or fewer where a character would be split.
     pub fn new(text: &str) -> Self {
         let mut name = [b' '; NAME_LENGTH];
         let most = NAME_LENGTH.min(text.len());
@@ -163,12 +163,12 @@ impl UserName {
         Self::new("")
     }
 
-    /// The characters, blanks at the end included.
+    /// The characters, including trailing blanks.
     pub fn as_bytes(&self) -> &[u8; NAME_LENGTH] {
         &self.0
     }
 
-    /// The name without the blanks at its end.
+    /// The name without trailing blanks.
     pub fn text(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(self.0.trim_ascii_end())
     }
@@ -186,10 +186,10 @@ impl UserLaw {
         Self(Arc::new(law))
     }
 
-    /// The conductance at a point, checked; NaN, without a question, where one of the quantities it depends on is NaN.
+    /// The conductance at a point, checked; NaN, without a call, where one of its inputs is NaN.
     ///
     /// # Errors
-    /// The routine refuses the point, or gives what is no conductance.
+    /// The routine rejects the point, or returns an invalid conductance.
     #[inline]
     pub fn conductance(&self, point: &UserConductancePoint<'_>) -> Result<UserConductanceValue, UserFault> {
         let fields = point.field_variables.iter().flatten();

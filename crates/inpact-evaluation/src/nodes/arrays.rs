@@ -11,10 +11,10 @@ use crate::arrow::error::ArrowError;
 use arrow_select::take::take;
 use std::sync::Arc;
 
-/// The array itself, or, of a dictionary, the value of each row.
+/// The array itself, or, for a dictionary, the value of each row.
 ///
 /// # Errors
-/// A dictionary whose keys lie beyond its values.
+/// A dictionary with keys out of range.
 pub fn without_dictionary(array: &ArrayRef) -> Result<ArrayRef, ArrowError> {
     let mut array = Arc::clone(array);
     while let Some(dictionary) = array.as_any_dictionary_opt() {
@@ -23,7 +23,7 @@ pub fn without_dictionary(array: &ArrayRef) -> Result<ArrayRef, ArrowError> {
     Ok(array)
 }
 
-/// Floats, whole numbers, booleans (0 and 1), or dictionaries of these, each as the nearest f64.
+/// Floats, integers, booleans (0 and 1), or dictionaries of these, each as the nearest f64.
 ///
 /// # Errors
 /// An array of another type.

@@ -3,14 +3,14 @@
 use inpact_diagnostics::Place;
 use std::ops::Range;
 
-/// Some consecutive rows of a node table: the columns that were asked for, in the order they were asked for.
+/// Some consecutive rows of a node table: the requested columns, in the requested order.
 #[derive(Debug, Clone, Default)]
 pub struct Batch {
-    /// How many rows there are.
+    /// The number of rows.
     pub rows: usize,
     /// The number of the first row, counted from 0.
     pub first_row: u64,
-    /// For each row the line of the file on which it ends, from 1.
+    /// The line of the file on which each row ends, from 1.
     pub lines: Vec<u64>,
     /// The columns of texts.
     pub labels: Vec<LabelColumn>,
@@ -283,12 +283,12 @@ impl NumberColumn {
         &self.values
     }
 
-    /// The numbers, to be replaced; which of them are missing stays as it is.
+    /// The numbers, mutable; which of them are missing is unchanged.
     pub fn values_mut(&mut self) -> &mut [f64] {
         self.values.owned()
     }
 
-    /// Which numbers are there, one flag a row; `None` where it is known that none is missing.
+    /// Which numbers are present, one flag per row; `None` where it is known that none is missing.
     pub fn presence(&self) -> Option<&[bool]> {
         Some(self.present.as_slice()).filter(|present| !present.is_empty())
     }
@@ -305,12 +305,12 @@ impl NumberColumn {
         self.values.owned().push(value.unwrap_or(f64::NAN));
     }
 
-    /// Adds rows: their numbers, and which of them are there, as many flags as numbers; `None` where all of them are.
+    /// Adds rows: their numbers, and flags for those present; `None` where all of them are.
     ///
-    /// A number that is not there becomes NaN.
+    /// A missing number becomes NaN.
     ///
     /// # Panics
-    /// When there are not as many flags as numbers.
+    /// If the numbers of flags and numbers differ.
     pub fn extend_from_slices(&mut self, values: &[f64], present: Option<&[bool]>) {
         let before = self.values.len();
         self.values.owned().extend_from_slice(values);
@@ -330,7 +330,7 @@ impl NumberColumn {
         }
     }
 
-    /// Sets the number of a row that is there.
+    /// Sets the number of an existing row.
     #[inline]
     pub fn set(&mut self, row: usize, value: f64) {
         self.values.owned()[row] = value;
@@ -380,7 +380,7 @@ impl NumberColumn {
         }
     }
 
-    /// Makes it a column of so many missing numbers.
+    /// Makes it a column of this many missing numbers.
     pub fn reset(&mut self, rows: usize) {
         self.values.clear();
         self.values.owned().resize(rows, f64::NAN);
@@ -417,7 +417,7 @@ impl NumberColumn {
 }
 
 impl Batch {
-    /// An empty batch with so many columns of each kind.
+    /// An empty batch with this many columns of each kind.
     pub fn with_columns(labels: usize, numbers: usize) -> Self {
         Self {
             rows: 0,
@@ -428,7 +428,7 @@ impl Batch {
         }
     }
 
-    /// Where row `row` of the batch stands in the file.
+    /// The position of row `row` of the batch in the file.
     pub fn place(&self, row: usize, column: Option<String>) -> Place {
         let line = self.lines.get(row).copied();
         Place { row: Some(self.first_row + row as u64 + 1), line, column, exact: None }

@@ -2,7 +2,7 @@
 
 /// Quantities in columns of a node table.
 ///
-/// Its [`Display`](std::fmt::Display) form is its canonical name; [`Column::named`] knows the others.
+/// Its [`Display`](std::fmt::Display) form is its canonical name; [`Column::named`] accepts aliases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Column {
     /// `node`: a label, passed through; with `time` it groups a history.
@@ -66,7 +66,7 @@ pub enum Direction {
     Z,
 }
 
-/// Of which side of the interface a quantity is.
+/// The side of the interface of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Part {
     /// Slave (secondary) side, `_s`.
@@ -83,7 +83,7 @@ pub(crate) fn coordinates(part: Part) -> [Column; 3] {
 }
 
 impl Column {
-    /// Whether its cells are texts that are passed through as they stand.
+    /// Whether its cells are texts that are passed through unchanged.
     pub fn is_key(self) -> bool {
         matches!(self, Self::Node | Self::Interaction | Self::Time)
     }

@@ -6,14 +6,14 @@ use inpact_parser::grammar::nearest_names;
 use std::fmt;
 
 impl Column {
-    /// The column that a header names, blanks around it and case aside; `None` for a name the contract does not have.
+    /// The column of a header, ignoring case and blanks around it; `None` for a name that the contract does not have.
     pub fn named(header: &str) -> Option<Self> {
         let name = header.trim().to_ascii_lowercase();
         let listed = plain_columns().find(|page| page.names.contains(&name.as_str()));
         listed.map(|page| page.column).or_else(|| field_variable(&name))
     }
 
-    /// The column whose name is so near to a header's that it may be meant; `None` for a header that names one, and where none is near.
+    /// The column with a name similar to a header's; `None` for a header that names one, and where none is similar.
     pub fn near(header: &str) -> Option<Self> {
         if Self::named(header).is_some() {
             return None;

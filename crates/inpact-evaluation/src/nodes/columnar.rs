@@ -73,7 +73,7 @@ enum Rows {
 /// Results of one step of reading: rows, the end, or an error.
 type Read1 = io::Result<Option<Columns>>;
 
-/// Record batches one after the other.
+/// An iterator of record batches.
 pub type RecordBatches = Box<dyn Iterator<Item = Result<RecordBatch, ArrowError>> + Send>;
 
 /// Rows of the columns that were asked for.

@@ -45,12 +45,12 @@ impl Header {
         self.position(column).is_some()
     }
 
-    /// The place of the first cell that means that column, counted from 0.
+    /// The index of the first cell that means that column, from 0.
     pub fn position(&self, column: Column) -> Option<usize> {
         self.places.get(&column).copied()
     }
 
-    /// The name of the column in the header, which may be an alias; the canonical name where it is not there.
+    /// The name of the column in the header, which may be an alias; the canonical name where it is absent.
     pub fn name_of(&self, column: Column) -> String {
         self.position(column).map_or_else(|| column.to_string(), |index| self.cells[index].text.clone())
     }

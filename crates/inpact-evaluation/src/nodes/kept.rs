@@ -7,18 +7,18 @@ use std::collections::VecDeque;
 use std::fmt;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 
-/// Storage for rows that memory has no room for.
+/// Storage for rows that are spilled from memory.
 pub trait SpillFile: Read + Write + Seek + Send {}
 
 impl<T: Read + Write + Seek + Send> SpillFile for T {}
 
-/// Makes the file for the rows that memory has no room for.
+/// Makes the file for spilled rows.
 pub type MakeSpillFile = Box<dyn FnMut() -> io::Result<Box<dyn SpillFile>> + Send>;
 
 /// How much is written or read of the file at a time.
 const BUFFER: usize = 1 << 20;
 
-/// Rows of a node table in their order, to be read again from the first on.
+/// Rows of a node table in order, to be read again from the first.
 pub struct KeptRows {
     /// How many bytes of rows stay in memory.
     room: usize,
@@ -43,7 +43,7 @@ impl fmt::Debug for KeptRows {
 }
 
 impl KeptRows {
-    /// None yet; `room` bytes of them stay in memory, the others go to a file.
+    /// No rows yet; up to `room` bytes stay in memory, the rest goes to a file.
     pub fn new(room: usize, make_file: MakeSpillFile) -> Self {
         Self {
             room,
@@ -56,12 +56,12 @@ impl KeptRows {
         }
     }
 
-    /// Begins with batches that have these columns.
+    /// Starts for batches with these columns.
     pub fn begin(&mut self, selection: &Selection) {
         selection.clone_into(&mut self.selection);
     }
 
-    /// Keeps the next rows, which have the columns that were begun with.
+    /// Keeps the next rows, which have the columns given at the start.
     ///
     /// # Errors
     /// Those of making and writing the file.
@@ -100,7 +100,7 @@ impl KeptRows {
         file.seek(SeekFrom::End(0)).map(drop)
     }
 
-    /// The same rows once more, for a second reading; `make_file` is for those that memory has no room for.
+    /// A copy of the rows, for a second reading; `make_file` is for those that do not fit into memory.
     ///
     /// # Errors
     /// Those of reading and writing the files.
@@ -116,12 +116,12 @@ impl KeptRows {
         pushed.map(|()| copy)
     }
 
-    /// Gives the rows back one batch after the other, with the columns that are selected now; none stay kept.
+    /// Returns the rows batch by batch, with the columns that are selected now, and releases them.
     ///
     /// A column that was not kept gives missing numbers and empty texts.
     ///
     /// # Errors
-    /// Those of writing what is left to write of the file.
+    /// Those of writing the rest of the file.
     pub fn give_back(&mut self, selection: &Selection) -> io::Result<GivenBack> {
         let file = match self.spilled.take().map(BufWriter::into_inner) {
             Some(Ok(mut file)) => {
@@ -147,7 +147,7 @@ fn not_kept(error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("a temporary file cannot hold its rows until they are evaluated: {error}"))
 }
 
-/// Kept rows on their way out.
+/// An iterator over kept rows.
 pub struct GivenBack {
     batches: VecDeque<Batch>,
     file: Option<BufReader<Box<dyn SpillFile>>>,

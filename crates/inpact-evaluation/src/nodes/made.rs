@@ -6,7 +6,7 @@ use super::header::Header;
 use super::number::number;
 use std::io;
 
-/// Batches of a table that is made: the texts of its key columns and its numbers, in the order of its header.
+/// Batches of a generated table: the texts of its key columns and its numbers, in the order of its header.
 pub type MadeBatches<'a> = Box<dyn Iterator<Item = io::Result<Batch>> + Send + 'a>;
 
 /// Hands out a table that is made as if it were read.

@@ -10,7 +10,7 @@ use std::hash::{BuildHasher, Hasher};
 /// Of so many nodes it is remembered that they were met; a table of more nodes must have ascending numbers for labels.
 const MOST_REMEMBERED: usize = 1 << 20;
 
-/// In which order the rows of the nodes come.
+/// The order of the rows by node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HistoryOrder {
     /// All rows of a node under one interaction stand together.
@@ -20,11 +20,11 @@ pub enum HistoryOrder {
     Interleaved,
 }
 
-/// Numbers the nodes of each interaction in the order they are first met.
+/// Numbers the nodes of each interaction in the order of first occurrence.
 ///
-/// Blanks around a label do not count. Memory grows with the number of nodes, not of rows; by node it does not grow.
+/// Blanks around a label are ignored. Memory grows with the number of nodes, not of rows; for tables sorted by node it does not grow.
 ///
-/// Rows sorted by time meet the nodes of every increment in the same order, so that the node after the last one is looked at before labels are hashed.
+/// Rows sorted by time have the nodes in the same order in every increment, so that the successor of the last node is tried before labels are hashed.
 #[derive(Debug, Clone, Default)]
 pub struct NodeIndex {
     order: HistoryOrder,
@@ -108,19 +108,19 @@ impl Hasher for LabelHasher {
     }
 }
 
-/// Where the history of a row's node is kept.
+/// The slot of the history of a row's node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct HistorySlot {
-    /// The number of the slot; no greater than the number of slots that were given before.
+    /// The number of the slot; at most the number of slots allocated before.
     pub number: usize,
-    /// Whether the row is its node's first, so that what the slot holds is of another node or nothing.
+    /// Whether the row is its node's first, so that the slot is empty or holds another node.
     pub is_first: bool,
 }
 
-/// Finds out whether all rows of a node stand together.
+/// Detects whether the rows of each node are contiguous.
 ///
-/// A table is said to be [`ByNode`](HistoryOrder::ByNode) only if it is; one with very many nodes whose labels are not ascending numbers may be
-/// said to be interleaved although it is not. Memory is bounded.
+/// A table is reported as [`ByNode`](HistoryOrder::ByNode) only if it is; one with very many nodes whose labels are not ascending numbers may be
+/// reported as interleaved although it is not. Memory is bounded.
 #[derive(Debug, Default)]
 pub struct NodeRuns {
     current: Option<(usize, Vec<u8>)>,
@@ -142,14 +142,14 @@ enum Ascent {
 }
 
 impl NodeIndex {
-    /// An index for a table in which all rows of a node stand together.
+    /// An index for a table in which the rows of each node are contiguous.
     pub fn by_node() -> Self {
         Self { order: HistoryOrder::ByNode, ..Self::default() }
     }
 
     /// The slot for the history of a row's node under interaction number `interaction`.
     ///
-    /// By node there is one slot only.
+    /// For tables sorted by node there is one slot only.
     #[inline]
     pub fn enter(&mut self, interaction: usize, label: &[u8]) -> HistorySlot {
         if self.order == HistoryOrder::ByNode {
@@ -192,7 +192,7 @@ impl NodeRuns {
         Self { met: Some(HashSet::new()), ..Self::default() }
     }
 
-    /// Takes the next row; true when it begins a run of rows of one node.
+    /// Adds the next row; true when it begins a run of rows of one node.
     #[inline]
     pub fn take(&mut self, interaction: usize, label: &[u8]) -> bool {
         let begins = begins_run(&mut self.current, interaction, label);
@@ -208,7 +208,7 @@ impl NodeRuns {
         if is_by_node { HistoryOrder::ByNode } else { HistoryOrder::Interleaved }
     }
 
-    /// How many runs there are; by node they are as many as the nodes of all interactions.
+    /// The number of runs; for tables sorted by node it is the number of nodes of all interactions.
     pub fn runs(&self) -> u64 {
         self.runs
     }

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// Finds column and bytes of the cells that findings name by line and header.
 ///
-/// A place that is not found stays as it is: a cell with a line end in it, a table whose lines end with a lone CR.
+/// A place that is not found is unchanged: a cell with a line end in it, a table whose lines end with a lone CR.
 ///
 /// # Errors
 /// When the table cannot be read.

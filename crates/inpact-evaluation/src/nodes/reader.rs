@@ -37,19 +37,19 @@ enum Table<'a> {
 /// Which columns of a node table to read.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Selection {
-    /// Columns whose texts are wanted.
+    /// Columns to read as texts.
     pub labels: Vec<Column>,
-    /// Columns whose numbers are wanted.
+    /// Columns to read as numbers.
     pub numbers: Vec<Column>,
 }
 
 impl Selection {
-    /// The place of a column among the labels.
+    /// The index of a column among the labels.
     pub fn label(&self, column: Column) -> Option<usize> {
         self.labels.iter().position(|selected| *selected == column)
     }
 
-    /// The place of a column among the numbers.
+    /// The index of a column among the numbers.
     pub fn number(&self, column: Column) -> Option<usize> {
         self.numbers.iter().position(|selected| *selected == column)
     }
@@ -70,10 +70,10 @@ impl<'a> NodeReader<'a> {
         Ok(Self::new(Table::Csv(Box::new(CsvReader::open(input, findings)?))))
     }
 
-    /// Opens a node table that tells by its first bytes how it is stored: Parquet, an Arrow file or stream, otherwise comma-separated values.
+    /// Opens a node table and detects its format from the first bytes: Parquet, an Arrow file or stream, otherwise comma-separated values.
     ///
     /// # Errors
-    /// Those of reading the input; of kind [`io::ErrorKind::InvalidData`] where it is not what its first bytes say, or these say that it is no table,
+    /// Those of reading the input; of kind [`io::ErrorKind::InvalidData`] where it is not in the format of its first bytes, or these are those of another kind of file,
     /// [`io::ErrorKind::Unsupported`] for Parquet and Arrow where feature `columnar` is off.
     pub fn open_any(mut input: Box<dyn ReadSeek>, findings: &mut Findings) -> io::Result<NodeReader<'static>> {
         let mut magic = Vec::new();
@@ -104,7 +104,7 @@ impl<'a> NodeReader<'a> {
         NodeReader::open(Box::new(input), findings)
     }
 
-    /// Opens a node table that comes as record batches of one schema; they are asked for one by one.
+    /// Opens a node table given as record batches of one schema, which are pulled one by one.
     #[cfg(feature = "columnar")]
     pub fn of_batches(
         schema: crate::arrow::datatypes::SchemaRef,
@@ -115,7 +115,7 @@ impl<'a> NodeReader<'a> {
         NodeReader::new(Table::Columnar(Box::new(table)))
     }
 
-    /// Opens a node table that is made while it is read: key columns, which the labels of its batches are, and columns of numbers.
+    /// Opens a node table that is generated while it is read: key columns, the labels of its batches, and columns of numbers.
     pub fn of_made(keys: &[Column], numbers: &[Column], batches: MadeBatches<'a>) -> Self {
         Self::new(Table::Made(Box::new(MadeReader::new(keys, numbers, batches))))
     }
@@ -134,7 +134,7 @@ impl<'a> NodeReader<'a> {
         }
     }
 
-    /// Statistics of a column of numbers that the table itself has: Parquet files may, for all of their rows, until the first batch is read.
+    /// Statistics of a column of numbers stored in the table itself, as in Parquet files: for all rows, available until the first batch is read.
     pub fn statistics(&self, column: Column) -> Option<ColumnStatistics> {
         match &self.table {
             Table::Csv(_) | Table::Made(_) => None,
@@ -144,7 +144,7 @@ impl<'a> NodeReader<'a> {
         .filter(|_: &ColumnStatistics| self.header().has(column))
     }
 
-    /// Chooses the columns of the batches to come; one the header does not have gives missing numbers and empty texts.
+    /// Selects the columns of the following batches; one the header does not have gives missing numbers and empty texts.
     ///
     /// To be called before the first batch is read.
     pub fn select(&mut self, selection: &Selection) {
@@ -152,15 +152,15 @@ impl<'a> NodeReader<'a> {
         self.apply();
     }
 
-    /// Sets how many rows a batch has at most, 1 at least; to be called before the first batch is read.
+    /// Sets the largest number of rows of a batch, at least 1; to be called before the first batch is read.
     pub fn set_rows_of_a_batch(&mut self, rows: usize) {
         self.rows_of_a_batch = rows.max(1);
         self.apply();
     }
 
-    /// Reads and decodes up to so many pieces of the table on the threads of rayon's current pool while others are evaluated.
+    /// Reads ahead: decodes up to this many pieces of the table on rayon's current thread pool while others are evaluated.
     ///
-    /// 0, which holds unless asked otherwise, decodes each piece when its turn comes. What comes out is the same.
+    /// With 0, the default, each piece is decoded when it is needed. The result is the same.
     pub fn set_read_ahead(&mut self, pieces: usize) {
         match &mut self.table {
             Table::Csv(table) => table.set_read_ahead(pieces),

@@ -5,9 +5,9 @@ use super::scaled::Scaled;
 use super::sum::compensated_sum;
 use std::ops::Neg;
 
-/// A rounded number and, where plain arithmetic could over- or underflow on its way, the number itself.
+/// A rounded number and, where plain arithmetic could over- or underflow in intermediate results, the number itself.
 ///
-/// Sums and products of an amount with moderate numbers are plain arithmetic; all else goes through [`Scaled`] and is rounded once, at its end.
+/// Sums and products of an amount with moderate numbers are plain arithmetic; all others go through [`Scaled`] and are rounded once, at the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
     value: f64,
@@ -18,7 +18,7 @@ impl Amount {
     /// The amount zero.
     pub const ZERO: Self = Self { value: 0.0, exact: None };
 
-    /// A number that is known as f64.
+    /// A number given as f64.
     pub fn new(value: f64) -> Self {
         Self { value, exact: None }
     }
@@ -58,7 +58,7 @@ impl Amount {
         self.exact.is_none() && is_moderate(self.value)
     }
 
-    /// A sum of amounts that may all but cancel, or whose partial sums exceed the range of f64 where the whole does not.
+    /// A sum of amounts that may nearly cancel, or whose partial sums exceed the range of f64 where the total does not.
     #[inline]
     pub fn sum<const N: usize>(parts: [Self; N]) -> Self {
         if parts.iter().all(|part| part.exact.is_none()) {

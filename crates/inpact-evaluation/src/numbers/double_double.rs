@@ -4,10 +4,10 @@ use super::float::{scale_by_power, two_difference, two_product, two_sum};
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// The unevaluated sum of a rounded value and what the rounding took away.
+/// The unevaluated sum of a rounded value and its rounding error.
 ///
-/// Sums, products and quotients are good to about 2⁻¹⁰⁴ of the larger operand as long as no part of them over- or underflows:
-/// below 2⁻⁹⁶⁰ the second half runs out of exponents and the number has fewer digits, as a subnormal f64 has.
+/// Sums, products and quotients are accurate to about 2⁻¹⁰⁴ of the larger operand as long as no part of them over- or underflows:
+/// below 2⁻⁹⁶⁰ the low part underflows and the number has fewer digits, like a subnormal f64.
 /// Some three times as fast as [`Scaled`](super::Scaled), which has no such limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DoubleDouble {
@@ -19,7 +19,7 @@ impl DoubleDouble {
     /// The number zero.
     pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
 
-    /// An f64 as it is.
+    /// An f64, exactly.
     #[inline]
     pub const fn new(value: f64) -> Self {
         Self { high: value, low: 0.0 }
@@ -45,7 +45,7 @@ impl DoubleDouble {
         self.high
     }
 
-    /// The nearest f64, and what is left.
+    /// The nearest f64, and the remainder.
     #[inline]
     pub fn parts(self) -> (f64, f64) {
         (self.high, self.low)

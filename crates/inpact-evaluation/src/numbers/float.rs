@@ -1,6 +1,6 @@
 //! The f64 itself: error-free sums and products, exponents, powers of two, the unit in the last place.
 
-/// The sum of `a` and `b`, rounded, and what the rounding took away: `a + b = sum + error` exactly, for magnitudes up to 2¹⁰²².
+/// The sum of `a` and `b`, rounded, and its rounding error (TwoSum): `a + b = sum + error` exactly, for magnitudes up to 2¹⁰²².
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -9,13 +9,13 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - a_part) + (b - b_part))
 }
 
-/// The difference `a - b`, rounded, and what the rounding took away: `a - b = difference + error` exactly, for magnitudes up to 2¹⁰²².
+/// The difference `a - b`, rounded, and its rounding error: `a - b = difference + error` exactly, for magnitudes up to 2¹⁰²².
 #[inline]
 pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
     two_sum(a, -b)
 }
 
-/// The product of `a` and `b`, rounded, and what the rounding took away: `a * b = product + error` exactly, unless one of the two over- or underflows.
+/// The product of `a` and `b`, rounded, and its rounding error (TwoProduct): `a * b = product + error` exactly, unless one of the two over- or underflows.
 #[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;

@@ -11,10 +11,10 @@ pub fn mean(a: f64, b: f64) -> f64 {
     if sum.is_finite() { 0.5 * sum } else { 0.5 * a + 0.5 * b }
 }
 
-/// The product of all `factors`: finite and right wherever the exact product is, in whatever order plain multiplication would over- or underflow.
+/// The product of all `factors`: finite and accurate wherever the exact product is finite, even where plain multiplication would over- or underflow.
 ///
-/// Ordinary factors are multiplied as they stand, from the left; at most one rounding of half an ulp for each factor.
-/// Zero times infinity is NaN, as is any product with NaN; a zero beside finite factors gives zero however large they are.
+/// Ordinary factors are multiplied in order, from the left; at most one rounding of half an ulp for each factor.
+/// Zero times infinity is NaN, as is any product with NaN; a zero times finite factors gives zero however large they are.
 /// The product of no factors is 1.
 #[inline]
 pub fn product(factors: &[f64]) -> f64 {
@@ -43,7 +43,7 @@ pub fn ratio(a: f64, b: f64) -> f64 {
     if sum.is_finite() { a / sum } else { (0.5 * a) / (0.5 * a + 0.5 * b) }
 }
 
-/// `factor` × (`a` − `b`), also where the difference alone exceeds the range of f64.
+/// `factor` × (`a` − `b`), even where the difference alone exceeds the range of f64.
 #[inline]
 pub fn scaled_difference_product(factor: f64, a: f64, b: f64) -> f64 {
     let difference = a - b;

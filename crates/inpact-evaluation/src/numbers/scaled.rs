@@ -7,8 +7,8 @@ use super::float::{LEAST_NORMAL, SAFE_TO_ADD, exponent_of, scale_by_power};
 
 /// A finite real number mantissa × 2^exponent, with 1 <= |mantissa| < 2 or mantissa = 0.
 ///
-/// Sums, products and quotients are those of [`DoubleDouble`], good to about 2⁻¹⁰² of the larger operand; [`Scaled::to_f64`] rounds once, to 0.5 ulp plus that.
-/// Its operations cost some ten times those of an f64, so it is taken only where exponents are extreme.
+/// Sums, products and quotients are those of [`DoubleDouble`], accurate to about 2⁻¹⁰² of the larger operand; [`Scaled::to_f64`] rounds once, to 0.5 ulp plus that.
+/// Its operations cost some ten times those of an f64, so it is used only where exponents are extreme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaled {
     mantissa: DoubleDouble,
@@ -22,12 +22,12 @@ impl Scaled {
     /// The number zero.
     pub const ZERO: Self = Self { mantissa: DoubleDouble::ZERO, exponent: 0 };
 
-    /// A finite f64 as it is.
+    /// A finite f64, exactly.
     pub fn new(value: f64) -> Self {
         Self::normalised(DoubleDouble::new(value), 0)
     }
 
-    /// The difference `a - b` of two finite numbers, also where it exceeds the range of f64.
+    /// The difference `a - b` of two finite numbers, even where it exceeds the range of f64.
     pub fn difference(a: f64, b: f64) -> Self {
         if a.abs().max(b.abs()) <= SAFE_TO_ADD {
             return Self::normalised(DoubleDouble::difference(a, b), 0);

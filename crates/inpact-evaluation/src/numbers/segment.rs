@@ -16,7 +16,7 @@
 use super::float::{SAFE_TO_ADD, is_ordinary, two_difference, two_product, two_sum};
 use super::scaled::Scaled;
 
-/// The slope of a segment as [`interpolate`] wants it: a rounded quotient and what its rounding took away.
+/// The slope of a segment for [`interpolate`]: a rounded quotient and its rounding error.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelSlope {
     high: f64,
@@ -32,7 +32,7 @@ impl KernelSlope {
 
     /// The slope of a segment with `x0 < x1`.
     ///
-    /// There is none, and [`interpolate`] goes the long way, where the slope is infinite or extremely small, a number is within a factor of four of overflow,
+    /// There is none, and [`interpolate`] takes the slow path, where the slope is infinite or extremely small, a number is within a factor of four of overflow,
     /// or the values are of opposite sign.
     pub fn of_segment((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> Self {
         let (high, low) = precise_slope((x0, y0), (x1, y1));
@@ -49,7 +49,7 @@ impl KernelSlope {
         (self.high, self.low)
     }
 
-    /// Whether the segment can only be interpolated the long way.
+    /// Whether the segment needs the slow path of interpolation.
     pub fn is_missing(self) -> bool {
         self.high.is_nan()
     }
@@ -58,7 +58,7 @@ impl KernelSlope {
 /// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), with the slope of the same segment.
 ///
 /// For `x0 <= x <= x1` and values of one sign: within 1.5 ulp of the exact value, exact at both ends, never outside the two values, monotone to one ulp.
-/// NaN if `x` is NaN. Outside the segment the result is of no use.
+/// NaN if `x` is NaN. Outside the segment the result is meaningless.
 #[inline]
 pub fn interpolate(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64), slope: KernelSlope) -> f64 {
     if slope.is_missing() {
@@ -92,7 +92,7 @@ fn precise_slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> (f64, f64) {
     (Scaled::difference(y1, y0) / Scaled::difference(x1, x0)).to_pair()
 }
 
-/// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), in twice the precision of f64.
+/// The value at `x` of the straight line from (`x0`, `y0`) to (`x1`, `y1`), in double-double precision.
 ///
 /// For `x0 <= x <= x1`: within 0.5 ulp plus 2⁻¹⁰² of the larger value, exact at both ends, never outside the two values.
 /// NaN if `x` is NaN; infinite values, which a slope can have, give an infinity or NaN.

@@ -3,10 +3,10 @@
 use super::float::{two_product, two_sum};
 use super::scaled::Scaled;
 
-/// A running sum in two parts, the rounded total and what rounding has taken from it (Neumaier's form).
+/// A compensated sum: the rounded total and the accumulated rounding error (Neumaier).
 ///
-/// After n terms the error is about n·2⁻¹⁰⁶ of the sum of magnitudes plus half an ulp of the result: ten million steps are exact to the last bit unless they cancel.
-/// Terms that overflow on the way make it infinite, as they would a plain sum.
+/// After n terms the error is about n·2⁻¹⁰⁶ of the sum of magnitudes plus half an ulp of the result: ten million terms are exact to the last bit unless they cancel.
+/// Overflow of a partial sum makes it infinite, as in a plain sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CompensatedSum {
     sum: f64,
@@ -41,7 +41,7 @@ impl CompensatedSum {
         }
     }
 
-    /// Adds another sum with its compensation, so that blocks summed apart lose nothing when they are put together.
+    /// Adds another sum with its compensation, so that blocks can be summed separately without loss.
     pub fn merge(&mut self, other: &Self) {
         self.add(other.sum);
         self.compensation += other.compensation;
@@ -82,11 +82,11 @@ pub(crate) fn compensated_sum<const N: usize>(terms: [f64; N]) -> f64 {
 const SMALL: f64 = f64::from_bits((1023 + 900) << 52);
 const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
 
-/// A [`CompensatedSum`] whose terms and partial sums may leave the range of f64: it is finite wherever the exact sum is.
+/// A [`CompensatedSum`] whose terms and partial sums may exceed the range of f64: it is finite wherever the exact sum is.
 ///
-/// As long as all stay within the range it costs what a compensated sum costs; once one leaves it, the sum goes on in [`Scaled`] numbers,
-/// and is good to 2⁻¹⁰² of the largest term or partial sum.
-/// Terms that are infinite or NaN themselves make it what they make of a plain sum.
+/// As long as all stay within the range it costs as much as a compensated sum; once one exceeds it, the sum continues in [`Scaled`] numbers,
+/// and is accurate to 2⁻¹⁰² of the largest term or partial sum.
+/// Infinite and NaN terms have the same effect as in a plain sum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnboundedSum {
     plain: CompensatedSum,

@@ -9,34 +9,34 @@ use crate::table::Tail;
 use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Name, Regime};
 
-/// The choices of an evaluation; the default is what deck and semantics say.
+/// The choices of an evaluation; the defaults follow the deck and the semantics.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Choices {
-    /// The interaction that governs every row, instead of the one that column `interaction` names.
+    /// The interaction that governs every row, overriding the column `interaction`.
     pub interaction: Option<Name>,
-    /// Steady state or transient, instead of what the deck's procedures say.
+    /// Steady state or transient, overriding the deck's procedures.
     pub regime: Option<Regime>,
     /// The continuation of a table of electrical conductance beyond its last clearance.
     pub clearance_tail: Tail,
     /// The characteristic element length of all rows, L (P-20, Q-5).
     pub characteristic_length: Option<f64>,
-    /// Whether pore fluid flows at the very cutoff.
+    /// Whether pore fluid flows exactly at the cutoff.
     pub cutoff_boundary: CutoffBoundary,
-    /// Whose meaning the keywords have: *GAP CONDUCTANCE and the heat of friction differ in CalculiX.
+    /// The dialect of the keywords: *GAP CONDUCTANCE and the heat of friction differ in CalculiX.
     pub dialect: Dialect,
-    /// Whether slopes come out as well.
+    /// Whether slopes are results as well.
     pub derivatives: Derivatives,
     /// The conductance of interactions with *GAP ELECTRICAL CONDUCTANCE, USER; without it they have no electrical law (U-3).
     pub user_conductance: Option<UserLaw>,
-    /// How exactly values are found.
+    /// The accuracy of table values.
     pub accuracy: Wanted,
-    /// The outputs that are asked for by name; `None` for all there are.
+    /// The outputs requested by name; `None` for all.
     pub outputs: Option<Vec<Output>>,
-    /// Where the histories of nodes start (C-25).
+    /// The start of the histories of nodes (C-25).
     pub history_start: HistoryStart,
     /// The jump in the heat of an increment that closes a circuit.
     pub closing_heat: ClosingHeat,
-    /// Whether a current may flow where the rows do not tell of one.
+    /// Whether a current may flow where the rows have no potentials.
     pub currents: Currents,
 }
 
@@ -62,7 +62,7 @@ pub enum Currents {
     None,
 }
 
-/// Whether the slopes of conductance and permeability come out (semantics 4.4).
+/// Whether the slopes of conductance and permeability are results (semantics 4.4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Derivatives {
     /// No.

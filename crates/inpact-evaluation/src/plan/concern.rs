@@ -19,10 +19,10 @@ use inpact_parser::span::{SourceId, Span};
 use inpact_validation::Diagnostic;
 use std::collections::HashSet;
 
-/// The findings about what feeds the interactions of these names, or could.
+/// The findings about inputs, or possible inputs, of the interactions of these names.
 ///
-/// An unknown keyword counts to the interaction it follows: it may be a misspelt sub-option.
-/// `chosen` is the regime where the run says which, and no procedure does.
+/// An unknown keyword belongs to the interaction it follows: it may be a misspelt sub-option.
+/// `chosen` is the regime that the run sets, overriding the procedures.
 pub fn concerning<'a>(
     diagnostics: &'a [Diagnostic],
     deck: &Deck,

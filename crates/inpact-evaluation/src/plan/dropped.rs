@@ -2,14 +2,14 @@
 
 use super::reason::Reason;
 
-/// A part of a law that was cut while the plan was made.
+/// A part of a law that the plan drops.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dropped {
     /// Its name.
     pub what: String,
     /// The cost saved, in nanoseconds for each row of the interaction.
     pub cost: f64,
-    /// Why it was cut.
+    /// The reason.
     pub reason: Reason,
 }
 

@@ -5,7 +5,7 @@ use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Model, Name};
 use std::collections::HashMap;
 
-/// Sources of the interaction that governs a row; numbers are places in the model.
+/// Sources of the interaction that governs a row; numbers are indices in the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GovernedBy {
     /// The user: one interaction for all rows.
@@ -62,12 +62,12 @@ pub struct RowInteractions<'a> {
 }
 
 impl<'a> RowInteractions<'a> {
-    /// Interactions of `model` for batches whose column number `label` of labels is `interaction`.
+    /// Interactions of `model` for batches whose label column number `label` is `interaction`.
     pub fn new(model: &'a Model, governed_by: GovernedBy, label: Option<usize>) -> Self {
         Self { model, governed_by, label, known: HashMap::new(), last: None }
     }
 
-    /// The place in the model of the interaction that governs a row; `None` where the row names none the deck has.
+    /// The index in the model of the interaction that governs a row; `None` where the row names none of the deck.
     #[inline]
     pub fn of_row(&mut self, batch: &Batch, row: usize) -> Option<usize> {
         let label = match self.governed_by {
@@ -113,7 +113,7 @@ impl<'a> RowInteractions<'a> {
     }
 }
 
-/// Why a text names no interaction.
+/// Reasons why a text names no interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NameFault {
@@ -150,7 +150,7 @@ pub(crate) fn find_interaction(model: &Model, text: &str) -> Result<usize, NameF
 }
 
 impl NameFault {
-    /// The remedy.
+    /// The help.
     pub fn help(self, model: &Model) -> String {
         match self {
             Self::Unknown => names_help(model),

@@ -20,7 +20,7 @@ use inpact_parser::model::Model;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Decides what an evaluation does.
+/// Makes the plan of an evaluation.
 pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
     let mut interactions = Vec::new();
     let mut unused = Vec::new();

@@ -6,14 +6,14 @@ use super::{ColumnRole, InteractionPlan, Plan, TablePlan};
 use crate::results::{Along, Output, number_text};
 use std::fmt::{self, Formatter};
 
-/// Costs of an evaluation before and after the cuts, and the cuts.
+/// Costs of an evaluation before and after simplification, and the dropped parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
-    /// All that deck and node table allow for.
+    /// Everything that deck and node table allow.
     pub before: Node,
-    /// The tree after the cuts.
+    /// The tree after simplification.
     pub after: Node,
-    /// The cuts, in the order of the tree.
+    /// The dropped parts, in the order of the tree.
     pub cuts: Vec<Cut>,
 }
 
@@ -28,10 +28,10 @@ pub struct Node {
     pub parts: Vec<Node>,
 }
 
-/// Something that was cut.
+/// A dropped part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
-    /// The interaction it is of; `None` for a column of the node table.
+    /// Its interaction; `None` for a column of the node table.
     pub interaction: Option<String>,
     /// Its name.
     pub what: String,
@@ -59,7 +59,7 @@ impl Node {
 }
 
 impl Plan {
-    /// The tree of the evaluation before and after the cuts.
+    /// The tree of the evaluation before and after simplification.
     pub fn outline(&self) -> Outline {
         let mut outline =
             Outline { before: Node::leaf("scene", 0.0), after: Node::leaf("scene", 0.0), cuts: Vec::new() };

@@ -5,12 +5,12 @@ use crate::nodes::Column;
 use crate::results::{Output, number_text};
 use std::fmt;
 
-/// Something an evaluation leaves out.
+/// A part that an evaluation leaves out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
     /// Its name: a law, a table, outputs.
     pub what: String,
-    /// The outputs that go with it, where it is outputs.
+    /// The outputs concerned, where it is outputs.
     pub outputs: Vec<Output>,
     /// Why.
     pub reason: Reason,
@@ -84,14 +84,14 @@ pub enum Reason {
     Folded(f64),
 }
 
-/// Columns of the node table that have no numbers.
+/// Columns of the node table without numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Missing {
     /// The columns.
     pub columns: Vec<Column>,
-    /// A column that would do instead of all of them.
+    /// A column that could replace all of them.
     pub or: Option<Column>,
-    /// Whether they are there, but empty in the rows of the interaction.
+    /// Whether they are present, but empty in the rows of the interaction.
     pub how: Lack,
 }
 

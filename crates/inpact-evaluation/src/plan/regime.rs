@@ -32,7 +32,7 @@ pub enum RegimeReason {
 }
 
 impl RegimeInForce {
-    /// Whether procedures of the deck are of both kinds, of which the last decided for all rows.
+    /// Whether the deck has procedures of both kinds, of which the last decided for all rows.
     pub fn is_disputed(&self) -> bool {
         matches!(self.reason, RegimeReason::Procedure { others, .. } if others > 0)
     }

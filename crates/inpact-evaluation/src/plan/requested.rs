@@ -171,7 +171,7 @@ fn drop_contact_columns(plan: &mut InteractionPlan) {
 }
 
 impl Plan {
-    /// Reports each output that is asked for by name and that no interaction gives (D001).
+    /// Reports each output that is requested by name and that no interaction gives (D001).
     pub fn report_unavailable(&self, choices: &Choices, findings: &mut Findings) {
         for output in choices.outputs.iter().flatten().filter(|output| !self.outputs.contains(output)) {
             let left_out = || self.interactions.iter().flat_map(|interaction| &interaction.left_out);

@@ -3,7 +3,7 @@
 use super::reason::Missing;
 use crate::nodes::Column;
 
-/// Where a quantity comes from, in terms of `C`: [`Column`]s in a plan, places in a batch once it is compiled.
+/// The source of a quantity, in terms of `C`: [`Column`]s in a plan, indices in a batch once it is compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source<C> {
     /// One cell.
@@ -14,7 +14,7 @@ pub enum Source<C> {
     CellOrSides(C, C, C),
 }
 
-/// How far a column has numbers in the rows of an interaction.
+/// The coverage of a column in the rows of an interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Presence {
     /// There is no such column.
@@ -35,7 +35,7 @@ impl Presence {
 }
 
 impl<C: Copy> Source<C> {
-    /// The cells it is made of.
+    /// The cells it consists of.
     pub fn cells(&self) -> impl Iterator<Item = C> {
         let cells = match *self {
             Self::Cell(cell) => [Some(cell), None, None],

@@ -19,9 +19,9 @@ use inpact_parser::model::Model;
 use std::io;
 use std::ops::Range;
 
-/// Reads a node table to its end and says what it holds; `None` when nothing says which interaction governs a row.
+/// Reads a node table to its end and surveys its contents; `None` when the interaction that governs a row is undetermined.
 ///
-/// Takes the rows of the nodes for interleaved: memory grows with the number of nodes that have a history.
+/// Assumes that the rows of nodes are interleaved: memory grows with the number of nodes that have a history.
 ///
 /// # Errors
 /// Those of reading the table.
@@ -34,7 +34,7 @@ pub fn survey(
     survey_rows(reader, model, choices, findings, None)
 }
 
-/// The same, with the rows kept so that the table need not be read again; memory grows with the number of nodes only where their rows do not stand together.
+/// The same, with the rows kept so that the table need not be read again; memory grows with the number of nodes only where their rows are not contiguous.
 ///
 /// # Errors
 /// Those of reading the table and of keeping its rows.

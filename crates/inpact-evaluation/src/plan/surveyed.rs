@@ -5,18 +5,18 @@ use super::source::Presence;
 use crate::kernel::scan;
 use crate::nodes::{Column, Header, HistoryOrder};
 
-/// Findings of the first reading of a node table.
+/// The result of the first pass over a node table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
     /// Its header.
     pub header: Header,
-    /// How many rows it has.
+    /// The number of rows.
     pub rows: u64,
     /// The source of the interaction that governs a row.
     pub governed_by: GovernedBy,
-    /// In which order the rows of the nodes come, as far as it was looked at.
+    /// The order of the rows by node, as far as it was determined.
     pub order: HistoryOrder,
-    /// The columns of numbers that were read: all that some law of the deck could use.
+    /// The columns of numbers that were read: all that any law of the deck could use.
     pub columns: Vec<Column>,
     /// Contents of the rows of each interaction, in the order of the model.
     pub interactions: Vec<InteractionSurvey>,
@@ -25,17 +25,17 @@ pub struct Survey {
 /// Contents of the rows of one interaction.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct InteractionSurvey {
-    /// How many rows it governs.
+    /// The number of rows it governs.
     pub rows: u64,
-    /// How many of them are closed.
+    /// The number of closed rows.
     pub closed: u64,
-    /// How many of them are open; where it cannot be told they are neither.
+    /// The number of open rows; undetermined rows are neither.
     pub open: u64,
-    /// How many of them have a clearance above zero.
+    /// The number of rows with a clearance above zero.
     pub above_zero: u64,
-    /// How many nodes it has, where `node` and `time` are there.
+    /// The number of its nodes, where `node` and `time` are present.
     pub histories: Option<u64>,
-    /// Contents of each of [`Survey::columns`]; empty where no row was met, so that interactions without rows cost nothing.
+    /// Contents of each of [`Survey::columns`]; empty without rows, so that such interactions cost nothing.
     pub columns: Vec<ColumnSurvey>,
 }
 
@@ -49,9 +49,9 @@ impl InteractionSurvey {
 /// Contents of a column of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColumnSurvey {
-    /// How many cells have a number.
+    /// The number of cells with a number.
     pub present: u64,
-    /// How many of these are NaN or infinite.
+    /// The number of these that are NaN or infinite.
     pub non_finite: u64,
     /// The smallest of the finite ones; infinity where there is none.
     pub least: f64,
@@ -78,9 +78,9 @@ impl Default for ColumnSurvey {
 }
 
 impl Survey {
-    /// How far a column has numbers in the rows of interaction number `interaction`.
+    /// The coverage of a column in the rows of interaction number `interaction`.
     ///
-    /// A table without rows has numbers in every column of its header.
+    /// A table without rows counts as having numbers in every column of its header.
     pub fn presence(&self, interaction: usize, column: Column) -> Presence {
         let Some(place) = self.columns.iter().position(|read| *read == column) else { return Presence::Absent };
         let of = &self.interactions[interaction];

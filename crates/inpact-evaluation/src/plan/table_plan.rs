@@ -8,7 +8,7 @@ use crate::nodes::Column;
 use crate::results::Along;
 use crate::table::Tail;
 
-/// The columns that tell clearance, contact pressure and contact, those that have numbers.
+/// The columns of clearance, contact pressure and contact that have numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ContactColumns {
     /// `clearance`.
@@ -17,7 +17,7 @@ pub struct ContactColumns {
     pub pressure: Option<Column>,
     /// `closed`.
     pub closed: Option<Column>,
-    /// The state of every row, where there is only one: then the columns are read for the tables alone.
+    /// The state of all rows, where it is the same: then the columns are read for the tables only.
     pub state: Option<ContactState>,
 }
 
@@ -35,7 +35,7 @@ pub enum History {
 pub struct TablePlan {
     /// The first of its variables.
     pub against: Along,
-    /// How many rows it has.
+    /// The number of rows.
     pub rows: usize,
     /// The continuation beyond its last row.
     pub tail: Tail,
@@ -43,32 +43,32 @@ pub struct TablePlan {
     pub ends_in_zero: bool,
     /// Its variables.
     pub axes: Vec<AxisPlan>,
-    /// How many rows are left of it once it is folded.
+    /// The number of rows after folding.
     pub folded_rows: usize,
-    /// The variables that have one value and along which it could not be folded.
+    /// The variables with a constant value along which it could not be folded.
     pub not_folded: Vec<(Along, Error)>,
-    /// The properties that decide how fast the whole table is evaluated.
+    /// The shape that determines the cost of the whole table.
     pub shape: Shape,
-    /// The form in which it is evaluated; `None` for a table that no row reaches.
+    /// The method by which it is evaluated; `None` for a table that no row reaches.
     pub form: Option<FormPlan>,
 }
 
-/// The form in which a table is evaluated.
+/// The method by which a table is evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormPlan {
-    /// How its values are found.
+    /// The method.
     pub method: Method,
-    /// How exactly they were to be found.
+    /// The requested accuracy.
     pub wanted: Wanted,
-    /// The bound of their error, where there is one.
+    /// The error bound, where there is one.
     pub bound: Option<ErrorBound>,
-    /// A tolerance that the bound is above, as no form keeps it.
+    /// A tolerance that the bound exceeds, as no method meets it.
     pub missed: Option<f64>,
-    /// The cost of a value by the shape of the table, in about a nanosecond.
+    /// The cost of a value by the shape of the table, in units of about a nanosecond.
     pub cost: f64,
     /// The cost by the table's own kernel.
     pub full_cost: f64,
-    /// The other ways that were considered, and why they were not chosen.
+    /// The other methods considered, and why they were not chosen.
     pub refused: Vec<(String, String)>,
     /// The table, folded, ready to be evaluated in that form.
     pub(crate) evaluator: Evaluator,
@@ -77,17 +77,17 @@ pub struct FormPlan {
 /// A variable of a table in use.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisPlan {
-    /// Which one it is.
+    /// The variable.
     pub along: Along,
     /// Its smallest abscissa.
     pub least: f64,
     /// Its largest abscissa.
     pub greatest: f64,
-    /// How many different abscissae there are.
+    /// The number of distinct abscissae.
     pub points: usize,
-    /// Whether the table's value depends on it; otherwise nothing of the node table is read for it.
+    /// Whether the table's value depends on it; otherwise no column of the node table is read for it.
     pub matters: bool,
-    /// Its value in every row, along which the table is folded.
+    /// Its constant value, at which the table is folded.
     pub fold: Option<f64>,
     /// Whether the table no longer depends on it once others are folded.
     pub is_idle: bool,

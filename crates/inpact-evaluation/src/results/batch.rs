@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// Remarks on a row (column `status`).
 ///
-/// In ascending order: of the laws of a row, the gravest status is shown, which is the greatest.
+/// In ascending order of severity: the status of a row is the greatest of those of its laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Status {
     /// Apart, within the tables.
@@ -27,13 +27,13 @@ pub enum Status {
 pub struct ResultBatch {
     /// The columns of numbers.
     pub numbers: Vec<NumberColumn>,
-    /// The status of each row, the gravest of those of its laws; `None` where no law was evaluated or contact cannot be told.
+    /// The status of each row, the most severe of its laws; `None` where no law was evaluated or contact is undetermined.
     pub status: Vec<Option<Status>>,
     /// The status of each row by law.
     pub status_by_law: StatusByLaw,
 }
 
-/// The status of each row by law; `None` where the law was not evaluated or contact cannot be told.
+/// The status of each row by law; `None` where the law was not evaluated or contact is undetermined.
 #[derive(Debug, Clone, Default)]
 pub struct StatusByLaw {
     /// Of the electrical law.
@@ -45,7 +45,7 @@ pub struct StatusByLaw {
 }
 
 impl ResultBatch {
-    /// Makes it a batch of so many rows and columns without a number.
+    /// Resets it to this number of rows and columns, without numbers.
     pub fn reset(&mut self, rows: usize, columns: usize) {
         self.reset_numbers(rows, columns);
         self.reset_statuses(rows);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// How a result table is stored.
+/// The format of a result table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum TableFormat {
@@ -16,7 +16,7 @@ pub enum TableFormat {
 }
 
 impl TableFormat {
-    /// The format that the extension of a file's name stands for, in any case; `None` for any other.
+    /// The format of a file name extension, in any case; `None` for any other.
     pub fn of_extension(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_ascii_lowercase();
         match extension.to_str()? {

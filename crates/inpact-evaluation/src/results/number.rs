@@ -4,7 +4,7 @@ use std::io::Write;
 
 /// Adds a number in the shortest form that reads back to the same f64: `20`, `0.05`, `1e-7`, `-0`, `inf`, `NaN`.
 ///
-/// It turns to an exponent below 1e-4 and from 1e16 on, where digits would be many.
+/// Numbers below 1e-4 and from 1e16 on have an exponent.
 #[inline]
 pub fn push_number(text: &mut Vec<u8>, value: f64) {
     if !value.is_finite() {
@@ -47,7 +47,7 @@ fn push_small(text: &mut Vec<u8>, printed: &[u8]) {
     let _ = write!(text, "e-{}", zeros + 1);
 }
 
-/// A bound in two digits, never below it: `6.7e-16`.
+/// A bound in two digits, rounded up: `6.7e-16`.
 pub fn rounded_up(bound: f64) -> String {
     let text = format!("{bound:.1e}");
     let is_below = text.parse().is_ok_and(|shown: f64| shown < bound);

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// A column of the result table besides the key columns, which are those of the node table.
 ///
-/// Abaqus' own identifiers are in capitals, everything else in lower case; the order is that of the columns.
+/// Abaqus' own identifiers are in capitals, all others in lower case; the order is that of the columns.
 /// Signs and units: semantics section 6 and 3.6.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
@@ -95,7 +95,7 @@ pub enum Output {
     PermeabilitySlope(Along),
 }
 
-/// Along which variable of a table a slope is taken.
+/// The variable of a table along which a slope is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Along {
@@ -167,7 +167,7 @@ impl Output {
         matches!(self, Self::ConductanceSlope(_) | Self::ThermalConductanceSlope(_) | Self::PermeabilitySlope(_))
     }
 
-    /// The output of a name, blanks around it and case aside; `None` where there is none.
+    /// The output of a name, ignoring case and blanks around it; `None` where there is none.
     pub fn named(name: &str) -> Option<Self> {
         let name = name.trim().to_ascii_lowercase();
         let slope = |prefix, of: fn(Along) -> Self| Some(of(Along::named(name.strip_prefix(prefix)?)?));

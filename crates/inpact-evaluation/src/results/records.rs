@@ -34,7 +34,7 @@ impl ResultRecords {
         Self { keys: keys.to_vec(), outputs: outputs.to_vec(), schema: None, given: Given::default() }
     }
 
-    /// The rows of a batch with their results, whose numbers are taken out and not copied.
+    /// The rows of a batch with their results, whose numbers are moved, not copied.
     ///
     /// # Errors
     /// A key that its column cannot hold.

@@ -113,7 +113,7 @@ impl<'a> ResultWriter<'a> {
         }
     }
 
-    /// Writes the rows of a batch with their results; threads share the work where feature `threads` is on.
+    /// Writes the rows of a batch with their results, on several threads where feature `threads` is on.
     ///
     /// # Errors
     /// Those of writing.
@@ -139,7 +139,7 @@ impl<'a> ResultWriter<'a> {
         Ok(())
     }
 
-    /// Writes what the table ends with; gives how many rows were written.
+    /// Writes the end of the table; returns the number of rows written.
     ///
     /// # Errors
     /// Those of writing.
@@ -152,7 +152,7 @@ impl<'a> ResultWriter<'a> {
         Ok(self.rows_written)
     }
 
-    /// How many rows were written.
+    /// The number of rows written.
     pub fn rows_written(&self) -> u64 {
         self.rows_written
     }

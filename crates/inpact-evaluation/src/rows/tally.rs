@@ -21,7 +21,7 @@ pub(crate) const VIEW_FACTOR: usize = 5;
 /// Counts over all rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tally {
-    /// How many rows came in.
+    /// The number of input rows.
     pub rows: u64,
     /// The counts of each interaction of the model, in its order.
     pub interactions: Vec<InteractionTally>,
@@ -31,7 +31,7 @@ pub struct Tally {
     pub user_faults: Vec<UserFaultInRow>,
 }
 
-/// A row in which a user's routine gave what is no conductance.
+/// A row in which a user's routine gave an invalid conductance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UserFaultInRow {
     /// Where it is.
@@ -43,57 +43,57 @@ pub struct UserFaultInRow {
 /// Counts over the rows of one interaction.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct InteractionTally {
-    /// How many rows it governs.
+    /// The number of rows it governs.
     pub rows: u64,
-    /// How many are closed, as far as the columns tell that its laws read; the plan counts with all there are.
+    /// The number of closed rows, by the columns that its laws read; the plan counts with all columns.
     pub closed: u64,
-    /// How many are open.
+    /// The number of open rows.
     pub open: u64,
-    /// How many have status `beyond_table` by one of their laws.
+    /// The number of rows with status `beyond_table` by one of their laws.
     pub beyond_table: u64,
-    /// How many have status `cutoff` by one of their laws.
+    /// The number of rows with status `cutoff` by one of their laws.
     pub cutoff: u64,
-    /// How many have status `constrained` by one of their laws.
+    /// The number of rows with status `constrained` by one of their laws.
     pub constrained: u64,
-    /// How many lack a number that a law needs.
+    /// The number of rows that lack a number needed by a law.
     pub incomplete: u64,
-    /// How many have a conductance, but no jump of potential.
+    /// The number of rows with a conductance, but no jump of potential.
     pub incomplete_flows: u64,
-    /// How many lack the characteristic element length where it decides.
+    /// The number of rows that lack the characteristic element length where it decides.
     pub needs_length: u64,
-    /// How many have a jump of potential below 1e-8 of the potentials it is the difference of.
+    /// The number of rows whose jump of potential is below 1e-8 of the potentials from which it is computed.
     pub lost_digits: u64,
-    /// How many have a node label that is no number, for a user's routine that is called with one.
+    /// The number of rows whose node label is not a number, for a user's routine that is called with one.
     pub unnumbered_nodes: u64,
     /// The sums over its rows of the latest time.
     pub totals: Totals,
     /// The largest error of its conductances in a sample of rows.
     pub seen_error: SeenError,
-    /// How many have no conductance because a user's routine gave none.
+    /// The number of rows without a conductance because a user's routine gave none.
     pub user_faults: u64,
-    /// How many lack a number that the heat at the interface depends on.
+    /// The number of rows that lack a number on which the heat at the interface depends.
     pub incomplete_heat: u64,
-    /// How many lie outside the curves of CalculiX, or outside the pressures that two neighbouring curves share.
+    /// The number of rows outside the curves of CalculiX, or outside the pressures common to two neighbouring curves.
     pub beyond_curves: u64,
-    /// How many have a temperature below absolute zero.
+    /// The number of rows with a temperature below absolute zero.
     pub below_absolute_zero: u64,
-    /// How many have shear and slip rate of opposite signs, and so a heat of friction below zero.
+    /// The number of rows with shear and slip rate of opposite signs, and so a negative heat of friction.
     pub negative_friction: u64,
-    /// Those that take the jump of an open circuit into the heat of the increment that closes it (D022).
+    /// Rows that include the jump of an open circuit in the heat of the increment that closes it (D022).
     pub closing: RemarkedRows,
-    /// Those whose given rate contradicts the change of their clearance (D021).
+    /// Rows whose given rate contradicts the change of their clearance (D021).
     pub contradictory_rates: RemarkedRows,
     /// For each table the rows outside its range along each axis: conductance against clearance, against pressure, permeability,
     /// thermal conductance against clearance, against pressure, view factor.
     pub axes: [Vec<AxisTally>; 6],
 }
 
-/// Rows of which something is to be said, and what of the first of them.
+/// Rows with a remark: their number and the remark on the first of them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RemarkedRows {
-    /// How many there are.
+    /// The number of rows.
     pub rows: u64,
-    /// Where the first is, and what is to be said of it.
+    /// The first row and the remark on it.
     pub first: Option<(Place, String)>,
 }
 

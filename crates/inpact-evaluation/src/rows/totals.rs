@@ -13,7 +13,7 @@ use std::ops::Range;
 pub struct Totals {
     /// The time of the rows; `None` where they have none.
     pub time: Option<f64>,
-    /// How many rows were added up: those that have one of the outputs.
+    /// The number of rows summed: those that have one of the outputs.
     pub rows: u64,
     sums: Vec<UnboundedSum>,
 }
@@ -96,7 +96,7 @@ impl Totals {
         self.rows += u64::from(has_number);
     }
 
-    /// The sums, in the order of the outputs that are added up.
+    /// The sums, in the order of the outputs.
     pub fn values(&self) -> impl Iterator<Item = f64> {
         self.sums.iter().map(UnboundedSum::total)
     }

@@ -9,7 +9,7 @@ impl PiecewiseTable {
     /// Builds a table from `cells`, rows of `width` numbers each: the value, then axis 0 (fastest) to the last axis (slowest).
     ///
     /// # Errors
-    /// The first row that breaks the order (T-08, T-09: an abscissa that does not rise while all outer ones stand still, or an outer one that falls),
+    /// The first row that violates the order (T-08, T-09: an abscissa that does not increase while all outer ones are constant, or an outer one that decreases),
     /// holds a number that is not finite, or is incomplete. Abscissae are compared as numbers (T-10).
     ///
     /// # Example

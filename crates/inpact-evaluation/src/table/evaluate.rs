@@ -20,7 +20,7 @@ pub(super) enum Place {
 }
 
 impl PiecewiseTable {
-    /// The value at `point`, one coordinate an axis.
+    /// The value at `point`, one coordinate per axis.
     ///
     /// A coordinate that is NaN or missing gives NaN, unless the table does not depend on that axis; infinities are beyond the range.
     #[inline]
@@ -29,7 +29,7 @@ impl PiecewiseTable {
         self.value_at(first, others)
     }
 
-    /// [`Self::value`] with the coordinate of axis 0 apart from the others.
+    /// [`Self::value`] with the coordinate of axis 0 separate from the others.
     pub fn value_at(&self, first: f64, others: &[f64]) -> f64 {
         self.evaluate(&mut Plain, Point { first, others }).unwrap_or(f64::NAN)
     }
@@ -62,7 +62,7 @@ impl PiecewiseTable {
         self.value_at(first, others)
     }
 
-    /// The slope along `axis` (semantics 4.4): that of the segment which holds the point, the right-hand one at a knot, zero outside and at the last knot.
+    /// The slope along `axis` (semantics 4.4): that of the segment which contains the point, the right-hand one at a knot, zero outside and at the last knot.
     ///
     /// Across outer axes it is interpolated as values are; the slope along an outer axis is that between the interpolated values of the two groups.
     /// NaN where a coordinate the table depends on is NaN; infinite where the slope exceeds the range of f64.
@@ -87,7 +87,7 @@ impl PiecewiseTable {
         }
     }
 
-    /// The value at a point to 2⁻⁹⁸ of the exact one for values of one sign, otherwise of the largest that take part in it.
+    /// The value at a point to within 2⁻⁹⁸ of the exact one for values of one sign, otherwise of the largest value involved.
     ///
     /// `first` is the coordinate of axis 0, `others` are those of the following axes.
     /// `None` where a coordinate the value depends on is NaN or missing; infinities are beyond the range, as in [`Self::value_at`].

@@ -18,8 +18,8 @@ const MOST_ROWS: usize = 1 << 20;
 impl PiecewiseTable {
     /// The table for a finite coordinate `at` along `axis`, as a table with the same axes that no longer depends on that one.
     ///
-    /// At every point its value is that of the whole table within half an ulp more than the bound of the axes that are left,
-    /// and exact where the whole table's is a row's value; a point counts as outside ([`Sides`]) exactly where it did.
+    /// At every point its value is that of the original table to within half an ulp more than the bound of the remaining axes,
+    /// and exact where the original value is a row's value; a point counts as outside ([`Sides`]) exactly where it did.
     /// Slopes are those of the folded table, whose values are rounded.
     ///
     /// # Errors

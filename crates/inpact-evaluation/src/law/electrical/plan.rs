@@ -24,15 +24,15 @@ const KEYWORD: &str = OptionKind::GapElectricalConductance.keyword();
 pub struct ElectricalPlan {
     /// Steady state or transient, and why.
     pub regime: RegimeInForce,
-    /// The tables that rows reach; none where a user's routine gives the conductance.
+    /// The tables that rows reach; `None` where a user's routine gives the conductance.
     pub tables: Vec<TablePlan>,
     /// The arguments of a user's routine, where it gives the conductance.
     pub user: Option<UserPlan>,
     /// Conversion of the dissipated energy into heat; `None` where a user subroutine of the interaction switches it off (K-05).
     pub heat: Option<HeatGeneration>,
-    /// Where average temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one.
+    /// Sources of average temperature and field variables, in the order of the tables' columns; `None` where no table in use depends on one.
     pub variables: Vec<Option<Source<Column>>>,
-    /// Where the jump of potential comes from.
+    /// The source of the jump of potential.
     pub jump: Option<Source<Column>>,
     /// `area`, where the results need it and it has numbers.
     pub area: Option<Column>,

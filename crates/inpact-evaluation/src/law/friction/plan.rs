@@ -11,15 +11,15 @@ use inpact_parser::model::{Interaction, OptionKind};
 /// The plan of the heat of friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionPlan {
-    /// Whose law it is: CalculiX takes shear and slip rate by their magnitudes.
+    /// The dialect: CalculiX uses the magnitudes of shear and slip rate.
     pub dialect: Dialect,
     /// `shear`.
     pub shear: Column,
-    /// Where the slip rate comes from.
+    /// The source of the slip rate.
     pub slip_rate: SlipRateSource,
 }
 
-/// Where a slip rate comes from.
+/// Sources of a slip rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SlipRateSource {
     /// `slip_rate`.

@@ -26,13 +26,13 @@ pub struct PorePlan {
     pub cutoffs: Cutoffs,
     /// Pore pressures of slave and master, where they have numbers.
     pub pressures: Option<[Column; 2]>,
-    /// Where average temperature and field variables come from, in the order of the table's columns; `None` where it does not depend on one.
+    /// Sources of average temperature and field variables, in the order of the table's columns; `None` where it does not depend on one.
     pub variables: Vec<Option<Source<Column>>>,
-    /// `por_jump`, where it has numbers: it is taken instead of the difference of the pore pressures.
+    /// `por_jump`, where it has numbers: it is used instead of the difference of the pore pressures.
     pub jump: Option<Column>,
-    /// `q_across`, where it has numbers and the permeability is infinite: the solution of the equations that the flow is an unknown of.
+    /// `q_across`, where it has numbers and the permeability is infinite: the flow from a solution of the equations in which it is an unknown.
     pub across: Option<Column>,
-    /// Where the characteristic element length comes from.
+    /// The source of the characteristic element length.
     pub characteristic_length: CharacteristicLength,
     /// Where the rate of the clearance comes from.
     pub rate: Rate,

@@ -18,22 +18,22 @@ use inpact_parser::model::OptionKind;
 /// The plan of conduction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConductionPlan {
-    /// Whose law it is.
+    /// The dialect of the law.
     pub dialect: Dialect,
     /// The tables that rows reach.
     pub tables: Vec<TablePlan>,
-    /// Where mean temperature and field variables come from, in the order of the tables' columns; `None` where no table in use depends on one, and for the mass flow rate.
+    /// Sources of mean temperature and field variables, in the order of the tables' columns; `None` where no table in use depends on one, and for the mass flow rate.
     pub variables: Vec<Option<Source<Column>>>,
-    /// Where the mean mass flow rate comes from, if a table in use depends on it.
+    /// The source of the mean mass flow rate, if a table in use depends on it.
     pub mass_flow: Option<MassFlow<Column>>,
 }
 
-/// Where the mean of the magnitudes of the mass flow rates comes from, in terms of `C` as [`Source`] has it; at least one is there.
+/// Sources of the mean of the magnitudes of the mass flow rates, in terms of `C` as in [`Source`]; at least one is present.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MassFlow<C> {
-    /// The mean itself; where its cell has a number it is taken.
+    /// The mean itself, which takes precedence where its cell has a number.
     pub mean: Option<C>,
-    /// The rate of the slave; a side without one counts as standing still (K-32).
+    /// The rate of the slave; a side without one counts as at rest (K-32).
     pub slave: Option<C>,
     /// The rate of the master.
     pub master: Option<C>,

@@ -42,7 +42,7 @@ pub struct ThermalPlan {
     pub heat: Option<HeatGeneration>,
     /// Temperatures of slave and master, where they have numbers.
     pub temperatures: Option<[Column; 2]>,
-    /// `temp_jump`, where it has numbers: it is taken instead of their difference.
+    /// `temp_jump`, where it has numbers: it is used instead of their difference.
     pub jump: Option<Column>,
     /// `area`, where it has numbers.
     pub area: Option<Column>,

@@ -18,9 +18,9 @@ use std::collections::BTreeSet;
 pub struct UserPlan {
     /// The names of the interaction and its surfaces.
     pub names: UserNames,
-    /// Where the temperatures of the two sides come from.
+    /// Sources of the temperatures of the two sides.
     pub temperatures: Source<Column>,
-    /// Where field variables come from, from number 1 on; NPRED is how many there are.
+    /// Sources of field variables, from number 1 on; NPRED is their number.
     pub field_variables: Vec<Source<Column>>,
     /// Coordinates, times, step and increment, as far as they have numbers.
     pub others: Vec<Column>,
