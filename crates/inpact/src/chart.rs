@@ -28,8 +28,6 @@ pub(crate) struct Chart {
     pub(crate) vertical: Vec<(f64, String)>,
     /// Lines of one y, each with what it means.
     pub(crate) horizontal: Vec<(f64, String)>,
-    /// The meaning of the joined points.
-    pub(crate) front_title: String,
     /// Small print below.
     pub(crate) footnote: String,
 }
@@ -63,6 +61,9 @@ const BOTTOM: f64 = 496.0;
 
 /// The size of the font of labels.
 const SIZE: f64 = 13.0;
+
+/// The meaning of the joined points.
+const FRONT: &str = "Pareto front";
 
 /// About how wide a letter is, as a part of the size of its font.
 const LETTER: f64 = 0.58;
@@ -183,10 +184,10 @@ impl Chart {
             drawing.text(at, &point.label, "label", anchor);
         }
         let marked = self.points.iter().any(|point| point.on_front);
-        if marked && !self.front_title.is_empty() {
-            let x = RIGHT - width(&self.front_title, SIZE) - 28.0;
+        if marked {
+            let x = RIGHT - width(FRONT, SIZE) - 28.0;
             drawing.circle((x, 54.0), 5.5, "best");
-            drawing.text((x + 12.0, 58.5), &self.front_title, "note", "start");
+            drawing.text((x + 12.0, 58.5), FRONT, "note", "start");
         }
     }
 }

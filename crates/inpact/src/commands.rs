@@ -20,6 +20,7 @@ pub(crate) mod shell;
 pub(crate) mod solve;
 pub(crate) mod tradeoff;
 
+mod choice;
 mod decks;
 mod drawing;
 pub(crate) mod evaluable;

@@ -222,7 +222,6 @@ mod tests {
                 .into(),
             vertical: vec![(2.0, "v".to_owned())],
             horizontal: vec![(2.0, "h".to_owned())],
-            front_title: "f".to_owned(),
             footnote: "n".to_owned(),
         };
         let svg = chart.svg();

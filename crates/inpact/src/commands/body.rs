@@ -4,6 +4,7 @@ mod scene;
 mod text;
 mod value;
 
+use super::choice::{Choice, one_of};
 use super::findings::{Messages, with_messages};
 use super::joule_heat::JouleHeats;
 use super::meshed::MeshedDeck;
@@ -34,8 +35,8 @@ pub(crate) struct BodyArguments {
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     temperature: Option<f64>,
     /// What is conducted; unless given, all that a material of the bodies has a conductivity for.
-    #[arg(long, value_enum)]
-    field: Option<Fields>,
+    #[arg(long, value_parser = one_of(&FIELDS))]
+    field: Option<&'static [BodyField]>,
     #[command(flatten)]
     reading: DeckArguments,
     /// How to print the conductances.
@@ -49,15 +50,11 @@ pub(crate) struct BodyArguments {
     output: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Fields {
-    /// Heat, by *CONDUCTIVITY.
-    Thermal,
-    /// Current, by *ELECTRICAL CONDUCTIVITY.
-    Electrical,
-    /// Both.
-    Both,
-}
+const FIELDS: [Choice<&[BodyField]>; 3] = [
+    ("thermal", &[BodyField::Thermal], "Heat, by *CONDUCTIVITY"),
+    ("electrical", &[BodyField::Electrical], "Current, by *ELECTRICAL CONDUCTIVITY"),
+    ("both", &[BodyField::Electrical, BodyField::Thermal], "Both"),
+];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BodyFormat {
@@ -107,12 +104,7 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     if meshed.say_findings(&BESIDE_BODIES, body.left_out(), (messages, &settings))? {
         return Ok(Outcome::HasErrors);
     }
-    let mut fields = match arguments.field {
-        Some(Fields::Thermal) => vec![BodyField::Thermal],
-        Some(Fields::Electrical) => vec![BodyField::Electrical],
-        Some(Fields::Both) => vec![BodyField::Electrical, BodyField::Thermal],
-        None => body.fields(),
-    };
+    let mut fields = arguments.field.map_or_else(|| body.fields(), <[_]>::to_vec);
     if fields.is_empty() {
         // Every material says why it conducts no heat either.
         fields.push(BodyField::Thermal);

@@ -6,7 +6,8 @@ mod report;
 
 use self::geometry::Geometry;
 use self::measure::{Comparison, Quantity, RowsOf};
-use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice, tolerance};
+use super::choice::one_of;
+use super::evaluable::{Evaluable, EvaluableArguments, HISTORY_STARTS, tolerance};
 use super::findings::{Messages, PrintedAs};
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
@@ -17,8 +18,8 @@ use crate::settings::DeckArguments;
 use clap::Args;
 use inpact_diagnostics::Findings;
 use inpact_diagnostics::visible::{visible, visible_json};
-use inpact_evaluation::Evaluation;
 use inpact_evaluation::results::Output;
+use inpact_evaluation::{Evaluation, HistoryStart};
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
@@ -39,8 +40,8 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_enum, default_value_t = PrintedAs::Text)]
     format: PrintedAs,
     /// Where the histories of nodes start: at time 0 without a jump of potential, or at the first state of the results, whose integrals are 0 then.
-    #[arg(long, value_enum, default_value_t = HistoryStartChoice::AtRest)]
-    history_start: HistoryStartChoice,
+    #[arg(long, value_parser = one_of(&HISTORY_STARTS), default_value = "at-rest")]
+    history_start: HistoryStart,
     #[command(flatten)]
     laws: LawArguments,
     #[command(flatten)]

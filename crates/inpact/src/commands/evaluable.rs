@@ -1,5 +1,6 @@
 //! A deck and a node table that can be evaluated, with the user's choices: shared by `eval`, `plan` and `tradeoff`.
 
+use super::choice::{Choice, one_of};
 use super::findings::{Messages, Reporter};
 use super::job_results::{RESULTS_HELP, states};
 use super::laws::LawArguments;
@@ -11,7 +12,7 @@ use crate::files::{self, STANDARD_STREAM};
 use crate::settings::{DeckArguments, Settings};
 use crate::text::above_zero;
 use crate::threads::with_threads;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_contact::Joined;
 use inpact_diagnostics::{Diagnostic, Extent, Findings, keep_lines};
 use inpact_evaluation::nodes::{COLUMN_PAGES, KeptRows, MakeSpillFile, NodeReader, locate};
@@ -48,17 +49,17 @@ pub(crate) struct EvaluableArguments {
     #[arg(long, value_name = "NAME")]
     interaction: Option<String>,
     /// Steady state or transient, instead of what the deck's procedures say.
-    #[arg(long, value_enum)]
-    procedure: Option<Procedure>,
+    #[arg(long, value_parser = one_of(&PROCEDURES))]
+    procedure: Option<Regime>,
     /// Where the histories of nodes start: at the first row of each, or at time 0 without a jump of potential, so that a first row later than that ends an increment.
-    #[arg(long, value_enum, default_value_t = HistoryStartChoice::FirstRow)]
-    history_start: HistoryStartChoice,
+    #[arg(long, value_parser = one_of(&HISTORY_STARTS), default_value = "first-row")]
+    history_start: HistoryStart,
     /// Use so many threads, instead of all cores; the results are the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// How exactly the values of tables are found.
-    #[arg(long, value_enum, default_value_t = AccuracyChoice::Full)]
-    accuracy: AccuracyChoice,
+    #[arg(long, value_parser = one_of(&ACCURACIES), default_value = "full")]
+    accuracy: Accuracy,
     /// The error that is acceptable, as a part of the largest value of a table: each is evaluated in the cheapest way whose bound is within it.
     #[arg(long, value_name = "X", value_parser = tolerance, conflicts_with = "accuracy")]
     tolerance: Option<f64>,
@@ -73,31 +74,27 @@ pub(crate) struct EvaluableArguments {
     derivatives: bool,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Procedure {
-    Steady,
-    Transient,
-}
+const PROCEDURES: [Choice<Regime>; 2] = [("steady", Regime::SteadyState, ""), ("transient", Regime::Transient, "")];
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum HistoryStartChoice {
-    /// At its first row: its integrals are 0 there, and its own jump and clearance are those of the start.
-    #[default]
-    FirstRow,
-    /// At time 0, without a jump of potential and with the clearance of its first row.
-    AtRest,
-}
+/// Starts of the histories of nodes.
+pub(crate) const HISTORY_STARTS: [Choice<HistoryStart>; 2] = [
+    (
+        "first-row",
+        HistoryStart::FirstRow,
+        "At its first row: its integrals are 0 there, and its own jump and clearance are those of the start",
+    ),
+    (
+        "at-rest",
+        HistoryStart::AtRest { time: 0.0 },
+        "At time 0, without a jump of potential and with the clearance of its first row",
+    ),
+];
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum AccuracyChoice {
-    /// In twice the precision of f64, rounded once.
-    Reference,
-    /// In f64, within two units in the last place an axis.
-    #[default]
-    Full,
-    /// In the cheapest form whose error bound is within 1e-4 of the largest value.
-    Fast,
-}
+const ACCURACIES: [Choice<Accuracy>; 3] = [
+    ("reference", Accuracy::Reference, "In twice the precision of f64, rounded once"),
+    ("full", Accuracy::Full, "In f64, within two units in the last place an axis"),
+    ("fast", Accuracy::Fast, "In the cheapest form whose error bound is within 1e-4 of the largest value"),
+];
 
 /// A node table that can be evaluated, with its deck and plan.
 pub(crate) struct Evaluable {
@@ -149,7 +146,7 @@ impl EvaluableArguments {
     }
 
     /// Everything that a deck and the results of its job give, in full accuracy.
-    pub(crate) fn of_results(deck: PathBuf, results: Vec<PathBuf>, history_start: HistoryStartChoice) -> Self {
+    pub(crate) fn of_results(deck: PathBuf, results: Vec<PathBuf>, history_start: HistoryStart) -> Self {
         Self { deck, results, history_start, ..Self::default() }
     }
 
@@ -249,20 +246,13 @@ impl EvaluableArguments {
     }
 
     fn choices(&self, laws: &LawArguments, model: &Model, dialect: Dialect) -> Result<Choices, Failure> {
-        let regime = self.procedure.map(|procedure| match procedure {
-            Procedure::Steady => Regime::SteadyState,
-            Procedure::Transient => Regime::Transient,
-        });
         Ok(Choices {
             interaction: self.interaction.as_deref().map(Name::new),
             derivatives: self.derivatives(),
             accuracy: self.accuracy(),
             outputs: self.outputs.clone(),
-            history_start: match self.history_start {
-                HistoryStartChoice::FirstRow => HistoryStart::FirstRow,
-                HistoryStartChoice::AtRest => HistoryStart::AtRest { time: 0.0 },
-            },
-            ..laws.choices(model, dialect, regime)?
+            history_start: self.history_start,
+            ..laws.choices(model, dialect, self.procedure)?
         })
     }
 
@@ -270,11 +260,7 @@ impl EvaluableArguments {
         match (self.tolerance, self.tolerance_relative) {
             (Some(tolerance), _) => Wanted::Within(Tolerance::RelativeToLargest(tolerance)),
             (None, Some(tolerance)) => Wanted::Within(Tolerance::Pointwise(tolerance)),
-            (None, None) => Wanted::Mode(match self.accuracy {
-                AccuracyChoice::Reference => Accuracy::Reference,
-                AccuracyChoice::Full => Accuracy::Full,
-                AccuracyChoice::Fast => Accuracy::Fast,
-            }),
+            (None, None) => Wanted::Mode(self.accuracy),
         }
     }
 

@@ -1,10 +1,11 @@
 //! Options of laws, for every command that evaluates them.
 
+use super::choice::{Choice, one_of};
 use crate::failure::{Failure, say};
 use crate::files;
 use crate::text::above_zero;
 use crate::user_library;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_evaluation::law::{CutoffBoundary, UserLaw};
 use inpact_evaluation::plan::Choices;
 use inpact_evaluation::table::Tail;
@@ -15,14 +16,14 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub(crate) struct LawArguments {
     /// What follows the last point of conductance against clearance: the manual's text or its figure.
-    #[arg(long, value_enum, default_value_t = ClearanceTail::Constant)]
-    clearance_tail: ClearanceTail,
+    #[arg(long, value_parser = one_of(&TAILS), default_value = "constant")]
+    clearance_tail: Tail,
     /// The characteristic element length of all rows, the default of both cutoffs of pore fluid flow.
     #[arg(long, value_name = "X", value_parser = |text: &str| above_zero(text, "a length"))]
     char_length: Option<f64>,
     /// Whether pore fluid flows at the very cutoff.
-    #[arg(long, value_enum, default_value_t = Boundary::Inclusive)]
-    cutoff_boundary: Boundary,
+    #[arg(long, value_parser = one_of(&BOUNDARIES), default_value = "inclusive")]
+    cutoff_boundary: CutoffBoundary,
     /// A shared library with the user subroutine GAPELECTR, compiled with
     /// `gfortran -shared -fPIC -o gapelectr.so gapelectr.f`, for *GAP ELECTRICAL CONDUCTANCE, USER.
     ///
@@ -34,21 +35,15 @@ pub(crate) struct LawArguments {
     user_library: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ClearanceTail {
-    /// The last value, as the text of the manual has it.
-    Constant,
-    /// Zero, as its figure has it.
-    Zero,
-}
+const TAILS: [Choice<Tail>; 2] = [
+    ("constant", Tail::Constant, "The last value, as the text of the manual has it"),
+    ("zero", Tail::Zero, "Zero, as its figure has it"),
+];
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Boundary {
-    /// It does, as the user's guide has it.
-    Inclusive,
-    /// It does not, as the theory guide has it.
-    Exclusive,
-}
+const BOUNDARIES: [Choice<CutoffBoundary>; 2] = [
+    ("inclusive", CutoffBoundary::Inclusive, "It does, as the user's guide has it"),
+    ("exclusive", CutoffBoundary::Exclusive, "It does not, as the theory guide has it"),
+];
 
 impl LawArguments {
     /// The choices for the laws of a deck.
@@ -58,15 +53,9 @@ impl LawArguments {
     pub(crate) fn choices(&self, model: &Model, dialect: Dialect, regime: Option<Regime>) -> Result<Choices, Failure> {
         Ok(Choices {
             regime,
-            clearance_tail: match self.clearance_tail {
-                ClearanceTail::Constant => Tail::Constant,
-                ClearanceTail::Zero => Tail::Zero,
-            },
+            clearance_tail: self.clearance_tail,
             characteristic_length: self.char_length,
-            cutoff_boundary: match self.cutoff_boundary {
-                Boundary::Inclusive => CutoffBoundary::Inclusive,
-                Boundary::Exclusive => CutoffBoundary::Exclusive,
-            },
+            cutoff_boundary: self.cutoff_boundary,
             dialect,
             user_conductance: self.user_conductance(model)?,
             ..Choices::default()

@@ -1,5 +1,6 @@
 //! `inpact plot`: decks in, the curves of their laws out.
 
+use super::choice::{Choice, one_of};
 use super::drawing::DrawingFormat;
 use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::Messages;
@@ -14,7 +15,7 @@ use crate::files;
 use crate::input::ReadDeck;
 use crate::report;
 use crate::settings::{DeckArguments, Settings};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{Model, Name};
 use inpact_validation::Diagnostic;
@@ -31,8 +32,8 @@ pub(crate) struct PlotArguments {
     #[arg(short, long, value_name = "FILE", value_parser = picture)]
     output: Option<Picture>,
     /// Which axes are logarithmic; that of the values where none is named.
-    #[arg(long, value_enum, value_name = "AXES", num_args = 0..=1, require_equals = true, default_missing_value = "y")]
-    log: Option<LogAxes>,
+    #[arg(long, value_parser = one_of(&LOGARITHMIC_AXES), value_name = "AXES", num_args = 0..=1, require_equals = true, default_missing_value = "y")]
+    log: Option<Scales>,
     /// Draw the rows of a node table on the curves, with their histograms and the share that is beyond the tables.
     #[arg(long, value_name = "TABLE")]
     nodes: Option<PathBuf>,
@@ -62,15 +63,11 @@ pub(crate) struct DrawingArguments {
     units: Units,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LogAxes {
-    /// That of the values.
-    Y,
-    /// Those of clearance and contact pressure.
-    X,
-    /// All.
-    Xy,
-}
+const LOGARITHMIC_AXES: [Choice<Scales>; 3] = [
+    ("y", Scales { x: ScaleKind::Linear, y: ScaleKind::Logarithmic }, "That of the values"),
+    ("x", Scales { x: ScaleKind::Logarithmic, y: ScaleKind::Linear }, "Those of clearance and contact pressure"),
+    ("xy", Scales { x: ScaleKind::Logarithmic, y: ScaleKind::Logarithmic }, "All"),
+];
 
 #[derive(Debug, Clone)]
 struct Picture {
@@ -133,6 +130,7 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
     files::refuse_second_stream(&arguments.decks)?;
     files::name_as_inputs(&arguments.decks);
     let target = arguments.output.as_ref().map(|picture| picture.path.as_path());
+    let scales = arguments.log.unwrap_or(Scales::LINEAR);
     files::check_targets(&[target])?;
     if arguments.nodes.is_some() && 1 < arguments.decks.len() {
         return Err(Failure::Usage("`--nodes` is for one deck".to_owned()));
@@ -155,14 +153,14 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
     files::check_targets(&[target])?;
     match &arguments.output {
         None => {
-            let text = terminal::text(&figures, scales(arguments));
+            let text = terminal::text(&figures, scales);
             files::write_result(None, text.as_bytes())?;
         }
         Some(picture) => {
             figures.iter().flat_map(|figure| &figure.notes).for_each(|note| say(&format!("note: {note}")));
             let bytes = match picture.kind {
                 PictureKind::Page => report::page_of_curves(&figures).into_bytes(),
-                PictureKind::Drawing(format) => format.bytes(sheet::svg(&figures, scales(arguments)))?,
+                PictureKind::Drawing(format) => format.bytes(sheet::svg(&figures, scales))?,
             };
             files::write_result(Some(&picture.path), &bytes)?;
         }
@@ -194,7 +192,7 @@ fn figures(
     decks: &[DrawnDeck],
     nodes: Option<&(Gathered, Evaluable)>,
 ) -> Result<Vec<Figure>, Failure> {
-    let scales = scales(arguments);
+    let scales = arguments.log.unwrap_or(Scales::LINEAR);
     let detail = match scales {
         Scales { x: ScaleKind::Linear, y: ScaleKind::Linear } => Detail::Rows,
         Scales { x: ScaleKind::Linear, .. } => Detail::Even(ON_LOGARITHMIC),
@@ -231,16 +229,6 @@ fn figures(
         }
     }
     Ok(figures)
-}
-
-fn scales(arguments: &PlotArguments) -> Scales {
-    let (x, y) = match arguments.log {
-        None => (ScaleKind::Linear, ScaleKind::Linear),
-        Some(LogAxes::Y) => (ScaleKind::Linear, ScaleKind::Logarithmic),
-        Some(LogAxes::X) => (ScaleKind::Logarithmic, ScaleKind::Linear),
-        Some(LogAxes::Xy) => (ScaleKind::Logarithmic, ScaleKind::Logarithmic),
-    };
-    Scales { x, y }
 }
 
 /// The reason why there is no curve at all.

@@ -1,7 +1,7 @@
 //! `inpact report`: a deck in, a page about its interfaces out.
 
 use super::eval::summary_lines;
-use super::evaluable::{Evaluable, EvaluableArguments, HistoryStartChoice};
+use super::evaluable::{Evaluable, EvaluableArguments};
 use super::findings::Messages;
 use super::job_results::RESULTS_HELP;
 use super::laws::LawArguments;
@@ -17,6 +17,7 @@ use crate::settings::DeckArguments;
 use crate::text::counted;
 use clap::Args;
 use inpact_diagnostics::Severity;
+use inpact_evaluation::HistoryStart;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -109,7 +110,7 @@ fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> 
     let deck = arguments.deck.clone();
     let evaluable = match &arguments.nodes {
         Some(nodes) => EvaluableArguments::of_nodes(deck, nodes.clone()),
-        None => EvaluableArguments::of_results(deck, arguments.results.clone(), HistoryStartChoice::FirstRow),
+        None => EvaluableArguments::of_results(deck, arguments.results.clone(), HistoryStart::FirstRow),
     };
     let messages = Messages::LINES;
     let Some(mut prepared) = evaluable.prepare(&arguments.laws, &arguments.reading, messages)? else { return Ok(None) };

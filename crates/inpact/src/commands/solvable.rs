@@ -6,7 +6,7 @@ mod failures;
 use super::findings::Reporter;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
-use crate::files::{self, STANDARD_STREAM};
+use crate::files;
 use crate::input::ReadDeck;
 use crate::reach;
 use crate::settings::{ReadOptions, Settings};
@@ -57,8 +57,8 @@ impl SolvableScene {
         reporter: &mut impl Reporter,
     ) -> Result<Option<Self>, Failure> {
         let name = path.display().to_string();
-        let folder =
-            if path.as_os_str() == STANDARD_STREAM { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
+        // That of standard input, `-`, is the working folder.
+        let folder = path.parent().unwrap_or(Path::new(""));
         let text = files::read_text(path)?;
         // No line of TOML begins so.
         if text.trim_start().starts_with('*') {

@@ -5,6 +5,7 @@ mod output;
 mod summary;
 
 use self::output::{Outputs, StateFormat};
+use super::choice::{Choice, one_of};
 use super::evaluable::tolerance;
 use super::findings::{Messages, with_messages};
 use super::laws::LawArguments;
@@ -14,7 +15,7 @@ use crate::files::{self, STANDARD_STREAM};
 use crate::render::Format;
 use crate::settings::DeckArguments;
 use crate::threads::with_threads;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::transient;
 use inpact_network::{Equations, Histories, State};
@@ -53,32 +54,22 @@ pub(crate) struct SolveArguments {
 #[derive(Debug, Clone, Copy, Args)]
 struct SolverArguments {
     /// How linear equations are solved.
-    #[arg(long, value_enum, default_value_t = SolverChoice::Direct)]
-    solver: SolverChoice,
+    #[arg(long, value_parser = one_of(&SOLVERS), default_value = "direct")]
+    solver: Method,
     /// The relative error of a flow that is acceptable; a solver that does not reach it is replaced by the next safer one [default: the last digit].
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum SolverChoice {
-    /// A Cholesky factor in f64.
-    Direct,
-    /// A Cholesky factor in f32, refined in f64: half the memory, faster in three dimensions.
-    Mixed,
-    /// Conjugate gradients with an incomplete factor: for networks whose factor would not fit.
-    Iterative,
-}
-
-impl SolverArguments {
-    fn method(self) -> Method {
-        match self.solver {
-            SolverChoice::Direct => Method::Direct,
-            SolverChoice::Mixed => Method::Mixed,
-            SolverChoice::Iterative => Method::Iterative,
-        }
-    }
-}
+const SOLVERS: [Choice<Method>; 3] = [
+    ("direct", Method::Direct, "A Cholesky factor in f64"),
+    ("mixed", Method::Mixed, "A Cholesky factor in f32, refined in f64: half the memory, faster in three dimensions"),
+    (
+        "iterative",
+        Method::Iterative,
+        "Conjugate gradients with an incomplete factor: for networks whose factor would not fit",
+    ),
+];
 
 pub(crate) fn run(arguments: &SolveArguments) -> Result<Outcome, Failure> {
     let format = arguments.findings.unwrap_or(arguments.format.of_findings());
@@ -96,7 +87,7 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
     // The files that the scene is made from are known now.
     files::check_targets(&targets)?;
     let Some(problem) = prepared.problem(&mut messages) else { return Ok(Outcome::HasErrors) };
-    let method = arguments.solver.method();
+    let method = arguments.solver.solver;
     let histories = if arguments.interfaces.is_some() { Histories::Wanted } else { Histories::NotWanted };
     let tolerance = arguments.solver.tolerance.unwrap_or(LAST_DIGIT);
     let mut equations = Equations::new(&problem, method, tolerance).with(histories);

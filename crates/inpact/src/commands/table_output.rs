@@ -1,7 +1,8 @@
 //! Target and format of a table: for `eval` and `nodes`.
 
+use super::choice::{Choice, one_of};
 use super::picture::is_picture;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use inpact_evaluation::results::TableFormat;
 use std::path::{Path, PathBuf};
 
@@ -11,20 +12,15 @@ pub(crate) struct TableOutput {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// How the result is stored, instead of what the extension of its file says (.csv, .parquet, .arrow, .ipc, .feather).
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    output_format: Option<OutputFormat>,
+    #[arg(long, value_parser = one_of(&FORMATS), value_name = "FORMAT")]
+    output_format: Option<TableFormat>,
 }
 
-/// Formats of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum OutputFormat {
-    /// Comma-separated values.
-    Csv,
-    /// Parquet.
-    Parquet,
-    /// An Arrow IPC file.
-    Arrow,
-}
+const FORMATS: [Choice<TableFormat>; 3] = [
+    ("csv", TableFormat::Csv, "Comma-separated values"),
+    ("parquet", TableFormat::Parquet, "Parquet"),
+    ("arrow", TableFormat::Arrow, "An Arrow IPC file"),
+];
 
 impl TableOutput {
     /// The target; `None` is standard output.
@@ -38,11 +34,7 @@ impl TableOutput {
     }
 
     pub(crate) fn format(&self) -> TableFormat {
-        match self.output_format {
-            Some(OutputFormat::Csv) => TableFormat::Csv,
-            Some(OutputFormat::Parquet) => TableFormat::Parquet,
-            Some(OutputFormat::Arrow) => TableFormat::Arrow,
-            None => self.target().and_then(TableFormat::of_extension).unwrap_or_default(),
-        }
+        let of_name = || self.target().and_then(TableFormat::of_extension);
+        self.output_format.or_else(of_name).unwrap_or_default()
     }
 }

@@ -41,7 +41,7 @@ pub(crate) struct Change {
     /// Its path, links followed.
     target: PathBuf,
     content: Arc<[u8]>,
-    /// What the target was when it was read; `None` where it may be anything, or nothing.
+    /// The target as it was read; `None` where it may be anything, or nothing.
     expected: Option<Snapshot>,
 }
 

@@ -2,7 +2,6 @@
 
 use super::History;
 use super::page::Page;
-use crate::chart::panel::Scales;
 use crate::chart::sheet;
 use crate::chart::surface::Surface;
 use crate::curves::{Curve, Panel, Reach, Side, number};
@@ -21,7 +20,7 @@ pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
         }
         page.open("figure", &attributes);
         page.open("div", &[("class", "static")]);
-        page.drawing(&sheet::svg_of_panel(panel, Scales::LINEAR));
+        page.drawing(&sheet::svg_of_panel(panel));
         page.close("div");
         if is_live {
             page.element("div", &[("class", "chart")], "");

@@ -30,7 +30,6 @@ pub(super) fn chart(measured: &Measured, prepared: &SolvableScene) -> Chart {
         points: points.collect(),
         vertical: Vec::new(),
         horizontal: vec![(f64::EPSILON / 2.0, "½ ulp of the range".to_owned())],
-        front_title: "Pareto front".to_owned(),
         footnote: format!("{}; reference: {}", how(measured), measured.reference.subject.method),
     }
 }

@@ -24,7 +24,6 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
         points: points.collect(),
         vertical: vec![(group.copy, format!("roofline: copy of the columns, {} ns", short(group.copy)))],
         horizontal: vec![(f64::EPSILON / 2.0, "½ ulp of the largest value".to_owned())],
-        front_title: "Pareto front".to_owned(),
         footnote: format!("{}; bars go up to the error bound computed from the table", how(measured)),
     }
 }
