@@ -7,12 +7,12 @@ use crate::state::{FieldState, State};
 /// Below that part of what flows around it a flow is what refinement in 106 bits leaves of zero.
 const NOTHING: f64 = 1e-20;
 
-/// The distance of a state from another, as numbers are printed: those that print alike are alike.
+/// The distance between two states, of their numbers as printed: those that print alike are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
-    /// The largest difference of a node's value, as a part of the range of the other state's values of that field; where that is one value, as a part of its magnitude.
+    /// The largest difference of a node's value, relative to the range of the other state's values of that field, or to their magnitude where they are all equal.
     pub values: f64,
-    /// The largest difference of a flow through a link or an interface, as a part of the larger of the two; differences below 1e-20 of what flows around it are none.
+    /// The largest difference of a flow through a link or an interface, relative to the larger of the two; differences below 1e-20 of the flows around it are ignored.
     pub flows: f64,
 }
 

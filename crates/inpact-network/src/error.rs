@@ -8,8 +8,8 @@ use std::fmt;
 
 /// A scene or a linear network without a solution.
 ///
-/// Nodes and rows are given by their numbers, counted from zero: those of the network that was solved, or in a scene those of the scene.
-/// A fault of the scene itself is no error but a finding.
+/// Nodes and rows are given by index, from zero: in the network that was solved, or in the scene.
+/// A fault of the scene itself is a finding, not an error.
 ///
 /// ```
 /// use inpact_network::ErrorKind;
@@ -78,7 +78,7 @@ pub enum ErrorKind {
     },
 }
 
-/// Reasons why a row cannot be solved with.
+/// Reasons why a row cannot be solved.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RowFault {
@@ -103,7 +103,7 @@ impl Error {
         &self.kind
     }
 
-    /// The field whose equations have no solution; `None` for a linear network by itself, and where fields are solved together.
+    /// The field whose equations have no solution; `None` for a standalone linear network, and where fields are solved together.
     pub fn field(&self) -> Option<Field> {
         self.field
     }

@@ -74,7 +74,7 @@ struct Couplings {
 }
 
 impl<'a> Problem<'a> {
-    /// Puts a scene and the model of its deck together; `None` after reporting what is missing.
+    /// Combines a scene and the model of its deck; `None` after reporting what is missing.
     pub fn new(scene: &'a Scene, model: &Model, choices: &Choices, findings: &mut Findings) -> Option<Self> {
         let mut problem = Self {
             scene,

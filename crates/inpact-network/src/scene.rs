@@ -28,24 +28,24 @@ use inpact_parser::model::Name;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// A scene as it is given, every name resolved.
+/// A scene as given, with all names resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// The deck, as the scene names it.
     pub deck: String,
     /// Steady state or transient.
     pub procedure: Procedure,
-    /// The temperature with which nodes and nonlinear solutions begin, θ.
+    /// The initial temperature of nodes and nonlinear solutions, θ.
     pub initial_temperature: Option<f64>,
-    /// The pore pressure with which nodes begin, F L⁻².
+    /// The initial pore pressure of nodes, F L⁻².
     pub initial_pore_pressure: Option<f64>,
     /// The names of the nodes.
     pub nodes: Vec<String>,
     /// The line of the scene file of each node that has one.
     pub node_lines: BTreeMap<u32, u64>,
-    /// The parts of the deck that nodes stand for.
+    /// The parts of the deck that nodes represent.
     pub parts: BTreeMap<u32, NodePart>,
-    /// The conditions that are taken from the deck at these; `None` where the scene gives all of its own.
+    /// The conditions taken from the deck at these; `None` where the scene gives its own.
     pub deck_conditions: Option<ConditionsOfDeck>,
     /// Given values of each field at the nodes, by [`Field`].
     pub conditions: [Conditions; 3],
@@ -55,7 +55,7 @@ pub struct Scene {
     pub interfaces: Vec<SceneInterface>,
 }
 
-/// A part of the deck's mesh that a node stands for.
+/// A part of the deck's mesh that a node represents.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodePart {
     /// The kind of part.
@@ -148,13 +148,13 @@ pub enum Field {
 /// Given values of one field at the nodes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
-    /// The values that nodes are held at.
+    /// The held values of nodes.
     pub fixed: BTreeMap<u32, Course>,
     /// Sources at the nodes: current, heat or volume of fluid per time.
     pub sources: BTreeMap<u32, Course>,
     /// Capacities of nodes: storage per change of the value.
     pub capacities: BTreeMap<u32, f64>,
-    /// The values with which nodes begin.
+    /// The initial values of nodes.
     pub initial: BTreeMap<u32, f64>,
 }
 
@@ -163,13 +163,13 @@ pub struct Conditions {
 pub struct SceneLink {
     /// The nodes; flows are positive from the first to the second.
     pub nodes: [u32; 2],
-    /// Its conductance for each field, by [`Field`]; 0 for none, infinite where both nodes are one.
+    /// Its conductance for each field, by [`Field`]; 0 for none, infinite where both nodes are merged.
     pub conductances: [f64; 3],
-    /// The share of the energy its current dissipates that becomes heat.
+    /// The fraction of the energy dissipated by its current that becomes heat.
     pub joule_heat_fraction: f64,
 }
 
-/// A slave node, the point of the master surface opposite to it, and what governs both.
+/// A slave node, the opposite point of the master surface, and the inputs of their laws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneInterface {
     /// The *SURFACE INTERACTION; `None` for the only one of the deck.
@@ -196,7 +196,7 @@ pub struct SceneInterface {
     pub shear: Option<f64>,
     /// Rate of relative slip γ̇, L T⁻¹.
     pub slip_rate: Option<f64>,
-    /// Rate of the clearance ḋ, where it does not come from its course, L T⁻¹.
+    /// Rate of the clearance ḋ, where it does not follow from its time course, L T⁻¹.
     pub clearance_rate: Option<f64>,
     /// Characteristic element length, L.
     pub characteristic_length: Option<f64>,
@@ -207,7 +207,7 @@ pub struct SceneInterface {
 }
 
 impl TimeSpan {
-    /// The shortest increment whose length is more than rounding of its ends, T: four units in the last place of the time furthest from 0.
+    /// The shortest increment that is longer than the rounding of its ends, T: four units in the last place of the time furthest from 0.
     pub fn resolution(&self) -> f64 {
         4.0 * f64::EPSILON * self.start.abs().max(self.end.abs())
     }
@@ -262,7 +262,7 @@ impl SceneInterface {
         [slave.or(given).or(master), master.or(given).or(slave)]
     }
 
-    /// The place and message of a finding about it: lines of a table beside the scene go into the message, since the file of the finding is the scene.
+    /// The place and message of a finding about it: lines of a table of the scene go into the message, since the file of the finding is the scene.
     pub fn located(&self, message: String) -> (Place, String) {
         let (line, table) = &self.place;
         let message = match table {
@@ -289,7 +289,7 @@ impl Scene {
         &self.conditions[field.index()]
     }
 
-    /// Whether the scene says anything of a field.
+    /// Whether the scene mentions a field.
     pub fn mentions(&self, field: Field) -> bool {
         *self.conditions(field) != Conditions::default()
             || self.links.iter().any(|link| link.conductances[field.index()] > 0.0)

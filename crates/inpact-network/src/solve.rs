@@ -35,14 +35,14 @@ const LARGE: usize = 10_000;
 /// The number of substitutions of a nonlinear stage before Newton's iteration.
 const FIRST_PASSES: usize = 2;
 
-/// Solves a scene, time after time, with what can be kept from one to the next.
+/// Solves a scene at successive times, reusing work from one to the next.
 pub struct Equations<'a> {
     problem: &'a Problem<'a>,
     solvers: [Solver; 3],
     histories: Histories,
 }
 
-/// Time integrals of the rows, whose error counts in the length of increments where they are wanted.
+/// Time integrals of the rows, whose error limits the length of increments where they are requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Histories {
     /// No.
@@ -59,13 +59,13 @@ impl<'a> Equations<'a> {
         Self { problem, solvers, histories: Histories::default() }
     }
 
-    /// The same, with or without a look at time integrals.
+    /// The same, with or without error control of time integrals.
     #[must_use]
     pub fn with(self, histories: Histories) -> Self {
         Self { histories, ..self }
     }
 
-    /// The same, with the times of [`work`](Self::work) by a clock of the caller; without one they are 0.
+    /// The same, with the times of [`work`](Self::work) measured by the caller's clock; without one they are 0.
     #[must_use]
     pub fn timed_by(self, clock: Clock) -> Self {
         Self { solvers: self.solvers.map(|solver| solver.timed_by(clock)), ..self }
@@ -97,7 +97,7 @@ impl<'a> Equations<'a> {
         self.solve(knowledge, Capacities::None)
     }
 
-    /// The state at the start of a transient: nodes with a capacity have their initial values, all others what follows from them.
+    /// The state at the start of a transient: nodes with a capacity have their initial values, all others the values that follow from them.
     ///
     /// # Errors
     /// See [`Error`].
@@ -106,7 +106,7 @@ impl<'a> Equations<'a> {
         self.solve(knowledge, Capacities::Held)
     }
 
-    /// The state an increment after another, by backward Euler.
+    /// The state one increment after another, by backward Euler.
     ///
     /// # Errors
     /// See [`Error`].

@@ -70,7 +70,7 @@ impl State {
         Some(number(self.field(field)?.solution.flows[place]))
     }
 
-    /// The flow through an interface row by its conductance, from slave to master; without the heat and fluid that arise there.
+    /// The flow through an interface row by its conductance, from slave to master; without the heat and fluid generated there.
     pub fn row_flow(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;
         let place = nodes.rows.binary_search(&row).ok()?;
@@ -83,7 +83,7 @@ impl State {
         self.field(field)?.rows.get(place).copied()
     }
 
-    /// The jump of a field across an interface row, slave − master, as exactly as it is known.
+    /// The jump of a field across an interface row, slave − master, with all its known digits.
     pub fn row_jump(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;
         let state = self.field(field)?;
@@ -130,7 +130,7 @@ impl State {
         held.map(|(&node, &leaving)| (node, number(leaving))).collect()
     }
 
-    /// The balance of a field: supply and withdrawal at fixed values, sources, and storage; they add up to zero but for rounding.
+    /// The balance of a field: supply and withdrawal at fixed values, sources, and storage; they sum to zero up to rounding.
     pub fn balance(&self, problem: &Problem<'_>, field: Field) -> Option<FieldBalance> {
         let (nodes, state) = (problem.field(field)?, self.field(field)?);
         let fixed = &problem.scene.conditions(field).fixed;
@@ -176,8 +176,8 @@ pub struct FieldBalance {
     pub generated: f64,
     /// Storage.
     pub stored: f64,
-    /// Supplied and generated less withdrawn and stored: zero but for rounding.
+    /// Supplied and generated minus withdrawn and stored: zero up to rounding.
     pub missing: f64,
-    /// The magnitudes of all of these at their nodes, added up: what the missing is to be compared with.
+    /// The sum of the magnitudes of all of these at their nodes, to which the imbalance is compared.
     pub turnover: f64,
 }

@@ -161,7 +161,7 @@ pub struct InterfaceTable<'a> {
 }
 
 impl<'a> InterfaceTable<'a> {
-    /// The table of a problem whose interactions are those of `model`.
+    /// The table of a problem with the interactions of `model`.
     pub fn new(problem: &'a Problem<'a>, model: &'a Model) -> Self {
         let mut labels = vec![Column::Node, Column::Interaction];
         labels.extend((Times::of(problem) == Times::Many).then_some(Column::Time));
@@ -174,7 +174,7 @@ impl<'a> InterfaceTable<'a> {
         &self.selection
     }
 
-    /// The rows of a state, in the order of the scene, of which `before` were given so far.
+    /// The rows of a state, in the order of the scene, after `before` rows so far.
     pub fn rows(&self, state: &State, before: u64) -> Batch {
         let mut batch = Batch::with_columns(self.selection.labels.len(), self.selection.numbers.len());
         batch.first_row = before;

@@ -25,17 +25,17 @@ const REMAINDER: f64 = 1e-9;
 pub struct TransientReport {
     /// The number of increments.
     pub increments: usize,
-    /// The number of increments taken back.
+    /// The number of rejected increments.
     pub taken_back: usize,
-    /// The largest estimated local error of an increment, as a part of the range that its field's values have had.
+    /// The largest estimated local error of an increment, relative to the range of its field's values so far.
     pub local_error: f64,
-    /// The number of points of courses inside increments of given length.
+    /// The number of points of time courses inside increments of fixed length.
     pub passed_over: usize,
-    /// The estimated error of the time integrals of the rows, as a part of them; `None` where they are not wanted.
+    /// The estimated relative error of the time integrals of the rows; `None` where they are not requested.
     pub integral_error: Option<f64>,
 }
 
-/// Solves a scene: its steady state, or state after state of its transient; `take` gets each as it is found.
+/// Solves a scene: its steady state, or the states of its transient one by one; `take` gets each as it is computed.
 ///
 /// # Errors
 /// The first failure, after the states before it, or what `take` returns.
@@ -66,7 +66,7 @@ pub fn run<E: From<Error>>(
     Ok(march.report)
 }
 
-/// Solves what a scene begins with: its steady state, or the state at the start of its transient and the one an increment later; `take` gets each as it is found.
+/// Solves the beginning of a scene: its steady state, or the state at the start of its transient and the one an increment later; `take` gets each as it is computed.
 ///
 /// # Errors
 /// The first failure, after the states before it, or what `take` returns.

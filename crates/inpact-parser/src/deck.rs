@@ -31,7 +31,7 @@ use lines::{LineKind, line_kind, without_line_end};
 use parameter::{AfterName, More, Place};
 use std::num::NonZeroU32;
 
-/// A deck: its source files, cut into blocks in reading order.
+/// A deck: its source files, split into blocks in reading order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deck {
     sources: Vec<Source>,
@@ -43,7 +43,7 @@ pub struct Deck {
 
 /// A keyword line and everything up to the next one.
 ///
-/// A deck may be nothing but keyword lines, so that a block takes little memory.
+/// A deck may consist of keyword lines only, so a block is compact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
     /// The keyword line; `None` for rows before the first keyword of a file, and for rows after an *INCLUDE.
@@ -86,7 +86,7 @@ pub struct KeywordLine {
     after_name: AfterName,
 }
 
-/// Something seen while lines were cut, in rows whose text may not be kept.
+/// A note made while lines were scanned, in rows whose text may not be kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LineNote {
     /// The kind of note.
@@ -113,7 +113,7 @@ pub enum LineNoteKind {
     LikeKeyword,
 }
 
-/// One line of rows: data or blank; comments are passed over (S-04).
+/// One line of rows: data or blank; comments are skipped (S-04).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DataLine<'deck> {
     /// The line without its line end.
@@ -123,7 +123,7 @@ pub struct DataLine<'deck> {
 }
 
 impl DataLine<'_> {
-    /// Whether the line holds blanks only (S-08).
+    /// Whether the line consists of blanks (S-08).
     pub fn is_blank(&self) -> bool {
         self.text.trim_ascii().is_empty()
     }
@@ -141,7 +141,7 @@ impl DataLine<'_> {
 }
 
 impl Deck {
-    /// The source files: the deck itself, then what it includes.
+    /// The source files: the deck itself, then the files it includes.
     pub fn sources(&self) -> &[Source] {
         &self.sources
     }
@@ -156,12 +156,12 @@ impl Deck {
         &self.blocks
     }
 
-    /// The comments that are meant for inpact: `** inpact: …`.
+    /// The comments addressed to inpact: `** inpact: …`.
     pub fn directives(&self) -> &[Span] {
         &self.directives
     }
 
-    /// The *INCLUDE options and what became of them, innermost first; empty until [`Deck::with_includes`] has read them.
+    /// The *INCLUDE options and their outcomes, innermost first; empty until [`Deck::with_includes`] has read them.
     pub fn includes(&self) -> &[Include] {
         &self.includes
     }
@@ -177,9 +177,9 @@ impl Deck {
         &self.notes
     }
 
-    /// Whether anybody has looked for rows that were dropped because they are in order ([`Keep::Ends`]).
+    /// Whether rows were accessed that were dropped because they are in order ([`Keep::Ends`]).
     ///
-    /// The deck then has to be read again, with [`Keep::Interpreted`].
+    /// The deck must then be read again, with [`Keep::Interpreted`].
     pub fn lacks_rows(&self) -> bool {
         self.sources.iter().any(Source::have_missed)
     }
@@ -206,12 +206,12 @@ impl Deck {
         self.source(span.source()).surroundings(span.start()..span.end())
     }
 
-    /// The text of a span for a person to read; bytes that are not UTF-8 are replaced.
+    /// The text of a span for display; bytes that are not UTF-8 are replaced.
     pub fn shown(&self, span: Span) -> String {
         String::from_utf8_lossy(self.text(span)).into_owned()
     }
 
-    /// The data and blank lines of a block, comments passed over; nothing when its rows were not kept.
+    /// The data and blank lines of a block, without comments; nothing when its rows were not kept.
     pub fn data_lines<'a>(&'a self, block: &'a Block) -> impl Iterator<Item = DataLine<'a>> {
         block.all_rows().flat_map(|rows| self.data_lines_in(rows))
     }
@@ -233,7 +233,7 @@ impl Deck {
         })
     }
 
-    /// Line and column of the start of every span, in the order given; one sweep a file.
+    /// Line and column of the start of every span, in the order given; one pass per file.
     pub fn positions(&self, spans: &[Span]) -> Vec<Position> {
         let mut order: Vec<usize> = (0..spans.len()).collect();
         order.sort_by_key(|index| (spans[*index].source(), spans[*index].start()));
@@ -305,7 +305,7 @@ impl Block {
         self.elsewhere.get_or_insert_default().continued_in.push(rows);
     }
 
-    /// All its rows, in whatever files.
+    /// All its rows, in all files.
     pub fn all_rows(&self) -> impl Iterator<Item = Span> + Clone {
         std::iter::once(self.rows()).chain(self.continued_in().iter().copied())
     }
@@ -337,7 +337,7 @@ impl KeywordLine {
         self.name.span(self.span)
     }
 
-    /// Where a quote opens that does not close on its line (S-41).
+    /// The position of a quote that is not closed on its line (S-41).
     pub fn unterminated_quote(&self) -> Option<Span> {
         self.more()?.open_quote.map(|at| self.byte(at))
     }
@@ -347,7 +347,7 @@ impl KeywordLine {
         self.more()?.last_comma.map(|comma| self.byte(comma.at))
     }
 
-    /// The most bytes of a keyword line, where the next line would have made it longer: it is read as a row, whatever it holds.
+    /// The limit of bytes of a keyword line, where the next line would have exceeded it: that is read as a row, whatever it contains.
     pub fn length_exhausted(&self) -> Option<u32> {
         self.more()?.last_comma?.most.map(NonZeroU32::get)
     }
@@ -364,7 +364,7 @@ impl KeywordLine {
         Span::new(self.span.source(), at, at + 1)
     }
 
-    /// The line without its line end: what a label underlines.
+    /// The line without its line end, for labels.
     pub fn visible_span(&self, deck: &Deck) -> Span {
         let length = deck.text(self.span).trim_ascii_end().len() as u64;
         Span::new(self.span.source(), self.span.start(), self.span.start() + length)

@@ -2,9 +2,9 @@
 
 use thiserror::Error as ThisError;
 
-/// A text that is not what was expected: JSON of neither view, a model that no deck can hold, a definition of a keyword, a dimension, a release.
+/// An invalid text: JSON of neither view, a model that no deck can express, a definition of a keyword, a dimension, a release.
 ///
-/// A fault of a deck is no error but a [`Problem`](crate::Problem).
+/// A fault of a deck is a [`Problem`](crate::Problem), not an error.
 ///
 /// ```
 /// let error = inpact_parser::json::view_of(r#"{"schema": "inpact/model/9"}"#).unwrap_err();
@@ -30,7 +30,7 @@ enum Kind {
 }
 
 impl Error {
-    /// The place in JSON, in the form `interactions.STEEL.thickness`; empty where the text is no JSON at all, `None` for errors of other texts.
+    /// The place in JSON, in the form `interactions.STEEL.thickness`; empty where the text is not JSON at all, `None` for errors of other texts.
     pub fn json_path(&self) -> Option<&str> {
         match &self.0 {
             Kind::Json { path, .. } => Some(path),

@@ -45,7 +45,7 @@ pub struct ExpressionProblem {
     pub message: String,
     /// The help.
     pub help: Option<String>,
-    /// The name that is used without a definition above, when that is what is wrong: it may be defined further down, or
+    /// The name that is used without a definition above, if that is the problem: it may be defined further down, or
     /// in a file that could not be read.
     pub undefined: Option<String>,
 }

@@ -30,7 +30,7 @@ const LINE_CHARACTERS: usize = 256;
 /// The blocks that are formatted besides *SURFACE INTERACTION and its sub-options.
 const USES_OF_INTERACTIONS: [&str; 2] = ["CONTACT PAIR", "CONTACT PROPERTY ASSIGNMENT"];
 
-/// The bytes of a source file of the deck in the one style.
+/// The formatted bytes of a source file of the deck.
 ///
 /// The deck must have been scanned with [`Keep::Everything`](crate::deck::Keep::Everything), in the language of
 /// `grammar`; rows that were not kept would be missing.
@@ -38,9 +38,9 @@ pub fn format(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<u8> {
     apply(&deck.print(source), &format_edits(deck, source, grammar))
 }
 
-/// The edits that bring a source file of the deck into the one style: a keyword line or the rows of a block each, in order.
+/// The edits that format a source file of the deck: a keyword line or the rows of a block each, in order.
 ///
-/// Rows that were not kept are none that are formatted: a deck whose interpreted rows are kept gives all edits.
+/// Only interpreted rows are formatted: a deck that keeps these gives all edits.
 pub fn format_edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edit> {
     let mut place = Place { grammar, in_interaction: false, parent: None };
     let mut edits = Vec::new();

@@ -48,7 +48,7 @@ pub enum Dialect {
     Calculix,
 }
 
-/// The keyword language of a dialect and a release: every keyword by name, and what is known of it.
+/// The keyword language of a dialect and a release: every keyword by name, with its definition if any.
 #[derive(Debug)]
 pub struct Grammar {
     dialect: Dialect,
@@ -61,7 +61,7 @@ pub struct Grammar {
     calculix_names: Vec<&'static str>,
 }
 
-/// A keyword, by its place in its [`Grammar`].
+/// A keyword, by its index in its [`Grammar`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct KeywordId(u16);
 
@@ -88,7 +88,7 @@ impl Grammar {
         &BUILTIN
     }
 
-    /// The language of a dialect; the release counts for Abaqus only.
+    /// The language of a dialect; the release matters for Abaqus only.
     pub fn new(dialect: Dialect, release: Release) -> Self {
         let mut calculix_names: Vec<&str> = CALCULIX_NAMES.lines().collect();
         calculix_names.sort_unstable();
@@ -123,11 +123,11 @@ impl Grammar {
         self.release
     }
 
-    /// The keyword that is written so (S-11 to S-13).
+    /// Looks up a keyword as written (S-11 to S-13).
     ///
-    /// Blanks, tabs and case do not count; an exact name wins; otherwise the text must begin exactly one name of the
+    /// Blanks, tabs and case are ignored; an exact name wins; otherwise the text must be a prefix of exactly one name of the
     /// release (S-15). CalculiX knows no abbreviations.
-    /// A text of blanks only, or one longer than every name (S-14), is unknown.
+    /// A blank text, or one longer than every name (S-14), is unknown.
     pub fn keyword_named(&self, written: &[u8]) -> Lookup<KeywordId> {
         let Some(folded) = Folded::new(written) else {
             return Lookup::Unknown;
@@ -159,7 +159,7 @@ impl Grammar {
         keyword.is_listed && keyword.is_in(self.release)
     }
 
-    /// The parameter of a keyword that is written so, as its place in the definition's list (S-13, S-16).
+    /// Looks up a parameter of a keyword as written; returns its index in the definition's list (S-13, S-16).
     pub fn parameter_named(&self, definition: &Definition, written: &[u8]) -> Lookup<usize> {
         definition.parameter_named_in(written, self.release)
     }
@@ -192,9 +192,9 @@ impl Grammar {
         })
     }
 
-    /// Names of keywords that somebody who wrote this may have meant, the nearest first.
+    /// Suggestions for a misspelt keyword, the nearest first.
     ///
-    /// A comparison with every name: ask for what is shown to somebody, not for every line of a deck.
+    /// It compares with every name: use it for messages, not for every line of a deck.
     pub fn nearest_keywords(&self, written: &str, at_most: usize) -> Vec<&str> {
         nearest::nearest(written.as_bytes(), self.keywords.iter().map(|keyword| keyword.name.as_str()), at_most)
     }
@@ -236,7 +236,7 @@ impl Keyword {
         self.definition.get_or_init(parse).as_deref()
     }
 
-    /// Whether the release has the keyword; true where nothing is known of it.
+    /// Whether the release has the keyword; true where that is unknown.
     pub fn is_in(&self, release: Release) -> bool {
         self.definition().is_none_or(|definition| release.is_within(definition.since, definition.until))
     }

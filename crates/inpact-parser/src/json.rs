@@ -23,10 +23,10 @@ pub enum View {
     Syntax,
 }
 
-/// Reads which view a JSON text is from its `schema` field.
+/// Detects the view of a JSON text from its `schema` field.
 ///
 /// # Errors
-/// A text that is no JSON object, or whose `schema` is missing or names neither view.
+/// A text that is not a JSON object, or whose `schema` is missing or names neither view.
 pub fn view_of(text: &str) -> Result<View, Error> {
     #[derive(serde::Deserialize)]
     #[serde(expecting = "a document: an object")]

@@ -56,7 +56,7 @@ use std::io;
 /// The surfaces of all contact pairs, their nodes and the pairs themselves.
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
-    /// Coordinates of the nodes (L), instances at their places.
+    /// Coordinates of the nodes (L), in the assembly.
     pub points: Vec<Point>,
     /// The names of the nodes, in the same order.
     pub nodes: Vec<MeshNode>,
@@ -66,7 +66,7 @@ pub struct Mesh {
     pub pairs: Vec<MeshPair>,
     /// Values of *INITIAL CONDITIONS at the nodes, each quantity once.
     pub initial: Vec<InitialField>,
-    /// The names of the steps of the deck, in its order: results may say in which one they are by its name.
+    /// The names of the steps of the deck, in order: result files may refer to steps by name.
     pub steps: Vec<Option<Name>>,
     /// Parts that were not read, or were read with an assumption.
     pub notes: Vec<MeshNote>,
@@ -94,7 +94,7 @@ impl std::fmt::Display for MeshNode {
 /// A surface of the deck.
 #[derive(Debug, Clone)]
 pub struct MeshSurface {
-    /// Its name, as the pair writes it.
+    /// Its name, as written in the pair.
     pub name: Name,
     /// Its keyword line.
     pub span: Span,
@@ -118,9 +118,9 @@ pub struct FaceSurface {
     pub surface: Surface,
     /// The element and face of each.
     pub elements: Vec<(MeshNode, FaceLabel)>,
-    /// The space the elements are in; the same for all.
+    /// The space of the elements, the same for all.
     pub space: ElementSpace,
-    /// The thickness of plane elements and of sheets (L), from their section; `None` where no section says one.
+    /// The thickness of plane elements and of sheets (L), from their section; `None` where no section gives one.
     pub thickness: Vec<Option<f64>>,
     /// The distance of the side of a sheet from its nodes, along its normal (L); 0 for solids.
     pub shifts: Vec<f64>,
@@ -135,7 +135,7 @@ pub struct NodeSurface {
     pub areas: Vec<Option<f64>>,
 }
 
-/// Something of the deck that was not read, or was read with something assumed.
+/// A part of the deck that was not read, or was read with an assumption.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct MeshNote {
     /// Its place.
@@ -153,9 +153,9 @@ pub fn read(deck: &Deck, grammar: &Grammar, model: &Model, rows: &mut dyn RowByt
     Ok(reader::Reader::new(deck, grammar, rows).read(model, &[])?.0)
 }
 
-/// Reads the mesh around the contact pairs of a model, the targets given, and the conditions that hold in a step with what they are on.
+/// Reads the mesh around the contact pairs of a model, the given targets, and the conditions of a step with their nodes or faces.
 ///
-/// Gives the positions of the targets in [`Mesh::surfaces`], `None` where nothing of one was found: nodes of a set are a surface of nodes.
+/// Returns the positions of the targets in [`Mesh::surfaces`], `None` for those not found: a node set becomes a surface of nodes.
 ///
 /// # Errors
 ///

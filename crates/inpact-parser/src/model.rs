@@ -28,7 +28,7 @@ pub use text::{SharedText, TextRows};
 use crate::expression::Parameters;
 use crate::span::Span;
 
-/// The contact interfaces of a deck and what uses them.
+/// The contact interfaces of a deck and their uses.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Model {
     /// The definitions of *PARAMETER and their values (S-61).
@@ -43,9 +43,9 @@ pub struct Model {
     pub surfaces: Vec<Surface>,
     /// The procedures of the steps (section 9.2).
     pub procedures: Vec<Procedure>,
-    /// Values of *PHYSICAL CONSTANTS (2.6); no part of the JSON view.
+    /// Values of *PHYSICAL CONSTANTS (2.6); not part of the JSON view.
     pub constants: PhysicalConstants,
-    /// The rest of the deck: misplaced sub-options and definitions that a later one replaced.
+    /// Set aside: misplaced sub-options and definitions that a later one replaced.
     pub set_aside: Vec<SetAside>,
 }
 
@@ -90,7 +90,7 @@ pub struct ElectricalConductance {
     pub clearance: Option<Box<Table>>,
     /// Conductance against contact pressure: with PRESSURE.
     pub pressure: Option<Box<Table>>,
-    /// TYPE, kept as it is written and not interpreted.
+    /// TYPE, kept as written and not interpreted.
     pub kind: Option<Box<str>>,
 }
 
@@ -130,7 +130,7 @@ pub struct HeatGeneration {
     pub fraction: f64,
     /// f, the fraction of that heat that goes into the slave surface.
     pub slave_weight: f64,
-    /// The relative speed of the surfaces, dimension L T⁻¹, as a row of CalculiX has it (K-38): below zero it is computed.
+    /// The relative speed of the surfaces, dimension L T⁻¹, in a row of CalculiX (K-38): computed where it is negative.
     pub slip_rate: Option<f64>,
     /// The text of the items that are not written as a number, as in [`Table::texts`]: 0 is the fraction, 1 the weight, 2 the speed.
     pub texts: Vec<CellText>,
@@ -152,18 +152,18 @@ pub struct SubOption {
     pub span: Span,
     /// Its parameters.
     pub parameters: Box<[GivenParameter]>,
-    /// Its rows as numbers, where the grammar says they form a table.
+    /// Its rows as numbers, where they form a table by the grammar.
     pub table: Option<Box<Table>>,
     /// Its rows as texts otherwise: the items of every line.
     pub rows: TextRows,
 }
 
-/// A parameter as it is given.
+/// A parameter as given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenParameter {
-    /// Its name: in full and in upper case when the keyword has it, as it is written otherwise.
+    /// Its name: in full and in upper case when the keyword has it, otherwise as written.
     pub name: SharedText,
-    /// Its value as it is written, without blanks around it; a parameter in it, `<name>`, stays a name.
+    /// Its value as written, without blanks around it; a parameter in it, `<name>`, stays a name.
     pub value: Option<Box<str>>,
     /// Its place.
     pub span: Span,
@@ -178,7 +178,7 @@ pub struct ContactPair {
     pub interaction: Option<Reference>,
     /// The other parameters.
     pub parameters: Box<[GivenParameter]>,
-    /// The lines: slave and master; one surface alone is in contact with itself.
+    /// The lines: slave and master; a single surface means self-contact.
     pub pairs: Box<[SurfacePair]>,
 }
 
@@ -198,7 +198,7 @@ pub struct PropertyAssignment {
     pub span: Span,
     /// The first surface; blank is the whole domain.
     pub first: Option<Reference>,
-    /// The second surface; blank is the first once more.
+    /// The second surface; blank is the same as the first.
     pub second: Option<Reference>,
     /// The interaction; blank is the unnamed default.
     pub interaction: Option<Reference>,
@@ -240,7 +240,7 @@ pub enum Regime {
     Transient,
 }
 
-/// Something the deck holds that governs nothing.
+/// An option of the deck that has no effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetAside {
     /// Why.
@@ -334,7 +334,7 @@ impl TableKind {
     }
 }
 
-/// A table of the model with what it belongs to.
+/// A table of the model with its context.
 #[derive(Debug, Clone, Copy)]
 pub struct TableOf<'model> {
     /// Whose law it is.
@@ -348,7 +348,7 @@ pub struct TableOf<'model> {
 }
 
 impl Model {
-    /// Every interaction the deck defines, those that a later one of the same name replaced last.
+    /// Every interaction of the deck, with those replaced by a later one of the same name last.
     pub fn all_interactions(&self) -> impl Iterator<Item = &Interaction> {
         let replaced = self.set_aside.iter().filter_map(|aside| match &aside.item {
             SetAsideItem::Interaction(interaction) => Some(&**interaction),
@@ -357,7 +357,7 @@ impl Model {
         self.interactions.values().chain(replaced)
     }
 
-    /// Every table the deck defines, those that govern nothing too: a table is judged anywhere.
+    /// Every table of the deck, including those without effect: all tables are checked.
     pub fn tables(&self) -> impl Iterator<Item = TableOf<'_>> {
         let of_interactions = self.all_interactions().flat_map(Interaction::tables);
         let set_aside = self.set_aside.iter().filter_map(|aside| {
@@ -397,7 +397,7 @@ impl Interaction {
         self.parameters.iter().any(|parameter| parameter.name == name)
     }
 
-    /// The tables of its sub-options, in no order that means anything.
+    /// The tables of its sub-options, in no particular order.
     pub fn tables(&self) -> Vec<TableOf<'_>> {
         let electrical = self.gap_electrical_conductance.iter();
         let electrical =
@@ -421,7 +421,7 @@ impl SubOption {
 }
 
 impl Procedure {
-    /// Steady state or transient, for the procedures of section 9.2; `None` for those that know no difference.
+    /// Steady state or transient, for the procedures of section 9.2; `None` for those without the distinction.
     ///
     /// *SOILS is steady unless CONSOLIDATION is given; the coupled procedures are transient unless STEADY STATE is (C-20).
     pub fn regime(&self) -> Option<Regime> {

@@ -8,7 +8,7 @@ mod plain;
 pub use fortran::{FortranNumber, read_fortran};
 pub use plain::read_plain;
 
-/// Reasons why a text is no number.
+/// Reasons why a text is not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NumberError {
     /// Not of the form sign, digits, point, exponent.
@@ -21,16 +21,16 @@ pub enum NumberError {
     NotAnInteger,
 }
 
-/// The most characters of a float, sign, point and exponent included (S-34).
+/// The maximum number of characters of a float, including sign, point and exponent (S-34).
 pub const FLOAT_CHARACTERS: usize = 20;
 
-/// The most digits of an integer (S-35).
+/// The maximum number of digits of an integer (S-35).
 pub const INTEGER_DIGITS: usize = 9;
 
 /// Reads a float: optional sign, digits with at most one point, optional exponent after `E` or `D`.
 ///
 /// # Errors
-/// `nan`, `inf`, hexadecimal digits, digit separators and an exponent without a letter are refused, and so is a
+/// `nan`, `inf`, hexadecimal digits, digit separators and an exponent without a letter are rejected, and so is a
 /// magnitude above the largest f64.
 #[inline]
 pub fn read_float(text: &[u8]) -> Result<f64, NumberError> {
@@ -81,14 +81,14 @@ fn exponent_without_letter(text: &[u8]) -> NumberError {
 /// Reads an integer: optional sign and digits.
 ///
 /// # Errors
-/// Anything else is refused, a float such as `5.0` too (S-35), and so is a magnitude beyond 64 bits.
+/// Anything else is rejected, including a float such as `5.0` (S-35) and a magnitude beyond 64 bits.
 pub fn read_integer(text: &[u8]) -> Result<i64, NumberError> {
     std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()).ok_or(NumberError::NotAnInteger)
 }
 
 /// A text that reads back to the same f64, with a point or an exponent so that it is a float: `10.`, `1.5`, `2E-7`.
 ///
-/// It has at most [`FLOAT_CHARACTERS`] wherever such a text exists: of 17 digits the point may have to go
+/// It has at most [`FLOAT_CHARACTERS`] wherever such a text exists: with 17 digits the point may have to be dropped
 /// (`12345678901234569E7`), and a few numbers with an exponent below -9 have none (S-34).
 pub fn float_text(value: f64) -> String {
     let magnitude = value.abs();
@@ -104,7 +104,7 @@ pub fn float_text(value: f64) -> String {
     shortest(&format!("{value:e}")).filter(|text| text.len() <= FLOAT_CHARACTERS).unwrap_or(usual)
 }
 
-/// The nearest number that [`FLOAT_CHARACTERS`] can say, as text: [`float_text`] where that fits.
+/// The nearest number that fits into [`FLOAT_CHARACTERS`], as text: [`float_text`] where that fits.
 pub fn float_text_that_fits(value: f64) -> String {
     let mut digits = 17;
     loop {

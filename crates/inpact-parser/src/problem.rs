@@ -7,7 +7,7 @@ use crate::grammar::{KeywordId, Level};
 use crate::number::NumberError;
 use crate::span::Span;
 
-/// Something the reader met that does not fit.
+/// A problem found by the reader.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// The kind of problem.

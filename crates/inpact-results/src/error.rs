@@ -6,7 +6,7 @@ use std::error;
 use std::fmt;
 use std::io;
 
-/// A file that could not be read to its end, with the part before.
+/// A file that could not be read to its end, with the part before that.
 ///
 /// ```
 /// use inpact_results::ErrorKind;
@@ -37,7 +37,7 @@ pub enum ErrorKind {
     Unsound(Problem),
 }
 
-/// Results, or what could be read and why it is not all.
+/// Results, or the part that could be read and the reason why it is incomplete.
 pub type Read = Result<Results, Error>;
 
 impl Error {

@@ -19,12 +19,12 @@ use std::collections::HashMap;
 
 /// Reads an ASCII results file of Abaqus.
 ///
-/// Nodal records, contact records 1511 to 1578 and surfaces are read; what else there is, is counted by its key.
+/// Nodal records, contact records 1511 to 1578 and surfaces are read; all other records are counted by key.
 /// Components of vectors are named by the active degrees of freedom (record 1902).
 ///
 /// # Errors
-/// The stream of words breaks off or is malformed; the part before is given with the error.
-/// An increment without its end, record 2001, is such a break, and so is a file without increments.
+/// The stream of words is truncated or malformed; the part before is returned with the error.
+/// An increment without its end, record 2001, counts as truncated, and so does a file without increments.
 pub fn read_fil(bytes: &[u8]) -> Read {
     read_whole(bytes, frames)
 }

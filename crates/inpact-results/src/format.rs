@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The kinds of result files that are read.
+/// The supported formats of result files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
     /// Results file of Abaqus in ASCII.

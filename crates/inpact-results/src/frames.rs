@@ -9,11 +9,11 @@ use crate::taker::{ReadFrames, TakeFrame};
 use crate::{dat, fil, frd, rpt, vtu};
 use std::io::{self, Read as _};
 
-/// Reads a result file of any kind that is known, state by state.
+/// Reads a result file of any supported format, state by state.
 ///
-/// Each state is handed to `take` as soon as it has ended, with the coordinates and surfaces that the file has said before it.
-/// Gives what belongs to no state, as [`Results`] without frames; where `take` asked for no more, what was read until then.
-/// Memory does not grow with the number of states, but for `.rpt` and `.vtu`, which are read as a whole.
+/// Each state is passed to `take` as soon as it is complete, with the coordinates and surfaces read before it.
+/// Returns the data that belong to no state, as [`Results`] without frames; if `take` stopped, those read until then.
+/// Memory does not grow with the number of states, except for `.rpt` and `.vtu`, which are read as a whole.
 ///
 /// ```
 /// use std::ops::ControlFlow;

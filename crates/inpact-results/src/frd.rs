@@ -26,7 +26,7 @@ const VALUES: usize = 6;
 
 /// Reads results of CalculiX in ASCII.
 ///
-/// Coordinates of nodes and all blocks of values at nodes are read; elements are passed over.
+/// Coordinates of nodes and all blocks of values at nodes are read; elements are skipped.
 ///
 /// # Errors
 /// A line is malformed, numbers are binary, or the file ends before its last line, `9999`.

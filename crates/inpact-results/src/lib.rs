@@ -56,7 +56,7 @@ pub use rpt::read_rpt;
 pub use taker::TakeFrame;
 pub use vtu::read_vtu;
 
-/// Reads a result file of any kind that is known, which is found out by what it holds.
+/// Reads a result file of any supported format, which is detected from its content.
 ///
 /// # Errors
 /// A file of unknown kind, binary or in another encoding, or one that cannot be read to its end.

@@ -18,7 +18,7 @@ pub struct Problem {
     pub message: String,
     /// Where.
     pub place: Place,
-    /// The remedy.
+    /// The help.
     pub help: String,
 }
 

@@ -12,18 +12,18 @@ pub type Name = Arc<str>;
 /// Content of a result file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
-    /// Of which kind the file is.
+    /// The format of the file.
     pub format: Format,
-    /// The coordinates that nodes began with (L), where the file has them: field `COORD`, columns `COOR1` to `COOR3`.
+    /// The initial coordinates of nodes (L), where the file has them: field `COORD`, columns `COOR1` to `COOR3`.
     ///
-    /// They identify the node of a deck of a label, where labels are those that the solver gave: a `.fil` numbers the nodes
-    /// of all instances anew.
+    /// They map labels to nodes of the deck where the solver renumbers nodes: a `.fil` renumbers the nodes
+    /// of all instances.
     pub coordinates: Option<Field>,
     /// Surfaces and their faces, where the file has them (`.fil`).
     pub surfaces: Vec<Surface>,
     /// The increments, in the order of the file.
     pub frames: Vec<Frame>,
-    /// The parts passed over, by the file's own name for them, in the order they were met first.
+    /// The skipped parts, by the file's own name for them, in the order of first occurrence.
     pub not_read: Vec<NotRead>,
 }
 
@@ -64,7 +64,7 @@ impl Frame {
     }
 }
 
-/// A quantity: its rows and, for each of its components, a value a row.
+/// A quantity: its rows and, for each of its components, one value per row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// The identifier of the quantity, such as `U`, `CDISP` or `CPRESS`.
@@ -89,11 +89,11 @@ impl Field {
 pub struct Column {
     /// The identifier of the component, such as `U1`, `COPEN` or `CPRESS`.
     pub name: Name,
-    /// A value a row; not a number where the file has none.
+    /// One value per row; NaN where the file has none.
     pub values: Vec<f64>,
 }
 
-/// The part of the model that a field was written for.
+/// The region of a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Region {
     /// The slave (secondary) surface of a contact pair.
@@ -165,7 +165,7 @@ pub struct SurfaceFace {
     pub nodes: Vec<i64>,
 }
 
-/// Something in the file that was passed over.
+/// A part of the file that was skipped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotRead {
     /// The file's own name for it.

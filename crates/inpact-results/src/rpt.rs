@@ -26,7 +26,7 @@ use table::Table;
 /// `Contact pressure: CPRESS ASSEMBLY_S/ASSEMBLY_M PI: PART-1-1 Node 12`; others have one row, under their name.
 ///
 /// # Errors
-/// A row has other columns than its table, or the file may be cut short: a table has no blank line after its last
+/// A row has other columns than its table, or the file may be truncated: a table has no blank line after its last
 /// row, or the last line has no end.
 pub fn read_rpt(bytes: &[u8]) -> Read {
     let mut reader = Reader {

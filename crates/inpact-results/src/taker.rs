@@ -6,7 +6,7 @@ use crate::problem::Problem;
 use crate::results::{Frame, Results};
 use std::ops::ControlFlow;
 
-/// Takes states one after the other, each with what the file has said before that belongs to none; may ask for no more.
+/// Takes states one by one, each with the preceding data that belong to no state; may stop.
 pub type TakeFrame<'a> = dyn FnMut(&Results, Frame) -> ControlFlow<()> + 'a;
 
 /// How a format is read state by state.

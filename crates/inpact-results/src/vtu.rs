@@ -18,11 +18,11 @@ pub struct Grid {
     pub points: Vec<[f64; 3]>,
     /// The faces, one after the other.
     pub cells: Vec<Cell>,
-    /// Columns with a value, or values, a point.
+    /// Point data.
     pub point_data: Vec<Array>,
-    /// Columns with a value, or values, a cell.
+    /// Cell data.
     pub cell_data: Vec<Array>,
-    /// The time it is of (T).
+    /// Its time (T).
     pub time: Option<f64>,
 }
 
@@ -31,14 +31,14 @@ pub struct Grid {
 pub struct Cell {
     /// Its kind.
     pub kind: CellKind,
-    /// Its points, as places in [`Grid::points`]: corners in order, then the nodes between them.
+    /// Its points, as indices in [`Grid::points`]: corners in order, then the midside nodes.
     pub points: Vec<usize>,
 }
 
 impl Cell {
     /// A face of an element, by its number of nodes: 1 a point, 2 and 3 a line in a plane model, 3, 4, 6 and 8 a face in space.
     ///
-    /// Other numbers make a polygon.
+    /// Any other number is a polygon.
     pub fn face(points: Vec<usize>, space: Space) -> Self {
         let kind = match (points.len(), space) {
             (1, _) => CellKind::Vertex,
@@ -119,24 +119,24 @@ impl CellKind {
     }
 }
 
-/// A column, or several of one name.
+/// A data array with one or more components.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Array {
     /// Its name.
     pub name: String,
-    /// The number of values of a point or a cell; 1 or more.
+    /// The number of components; 1 or more.
     pub components: usize,
     /// The values, point by point.
     pub values: Values,
 }
 
 impl Array {
-    /// One number a point or cell.
+    /// One number per point or cell.
     pub fn reals(name: impl Into<String>, values: Vec<f64>) -> Self {
         Self { name: name.into(), components: 1, values: Values::Reals(values) }
     }
 
-    /// One whole number a point or cell, such as the label of a node.
+    /// One integer per point or cell, such as the label of a node.
     pub fn integers(name: impl Into<String>, values: Vec<i64>) -> Self {
         Self { name: name.into(), components: 1, values: Values::Integers(values) }
     }

@@ -16,12 +16,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Checks a deck and its model by every rule; findings come in the order of the deck.
+/// Checks a deck and its model by every rule; findings are in the order of the deck.
 pub fn check(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
     check_with(deck, grammar, model, problems, Vec::new())
 }
 
-/// The same with findings of other rules about the deck, such as those on its geometry: they are silenced, ordered and located with the others.
+/// The same with findings of other rules about the deck, such as those on its geometry: they are suppressed, ordered and located with the others.
 pub fn check_with(
     deck: &Deck,
     grammar: &Grammar,
@@ -32,7 +32,7 @@ pub fn check_with(
     check_all((deck, grammar, model, problems), others, &|| ())
 }
 
-/// [`check`] with a call of `watch` before each rule, which may unwind where nobody wants the findings any more.
+/// [`check`] with a call of `watch` before each rule, which may unwind to cancel.
 pub fn check_watched(
     deck: &Deck,
     grammar: &Grammar,
@@ -64,9 +64,9 @@ fn check_all(
     diagnostics
 }
 
-/// The findings that come with a fix, all of them: [`check`] keeps no more of one rule than anybody reads.
+/// All findings with a fix: [`check`] limits the findings of one rule.
 ///
-/// They come in the order of the deck; their lines and columns are not found out.
+/// They are in the order of the deck; their lines and columns are not computed.
 pub fn fixable(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Problem]) -> Vec<Diagnostic> {
     let mut directives = directives::read(deck);
     let mut diagnostics = Vec::new();
@@ -84,7 +84,7 @@ pub fn fixable(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Proble
     diagnostics
 }
 
-/// Runs every rule by itself and gives how long each took by a clock of the caller, which gives the time since some instant.
+/// Runs every rule separately and measures its time by the caller's clock, which gives the time since some instant.
 pub fn time_rules(
     deck: &Deck,
     grammar: &Grammar,

@@ -28,7 +28,7 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Factors the matrix whose lower triangle has these entries: where each column begins among `rows`, and where the last ends; rows ascending in a column.
+    /// Factors the matrix whose lower triangle is given in compressed sparse column form: the start of each column in `rows`, and the end of the last; rows ascending in each column.
     ///
     /// # Errors
     ///
@@ -36,7 +36,7 @@ impl Cholesky {
     ///
     /// # Panics
     ///
-    /// The columns are no lower triangle.
+    /// The columns are not a lower triangle.
     pub fn new(starts: &[u32], rows: &[u32], values: Vec<f64>) -> Result<Self, Error> {
         let count = starts.len() - 1;
         let pattern = SymbolicSparseColMatRef::new_checked(count, count, starts, None, rows);

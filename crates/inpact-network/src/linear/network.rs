@@ -2,19 +2,19 @@
 
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// Nodes joined by conductances: what is solved when no conductance depends on the answer.
+/// Nodes joined by conductances that do not depend on the solution.
 ///
-/// One field only: potential, temperature or pore pressure, and its flow, which is current, heat or volume of fluid per time.
+/// One field: potential, temperature or pore pressure, and its flow: current, heat or volume of fluid per time.
 /// Units are those of the scene; conductances are flow per difference of the field.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinearNetwork {
-    /// The value of a node that is held, `None` for one whose value is sought; as many as there are nodes.
+    /// The value of each held node, `None` for unknowns; as many as there are nodes.
     pub held: Vec<Option<f64>>,
-    /// The source of each node, W, A or L³/T; at a held node it adds to the supply that holds it.
+    /// The source of each node, W, A or L³/T; at a held node it adds to the node's supply.
     pub sources: Vec<f64>,
     /// The conductances.
     pub links: Vec<Link>,
-    /// Storage of nodes over a time increment.
+    /// Capacities of nodes over a time increment.
     pub stores: Vec<Store>,
 }
 
@@ -27,7 +27,7 @@ pub struct Link {
     pub conductance: f64,
 }
 
-/// Storage of a node in a time increment by backward Euler: conductance × (its value − its value before).
+/// Storage of a node in a time increment by backward Euler: conductance × (its value − its previous value).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Store {
     /// The node.
@@ -39,7 +39,7 @@ pub struct Store {
 }
 
 impl LinearNetwork {
-    /// A network of so many nodes, none of them held, without a link.
+    /// A network with this number of nodes, none of them held, and without links.
     pub fn of_nodes(nodes: usize) -> Self {
         Self { held: vec![None; nodes], sources: vec![0.0; nodes], ..Self::default() }
     }

@@ -27,33 +27,33 @@ pub enum Method {
 pub struct LinearReport {
     /// The method that gave it.
     pub method: Method,
-    /// The relative error of a flow that is permitted.
+    /// The permitted relative error of a flow.
     pub tolerance: f64,
     /// The number of unknowns.
     pub unknowns: usize,
     /// The number of unknowns that are jumps from another node.
     pub relative: usize,
-    /// In how many levels the strengths of the conductances fall.
+    /// The number of levels of strength of the conductances.
     pub levels: usize,
-    /// The number of nodes that share the value of another by an infinite conductance.
+    /// The number of nodes merged with another by an infinite conductance.
     pub merged: usize,
     /// The number of nodes eliminated in series: they only pass on the flow.
     pub taken_out: usize,
     /// The number of nodes in dead ends: no flow reaches them, and they have the value of another.
     pub dead_ends: usize,
-    /// The number of infinite conductances beyond those that determine the shares of their flow; they share it as equal ones would.
+    /// The number of infinite conductances that close cycles, so that the distribution of their flow is undetermined; they share it as equal ones would.
     pub shared: usize,
     /// The order of elimination, where there was a factor.
     pub ordering: Option<Ordering>,
     /// Entries of the factor.
     pub factor_entries: usize,
-    /// Results of a network before that were used again.
+    /// Results of the previous network that were reused.
     pub reused: Reused,
     /// Iterations of conjugate gradients.
     pub iterations: usize,
-    /// Residual and estimated error; an elimination has no estimate.
+    /// Residual and estimated error; elimination has no estimate.
     pub quality: Quality,
-    /// The methods that were tried before, and why they were given up.
+    /// The methods that were tried before, and why they failed.
     pub given_up: Vec<(Method, Shortcoming)>,
     /// Time of each phase.
     pub phases: Phases,
@@ -64,15 +64,15 @@ pub struct LinearReport {
 pub struct Quality {
     /// The number of solves.
     pub solves: usize,
-    /// The largest share of its flows that is missing in a balance, balances that are at their rounding left out.
+    /// The largest residual of a balance relative to its flows, except balances at their rounding.
     pub residual: f64,
-    /// An estimate of the largest relative error of a flow, before it is rounded to f64.
+    /// An estimate of the largest relative error of a flow, before rounding to f64.
     pub error: f64,
-    /// A lower estimate of the condition of the scaled matrix.
+    /// A lower bound estimate of the condition number of the scaled matrix.
     pub condition: f64,
 }
 
-/// Results of a network before that were used again.
+/// Results of the previous network that were reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Reused {
@@ -85,7 +85,7 @@ pub enum Reused {
     Factor,
 }
 
-/// Reasons why a method was given up.
+/// Reasons why a method failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shortcoming {

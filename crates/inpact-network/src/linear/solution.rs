@@ -21,7 +21,7 @@ pub struct LinearSolution {
 }
 
 impl LinearSolution {
-    /// The jump across a link of the network that was solved, its first node less its second, with all its digits: no difference of values.
+    /// The jump across a link of the network that was solved, first node minus second, with all its digits: not a difference of values.
     pub fn jump(&self, network: &LinearNetwork, link: usize) -> DoubleDouble {
         self.jump_at(link, network.links[link].conductance)
     }

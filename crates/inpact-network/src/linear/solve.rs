@@ -23,7 +23,7 @@ use crate::error::Error;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::sync::Arc;
 
-/// Solves networks, and keeps what the next one can use again: the order of elimination as long as the same unknowns are coupled, the factor as long as the matrix is the same.
+/// Solves networks, and caches what the next one can reuse: the elimination ordering as long as the same unknowns are coupled, the factor as long as the matrix is the same.
 #[derive(Debug)]
 pub struct Solver {
     method: Method,
@@ -55,7 +55,7 @@ impl Solver {
         Self { method, tolerance, kept: None, work: Work::default(), clock: no_clock }
     }
 
-    /// The same, with the times of its phases by a clock of the caller; without one they are 0.
+    /// The same, with the times of its phases measured by the caller's clock; without one they are 0.
     #[must_use]
     pub fn timed_by(self, clock: Clock) -> Self {
         Self { clock, ..self }

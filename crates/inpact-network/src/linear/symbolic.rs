@@ -16,10 +16,10 @@ use super::solve::Solver;
 use crate::error::Error;
 use std::sync::Arc;
 
-/// A symbolic factorisation, shared by the solvers made of it.
+/// A symbolic factorisation, shared by the solvers made from it.
 ///
-/// A solver finds out by itself whether a network fits: where other nodes are held or fed, or conductances of other magnitudes couple other unknowns, it analyses that network anew and keeps the result.
-/// [`LinearReport::reused`](super::LinearReport::reused) says which part of the work was there already.
+/// A solver checks whether a network matches: where other nodes are held or have sources, or conductances of other magnitudes couple other unknowns, it repeats the analysis for that network and keeps the result.
+/// [`LinearReport::reused`](super::LinearReport::reused) says which part of the work was reused.
 ///
 /// ```
 /// use inpact_network::linear::{LAST_DIGIT, LinearNetwork, Link, Method, Reused, Symbolic};
@@ -90,7 +90,7 @@ impl Symbolic {
         self.analysis.entries()
     }
 
-    /// A solver that begins with this order; `method` and `tolerance` as in [`Solver::new`].
+    /// A solver that starts with this ordering; `method` and `tolerance` as in [`Solver::new`].
     pub fn solver(&self, method: Method, tolerance: f64) -> Solver {
         Solver::with_order(method, tolerance, (Arc::clone(&self.pattern), Arc::clone(&self.analysis)))
     }

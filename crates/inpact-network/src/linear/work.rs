@@ -3,7 +3,7 @@
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// A clock that the caller reads: the time since some instant, never less than before. No clock is read here otherwise.
+/// A monotonic clock of the caller: the time since some instant. No other clock is read here.
 pub type Clock = fn() -> Duration;
 
 /// The clock of those who want no times.
@@ -19,11 +19,11 @@ pub(super) fn seconds_since(clock: Clock, then: Duration) -> f64 {
 /// Times of the phases of a solution, seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Phases {
-    /// Leaving out what can be left out, choosing unknowns, assembling.
+    /// Reduction, choice of unknowns, assembly.
     pub set_up: f64,
-    /// Ordering and analysing; nothing where that was kept.
+    /// Ordering and symbolic analysis; 0 where that was reused.
     pub order: f64,
-    /// Factoring; nothing where that was kept.
+    /// Numeric factorisation; 0 where that was reused.
     pub factor: f64,
     /// Solving and refining.
     pub solve: f64,

@@ -11,9 +11,9 @@ use crate::scene::Field;
 use std::collections::{BTreeMap, HashSet};
 
 impl Problem<'_> {
-    /// The failures that are certain at the start, field by field.
+    /// The failures that are certain before solving, field by field.
     ///
-    /// An interface whose conductance depends on what is sought counts as a path: a scene without such a failure may still have none of the paths it needs, which only
+    /// An interface whose conductance depends on unknowns counts as a path: a scene without such a failure may still lack the paths it needs, which only
     /// solving shows.
     pub fn certain_failures(&self) -> Vec<Error> {
         let mut failures = Vec::new();

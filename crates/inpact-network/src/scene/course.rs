@@ -2,7 +2,7 @@
 
 use inpact_evaluation::numbers::between;
 
-/// A number as it goes with time: linear between points, constant before the first and after the last.
+/// A number as a function of time: linear between points, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course(Vec<[f64; 2]>);
 
@@ -12,17 +12,17 @@ impl Course {
         Self(vec![[0.0, value]])
     }
 
-    /// A number that goes through points of time and value, of which there is one at least and whose times ascend.
+    /// A number through points of time and value, at least one, with ascending times.
     pub fn through(points: Vec<[f64; 2]>) -> Self {
         Self(points)
     }
 
-    /// Its points of time and value; one, whose time means nothing, where it is the same at all times.
+    /// Its points of time and value; a single one, whose time is meaningless, where it is constant.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.0
     }
 
-    /// The sum of numbers that follow time, each times a factor; 0 without any.
+    /// A linear combination of numbers that vary with time; 0 without any.
     pub fn sum(parts: &[(f64, Self)]) -> Self {
         let mut times: Vec<f64> = parts.iter().flat_map(|(_, course)| course.corners()).collect();
         times.sort_by(f64::total_cmp);

@@ -21,7 +21,7 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
 use toml::Spanned;
 
-/// The tables beside a scene file.
+/// The tables of a scene file.
 pub trait SceneFiles {
     /// The name of a file in findings; as the scene has it unless that means nothing to whoever reads them.
     fn name(&self, name: &str) -> String {
@@ -32,7 +32,7 @@ pub trait SceneFiles {
     fn read(&mut self, name: &str) -> Option<Vec<u8>>;
 }
 
-/// Reads a scene; `name` is what the scene file is called in findings.
+/// Reads a scene; `name` is the name of the scene file in findings.
 ///
 /// The scene is `None` where one of the findings is an error.
 pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<Diagnostic>) {
@@ -41,7 +41,7 @@ pub fn read(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene
     (scene.filter(|_| !has_errors), found)
 }
 
-/// Reads a scene and gives what could be read of it beside its errors, so that more can be said of it; `None` where it is no scene at all.
+/// Reads a scene and returns the readable part together with its errors, so that further checks are possible; `None` where it is not a scene at all.
 pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles) -> (Option<Scene>, Vec<Diagnostic>) {
     let mut reader = Reader::new(text, name);
     let Sound { text: sound, without, mut problems } = syntax::sound(text);

@@ -14,7 +14,7 @@ use super::lines::without_line_end;
 
 /// The items of a data line as byte ranges of `line`, without the blanks around them.
 ///
-/// An item may be empty (S-32), and a trailing comma gives one empty item more (S-33).
+/// An item may be empty (S-32), and a trailing comma gives one more empty item (S-33).
 pub fn items(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
     let content = without_line_end(line);
     let mut rest = Some(content);

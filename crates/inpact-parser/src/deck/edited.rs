@@ -14,7 +14,7 @@ use std::sync::{Arc, OnceLock};
 /// About how many bytes a piece has; a line is never cut.
 const PIECE: usize = 32 * 1024;
 
-/// Text that can be changed, and scanned again for what its interpreted blocks cost.
+/// Text that can be changed, and rescanned at the cost of its interpreted blocks.
 ///
 /// A clone shares the pieces.
 #[derive(Debug, Clone, Default)]
@@ -25,7 +25,7 @@ pub struct EditedText {
     length: u64,
 }
 
-/// Text that comes bit by bit: it is cut into pieces as it comes, so that it never stands in memory as a whole besides.
+/// Text received in parts and split into pieces on arrival, so that it is never a second time in memory as a whole.
 #[derive(Debug, Default)]
 pub struct TextInParts {
     pieces: Vec<Arc<Piece>>,
@@ -103,7 +103,7 @@ impl EditedText {
         self.pieces.iter().map(|piece| piece.line_ends).sum()
     }
 
-    /// Puts bytes in the place of others; a range that goes beyond the text is cut off there.
+    /// Replaces bytes; a range that goes beyond the text is truncated.
     pub fn replace(&mut self, range: Range<u64>, with: &[u8]) {
         self.replace_in_pieces(range, with, PIECE);
     }
@@ -134,7 +134,7 @@ impl EditedText {
         self.place_pieces(first);
     }
 
-    /// The bytes of a range, as far as there are.
+    /// The bytes of a range, as far as they exist.
     pub fn bytes(&self, range: Range<u64>) -> Cow<'_, [u8]> {
         let end = range.end.min(self.length);
         let (index, piece_start) = self.piece_at(range.start.min(end));
@@ -174,7 +174,7 @@ impl EditedText {
         (start.offset + from as u64, without_line_end(&piece.bytes[from..to]))
     }
 
-    /// The line that a byte lies in, counted from 0, and where it begins.
+    /// The line of a byte, counted from 0, and where it begins.
     pub fn line_of(&self, offset: u64) -> (u64, u64) {
         let offset = offset.min(self.length);
         let index = self.starts.partition_point(|start| start.offset <= offset).saturating_sub(1);
@@ -185,7 +185,7 @@ impl EditedText {
         (start.line + line as u64, start.offset + line_starts[line] as u64)
     }
 
-    /// Pushes the text into a scanner, passing over pieces of rows that nobody keeps; calls `watch` before each piece, which may unwind where nobody wants the deck any more.
+    /// Pushes the text into a scanner, skipping pieces of rows that are not kept; calls `watch` before each piece, which may unwind to cancel.
     pub fn push_watched(&self, scanner: &mut Scanner<'_>, watch: &dyn Fn()) {
         for piece in &self.pieces {
             watch();
@@ -193,9 +193,9 @@ impl EditedText {
         }
     }
 
-    /// How many bytes at the beginning and at the end are shared with another text; they do not overlap.
+    /// The lengths of the common prefix and suffix with another text; they do not overlap.
     ///
-    /// Whole pieces are compared by being the same ones.
+    /// Whole pieces are compared by identity.
     pub fn shared_with(&self, other: &Self) -> (u64, u64) {
         let same = |(a, b): &(&Arc<Piece>, &Arc<Piece>)| Arc::ptr_eq(a, b);
         let length = |(piece, _): (&Arc<Piece>, &Arc<Piece>)| piece.bytes.len() as u64;
@@ -239,7 +239,7 @@ impl TextInParts {
         self.pieces.append(&mut pieces);
     }
 
-    /// The text of all bytes that have come.
+    /// The text of all bytes received.
     pub fn finish(self) -> EditedText {
         self.finish_in_pieces(PIECE)
     }

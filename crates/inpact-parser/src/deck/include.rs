@@ -11,7 +11,7 @@ use crate::span::{SourceId, Span};
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-/// The most files below one another, the deck itself not counted: five in Abaqus (S-52), nine in CalculiX (CX-06).
+/// The maximum nesting of files, not counting the deck itself: five in Abaqus (S-52), nine in CalculiX (CX-06).
 pub fn most_levels(dialect: Dialect) -> usize {
     match dialect {
         Dialect::Abaqus => 5,
@@ -19,7 +19,7 @@ pub fn most_levels(dialect: Dialect) -> usize {
     }
 }
 
-/// The most files a deck may include in all: a bound against files that include one another over and over.
+/// The maximum number of files that a deck may include in total: a bound against files that include one another repeatedly.
 pub const MOST_FILES: usize = 200_000;
 
 /// The most bytes of files that are read again, besides sixteen times what is read for the first time.
@@ -33,7 +33,7 @@ const MOST_BYTES_AGAIN: u64 = 16 << 20;
 pub struct Include {
     /// Its keyword line.
     pub keyword: Span,
-    /// The name of the file as it is written; `None` when INPUT is missing.
+    /// The name of the file as written; `None` when INPUT is missing.
     pub name: Option<Span>,
     /// The outcome.
     pub outcome: IncludeOutcome,
@@ -60,7 +60,7 @@ pub enum IncludeOutcome {
     Unnamed,
 }
 
-/// Source of included files; its implementation does the input and output.
+/// Source of included files; the implementation does the input and output.
 pub trait IncludedFiles {
     /// The identity of the deck among files; `None` when it is no file.
     fn deck(&self) -> Option<PathBuf>;
@@ -98,7 +98,7 @@ pub struct FoundFile {
 }
 
 impl Deck {
-    /// Reads what the deck includes, and what that includes, and puts it in its place.
+    /// Reads included files recursively and inserts them in place.
     #[must_use]
     pub fn with_includes(self, options: ScanOptions<'_>, files: &mut dyn IncludedFiles) -> Self {
         let has_includes = |block: &Block| is_include(block, options);

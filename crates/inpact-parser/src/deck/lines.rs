@@ -19,7 +19,7 @@ pub enum LineKind {
     Data,
 }
 
-/// The kind of the line that `line` holds; its line end may be there or not.
+/// The kind of `line`, with or without its line end.
 pub fn line_kind(line: &[u8]) -> LineKind {
     let content = line.trim_ascii_start();
     match content {
@@ -63,7 +63,7 @@ pub fn lines(bytes: &[u8]) -> impl Iterator<Item = std::ops::Range<usize>> {
     })
 }
 
-/// The number of line ends in `bytes`; a CR at the very end counts, so callers must not cut a CR LF in two.
+/// The number of line ends in `bytes`; a CR at the very end counts, so callers must not split a CR LF.
 pub fn count_line_ends(bytes: &[u8]) -> u64 {
     let line_feeds = memchr_iter(b'\n', bytes).count();
     (line_feeds + lone_carriage_returns(bytes)) as u64
@@ -81,8 +81,8 @@ fn lone_carriage_returns(bytes: &[u8]) -> usize {
 
 /// The start of the next line of kind [`LineKind::Keyword`] at or after `from`, which must be the start of a line.
 ///
-/// Looks at asterisks only, so that megabytes of mesh rows cost one `memchr`.
-/// The comments it passes are handed to `comment`, as the start of their line and the place of their first asterisk.
+/// Searches for asterisks only, so that megabytes of mesh rows cost one `memchr`.
+/// The comments on the way are passed to `comment`, as the start of their line and the position of their first asterisk.
 pub fn find_keyword_line(bytes: &[u8], from: usize, mut comment: impl FnMut(usize, usize)) -> Option<usize> {
     let mut at = from;
     while let Some(found) = memchr(b'*', &bytes[at..]) {
@@ -116,7 +116,7 @@ fn line_start_before(bytes: &[u8], from: usize, at: usize) -> Option<usize> {
 
 /// The first line of `bytes` that is longer than `limit` bytes (line end not counted, trailing blanks counted).
 ///
-/// Jumps from line end to line end in strides of `limit`, so that short lines cost next to nothing.
+/// Jumps from line end to line end in strides of `limit`, so that short lines cost almost nothing.
 pub fn find_long_line(bytes: &[u8], from: usize, limit: usize) -> Option<std::ops::Range<usize>> {
     let mut start = from;
     while bytes.len() - start > limit {

@@ -68,7 +68,7 @@ pub fn scan(name: &str, bytes: &[u8], grammar: &Grammar) -> Deck {
     scanner.finish()
 }
 
-/// Takes the bytes of one file piece by piece and cuts them into blocks.
+/// Splits the bytes of one file, pushed piece by piece, into blocks.
 #[derive(Debug)]
 pub struct Scanner<'grammar> {
     options: ScanOptions<'grammar>,
@@ -182,7 +182,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Sets the most bytes of a keyword line with the lines that continue it: what follows is read as rows, and said (S003). It is 1 GiB otherwise.
+    /// Sets the limit of bytes of a keyword line with its continuation lines: the rest is read as rows and reported (S003). The default is 1 GiB.
     pub fn set_longest_keyword_line(&mut self, bytes: u32) {
         self.longest_keyword_line = bytes;
     }
@@ -217,12 +217,12 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// The number of bytes of a line that has not ended yet: they are kept until it does.
+    /// The number of buffered bytes of an unfinished line.
     pub fn unfinished(&self) -> usize {
         self.pending.len()
     }
 
-    /// The number of the line that comes next or has not ended yet, from 1.
+    /// The number of the next or unfinished line, from 1.
     pub fn line(&self) -> u64 {
         self.line
     }

@@ -9,7 +9,7 @@ use super::lines::count_line_ends;
 use crate::span::{Position, Span};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// One source file: its name, its size, and the stretches of it that were kept.
+/// One source file: its name, its size, and the ranges of it that were kept.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     name: String,
@@ -78,7 +78,7 @@ impl Source {
         Self { name: name.to_owned(), ..Self::default() }
     }
 
-    /// The name it was given: a path, or `-` for standard input.
+    /// Its name: a path, or `-` for standard input.
     pub fn name(&self) -> &str {
         &self.name
     }

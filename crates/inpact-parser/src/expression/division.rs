@@ -15,13 +15,13 @@ pub enum Division {
 }
 
 impl Division {
-    /// That of the Python which a release carries.
+    /// That of the Python version of a release.
     pub fn of_release(release: Release) -> Self {
         if release < Release::R2024 { Self::Floor } else { Self::True }
     }
 }
 
-/// A `/` between two integers that leaves a remainder: what it gives depends on the release (S019).
+/// A `/` between two integers with a remainder: its result depends on the release (S019).
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntegerDivision {
     /// Dividend and divisor with the text between them.

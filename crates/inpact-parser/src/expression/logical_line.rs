@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::iter::Peekable;
 use std::ops::Range;
 
-/// One line of a *PARAMETER block; the deck's own comment lines (`**`) are passed over before.
+/// One line of a *PARAMETER block; the deck's own comment lines (`**`) are already skipped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StatementLine<'deck> {
     /// Its place.

@@ -39,7 +39,7 @@ impl Parameters {
         Self::default()
     }
 
-    /// No parameter, in the Python that a release carries (S-60).
+    /// No parameter, in the Python version of a release (S-60).
     pub fn of_release(release: Release) -> Self {
         Self { division: Division::of_release(release), ..Self::default() }
     }
@@ -49,7 +49,7 @@ impl Parameters {
         self.division
     }
 
-    /// The divisions of integers that leave a remainder, so that what they give depends on the release (S019).
+    /// The divisions of integers with a remainder, whose result depends on the release (S019).
     pub fn integer_divisions(&self) -> &[IntegerDivision] {
         &self.integer_divisions
     }
@@ -59,7 +59,7 @@ impl Parameters {
         &self.definitions
     }
 
-    /// The definition of `name` that counts: the last one.
+    /// The definition of `name` in force: the last one.
     pub fn definition(&self, name: &str) -> Option<&Definition> {
         self.last_of_name.get(name).map(|index| &self.definitions[*index])
     }
@@ -69,14 +69,14 @@ impl Parameters {
         self.definition(name)?.value.as_ref()
     }
 
-    /// A defined name that differs from `name` in upper and lower case only.
+    /// A defined name that differs from `name` only in case.
     pub fn name_in_other_case(&self, name: &str) -> Option<&str> {
         let lower_case = name.to_ascii_lowercase();
         let index = self.of_lower_case.get(&lower_case).or_else(|| self.last_of_name.get(&lower_case))?;
         Some(self.definitions[*index].name.as_str()).filter(|other| *other != name)
     }
 
-    /// The definitions that count, one a name.
+    /// The definitions in force, one per name.
     pub fn final_definitions(&self) -> impl Iterator<Item = &Definition> {
         let is_last =
             |(index, definition): &(usize, &Definition)| self.last_of_name.get(&definition.name) == Some(index);

@@ -12,7 +12,7 @@ use std::ops::Range;
 /// Executes the data lines of one *PARAMETER block (S-60, S-61).
 ///
 /// A statement with a problem gives its names no value, and execution goes on with the next statement.
-/// Statements that use such a name are without a value too, but are not reported again.
+/// Statements that use such a name have no value either, but are not reported again.
 pub fn define<'deck>(
     lines: impl IntoIterator<Item = StatementLine<'deck>>,
     parameters: &mut Parameters,

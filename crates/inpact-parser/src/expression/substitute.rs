@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::fmt::Write;
 use std::ops::Range;
 
-/// A place where the value of a parameter goes.
+/// A reference to a parameter.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reference<'text> {
     /// `<name>`, with the brackets.
@@ -37,7 +37,7 @@ pub enum SubstitutionError {
 
 /// The references in a text, from left to right: a name between `<` and `>`, with or without blanks around it.
 ///
-/// Anything else between these characters is no reference.
+/// Anything else between these characters is not a reference.
 pub fn references(text: &[u8]) -> impl Iterator<Item = Reference<'_>> {
     let mut from = 0;
     std::iter::from_fn(move || {
@@ -60,10 +60,10 @@ pub fn references(text: &[u8]) -> impl Iterator<Item = Reference<'_>> {
 
 /// The text with every `<name>` replaced by the value of the parameter; borrowed when it has none.
 ///
-/// A value may hold commas, so this comes before the text is cut into items.
+/// A value may contain commas, so this comes before the text is split into items.
 ///
 /// # Errors
-/// A reference that has no value, the first one from the left; or a result that grows out of all proportion.
+/// The leftmost reference without a value; or a result that exceeds the limits.
 pub fn substitute<'text>(text: &'text str, parameters: &Parameters) -> Result<Cow<'text, str>, SubstitutionError> {
     let mut replaced = String::new();
     let mut copied = 0;

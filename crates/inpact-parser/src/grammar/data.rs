@@ -13,7 +13,7 @@ const ITEMS_ON_A_LINE: usize = 8;
 pub struct Data {
     /// Their shape.
     pub shape: RowShape,
-    /// Whether the option means nothing without rows (K-11).
+    /// Whether the option requires rows (K-11).
     #[serde(default)]
     pub required: bool,
     /// The least number of rows, where there are any (K-30).
@@ -137,7 +137,7 @@ impl Data {
         })
     }
 
-    /// The layout of the rows, when there are rows of numbers and no given parameter has them ignored (K-50 to K-52).
+    /// The layout of the rows, when there are rows of numbers and no given parameter makes them ignored (K-50 to K-52).
     ///
     /// `count` is the value of the parameter that counts columns, 0 where it is not given.
     pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
@@ -206,7 +206,7 @@ impl Data {
 }
 
 impl Layout {
-    /// The number of items of a whole row.
+    /// The number of items of a complete row.
     pub fn width(&self) -> usize {
         self.columns.len() + self.unwritten
     }

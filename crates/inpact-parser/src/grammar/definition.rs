@@ -170,7 +170,7 @@ impl Definition {
     ///
     /// # Errors
     ///
-    /// A text that is no TOML, has an unknown key, lacks one, or contradicts itself.
+    /// A text that is not TOML, has an unknown key, lacks one, or contradicts itself.
     pub fn parse(toml: &str) -> Result<Self, Error> {
         let definition: Self = toml::from_str(toml).map_err(|reason| Error::definition(reason.to_string()))?;
         match definition.contradiction() {
@@ -194,7 +194,7 @@ impl Definition {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
-    /// The parameter that is written so in a deck for `release`, as its place in the list (S-13, S-16).
+    /// Looks up a parameter as written in a deck for `release`; returns its index in the list (S-13, S-16).
     pub fn parameter_named_in(&self, written: &[u8], release: Release) -> Lookup<usize> {
         let parameters = self.parameters.iter().enumerate();
         if self.matching == Matching::InFull {
@@ -219,7 +219,7 @@ impl Definition {
         self.parameters.iter_mut().for_each(|parameter| parameter.matching = Matching::InFull);
     }
 
-    /// Names of parameters that somebody who wrote this may have meant, the nearest first.
+    /// Suggestions for a misspelt parameter, the nearest first.
     pub fn nearest_parameters(&self, written: &str, at_most: usize) -> Vec<&str> {
         nearest::nearest(written.as_bytes(), self.parameters.iter().map(|parameter| parameter.name.as_str()), at_most)
     }
@@ -283,7 +283,7 @@ impl ParameterDefinition {
         }
     }
 
-    /// The choice that is written so (S-13); `None` when there is none, or more than one.
+    /// Looks up a choice as written (S-13); `None` when there is none, or more than one.
     pub fn choice_named(&self, written: &[u8]) -> Option<&str> {
         if self.matching == Matching::InFull {
             return self.choices.iter().map(String::as_str).find(|choice| begins_with_name(written, choice));

@@ -50,7 +50,7 @@ impl Base {
 }
 
 impl Dimension {
-    /// The power in which the quantity is contained.
+    /// The exponent of the quantity.
     pub fn exponent(self, base: Base) -> i8 {
         self.exponents[base as usize]
     }

@@ -25,9 +25,9 @@ impl<T> Lookup<T> {
     }
 }
 
-/// Looks up a written name among `names`; gives its place in the list (S-13).
+/// Looks up a written name among `names`; returns its index in the list (S-13).
 ///
-/// Right for parameters and enumerated values; never for numbers and file names, which are not abbreviated.
+/// For parameters and enumerated values only; numbers and file names cannot be abbreviated.
 pub fn lookup_name<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str>) -> Lookup<usize> {
     let indexed = names.into_iter().enumerate();
     lookup_among(written, indexed)

@@ -7,7 +7,7 @@ use super::lookup::{Folded, fold};
 /// The shortest text whose being the beginning of a name, or a name's being its beginning, says something.
 const TELLING: usize = 4;
 
-/// The names near to what is written, the nearest first.
+/// The names similar to a word, the nearest first.
 pub fn nearest<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str>, at_most: usize) -> Vec<&'name str> {
     let word: Vec<u8> = fold(written).take(Folded::LONGEST).collect();
     if word.is_empty() {

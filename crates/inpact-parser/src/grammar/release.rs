@@ -26,13 +26,13 @@ pub enum Release {
 }
 
 impl Release {
-    /// The release that is meant when none is named.
+    /// The default release.
     pub const NEWEST: Self = Self::R2024;
 
     /// Every release, oldest first.
     pub const ALL: [Self; 6] = [Self::R6_11, Self::R6_14, Self::R2016, Self::R2017, Self::R2022, Self::R2024];
 
-    /// Whether a thing introduced with `since` and last available in `until` exists; an unknown bound excludes no release.
+    /// Whether an item introduced in `since` and last available in `until` exists; an unknown bound excludes no release.
     pub fn is_within(self, since: Option<Self>, until: Option<Self>) -> bool {
         since.is_none_or(|since| since <= self) && until.is_none_or(|until| self <= until)
     }

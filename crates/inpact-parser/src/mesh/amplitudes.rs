@@ -24,7 +24,7 @@ pub struct Amplitude {
     pub value: AmplitudeValue,
 }
 
-/// The time that an amplitude counts.
+/// The time base of an amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AmplitudeTime {
     /// Since the start of the step.

@@ -21,39 +21,39 @@ use std::collections::HashMap;
 use std::io;
 use std::ops::Range;
 
-/// The solid elements of a deck, and where its bodies end.
+/// The solid elements of a deck, and the terminals of its bodies.
 #[derive(Debug, Clone, Default)]
 pub struct BodyMesh {
-    /// Coordinates of the nodes of solid elements (L), instances at their places.
+    /// Coordinates of the nodes of solid elements (L), in the assembly.
     pub points: Vec<Point>,
     /// The number of each node in its instance.
     pub labels: Vec<u32>,
     /// The nodes of each instance, and its name; `None` in a deck without.
     pub instances: Vec<(Option<Name>, Range<usize>)>,
-    /// The instances that are turned, as positions in `instances`.
+    /// The rotated instances, as positions in `instances`.
     pub turned: Vec<usize>,
     /// The elements, by option, instance and section.
     pub elements: Vec<ElementBlock>,
     /// The materials of the deck.
     pub materials: Vec<BodyMaterial>,
-    /// The terminals, in the order they were asked for; `None` where the deck has neither a surface nor a node set of the name.
+    /// The terminals, in the requested order; `None` where the deck has neither a surface nor a node set of the name.
     pub terminals: Vec<Option<MeshTerminal>>,
     /// Names of surfaces and node sets of the deck, in its order.
     pub known: Vec<Name>,
-    /// Faults of the deck without whose remedy its bodies would be others.
+    /// Faults of the deck that would make its bodies wrong.
     pub faults: Vec<MeshNote>,
-    /// Parts that are no solid elements, or join nodes beside them.
+    /// Elements that are not solids, and options that join nodes otherwise.
     pub left_out: Vec<MeshNote>,
 }
 
 /// Elements of one type and section.
 #[derive(Debug, Clone)]
 pub struct ElementBlock {
-    /// The name of the type, as it is written.
+    /// The name of the type, as written.
     pub type_name: String,
     /// The shape.
     pub shape: ElementShape,
-    /// How it is integrated.
+    /// The integration scheme.
     pub integration: Integration,
     /// The keyword line of *ELEMENT.
     pub span: Span,
@@ -65,7 +65,7 @@ pub struct ElementBlock {
     pub material: usize,
     /// Its name.
     pub material_name: Name,
-    /// The directions that ORIENTATION of the section gives its material.
+    /// The material axes by ORIENTATION of the section.
     pub axes: MaterialAxes,
     /// The numbers of the elements.
     pub labels: Vec<u32>,
@@ -83,19 +83,19 @@ impl ElementBlock {
 /// A surface or a node set where a body ends.
 #[derive(Debug, Clone)]
 pub struct MeshTerminal {
-    /// Its name, as it was asked for.
+    /// Its name, as requested.
     pub name: Name,
-    /// The keyword line that defines it; of a node set that rows of *NODE say, the *NODE option; of a single node nowhere.
+    /// The keyword line that defines it; for a node set defined by *NODE, the *NODE option; empty for a single node.
     pub span: Span,
-    /// Its nodes that solid elements have, ascending.
+    /// Its nodes on solid elements, ascending.
     pub nodes: Vec<NodeId>,
     /// The faces of a surface of element faces.
     pub faces: Option<Surface>,
-    /// How a flow is spread evenly over a part of it, where that is known better than by its faces and nodes.
+    /// A uniform flow over a part of it, where that is known more precisely than by its faces and nodes.
     pub even: Option<EvenFlow>,
 }
 
-/// A flow that is spread evenly over an area.
+/// A flow that is uniformly distributed over an area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvenFlow {
     /// The shares of the nodes of a terminal, in their order; they sum to 1.

@@ -32,7 +32,7 @@ pub struct DeckConditions {
     pub amplitudes: Vec<Amplitude>,
     /// AMPLITUDE of *STEP, in upper case: RAMP or STEP.
     pub step_amplitude: Option<String>,
-    /// Conditions that were not taken over, with the reason.
+    /// Conditions that are not supported, with the reason.
     pub not_taken: Vec<MeshNote>,
 }
 
@@ -45,11 +45,11 @@ pub struct Condition {
     pub keyword: &'static str,
     /// The target of the row: a set, a surface, a number; with the face where it names one.
     pub target: String,
-    /// The nodes or faces it is on: a position in [`Mesh::surfaces`](super::Mesh::surfaces); `None` where nothing of it was found.
+    /// Its nodes or faces: a position in [`Mesh::surfaces`](super::Mesh::surfaces); `None` where it was not found.
     pub on: Option<usize>,
     /// Its kind.
     pub kind: ConditionKind,
-    /// The value, flow, flow per area or, of a film, sink temperature; before its amplitude.
+    /// The value, flow, flow per area or, for a film, sink temperature; without its amplitude.
     pub magnitude: f64,
     /// Its amplitude.
     pub amplitude: Option<Reference>,
@@ -73,7 +73,7 @@ pub enum ConditionKind {
     },
 }
 
-/// A field that conditions are of.
+/// The field of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConditionField {
     /// Electric potential (φ), degree of freedom 9.

@@ -31,12 +31,12 @@ pub enum InitialQuantity {
 pub struct InitialField {
     /// The quantity.
     pub quantity: InitialQuantity,
-    /// A value a node, in the order of [`Mesh::nodes`]; `None` where no row names it.
+    /// One value per node, in the order of [`Mesh::nodes`]; `None` where no row names it.
     pub values: Vec<Option<f64>>,
 }
 
 impl Mesh {
-    /// The initial values of a quantity, a value a node; `None` where the deck has none.
+    /// The initial values of a quantity, one per node; `None` where the deck has none.
     pub fn initial_values(&self, quantity: InitialQuantity) -> Option<&[Option<f64>]> {
         self.initial.iter().find(|field| field.quantity == quantity).map(|field| field.values.as_slice())
     }

@@ -10,7 +10,7 @@ use crate::number::read_float;
 use crate::span::Span;
 use std::io;
 
-/// A *MATERIAL as far as conduction, and the heat of a current, go.
+/// A *MATERIAL: its properties for conduction and Joule heat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyMaterial {
     /// NAME.
@@ -25,7 +25,7 @@ pub struct BodyMaterial {
     pub density: Option<MaterialProperty>,
     /// *SPECIFIC HEAT (L² T⁻² θ⁻¹).
     pub specific_heat: Option<MaterialProperty>,
-    /// *JOULE HEAT FRACTION (1): the share of the energy dissipated by a current that becomes heat.
+    /// *JOULE HEAT FRACTION (1): the fraction of the energy dissipated by a current that becomes heat.
     pub joule_heat_fraction: Option<MaterialProperty>,
 }
 
@@ -40,7 +40,7 @@ pub struct MaterialProperty {
     pub kind: TensorKind,
     /// The values and the temperature (θ) of each row.
     pub rows: Vec<(Vec<f64>, Option<f64>)>,
-    /// DEPENDENCIES: how many field variables the values depend on as well.
+    /// DEPENDENCIES: the number of field variables the values depend on as well.
     pub dependencies: u32,
 }
 

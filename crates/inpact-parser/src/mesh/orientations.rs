@@ -14,7 +14,7 @@ use crate::number::read_float;
 use inpact_geometry::Point;
 use std::io;
 
-/// The directions that a material with directions has in a section.
+/// The axes of an orthotropic or anisotropic material in a section.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MaterialAxes {
     /// The section says none.

@@ -21,7 +21,7 @@ pub enum Sliding {
     Small,
 }
 
-/// The state of the mesh that the areas of slave nodes are of.
+/// The state of the mesh at which the areas of slave nodes are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AreasOf {
     /// That in which they are needed.
@@ -43,27 +43,27 @@ pub struct MeshPair {
     pub interaction: Option<Name>,
     /// TYPE: equal shares for NODE TO SURFACE, shape functions for SURFACE TO SURFACE.
     pub shares: Shares,
-    /// The state that areas are of; with SMALL SLIDING they are those of the start in any case.
+    /// The state at which areas are taken; with SMALL SLIDING always the initial one.
     pub areas_of: AreasOf,
     /// SMALL SLIDING.
     pub sliding: Sliding,
-    /// ADJUST: slave nodes whose clearance is no more than this are moved onto the master (L).
+    /// ADJUST: slave nodes whose clearance is at most this are moved onto the master (L).
     pub adjust: Option<f64>,
-    /// EXTENSION ZONE: how far the master reaches beyond its outer edge, as a share of an edge.
+    /// EXTENSION ZONE: the extension of the master beyond its outer edge, as a fraction of an edge.
     pub extension: f64,
-    /// The thickness of sheets counts: not with NO THICKNESS, and not in finite sliding NODE TO SURFACE.
+    /// Whether the thickness of shells is used: not with NO THICKNESS, and not in finite sliding NODE TO SURFACE.
     pub counts_thickness: bool,
-    /// *CLEARANCE, VALUE: the clearance of every slave node, whatever the mesh says (L).
+    /// *CLEARANCE, VALUE: the clearance of every slave node, overriding the mesh (L).
     pub clearance: Option<f64>,
 }
 
 impl Mesh {
-    /// The geometry of a pair: area, normal, clearance and what is across, for each slave node.
+    /// The geometry of a pair: area, normal, clearance and projection, for each slave node.
     ///
-    /// `thickness` is the first row of the pair's interaction (K-01): the thickness (L) of plane surfaces where no section says one, and the area (L²) of nodes
-    /// of a node-based surface where *SURFACE says none; 1 where the interaction has no row.
+    /// `thickness` is the first row of the pair's interaction (K-01): the thickness (L) of plane surfaces where no section gives one, and the area (L²) of nodes
+    /// of a node-based surface where *SURFACE gives none; 1 where the interaction has no row.
     ///
-    /// ADJUST and *CLEARANCE are applied: [`Projection::clearance`](inpact_geometry::Projection) is what the solver starts from.
+    /// ADJUST and *CLEARANCE are applied: [`Projection::clearance`](inpact_geometry::Projection) is the initial value of the solver.
     ///
     /// # Errors
     ///
@@ -72,9 +72,9 @@ impl Mesh {
         self.contact_at(&self.points, pair, thickness)
     }
 
-    /// The same with the nodes at other places, in the order of [`Mesh::points`]: those of a deformed state.
+    /// The same with displaced nodes, in the order of [`Mesh::points`], for a deformed state.
     ///
-    /// ADJUST and *CLEARANCE of the pair are applied here too; they say what is so at the beginning, so that a later state takes a pair without them.
+    /// ADJUST and *CLEARANCE of the pair are applied here too; they describe the initial state, so for a later state use a pair without them.
     ///
     /// # Errors
     ///

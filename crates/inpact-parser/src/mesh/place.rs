@@ -5,7 +5,7 @@ use crate::deck::{Block, Deck};
 use crate::span::{Position, Span};
 use std::io;
 
-/// Line and column of the beginning of a span, also in rows that the deck has not kept.
+/// Line and column of the beginning of a span, even in rows that the deck has not kept.
 ///
 /// # Errors
 ///

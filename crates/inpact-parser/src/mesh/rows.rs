@@ -9,7 +9,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 /// The number of bytes read at a time.
 const PIECE: usize = 1 << 20;
 
-/// Gives the bytes of spans of a deck.
+/// A source of the bytes of spans of a deck.
 pub trait RowBytes {
     /// Hands the bytes of a span to `take`, in order, in pieces of any size.
     ///
@@ -19,7 +19,7 @@ pub trait RowBytes {
     fn read(&mut self, span: Span, take: &mut dyn FnMut(&[u8])) -> io::Result<()>;
 }
 
-/// The bytes that a deck has kept itself; it must have been scanned with [`Keep::Everything`](crate::deck::Keep::Everything).
+/// The bytes kept by a deck itself; it must have been scanned with [`Keep::Everything`](crate::deck::Keep::Everything).
 #[derive(Debug, Clone, Copy)]
 pub struct KeptRows<'deck>(pub &'deck Deck);
 
@@ -34,7 +34,7 @@ impl RowBytes for KeptRows<'_> {
     }
 }
 
-/// The files of a deck, open for reading at any place; the caller opens them, in the order of [`Deck::sources`].
+/// The files of a deck, open for random access; the caller opens them, in the order of [`Deck::sources`].
 #[derive(Debug)]
 pub struct SeekableRows<R> {
     files: HashMap<SourceId, R>,

@@ -8,7 +8,7 @@ use indexmap::{Equivalent, IndexSet};
 use std::hash::{Hash, Hasher};
 use std::ops::Index;
 
-/// Interactions by name, in the order of the deck; where a name is defined again, the later one is in the place of the earlier.
+/// Interactions by name, in the order of the deck; a later definition of a name replaces the earlier one in place.
 #[derive(Debug, Clone, Default)]
 pub struct Interactions {
     by_name: IndexSet<ByName>,
@@ -73,7 +73,7 @@ impl Interactions {
         self.by_name.get_index_of(&Sought(name))
     }
 
-    /// Puts an interaction at the end, or in the place of the one of its name, which comes back.
+    /// Appends an interaction, or replaces and returns the one of the same name.
     pub fn insert(&mut self, interaction: Interaction) -> Option<Interaction> {
         self.by_name.replace(ByName(interaction)).map(|of| of.0)
     }

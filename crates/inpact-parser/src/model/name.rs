@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Unquoted, case and blanks carry no meaning: `SteelGap`, `STEEL GAP` and `steelgap` are one name.
 /// Quoted, both are kept: `"Steel Gap"` differs from each of them, while `"STEELGAP"` is the same as they.
 ///
-/// A short name is kept where it is, and copies of a long one share it: a deck may be nothing but names.
+/// Short names are stored inline, and copies of long ones are shared: a deck may consist of names only.
 #[derive(Debug, Clone)]
 pub struct Name {
     forms: Forms,
@@ -50,7 +50,7 @@ impl Name {
         Self { forms: Forms::short(written, canonical).unwrap_or_else(|| Forms::long(written, canonical)) }
     }
 
-    /// The name that `text` writes in a deck of a dialect: for CalculiX quotes are letters, and case and blanks count nowhere (CX-02).
+    /// The name that `text` writes in a deck of a dialect: for CalculiX quotes are ordinary characters, and case and blanks are always ignored (CX-02).
     pub fn in_dialect(text: &str, dialect: Dialect) -> Self {
         match dialect {
             Dialect::Abaqus => Self::new(text),
@@ -62,7 +62,7 @@ impl Name {
         }
     }
 
-    /// The name as it is written, quotes included.
+    /// The name as written, including quotes.
     pub fn written(&self) -> &str {
         self.forms.written()
     }

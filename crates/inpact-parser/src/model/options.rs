@@ -7,7 +7,7 @@ use super::{Interaction, SubOption, Table, TableKind};
 use crate::expression::Parameters;
 use crate::span::Span;
 
-/// The sub-options of an interaction that inpact knows the meaning of.
+/// The sub-options of an interaction that inpact interprets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum OptionKind {
@@ -30,7 +30,7 @@ pub enum OptionKind {
 }
 
 impl OptionKind {
-    /// The kind of the option of a keyword, which is written in full and in upper case.
+    /// The kind of the option of a keyword, given in full and in upper case.
     ///
     /// ```
     /// use inpact_parser::model::OptionKind;
@@ -78,12 +78,12 @@ pub struct GapConductance<'model> {
 }
 
 impl<'model> GapConductance<'model> {
-    /// The table against clearance that governs: of several the last (Q-9).
+    /// The table against clearance in force: the last of several (Q-9).
     pub fn clearance(&self) -> Option<&'model Table> {
         self.last_of(TableKind::ThermalClearance)
     }
 
-    /// The table against contact pressure that governs: of several the last (Q-9).
+    /// The table against contact pressure in force: the last of several (Q-9).
     pub fn pressure(&self) -> Option<&'model Table> {
         self.last_of(TableKind::ThermalPressure)
     }
@@ -94,7 +94,7 @@ impl<'model> GapConductance<'model> {
     }
 }
 
-/// *GAP RADIATION: emissivities, then view factors against clearance (2.6); of several options the last governs.
+/// *GAP RADIATION: emissivities, then view factors against clearance (2.6); the last of several options is in force.
 #[derive(Debug, Clone)]
 pub struct GapRadiation<'model> {
     /// The keyword lines, in the order of the deck.
@@ -105,7 +105,7 @@ pub struct GapRadiation<'model> {
 impl GapRadiation<'_> {
     /// The rows as numbers: emissivities of slave and master, then a view factor and a clearance (L) each; `None` without a row.
     ///
-    /// An item that is not there is zero (S-32), and one that is no number is NaN.
+    /// A missing item is zero (S-32), and one that is not a number is NaN.
     pub fn rows(&self, parameters: &Parameters) -> Option<([f64; 2], Vec<[f64; 2]>)> {
         let item = |row: &[f64], column: usize| row.get(column).copied().unwrap_or(0.0);
         let rows = self.governing.numbers(parameters);

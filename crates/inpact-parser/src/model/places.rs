@@ -4,7 +4,7 @@ use super::{GivenParameter, Interaction, Model, Reference, SubOption, Table};
 use crate::span::Span;
 
 impl Model {
-    /// The model without the places it was read from, and without what was set aside: what two decks that mean the same agree in.
+    /// The model without source locations and without options set aside, to compare decks by meaning.
     ///
     /// *SURFACE definitions are left out as well: their rows name sets of a mesh, which a model does not hold.
     #[must_use]

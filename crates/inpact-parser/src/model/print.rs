@@ -16,10 +16,10 @@ use std::fmt::Write;
 /// The longest keyword line that is written in one piece (S-06 allows 256).
 const KEYWORD_LINE: usize = 120;
 
-/// Writes the model as a deck: interactions first, then what uses them, then the steps with their procedures.
+/// Writes the model as a deck: interactions first, then their uses, then the steps with their procedures.
 ///
 /// # Errors
-/// A deck that would read back as another model: a name with a comma and no quotes, a keyword the grammar does not
+/// A deck that would be read back as another model: a name with a comma and no quotes, a keyword the grammar does not
 /// know, a row that begins with an asterisk.
 pub fn print(model: &Model, grammar: &Grammar) -> Result<String, Error> {
     let mut out = String::new();

@@ -21,15 +21,15 @@ use std::sync::Arc;
 
 /// The most field variables a table may depend on here; a larger DEPENDENCIES is read as this.
 ///
-/// The manual names no bound. A number without one would let a typing error ask for gigabytes.
+/// The manual gives no limit. Without one a typing error could request gigabytes.
 pub const MOST_FIELD_VARIABLES: usize = 1000;
 
-/// Reads the model of a deck, and says what did not fit.
+/// Reads the model of a deck, and reports problems.
 pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {
     read_watched(deck, grammar, &|| ())
 }
 
-/// The same, with a call of `watch` before each block, which may unwind where nobody wants the model any more.
+/// The same, with a call of `watch` before each block, which may unwind to cancel.
 pub fn read_watched(deck: &Deck, grammar: &Grammar, watch: &dyn Fn()) -> (Model, Vec<Problem>) {
     let mut reader = Reader {
         deck,

@@ -2,7 +2,7 @@
 
 use crate::span::Span;
 
-/// Spans in the order of rows. They are measured from the keyword line of the table, which whoever asks has to give each time.
+/// Spans in the order of rows, stored relative to the keyword line of the table, which the caller must pass each time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RowPlaces {
     rows: Vec<RowPlace>,

@@ -235,7 +235,7 @@ impl RowReader<'_> {
 }
 
 impl SubOption {
-    /// The rows that are kept as texts, as numbers: 0 for an empty item (S-32), a `<parameter>` by its value, NaN where there is no number.
+    /// Converts rows of texts to numbers: 0 for an empty item (S-32), a `<parameter>` by its value, NaN where there is no number.
     ///
     /// A row has as many numbers as it has items up to the last that is not empty.
     pub fn numbers(&self, parameters: &Parameters) -> Vec<Vec<f64>> {

@@ -7,16 +7,16 @@ use std::sync::Arc;
 /// Rows of numbers in the order of the deck.
 ///
 /// The first column is the dependent value; the others are its independent variables, the one that varies fastest
-/// first (T-02, T-03). Rows are kept as they are, in order or not: the rules judge them.
+/// first (T-02, T-03). Rows are kept unchanged, in order or not: the rules check them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// The names of the columns: `conductance`, `clearance`, `temp`, `fv1`, ….
     ///
     /// Tables of one kind share them: a deck may have more tables than numbers.
     pub columns: Arc<[String]>,
-    /// The cells, row after row; `columns.len()` a row. Units are those of the columns (see the grammar).
+    /// The cells, row by row; `columns.len()` per row. Units are those of the columns (see the grammar).
     ///
-    /// A cell that is no number, or a parameter without a value, is NaN; see [`Table::texts`].
+    /// A cell that is not a number, or a parameter without a value, is NaN; see [`Table::texts`].
     pub values: Box<[f64]>,
     /// The places of the rows; see [`Table::row_span`].
     pub places: RowPlaces,
@@ -25,9 +25,9 @@ pub struct Table {
     pub texts: Box<[CellText]>,
     /// The keyword line the table belongs to.
     pub keyword: Span,
-    /// The number of field variables of DEPENDENCIES after `columns`: no row reaches them, so that they are zero throughout (S-32).
+    /// The number of field variables of DEPENDENCIES after `columns`: no row has them, so they are zero throughout (S-32).
     ///
-    /// Rows are not filled up with what nobody wrote: a deck of a few bytes may count a thousand.
+    /// Rows are not padded: a deck of a few bytes may declare a thousand.
     pub unwritten: usize,
 }
 
@@ -76,7 +76,7 @@ impl Table {
         self.places.iter(self.keyword)
     }
 
-    /// Says where the rows are; [`keyword`](Self::keyword) is set before.
+    /// Sets the places of the rows; [`keyword`](Self::keyword) must be set before.
     pub fn set_row_spans(&mut self, spans: impl IntoIterator<Item = Span>) {
         self.places = RowPlaces::of(spans, self.keyword);
     }
@@ -91,7 +91,7 @@ impl Table {
         self.columns.iter().filter(|column| is_field(column)).count()
     }
 
-    /// DEPENDENCIES: the field variables in the columns, and those that no row goes on to.
+    /// DEPENDENCIES: the field variables in the columns, and those that no row has.
     pub fn declared_dependencies(&self) -> usize {
         self.dependencies() + self.unwritten
     }

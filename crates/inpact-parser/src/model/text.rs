@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A text that its copies share: the name of a keyword or of a parameter.
+/// A reference-counted text: the name of a keyword or of a parameter.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SharedText(Arc<str>);
 
@@ -58,7 +58,7 @@ impl fmt::Debug for SharedText {
     }
 }
 
-/// Rows of items as they are written, in one piece of memory.
+/// Rows of items as written, in one allocation.
 ///
 /// ```
 /// use inpact_parser::model::TextRows;

@@ -25,7 +25,7 @@ pub enum FortranNumber {
 /// Reads an item.
 ///
 /// # Errors
-/// A text that is no number by the format, has no digits before its exponent, is not finite or too large.
+/// A text that is not a number by the format, has no digits before its exponent, is not finite or too large.
 pub fn read_fortran(text: &[u8]) -> Result<FortranNumber, NumberError> {
     let kept: Vec<u8> = text.iter().copied().filter(|byte| !matches!(byte, b' ' | b'\t')).collect();
     if kept.len() <= FLOAT_CHARACTERS {

@@ -16,10 +16,10 @@ const MOST_DIGITS: usize = 19;
 /// The integers up to here are exact.
 const MOST_EXACT: u64 = 1 << 53;
 
-/// Reads the number that `text` begins with, and gives its length; what follows may be anything.
+/// Reads the number at the beginning of `text`, and returns its length; anything may follow.
 ///
-/// `None` is no answer: a number with more digits, a larger exponent or one after a D, or no number.
-/// Whether what follows is an end is for the caller to judge.
+/// `None` means undecided: a number with more digits, a larger exponent or one after a D, or no number.
+/// The caller must check whether the number ends there.
 ///
 /// ```
 /// use inpact_parser::number::read_plain;

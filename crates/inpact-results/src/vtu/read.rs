@@ -12,7 +12,7 @@ use crate::results::{Column, Field, Frame, Name, Region, Results, Rows};
 const NODE_LABELS: [&str; 4] = ["node", "GlobalNodeId", "GlobalNodeIds", "node_id"];
 const ELEMENT_LABELS: [&str; 4] = ["element", "GlobalElementId", "GlobalElementIds", "element_id"];
 
-/// Reads a `.vtu` as results: one frame, a field an array.
+/// Reads a `.vtu` as results: one frame, one field per array.
 ///
 /// Labels of nodes are those of an array `node`, `GlobalNodeId` or `node_id`, else points are counted from 1; the same for
 /// elements. Components of an array `U` are `U1`, `U2`, …
@@ -65,7 +65,7 @@ fn field(array: &Array, rows: Rows) -> Field {
     Field { region: Region::default(), rows, columns: columns.collect(), name }
 }
 
-/// Reads a `.vtu`: what could be read, and the problem that ended reading, if there is one.
+/// Reads a `.vtu`: the part that could be read, and the problem that ended reading, if any.
 ///
 /// Numbers may be ASCII, base64 in their element, or raw bytes at the end of the file, and compressed with zlib.
 pub fn read_grid(bytes: &[u8]) -> (Grid, Option<Problem>) {

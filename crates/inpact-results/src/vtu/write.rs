@@ -5,22 +5,22 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::io::{self, Write};
 
-/// A file of a collection and the time it is of (T).
+/// A file of a collection and its time (T).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// The time.
     pub time: f64,
-    /// The `.vtu`, as it is found from the folder of the `.pvd`.
+    /// The `.vtu`, relative to the folder of the `.pvd`.
     pub file: String,
 }
 
 /// Writes a grid as `.vtu`.
 ///
-/// Whole numbers are written as `Int64` and all others as `Float64`, in little-endian order, so every bit comes back.
+/// Integers are written as `Int64` and all others as `Float64`, little-endian, so the round trip is exact.
 ///
 /// # Errors
-/// Writing fails; or, as [`io::ErrorKind::InvalidInput`], a column has another number of values than there are points
-/// or cells, or a cell names a point that is not there.
+/// Writing fails; or, as [`io::ErrorKind::InvalidInput`], an array has another number of values than there are points
+/// or cells, or a cell refers to a missing point.
 pub fn write_grid(grid: &Grid, out: &mut impl Write) -> io::Result<()> {
     sound(grid)?;
     writeln!(out, r#"<?xml version="1.0"?>"#)?;
@@ -56,7 +56,7 @@ pub fn write_grid(grid: &Grid, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
-/// Writes a `.pvd`: which `.vtu` is of which time.
+/// Writes a `.pvd`: the `.vtu` files and their times.
 ///
 /// # Errors
 /// Writing fails.

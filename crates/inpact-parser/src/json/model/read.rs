@@ -25,7 +25,7 @@ const MOST_STEPS: usize = 100_000;
 /// Reads the model view back.
 ///
 /// # Errors
-/// JSON that is not of this view, a table whose rows do not fit its columns, a name or an item that no deck could hold.
+/// JSON that is not of this view, a table whose rows do not fit its columns, a name or an item that no deck can express.
 pub fn read(text: &str) -> Result<Model, Error> {
     let document: Document = parse(text)?;
     if document.schema != SCHEMA {
