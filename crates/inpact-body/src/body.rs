@@ -24,7 +24,7 @@ pub struct Body {
     pub(crate) part_of: Vec<u32>,
 }
 
-/// A body: nodes that elements connect with each other and with no other.
+/// A body: a connected component of nodes and elements.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BodyPart {
     /// The number of its nodes.
@@ -38,14 +38,14 @@ pub struct BodyPart {
 }
 
 impl Body {
-    /// Reads the bodies of a deck that end at these surfaces and node sets.
+    /// Reads the bodies of a deck with these surfaces and node sets as terminals.
     ///
-    /// A name in the front of a dotted one is that of an instance; a surface comes before a node set of the same name, and a number is a node.
+    /// A prefix before a dot is the name of an instance; a surface takes precedence over a node set of the same name, and a number is a node.
     /// A terminal lies in one body.
     ///
     /// # Errors
     ///
-    /// Bytes that cannot be read; within, a [`Error`] where the deck has faults, a terminal is not defined, has no node of a solid element, lies in two bodies, or
+    /// Bytes that cannot be read; in the inner result, an [`Error`] where the deck has faults, a terminal is not defined, has no node of a solid element, lies in two bodies, or
     /// shares a node with another.
     pub fn read(
         deck: &Deck,
@@ -67,11 +67,11 @@ impl Body {
         Ok(body)
     }
 
-    /// The same without the bodies that have faults of their own, and what these are; a terminal without a solid has no node and is of no body.
+    /// The same without the bodies that have faults of their own, and these faults; a terminal without a solid has no node and belongs to no body.
     ///
     /// # Errors
     ///
-    /// Faults that no body is free of: the mesh cannot be read, or a terminal is not defined.
+    /// Faults that concern all bodies: the mesh cannot be read, or a terminal is not defined.
     pub fn sound(mut mesh: BodyMesh, names: &[Name]) -> Result<(Self, Vec<BodyFault>), Error> {
         let mut faults: Vec<BodyFault> = std::mem::take(&mut mesh.faults).into_iter().map(BodyFault::from).collect();
         let (mut terminals, mut alone) = (Vec::new(), Vec::new());
@@ -121,7 +121,7 @@ impl Body {
         Ok((body, faults))
     }
 
-    /// Takes the terminals of some bodies away, which are then passed over.
+    /// Removes the terminals of some bodies, which are then skipped.
     pub fn leave_out(&mut self, bodies: &[u32]) {
         for body in bodies {
             self.parts[*body as usize].terminals.clear();
@@ -133,7 +133,7 @@ impl Body {
         &self.parts
     }
 
-    /// The terminals, in the order they were asked for.
+    /// The terminals, in the requested order.
     pub fn terminals(&self) -> &[MeshTerminal] {
         &self.terminals
     }
@@ -143,12 +143,12 @@ impl Body {
         &self.mesh
     }
 
-    /// Parts of the deck that are no part of its bodies, with their places: elements that are not solid, options that join nodes beside them.
+    /// Parts of the deck that do not belong to its bodies, with their places: elements that are not solid, options that join nodes otherwise.
     pub fn left_out(&self) -> &[MeshNote] {
         &self.mesh.left_out
     }
 
-    /// The fields that a material of the bodies with terminals has a conductivity for.
+    /// The fields for which a material of the bodies with terminals has a conductivity.
     pub fn fields(&self) -> Vec<BodyField> {
         let blocks = self.blocks();
         let materials = || blocks.iter().filter_map(|block| self.mesh.materials.get(block.material));

@@ -2,7 +2,7 @@
 
 /// Conductances between terminals: heat per time and temperature (M L² T⁻³ θ⁻¹), or current per potential (C T⁻¹ φ⁻¹).
 ///
-/// The diagonal is what a terminal conducts to all others together, so that the flows into a body at one temperature are zero.
+/// The diagonal is the total conductance of a terminal to all others, so that the flows into an isothermal body are zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conductances {
     /// The block and the row of each terminal; `None` where its body has no other.
@@ -57,11 +57,11 @@ impl Conductances {
         self.places.is_empty()
     }
 
-    /// The conductance between two terminals; 0 where no body has both. It is the negative of the entry of the matrix beside the diagonal.
+    /// The conductance between two terminals; 0 where no body has both. It is the negative of the off-diagonal entry of the matrix.
     ///
     /// # Panics
     ///
-    /// There are no such terminals, or they are the same.
+    /// The terminals do not exist, or are the same.
     pub fn between(&self, a: usize, b: usize) -> f64 {
         assert!(a != b && a < self.len() && b < self.len(), "terminals {a} and {b} of {}", self.len());
         self.place(a, b).map_or(0.0, |(block, row, column)| {
@@ -70,11 +70,11 @@ impl Conductances {
         })
     }
 
-    /// The conductance of a terminal to all others together: the entry on the diagonal.
+    /// The total conductance of a terminal to all others: the diagonal entry.
     ///
     /// # Panics
     ///
-    /// There is no such terminal.
+    /// The terminal does not exist.
     pub fn to_all(&self, a: usize) -> f64 {
         self.places[a].map_or(0.0, |(block, row)| {
             let Block { terminals, between } = &self.blocks[block];
@@ -89,12 +89,12 @@ impl Conductances {
         all.fold(0.0, |largest, conductance| conductance.abs().max(largest))
     }
 
-    /// The pairs of terminals with what is between them, each once.
+    /// The pairs of terminals with their conductance, each once.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         (0..self.len()).flat_map(move |a| (a + 1..self.len()).map(move |b| (a, b, self.between(a, b))))
     }
 
-    /// The pairs of terminals of one body with what is between them, each once, in the order of [`pairs`](Self::pairs).
+    /// The pairs of terminals of one body with their conductance, each once, in the order of [`pairs`](Self::pairs).
     pub fn within_bodies(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         self.places.iter().enumerate().filter_map(|(a, place)| Some((a, (*place)?))).flat_map(
             move |(a, (block, row))| {
@@ -105,7 +105,7 @@ impl Conductances {
         )
     }
 
-    /// The pairs whose conductance is below zero by more than rounding: a mesh so coarse or distorted that a terminal cools where another is heated.
+    /// The pairs whose conductance is negative by more than rounding, due to a coarse or distorted mesh.
     pub fn negative(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         let rounding = self.largest() * ROUNDING;
         self.within_bodies().filter(move |(_, _, conductance)| *conductance < -rounding)

@@ -7,7 +7,7 @@ use inpact_parser::model::Name;
 use inpact_parser::span::Span;
 use std::collections::BTreeSet;
 
-/// The share of the energy dissipated by the current in a body that becomes heat in it.
+/// The fraction of the energy dissipated by the current in a body that becomes heat in it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JouleHeat {
     /// From 0 to 1, the same in all of its materials.

@@ -6,7 +6,7 @@ use inpact_parser::mesh::MeshNote;
 use inpact_parser::span::Span;
 use std::fmt;
 
-/// Everything that keeps a body from being lumped; at least one fault.
+/// The reasons why a body cannot be lumped; at least one fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
     faults: Vec<BodyFault>,
@@ -17,11 +17,11 @@ pub struct Error {
 pub struct BodyFault {
     /// The rule that it breaks.
     pub rule: &'static Rule,
-    /// Its place in the deck; `None` for names that were asked for, and for what cannot be solved.
+    /// Its place in the deck; `None` for requested names, and for equations that cannot be solved.
     pub span: Option<Span>,
     /// The fault.
     pub message: String,
-    /// The bodies that it keeps from being lumped, as positions in [`Body::parts`](crate::Body::parts); empty where it is all of them.
+    /// The bodies concerned, as positions in [`Body::parts`](crate::Body::parts); empty where it is all of them.
     pub bodies: Vec<u32>,
 }
 

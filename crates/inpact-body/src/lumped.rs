@@ -24,45 +24,45 @@ use std::collections::hash_map::Entry;
 pub struct Lumped {
     /// The field.
     pub field: BodyField,
-    /// Conductances where each terminal has one temperature (or potential).
+    /// Conductances with isothermal (or equipotential) terminals.
     pub isothermal: Conductances,
-    /// Conductances where the flow of each terminal is spread evenly over it; the values are means over terminals.
+    /// Conductances with a uniform flow over each terminal; the values are means over terminals.
     pub even: Conductances,
-    /// The terminals, in the order they were asked for.
+    /// The terminals, in the requested order.
     pub terminals: Vec<TerminalSummary>,
     /// The bodies that have a terminal.
     pub bodies: Vec<BodySummary>,
-    /// The capacity of each terminal (M L² T⁻² θ⁻¹); `None` of a current, where a material of its body has no density or specific heat, and where its body was left out.
+    /// The capacity of each terminal (M L² T⁻² θ⁻¹); `None` for a current, where a material of its body has no density or specific heat, and where its body was left out.
     pub capacities: Vec<Option<f64>>,
-    /// The lowest and the highest value of a potential that is 1 at one terminal and 0 at the others: from 0 to 1 by the maximum principle, which a mesh may break.
+    /// The minimum and maximum of a potential that is 1 at one terminal and 0 at the others: 0 and 1 by the maximum principle, which a coarse mesh may violate.
     pub potentials: [f64; 2],
-    /// Parts of the deck that were not taken over for this field, with their places.
+    /// Parts of the deck that were ignored for this field, with their places.
     pub left_out: Vec<MeshNote>,
-    /// How both problems were solved: with one temperature for each terminal, and with even flows.
+    /// How both problems were solved: with isothermal terminals, and with uniform flows.
     pub solutions: [Solution; 2],
 }
 
-/// A terminal: its size, and how far from one temperature it is.
+/// A terminal: its size, and its deviation from isothermal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TerminalSummary {
     /// Its name.
     pub name: Name,
     /// The number of its nodes.
     pub nodes: usize,
-    /// Its area (L²); `None` of a node set that is not made of whole faces, whose nodes share a flow equally.
+    /// Its area (L²); `None` for a node set that does not consist of whole faces, whose nodes share a flow equally.
     pub area: Option<f64>,
-    /// The body it is of, a position in [`Lumped::bodies`]; `None` where that was left out.
+    /// Its body, a position in [`Lumped::bodies`]; `None` where that was left out.
     pub body: Option<usize>,
-    /// Its conductance to all others with even flows: no joint with an even flow has less.
+    /// Its conductance to all others with uniform flows: a lower bound for joints with a uniform flow.
     pub lower: f64,
-    /// Its conductance to all others with one temperature: no joint has more.
+    /// Its conductance to all others with isothermal terminals: an upper bound for all joints.
     pub upper: f64,
-    /// Where its flow is even and the means of all others are 0 while its own is 1: the difference of its highest and lowest temperature. 0 where it is at one.
+    /// With uniform flows, its mean at 1 and those of all others at 0: the difference of its maximum and minimum temperature. 0 where it is isothermal.
     pub range: f64,
 }
 
 impl TerminalSummary {
-    /// The cost of lumping: the difference of both conductances, relative to the larger. 0 where it conducts nothing.
+    /// The lumping error: the difference of both conductances, relative to the larger. 0 where it conducts nothing.
     pub fn relative(&self) -> f64 {
         if 0.0 < self.upper { ((self.upper - self.lower) / self.upper).max(0.0) } else { 0.0 }
     }
@@ -79,22 +79,22 @@ pub struct BodySummary {
     pub elements: usize,
     /// Its volume (L³).
     pub volume: f64,
-    /// Its capacity (M L² T⁻² θ⁻¹); `None` as of [`Lumped::capacities`].
+    /// Its capacity (M L² T⁻² θ⁻¹); `None` as for [`Lumped::capacities`].
     pub capacity: Option<f64>,
-    /// The heat that a current makes in it.
+    /// Its Joule heat.
     pub joule_heat: JouleHeat,
-    /// The cost of lumping at most: with even flows it conducts no less than this share below what it conducts with one temperature a terminal, whatever the temperatures
-    /// of its terminals are. Exact with two terminals, a bound with more.
+    /// The bound of the lumping error: with uniform flows it conducts less than with isothermal terminals by at most this fraction, for any temperatures
+    /// of its terminals. Exact with two terminals, a bound with more.
     pub relative: f64,
 }
 
 impl Body {
-    /// Solves the bodies between their terminals; where a property depends on temperature it is taken at `temperature` (θ).
+    /// Solves the bodies between their terminals; properties that depend on temperature are taken at `temperature` (θ).
     ///
     /// # Errors
     ///
-    /// A material without a conductivity, one that depends on temperature without `temperature`, a conductivity that is not positive, one with directions in a
-    /// section with ORIENTATION or in a turned instance, an element that is inside out, or equations that rounding leaves without a solution.
+    /// A material without a conductivity, one that depends on temperature without `temperature`, a conductivity that is not positive, an orthotropic or anisotropic one in a
+    /// section with ORIENTATION or in a rotated instance, an inverted element, or equations without a solution due to rounding.
     pub fn lumped(&self, field: BodyField, temperature: Option<f64>) -> Result<Lumped, Error> {
         let blocks = self.blocks();
         let matrix = self.matrix(&blocks, field, temperature)?;

@@ -7,7 +7,7 @@ use inpact_parser::mesh::{BodyMaterial, MaterialProperty, TensorKind};
 use inpact_parser::model::Name;
 use std::fmt;
 
-/// Fields of which a body conducts the flow.
+/// Fields that a body conducts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BodyField {
     /// Heat, by *CONDUCTIVITY.

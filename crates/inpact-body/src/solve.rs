@@ -22,9 +22,9 @@ const LARGEST_IMBALANCE: f64 = 1e-9;
 pub struct Solution {
     /// The method.
     pub method: SolutionMethod,
-    /// The number of nodes whose value was not known.
+    /// The number of unknowns.
     pub unknowns: usize,
-    /// The number of entries of the matrix below its diagonal.
+    /// The number of entries of the matrix below the diagonal.
     pub entries: usize,
     /// The largest imbalance of a node, relative to the largest flow through one.
     pub imbalance: f64,

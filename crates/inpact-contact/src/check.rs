@@ -13,10 +13,10 @@ use inpact_geometry::{ContactNode, Point, Projection};
 use inpact_parser::mesh::{Mesh, MeshPair, SurfaceKind};
 use inpact_parser::model::{Interaction, Model, TableKind};
 
-/// Checks the pairs of a mesh by every rule on geometry.
+/// Checks the pairs of a mesh by all rules on geometry.
 ///
 /// Findings have the span of their pair, without file, line and column.
-/// A pair without a geometry, or without an interaction of the model, has none.
+/// A pair without a valid geometry, or without an interaction of the model, has none.
 pub fn check_geometry(mesh: &Mesh, model: &Model) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for pair in &mesh.pairs {

@@ -2,7 +2,7 @@
 
 use inpact_parser::model::Name;
 
-/// The reason why no rows can be made: a pair without a geometry, or result files of which nothing can be used.
+/// The reason why no rows can be made: a pair without a valid geometry, or result files without usable data.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(transparent)]
 pub struct Error(Kind);
@@ -20,7 +20,7 @@ fn at(time: Option<f64>) -> String {
 }
 
 impl Error {
-    /// The slave and the master surface of the contact pair without a geometry.
+    /// The slave and the master surface of the contact pair without a valid geometry.
     pub fn pair(&self) -> Option<[&str; 2]> {
         match &self.0 {
             Kind::Geometry { pair: [slave, master], .. } => Some([slave, master]),

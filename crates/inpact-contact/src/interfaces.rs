@@ -17,7 +17,7 @@ use inpact_parser::span::Span;
 /// The interfaces of a deck in one state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interfaces {
-    /// The quantities of its rows beside the area, means of both sides where both have one.
+    /// The quantities of its rows besides the area, means of both sides where both have one.
     pub quantities: Vec<Column>,
     /// The pairs, in the order of the deck.
     pub pairs: Vec<PairInterfaces>,
@@ -34,15 +34,15 @@ pub struct PairInterfaces {
     pub interaction: Name,
     /// The keyword line of the pair.
     pub span: Span,
-    /// The slave nodes that something is known of: with a master face across, or with a clearance or a pressure of a result file.
+    /// The slave nodes with data: with an opposite master face, or with a clearance or a pressure from a result file.
     pub rows: Vec<InterfaceRow>,
-    /// The names of the slave nodes that have neither: nothing is conducted there.
+    /// The names of the slave nodes without either: nothing is conducted there.
     pub beside: Vec<String>,
-    /// The projection of each slave node that is nearest to some face of the master.
+    /// The projection of each slave node that has a nearest face of the master.
     pub projections: Vec<ProjectionRow>,
 }
 
-/// A slave node and the point of the master across from it.
+/// A slave node and the opposite point of the master.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InterfaceRow {
     /// The name of the slave node.
@@ -51,7 +51,7 @@ pub struct InterfaceRow {
     pub master: String,
     /// The area of the slave node (L²).
     pub area: f64,
-    /// A value a quantity of [`Interfaces::quantities`]; `None` where it is not known.
+    /// One value per quantity of [`Interfaces::quantities`]; `None` where it is unknown.
     pub values: Vec<Option<f64>>,
 }
 
@@ -62,26 +62,26 @@ pub struct ProjectionRow {
     pub slave: String,
     /// The name of the point across.
     pub master: String,
-    /// The element and the face that are nearest.
+    /// The nearest element and face.
     pub face: (MeshNode, FaceLabel),
-    /// The nodes of the face and their weights: a field of the master at the point is their sum.
+    /// The nodes of the face and their interpolation weights.
     pub weights: Vec<(MeshNode, f64)>,
     /// The distance along the master's normal, open > 0 (L).
     pub clearance: f64,
-    /// How far the node hangs over the edge of the master (L); 0 inside.
+    /// The overhang of the node beyond the edge of the master (L); 0 inside.
     pub overhang: f64,
-    /// Whether the node counts as across from the master: the overhang is within the extension of its edge.
+    /// Whether the node counts as opposite to the master: the overhang is within the extension of its edge.
     pub projects: bool,
 }
 
 /// A pair as one interface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LumpedPair {
-    /// The sum of the areas of its slave nodes that something is known of (L²).
+    /// The sum of the areas of its slave nodes with data (L²).
     pub area: f64,
-    /// A mean a quantity of [`Interfaces::quantities`]; `None` where no node has a value.
+    /// One mean per quantity of [`Interfaces::quantities`]; `None` where no node has a value.
     pub means: Vec<Option<WeightedMean>>,
-    /// The number of nodes that are closed, and of those that are open.
+    /// The numbers of closed and of open nodes.
     pub states: [usize; 2],
 }
 
@@ -102,7 +102,7 @@ impl NodeRows<'_> {
     /// The interfaces in a state.
     ///
     /// # Errors
-    /// The nodes have moved to places that have no geometry.
+    /// The displaced nodes have no valid geometry.
     pub fn interfaces(&mut self, state: &State) -> Result<Interfaces, Error> {
         let sources: Vec<(Column, Vec<usize>)> = quantities(self.numbers());
         let mut batches = Vec::new();
@@ -191,7 +191,7 @@ fn mean_of(columns: &[usize], value: &impl Fn(usize) -> Option<f64>) -> Option<f
 }
 
 impl Interfaces {
-    /// A pair as one interface; `None` where nothing is known of any of its nodes.
+    /// A pair as one interface; `None` where none of its nodes has data.
     pub fn lumped(&self, pair: &PairInterfaces) -> Option<LumpedPair> {
         if pair.rows.is_empty() {
             return None;
@@ -238,7 +238,7 @@ impl WeightedMean {
         Some(found)
     }
 
-    /// Whether all values are one.
+    /// Whether all values are equal.
     pub fn is_uniform(&self) -> bool {
         self.least.to_bits() == self.largest.to_bits()
     }

@@ -23,7 +23,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// A result file that can be gone through state by state, more than once.
+/// A result file that can be streamed state by state, more than once.
 pub trait ResultFile {
     /// The reason why it cannot be read.
     type Error: From<Error>;
@@ -75,11 +75,11 @@ pub struct Join<'a> {
 /// The content of result files on a mesh.
 #[derive(Debug)]
 pub struct Joined {
-    /// A state a time, in the order of times.
+    /// One state per time, in the order of times.
     pub states: Vec<State>,
     /// The summary of each file.
     pub files: Vec<FileSummary>,
-    /// Parts that could not be used, and assumptions.
+    /// Notes on parts that could not be used, and on assumptions.
     pub notes: Vec<ResultNote>,
 }
 
@@ -88,19 +88,19 @@ pub struct Joined {
 pub struct FileSummary {
     /// The file.
     pub file: Arc<str>,
-    /// Of which kind it is.
+    /// Its format.
     pub format: Format,
     /// The number of its frames.
     pub frames: usize,
-    /// The number of them with values at a node of a contact surface.
+    /// The number of frames with values at a node of a contact surface.
     pub used_frames: usize,
     /// The number of nodes of contact surfaces with values.
     pub nodes: usize,
-    /// The way its nodes were found in the mesh.
+    /// The method by which its nodes were matched with the mesh.
     pub matched_by: MatchedBy,
 }
 
-/// Something to be known of a result file.
+/// A note on a result file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ResultNote {
     /// The file.
@@ -127,10 +127,10 @@ impl<'a> Join<'a> {
         }
     }
 
-    /// Adds a file, a state of it at a time in memory; what is wrong with it as a whole is an error, what of it cannot be used a note.
+    /// Adds a file, with one state at a time in memory; a fault of the file as a whole is an error, an unusable part a note.
     ///
     /// # Errors
-    /// It cannot be read to its end, or is of another mesh: its nodes are elsewhere.
+    /// It cannot be read to its end, or belongs to another mesh.
     pub fn add<F: ResultFile>(&mut self, file: &str, results: &F) -> Result<(), F::Error> {
         let file: Arc<str> = file.into();
         let mut of_file = None;

@@ -76,12 +76,12 @@ impl SlaveFaces {
         faces
     }
 
-    /// How many points there are: as many as a state has rows.
+    /// The number of points: that of the rows of a state.
     pub fn points(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The rows of a state in their order: the position of the pair among those of the mesh, the node, and what the row is called.
+    /// The rows of a state in order: the position of the pair among those of the mesh, the node, and the name of the row.
     pub fn rows(&self) -> impl Iterator<Item = (usize, NodeId, &str)> {
         let names = self.names.iter().map(String::as_str);
         self.of_mesh
@@ -92,9 +92,9 @@ impl SlaveFaces {
             .map(|((pair, node), name)| (pair, node, name))
     }
 
-    /// The surfaces in a state, moved by its displacements, with columns that have a value a point.
+    /// The surfaces in a state, displaced, with columns as point data.
     ///
-    /// Besides them points have the labels of their nodes, `node`, and the number of their pair, `pair`; cells have `element` and `pair`.
+    /// In addition, points have the labels of their nodes, `node`, and the number of their pair, `pair`; cells have `element` and `pair`.
     pub fn grid(&self, state: &State, columns: Vec<Array>) -> Grid {
         let moved = state.displacements.as_ref().map(|moved| &moved.vectors);
         let place = |(node, point): (&NodeId, &Point)| {

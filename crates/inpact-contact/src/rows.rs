@@ -51,7 +51,7 @@ impl<'a> NodeRows<'a> {
     /// The rows of the pairs whose interaction the model has, with the columns that these states fill.
     ///
     /// # Errors
-    /// A pair has no geometry as the deck defines it.
+    /// A pair has no valid geometry as defined in the deck.
     pub fn new(mesh: &'a Mesh, model: &'a Model, states: &[State]) -> Result<Self, Error> {
         let mut notes = Vec::new();
         let mut names = Names::default();
@@ -99,7 +99,7 @@ impl<'a> NodeRows<'a> {
         Ok(Self { mesh, pairs, keys, numbers, columns, notes, rows: 0, naming })
     }
 
-    /// The columns of texts: node, interaction, time where a state has one, and where the numbers come from if a result file says some.
+    /// The columns of texts: node, interaction, time where a state has one, and the source of the numbers if there are result files.
     pub fn keys(&self) -> &[Column] {
         &self.keys
     }
@@ -114,7 +114,7 @@ impl<'a> NodeRows<'a> {
         &self.notes
     }
 
-    /// The number of slave nodes of the pairs: a state has as many rows.
+    /// The number of slave nodes of the pairs, which is the number of rows of a state.
     pub fn nodes(&self) -> usize {
         self.pairs.iter().map(|pair| pair.start.len()).sum()
     }
@@ -129,7 +129,7 @@ impl<'a> NodeRows<'a> {
         &self.columns
     }
 
-    /// The pairs that have rows: how many there are of them so far, and where their quantities come from.
+    /// Summaries of the pairs that have rows: counts so far, and sources of quantities.
     pub fn summaries(&self) -> impl Iterator<Item = &PairSummary> {
         self.pairs.iter().map(|pair| &pair.summary)
     }
@@ -142,7 +142,7 @@ impl<'a> NodeRows<'a> {
         &self.pairs
     }
 
-    /// The slave surfaces of the pairs, to be drawn.
+    /// The slave surfaces of the pairs, for drawing.
     pub fn slave_faces(&self) -> SlaveFaces {
         SlaveFaces::of(self.mesh, &self.pairs)
     }
@@ -153,14 +153,14 @@ impl<'a> NodeRows<'a> {
         self.keys.retain(|key| *key != Column::Source);
     }
 
-    /// The rows of all states one after the other, a batch a pair and state, in the order of the deck.
+    /// The rows of all states in turn, one batch per pair and state, in the order of the deck.
     pub fn batches<'b>(&'b mut self, states: &'b [State]) -> impl Iterator<Item = Result<Batch, Error>> + use<'a, 'b> {
         let pairs = self.pairs.len();
         let each = states.iter().flat_map(move |state| (0..pairs).map(move |pair| (pair, state)));
         each.map(|(pair, state)| self.batch(pair, state))
     }
 
-    /// The averaged unit normals of the slave surfaces in a state, a row each, in the order of its rows; `None` where there is none.
+    /// The averaged unit normals of the slave surfaces in a state, one per row, in the order of its rows; `None` where there is none.
     ///
     /// # Errors
     /// The nodes have moved to places that have no geometry.
@@ -172,10 +172,10 @@ impl<'a> NodeRows<'a> {
         Ok(normals)
     }
 
-    /// Hands the rows of a state to `take`, a batch a pair, in the order of the deck.
+    /// Passes the rows of a state to `take`, one batch per pair, in the order of the deck.
     ///
     /// # Errors
-    /// The nodes have moved to places that have no geometry; and errors of `take`.
+    /// The displaced nodes have no valid geometry; and errors of `take`.
     pub fn write<E: From<Error>>(
         &mut self,
         state: &State,

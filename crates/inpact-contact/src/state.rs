@@ -13,22 +13,22 @@ pub struct State {
     pub moment: Moment,
     /// The displacements of the nodes since the beginning; `None` where they have not moved, or no source gives them.
     pub displacements: Option<Displacements>,
-    /// The values of slave nodes as such.
+    /// The contact values of slave nodes.
     pub contact: Vec<ContactField>,
     /// The values of all nodes, each quantity once.
     pub fields: Vec<NodeField>,
-    /// Values of a solver at the interface itself: the outputs that are computed here too.
+    /// Interface outputs of a solver, for comparison with those computed here.
     pub outputs: Vec<OutputField>,
-    /// The flux of heat inside the bodies, at their nodes.
+    /// The heat flux inside the bodies, at their nodes.
     pub heat_flux: Option<HeatFlux>,
     /// Values of a pair as a whole, from a solver.
     pub totals: Vec<PairTotal>,
 }
 
-/// The flux of heat inside the bodies, as a solver takes it to the nodes from the points at which it is computed.
+/// The heat flux inside the bodies, extrapolated by the solver from integration points to nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatFlux {
-    /// A vector a node (M T⁻³); `None` where it is not known.
+    /// One vector per node (M T⁻³); `None` where it is unknown.
     pub vectors: Vec<Option<Vector>>,
     /// Its source.
     pub source: Source,
@@ -61,7 +61,7 @@ pub enum TotalQuantity {
 /// The time of a state.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Moment {
-    /// The total time (T); `None` for the beginning, which is a table without times, and where nothing says it.
+    /// The total time (T); `None` for the initial state, a table without times, and where it is unknown.
     pub time: Option<f64>,
     /// The step, from 1.
     pub step: Option<i64>,
@@ -74,7 +74,7 @@ pub struct Moment {
 /// Displacements of the nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Displacements {
-    /// A vector a node (L).
+    /// One vector per node (L).
     pub vectors: Vec<Vector>,
     /// Their source.
     pub source: Source,
@@ -85,7 +85,7 @@ pub struct Displacements {
 pub struct ContactField {
     /// Which.
     pub quantity: ContactQuantity,
-    /// The pair it is of, a position in [`Mesh::pairs`]; `None` where it is of whatever pair a node is a slave in.
+    /// Its pair, a position in [`Mesh::pairs`]; `None` where it belongs to any pair in which a node is a slave.
     pub pair: Option<usize>,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
@@ -134,12 +134,12 @@ pub enum NodeQuantity {
     FieldVariable(u32),
 }
 
-/// An output of the interface, as a solver computed it.
+/// An interface output computed by a solver.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputField {
     /// Which.
     pub output: Output,
-    /// The pair it is of, as in [`ContactField::pair`].
+    /// Its pair, as in [`ContactField::pair`].
     pub pair: Option<usize>,
     /// A value a node; `None` where it is not known.
     pub values: Vec<Option<f64>>,
@@ -162,7 +162,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// In a word, for a cell of a table: `COPEN`, `initial`.
+    /// As a word for a table cell: `COPEN`, `initial`.
     pub fn word(&self) -> &str {
         match self {
             Self::InitialConditions => "initial",
@@ -195,7 +195,7 @@ impl ContactQuantity {
         }
     }
 
-    /// The quantity of a column of node tables, where it is one.
+    /// The quantity of a column of node tables, if any.
     pub fn of(column: Column) -> Option<Self> {
         Self::ALL.into_iter().find(|quantity| quantity.column() == column)
     }
@@ -212,7 +212,7 @@ impl NodeQuantity {
         }
     }
 
-    /// The quantity and the side of a column of node tables, where it is one.
+    /// The quantity and the side of a column of node tables, if any.
     pub fn of(column: Column) -> Option<(Self, Part)> {
         match column {
             Column::Temperature(part) => Some((Self::Temperature, part)),
@@ -235,14 +235,14 @@ impl From<InitialQuantity> for NodeQuantity {
 }
 
 impl State {
-    /// The beginning, as *INITIAL CONDITIONS says.
+    /// The initial state, from *INITIAL CONDITIONS.
     pub fn initial(mesh: &Mesh) -> Self {
         let mut state = Self::default();
         state.complete(mesh);
         state
     }
 
-    /// Adds from *INITIAL CONDITIONS the quantities that nothing else says.
+    /// Adds the quantities without another source from *INITIAL CONDITIONS.
     pub fn complete(&mut self, mesh: &Mesh) {
         for field in &mesh.initial {
             let quantity = field.quantity.into();
@@ -259,13 +259,13 @@ impl State {
         self.fields.iter().find(|field| field.quantity == quantity)
     }
 
-    /// A quantity of a slave node of a pair with where it comes from: what was said first.
+    /// A quantity of a slave node of a pair with its source; the first value takes precedence.
     pub fn contact(&self, quantity: ContactQuantity, pair: usize, node: NodeId) -> Option<(f64, &Source)> {
         let fields = self.contact.iter().filter(|field| field.quantity == quantity);
         first_of(fields.map(|field| (field.pair, &field.values, &field.source)), pair, node)
     }
 
-    /// An output that a solver says of a slave node of a pair, with where it comes from.
+    /// A solver's output at a slave node of a pair, with its source.
     pub fn output(&self, output: Output, pair: usize, node: NodeId) -> Option<(f64, &Source)> {
         let fields = self.outputs.iter().filter(|field| field.output == output);
         first_of(fields.map(|field| (field.pair, &field.values, &field.source)), pair, node)

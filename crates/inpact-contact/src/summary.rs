@@ -53,7 +53,7 @@ pub struct PairSummary {
     pub closed: u64,
     /// Rows with a clearance above 0 and no pressure.
     pub open: u64,
-    /// Rows whose clearance nothing says, since they have no master face across.
+    /// Rows without a clearance, since they have no opposite master face.
     pub without_master: u64,
     /// The source of areas.
     pub area_source: AreaSource,
@@ -66,7 +66,7 @@ pub struct PairSummary {
 pub struct ColumnSummary {
     /// The column.
     pub column: Column,
-    /// In how many rows so far it is empty.
+    /// The number of rows so far in which it is empty.
     pub empty: u64,
     /// The sources of its numbers, and the number of each.
     origins: Vec<(Place, u64)>,
@@ -113,7 +113,7 @@ impl ColumnSummary {
         Self { column, empty: 0, origins: Vec::new() }
     }
 
-    /// The sources of its numbers, for users; `None` where all are of the mesh, of which [`PairSummary`] gives it.
+    /// The sources of its numbers, for users; `None` where all are from the mesh, for which [`PairSummary`] gives them.
     pub fn source(&self) -> Option<String> {
         match self.origins.as_slice() {
             [] | [(Place::Mesh, _)] => None,

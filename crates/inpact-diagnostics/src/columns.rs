@@ -6,9 +6,9 @@
 /// The widest column of a table in text.
 const WIDEST: usize = 200;
 
-/// The width in characters of a column of a table in text: that of its longest cell, up to 200. A cell that is longer stands out.
+/// The width in characters of a column of a table in text: that of its longest cell, up to 200. A longer cell overflows.
 ///
-/// Names may have any length, and formatting has a limit: whoever pads to the longest of them may pad to nothing.
+/// Names may have any length, and the width of formatting is limited: padding to the longest of them may fail.
 ///
 /// ```
 /// use inpact_diagnostics::column_width;
@@ -40,9 +40,9 @@ impl ColumnUnit {
         text.iter().map(|byte| self.units_at(*byte)).sum()
     }
 
-    /// The byte of a line that has so many units before it.
+    /// The byte of a line at this number of units.
     ///
-    /// A number of units that ends inside a character means the start of that character, one that goes beyond the line the end of it.
+    /// A position inside a character is the start of that character; one beyond the line is its end.
     pub fn offset(self, line: &[u8], units: u64) -> usize {
         let mut passed = 0;
         let mut start = 0;

@@ -19,15 +19,15 @@ pub struct Diagnostic {
     pub message: String,
     /// Its place.
     pub primary: Label,
-    /// Row and column by name, where a finding is about a table or a scene; `None` in a deck.
+    /// Row and column by name, for a finding in a table or a scene; `None` in a deck.
     pub cell: Option<Cell>,
-    /// The other places it has to do with.
+    /// The related places.
     pub secondary: Vec<Label>,
     /// The reason: the rule or the physics.
     pub note: Option<String>,
-    /// The remedy.
+    /// The help.
     pub help: Option<String>,
-    /// A change of the deck that mends it.
+    /// A change of the deck that fixes it.
     pub fix: Option<Fix>,
 }
 
@@ -40,11 +40,11 @@ pub struct Label {
     pub span: Span,
     /// Line and column of the first of them.
     pub position: Position,
-    /// The part of the place that is known.
+    /// Whether the line or the exact place is known.
     pub extent: Extent,
     /// The text of the label; may be empty.
     pub text: String,
-    /// The lines around the place, where their file is not kept and they are.
+    /// The lines around the place, stored where their file is not kept.
     pub lines: Option<Arc<Lines>>,
 }
 
@@ -59,7 +59,7 @@ pub enum Extent {
     File,
 }
 
-/// A cell of a table by its header and the count of its rows; `None` for parts that do not apply.
+/// A cell of a table by header and row number; `None` for parts that do not apply.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Cell {
     /// The row, counted from 1 below the header.
@@ -68,7 +68,7 @@ pub struct Cell {
     pub field: Option<String>,
 }
 
-/// Some whole lines of a file: that of a finding, the one before and the one after it.
+/// Complete lines of a file: that of a finding, the one before and the one after it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lines {
     /// The offset in the file of the first byte.
@@ -82,7 +82,7 @@ pub struct Lines {
 }
 
 impl Diagnostic {
-    /// A finding of a rule, as grave as that says, at a place.
+    /// A finding of a rule at a place, with the severity of the rule.
     pub fn new(rule: &Rule, message: impl Into<String>, primary: Label) -> Self {
         Self {
             code: rule.code,
@@ -98,47 +98,47 @@ impl Diagnostic {
         }
     }
 
-    /// The place it is at, then the others.
+    /// The primary place, then the others.
     pub fn labels(&self) -> impl Iterator<Item = &Label> {
         std::iter::once(&self.primary).chain(&self.secondary)
     }
 
-    /// The same, to be changed.
+    /// The same, mutable.
     pub fn labels_mut(&mut self) -> impl Iterator<Item = &mut Label> {
         std::iter::once(&mut self.primary).chain(&mut self.secondary)
     }
 
-    /// Adds a short text at the place itself.
+    /// Sets the text of the primary label.
     pub fn label(&mut self, text: impl Into<String>) -> &mut Self {
         self.primary.text = text.into();
         self
     }
 
-    /// Points at another place.
+    /// Adds a secondary label.
     pub fn also(&mut self, span: Span, text: impl Into<String>) -> &mut Self {
         self.secondary.push(Label::new(span, text));
         self
     }
 
-    /// Says what to do.
+    /// Sets the help.
     pub fn help(&mut self, text: impl Into<String>) -> &mut Self {
         self.help = Some(text.into());
         self
     }
 
-    /// Says why it matters.
+    /// Sets the note on why it matters.
     pub fn note(&mut self, text: impl Into<String>) -> &mut Self {
         self.note = Some(text.into());
         self
     }
 
-    /// Offers a change that mends it.
+    /// Sets a fix.
     pub fn fix(&mut self, safety: FixSafety, title: impl Into<String>, edits: Vec<Edit>) -> &mut Self {
         self.fix = Some(Fix { title: title.into(), safety, edits });
         self
     }
 
-    /// Departs from the rule's own severity.
+    /// Overrides the rule's severity.
     pub fn severity(&mut self, severity: Severity) -> &mut Self {
         self.severity = severity;
         self
@@ -146,7 +146,7 @@ impl Diagnostic {
 }
 
 impl Label {
-    /// A label whose file, line and column are found out later, all at once.
+    /// A label whose file, line and column are computed later, all at once.
     pub fn new(span: Span, text: impl Into<String>) -> Self {
         Self {
             file: Arc::default(),

@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// The most findings of one rule in one table; more are counted, not kept.
 const MOST_OF_ONE_RULE: usize = 20;
 
-/// A place in a table or a scene as a reader knows it; what does not apply is `None`.
+/// A place in a table or a scene as known to a reader; parts that do not apply are `None`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Place {
     /// The row, counted from 1 below the header.
@@ -49,7 +49,7 @@ impl Place {
     }
 }
 
-/// Collects the findings of one table: the first of each rule, and how many there are.
+/// Collects the findings of one table: the first of each rule, and counts.
 #[derive(Debug)]
 pub struct Findings {
     file: Arc<str>,
@@ -59,17 +59,17 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// No findings yet, of the table of that name.
+    /// No findings yet, for the table of that name.
     pub fn new(file: &str) -> Self {
         Self { file: Arc::from(file), kept: Vec::new(), reported: BTreeMap::new() }
     }
 
-    /// Reports a finding; an empty `help` is none.
+    /// Reports a finding; an empty `help` means none.
     pub fn report(&mut self, rule: &Rule, place: Place, message: impl Into<String>, help: impl Into<String>) {
         self.report_as(rule.severity, rule, place, message, help);
     }
 
-    /// Reports a finding that is graver or less grave than its rule says.
+    /// Reports a finding with another severity than its rule.
     pub fn report_as(
         &mut self,
         severity: Severity,
@@ -100,7 +100,7 @@ impl Findings {
         self.kept.iter().any(|found| found.severity == Severity::Error)
     }
 
-    /// The findings in the order they were reported; the last of a rule says how many of it were left out.
+    /// The findings in the order they were reported; the last of a rule gives the number left out.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         for (code, count) in self.reported {
             let Some(hidden) = count.checked_sub(MOST_OF_ONE_RULE).filter(|hidden| *hidden > 0) else { continue };

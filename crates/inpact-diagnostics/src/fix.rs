@@ -2,10 +2,10 @@
 
 use crate::span::Span;
 
-/// A change of the deck that makes a finding go away.
+/// A change of the deck that removes a finding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fix {
-    /// Its effect, in the imperative.
+    /// Its description, in the imperative.
     pub title: String,
     /// Whether the meaning of the deck stays the same.
     pub safety: FixSafety,
@@ -22,7 +22,7 @@ pub enum FixSafety {
     ChangesMeaning,
 }
 
-/// Bytes put in the place of a span.
+/// A replacement of a span.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edit {
     /// The bytes replaced; an empty span inserts.
@@ -32,20 +32,20 @@ pub struct Edit {
 }
 
 impl Edit {
-    /// Puts `replacement` in the place of `span`.
+    /// Replaces `span` by `replacement`.
     pub fn new(span: Span, replacement: impl Into<Vec<u8>>) -> Self {
         Self { span, replacement: replacement.into() }
     }
 
-    /// Takes the bytes of `span` away.
+    /// Deletes the bytes of `span`.
     pub fn delete(span: Span) -> Self {
         Self::new(span, Vec::new())
     }
 }
 
-/// Applies edits to the bytes of the file they point into.
+/// Applies edits to the bytes of their file.
 ///
-/// Of two edits that overlap the later one is left out.
+/// Of two overlapping edits the later one is dropped.
 pub fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
     let mut sorted: Vec<&Edit> = edits.iter().collect();
     sorted.sort_by_key(|edit| (edit.span.start(), edit.span.end()));

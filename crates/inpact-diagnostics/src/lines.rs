@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead};
 use std::sync::Arc;
 
-/// Keeps with every finding in a text the lines around it; those whose line is not known, or not there, have none.
+/// Stores the lines around every finding in a text with it; findings with an unknown or missing line have none.
 ///
-/// Lines end as editors count them, with LF or CR LF: beyond a lone CR nothing is kept.
+/// Lines end as in editors, with LF or CR LF: beyond a lone CR nothing is stored.
 ///
 /// ```
 /// use inpact_diagnostics::{Diagnostic, FixKind, Findings, Place, Rule, Severity, keep_lines};

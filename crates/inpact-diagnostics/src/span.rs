@@ -18,7 +18,7 @@ impl SourceId {
 
 /// A half-open range of bytes `start..end` in one source file.
 ///
-/// A deck is full of spans, so that one takes sixteen bytes, and an optional one no more:
+/// Spans are numerous, so one takes sixteen bytes, as does an optional one:
 /// offsets and lengths have 48 bits, which is 256 TiB, and there are 2³² − 2 sources.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Span {
@@ -31,7 +31,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// The bytes `start..end` of `source`; none at `start` where `end` is less. Beyond 2⁴⁸ bytes every offset is that one.
+    /// The bytes `start..end` of `source`; empty at `start` where `end` is less. Offsets saturate at 2⁴⁸.
     pub const fn new(source: SourceId, start: u64, end: u64) -> Self {
         const MOST: u64 = (1 << 48) - 1;
         let start = if start < MOST { start } else { MOST };
@@ -68,7 +68,7 @@ impl Span {
         joined(self.length_high, self.length_low)
     }
 
-    /// Whether the span covers no byte; it still marks a place.
+    /// Whether the span is empty; it still marks a place.
     pub const fn is_empty(self) -> bool {
         self.len() == 0
     }
@@ -90,7 +90,7 @@ impl Span {
         self.source == other.source && self.start() <= other.end() && other.start() <= self.end()
     }
 
-    /// Whether `other` lies wholly inside this span.
+    /// Whether `other` lies entirely inside this span.
     pub fn contains(self, other: Self) -> bool {
         self.source == other.source && self.start() <= other.start() && other.end() <= self.end()
     }
@@ -129,7 +129,7 @@ impl Ord for Span {
     }
 }
 
-/// A place as a person names it: line and column, both counted from 1.
+/// A place for display: line and column, both counted from 1.
 ///
 /// Columns count characters, so that the number agrees with an editor's for UTF-8 text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

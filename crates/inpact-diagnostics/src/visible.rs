@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// The text of a message, in which line ends and tabs stay: what is not to be seen is written as `\u{1b}`.
+/// The text of a message, in which line ends and tabs stay: other invisible characters are written as `\u{1b}`.
 pub fn visible(text: &str) -> Cow<'_, str> {
     escaped(
         text,
@@ -27,7 +27,7 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// JSON in which no character is hidden: `\u009b` means the same to who reads JSON. Line ends and tabs between values stay.
+/// JSON without invisible characters: `\u009b` has the same meaning to a JSON reader. Line ends and tabs between values stay.
 pub fn visible_json(json: &str) -> Cow<'_, str> {
     escaped(
         json,
@@ -40,7 +40,7 @@ pub fn visible_json(json: &str) -> Cow<'_, str> {
     )
 }
 
-/// Whether a character is obeyed rather than shown: control characters, marks of direction, what is as wide as nothing.
+/// Whether a character is interpreted rather than shown: control characters, bidirectional marks, zero-width characters.
 pub fn is_hidden(character: char) -> bool {
     character.is_control()
         || matches!(character,

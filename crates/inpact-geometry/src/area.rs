@@ -25,7 +25,7 @@ pub enum Shares {
     ShapeFunctions,
 }
 
-/// The extent of a face across the mesh, by which its length becomes an area.
+/// The extent of a line face out of the plane, by which its length becomes an area.
 #[derive(Clone, Copy, Debug)]
 pub enum Extent<'a> {
     /// Faces are areas in space.
@@ -53,7 +53,7 @@ pub enum Extent<'a> {
 ///
 /// # Errors
 ///
-/// The extent does not suit the faces, there is not one thickness a face, or a radius is negative.
+/// The extent does not suit the faces, there is not one thickness per face, or a radius is negative.
 pub fn node_areas(placed: &Placed<'_>, shares: Shares, extent: Extent<'_>) -> Result<Vec<f64>, Error> {
     suits(placed, extent)?;
     let surface = placed.surface();
@@ -81,7 +81,7 @@ pub fn face_areas(placed: &Placed<'_>, extent: Extent<'_>) -> Result<Vec<f64>, E
     Ok(placed.surface().faces().map(|face| face_parts(placed, face, extent).area).collect())
 }
 
-/// ∫ N dA (L²) of each node of a surface of areas, in the order of [`Surface::nodes`](crate::Surface::nodes): what a flow that is spread evenly puts into each.
+/// ∫ N dA (L²) of each node of a surface of areas, in the order of [`Surface::nodes`](crate::Surface::nodes): the share of each in a uniformly distributed flow.
 ///
 /// On second-order faces corners have negative or zero ones; the sum is the area.
 ///

@@ -28,7 +28,7 @@ const ON_EDGE: f64 = 1e-14;
 /// The closest point of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// The place on the face, in its own coordinates ξ and η.
+    /// The point in the face's natural coordinates ξ and η.
     pub place: [f64; 2],
     /// The point in space (L).
     pub point: Point,
@@ -48,7 +48,7 @@ impl Patch {
     ///
     /// # Panics
     ///
-    /// A coordinate of the point or of the face is no number, or its square is not finite.
+    /// A coordinate of the point or of the face is NaN, or its square is not finite.
     pub fn closest(&self, point: Point) -> Closest {
         self.closest_within(point, f64::INFINITY).expect("a distance below infinity")
     }

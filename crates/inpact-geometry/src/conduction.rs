@@ -4,10 +4,10 @@ use crate::solid::{MAX_SOLID_NODES, SolidPoint, rule};
 use crate::vector::{cross, dot, sub};
 use crate::{ElementShape, Error, ErrorKind, Integration, Point};
 
-/// A symmetric tensor in the axes of the coordinates: thermal conductivity (M L T⁻³ θ⁻¹), or electrical (C T⁻¹ L⁻¹ φ⁻¹).
+/// A symmetric tensor in global axes: thermal conductivity (M L T⁻³ θ⁻¹), or electrical (C T⁻¹ L⁻¹ φ⁻¹).
 pub type Conductivity = [[f64; 3]; 3];
 
-/// A solid element by its shape, without a place: integrates what it conducts and holds where its nodes are.
+/// A solid element by its shape, without coordinates: integrates conductance and capacity for given nodes.
 ///
 /// ```
 /// use inpact_geometry::{ElementShape, Integration, SolidElement};
@@ -37,7 +37,7 @@ pub struct SolidIntegrals {
 }
 
 impl SolidElement {
-    /// The element of a shape; `None` where it is no solid in space.
+    /// The element of a shape; `None` where it is not a three-dimensional solid.
     pub fn new(shape: ElementShape, integration: Integration) -> Option<Self> {
         rule(shape, integration).map(|points| Self { points, nodes: shape.nodes() })
     }
@@ -47,7 +47,7 @@ impl SolidElement {
         self.nodes
     }
 
-    /// Room for what it conducts and holds.
+    /// Storage for its conductance and capacity.
     pub fn integrals(&self) -> SolidIntegrals {
         SolidIntegrals {
             nodes: self.nodes,
@@ -60,7 +60,7 @@ impl SolidElement {
     ///
     /// # Errors
     ///
-    /// [`ErrorKind::Inverted`]: it is inside out, or flat, at one of its integration points.
+    /// [`ErrorKind::Inverted`]: its Jacobian is not positive at one of its integration points.
     pub fn conduct(
         &self,
         points: &[Point],
@@ -90,7 +90,7 @@ impl SolidElement {
         })
     }
 
-    /// Integrates the volumes of the nodes alone.
+    /// Integrates only the volumes of the nodes.
     ///
     /// # Errors
     ///
@@ -140,7 +140,7 @@ impl SolidElement {
 }
 
 impl SolidIntegrals {
-    /// ∫ ∇N·k·∇N dV of two nodes of the element: the flow out of one (heat per time and temperature, or current per potential) where the other is one warmer than all.
+    /// ∫ ∇N·k·∇N dV of two nodes of the element: the flow out of one (heat per time and temperature, or current per potential) where the other has the value 1 and the rest 0.
     ///
     /// # Panics
     ///
@@ -151,7 +151,7 @@ impl SolidIntegrals {
         self.conduction[row * (row + 1) / 2 + column]
     }
 
-    /// ∫ N dV of each node (L³); their sum is the volume. Corners of the second order have negative ones.
+    /// ∫ N dV of each node (L³); their sum is the volume. Corners of second-order elements have negative ones.
     pub fn volumes(&self) -> &[f64] {
         &self.volumes[..self.nodes]
     }

@@ -6,7 +6,7 @@ use crate::{Error, ErrorKind, FaceId, Point, Surface};
 /// Squares of larger coordinates are not finite, or their sums are not.
 const LARGEST: f64 = 1e150;
 
-/// A surface with the points of its nodes, all of which are there and finite.
+/// A surface with the points of its nodes, all present and finite.
 ///
 /// ```
 /// use inpact_geometry::{Error, ErrorKind, Face, FaceShape, NodeId, Placed, Surface};

@@ -46,7 +46,7 @@ impl FromStr for FaceLabel {
     }
 }
 
-/// A face of an element: its label, its shape, and which of the element's nodes it has (from 0), in the order of the shape.
+/// A face of an element: its label, its shape, and its nodes as indices into the element's nodes (from 0), in the order of the shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LocalFace {
     /// Its label.
@@ -109,7 +109,7 @@ impl ElementShape {
         }
     }
 
-    /// Whether its faces are the two sides of a sheet.
+    /// Whether its faces are the two sides of a shell or membrane.
     pub fn is_sheet(self) -> bool {
         matches!(self, Self::Shell3 | Self::Shell6 | Self::Shell4 | Self::Shell8 | Self::Line2 | Self::Line3)
     }

@@ -2,7 +2,7 @@
 
 use crate::ElementShape;
 
-/// The space of an element, which gives the extent of its faces across the mesh.
+/// The space of an element, which determines the out-of-plane extent of its faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ElementSpace {
     /// In space.
@@ -20,12 +20,12 @@ pub enum ElementSpace {
 pub struct ElementType {
     /// Its shape.
     pub shape: ElementShape,
-    /// The space it is in.
+    /// Its space.
     pub space: ElementSpace,
 }
 
 impl ElementType {
-    /// The type of this name, in any case; `None` where it is none of those whose faces are known here.
+    /// The type of this name, case-insensitive; `None` for unknown types.
     ///
     /// Known are stress, heat transfer, convection, coupled, pore pressure, piezoelectric and thermal-electrical elements of first and second order: solids
     /// (C3D…, DC3D…, DCC3D…, Q3D…), plane ones (CPE…, CPS…, CPEG…, DC2D…, DCC2D…), axisymmetric ones (CAX…, CGAX…, DCAX…, DCCAX…), shells (S…, STRI…, DS…, SAX…,

@@ -3,7 +3,7 @@
 //! Every shape function of every shape is a sum of the eight monomials 1, ξ, η, ξ², ξη, η², ξ²η, ξη² (Zienkiewicz and Taylor, The Finite Element Method,
 //! chapter on shape functions), so that one table per shape defines them, and a face is a polynomial with eight coefficients.
 
-/// The most nodes of a face.
+/// The maximum number of nodes of a face.
 pub const MAX_NODES: usize = 8;
 
 /// The number of monomials.
@@ -11,10 +11,10 @@ pub(crate) const MONOMIALS: usize = 8;
 
 /// The shape of a face.
 ///
-/// Corners come first and go round counter-clockwise when seen from where the normal points to; then come the nodes in the middle of edges, the first between
-/// the first two corners. The normal of a segment from a to b lies to the right of it: (b − a) turned clockwise by 90°, in the plane of x and y.
+/// Corners come first, counter-clockwise seen from the side that the normal points to; then the midside nodes, the first between
+/// the first two corners. The normal of a segment from a to b lies to the right of it: (b − a) rotated clockwise by 90°, in the xy plane.
 ///
-/// Places on a segment are −1 ≤ ξ ≤ 1, on a triangle 0 ≤ ξ, 0 ≤ η, ξ + η ≤ 1, on a quadrilateral −1 ≤ ξ ≤ 1, −1 ≤ η ≤ 1.
+/// Natural coordinates on a segment are −1 ≤ ξ ≤ 1, on a triangle 0 ≤ ξ, 0 ≤ η, ξ + η ≤ 1, on a quadrilateral −1 ≤ ξ ≤ 1, −1 ≤ η ≤ 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FaceShape {
     /// Two ends.
@@ -46,17 +46,17 @@ impl FaceShape {
         }
     }
 
-    /// Whether it is a line, in a plane or axisymmetric mesh, or an area in space.
+    /// Whether it is a line, in a plane or axisymmetric mesh, rather than an area in space.
     pub fn is_line(self) -> bool {
         self.corners() == 2
     }
 
-    /// Whether it has nodes in the middle of its edges.
+    /// Whether it has midside nodes.
     pub fn is_second_order(self) -> bool {
         self.corners() < self.nodes()
     }
 
-    /// The places of its corners, in ξ and η.
+    /// The natural coordinates of its corners.
     pub fn corner_places(self) -> &'static [[f64; 2]] {
         match self.corners() {
             2 => &[[-1.0, 0.0], [1.0, 0.0]],
@@ -65,12 +65,12 @@ impl FaceShape {
         }
     }
 
-    /// The middle of it, in ξ and η.
+    /// Its centre, in ξ and η.
     pub fn middle(self) -> [f64; 2] {
         if self.corners() == 3 { [1.0 / 3.0, 1.0 / 3.0] } else { [0.0, 0.0] }
     }
 
-    /// The shape functions at a place: the weights of the nodes, which sum to 1 (to rounding).
+    /// The shape functions at a point: the weights of the nodes, which sum to 1 (to rounding).
     ///
     /// ```
     /// use inpact_geometry::FaceShape;

@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use std::collections::hash_map::{Entry, RandomState};
 use std::hash::{BuildHasher, Hash, Hasher};
 
-/// Gathers elements and forgets each face once a second element has it: memory follows the front between the elements that came and those that did not,
-/// which is that of a surface where neighbours come soon after each other.
+/// Collects elements and drops each face once a second element has it: memory grows with the front between processed and pending elements,
+/// which has the size of a surface where neighbours are close in order.
 ///
-/// A face that three elements have, which no valid mesh has, counts as free, of one of the three.
+/// A face of three elements, which no valid mesh has, counts as free, of one of the three.
 ///
 /// ```
 /// use inpact_geometry::{ElementShape, FreeFaces, NodeId};
@@ -181,12 +181,12 @@ impl FreeFaces {
         Self::default()
     }
 
-    /// Adds an element, by the caller's number, whose free faces are wanted. Sheets are left out: both of their sides are free.
+    /// Adds an element, by the caller's number, whose free faces are requested. Shells are left out: both of their sides are free.
     pub fn add(&mut self, element: u64, shape: ElementShape, nodes: &[NodeId]) {
         self.meet(shape, nodes, Some(element));
     }
 
-    /// Adds an element whose own faces are not wanted, but which may cover wanted ones.
+    /// Adds an element whose own faces are not requested, but which may cover requested ones.
     pub fn cover(&mut self, shape: ElementShape, nodes: &[NodeId]) {
         self.meet(shape, nodes, None);
     }
@@ -225,7 +225,7 @@ impl FreeFaces {
         }
     }
 
-    /// The wanted faces that no other element has, by element and label.
+    /// The requested faces that no other element has, by element and label.
     pub fn finish(self) -> Vec<(u64, FaceLabel)> {
         let Self { recent, mut older } = self;
         recent.faces().for_each(|face| Self::toggle(&mut older, face));

@@ -12,14 +12,14 @@ use crate::spread;
 use crate::vector::{dot, norm};
 use crate::{Error, ErrorKind, FaceId, FaceShape};
 
-/// The part of a surface that has another one across.
+/// The part of a surface that is opposite another one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
     /// Its area (L²).
     pub area: f64,
     /// ∫ N dA over it (L²) of each node, in the order of [`Surface::nodes`](crate::Surface::nodes).
     pub shares: Vec<f64>,
-    /// Whether a face has some of it, by face.
+    /// Whether a face is at least partly in it, by face.
     pub faces: Vec<bool>,
 }
 
@@ -29,7 +29,7 @@ const CUTS: [u32; 2] = [1, 7];
 /// How far inside its cell a point lies, as a share of half the cell: cells that share an edge with the other surface's own edge are on one side of it.
 const INSIDE: f64 = 1e-4;
 
-/// The part of a surface that has `other` across from it: where a point projects onto it, and both face each other.
+/// The part of a surface that is opposite `other`: where a point projects onto it, and both face each other.
 ///
 /// ```
 /// use inpact_geometry::{Face, FaceShape, Master, NodeId, overlap, Placed, Surface};
@@ -49,7 +49,7 @@ const INSIDE: f64 = 1e-4;
 ///
 /// # Errors
 ///
-/// One of the surfaces is of lines.
+/// One of the surfaces consists of lines.
 pub fn overlap(surface: &Placed<'_>, other: &Master<'_>) -> Result<Overlap, Error> {
     let of = surface.surface();
     let is_line = |surface: &crate::Surface| !surface.is_empty() && surface.is_line();

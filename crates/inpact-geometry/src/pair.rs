@@ -13,13 +13,13 @@ use crate::{Error, ErrorKind, NodeId, Point, Vector};
 pub struct PairOptions<'a> {
     /// Sharing of a slave face's area among its nodes.
     pub shares: Shares,
-    /// The extent of a slave face across the mesh.
+    /// The out-of-plane extent of a slave face.
     pub extent: Extent<'a>,
     /// The distance of each slave face from its nodes along its normal (L), by face; empty where all are solids.
     pub slave_shifts: &'a [f64],
     /// The same of the master.
     pub master_shifts: &'a [f64],
-    /// The most that a node may lie beyond the master's outer edge, as a share of an edge.
+    /// The maximum distance of a node beyond the master's outer edge, as a fraction of an edge.
     pub extension: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct ContactNode {
     pub area: f64,
     /// The averaged unit normal of the slave there; `None` where there is none.
     pub normal: Option<Vector>,
-    /// The projection onto the master; `None` where the master has no face. Thickness of sheets is taken off the clearance (not off the distance).
+    /// The projection onto the master; `None` where the master has no face. The thickness of shells is subtracted from the clearance (not from the distance).
     pub across: Option<Projection>,
 }
 
@@ -60,7 +60,7 @@ pub struct ContactNode {
 ///
 /// # Errors
 ///
-/// As [`node_areas`]; and where there is not one shift a face.
+/// As [`node_areas`]; and where there is not one shift per face.
 pub fn contact_nodes(
     slave: &Placed<'_>,
     master: &Master<'_>,

@@ -6,7 +6,7 @@ use crate::{FaceShape, Point, Vector};
 
 /// A face in space.
 ///
-/// Coordinates are kept relative to the face's own middle, so that a mesh far from the origin loses nothing more than its coordinates have lost already.
+/// Coordinates are stored relative to the face's centre, so that a mesh far from the origin loses no more digits than its coordinates already have.
 ///
 /// ```
 /// use inpact_geometry::{FaceShape, Patch};
@@ -47,12 +47,12 @@ impl Patch {
         self.shape
     }
 
-    /// The point at a place.
+    /// The point at natural coordinates.
     pub fn point(&self, place: [f64; 2]) -> Point {
         add(self.origin, self.relative(place))
     }
 
-    /// The unit normal at a place; `None` where the face has no area there.
+    /// The unit normal at natural coordinates; `None` where the face is degenerate there.
     pub fn normal(&self, place: [f64; 2]) -> Option<Vector> {
         unit(self.area_vector(place))
     }

@@ -15,7 +15,7 @@ use crate::{FaceId, FaceShape, NodeId, Point, Vector};
 /// The distance from an edge, in ξ and η, within which a closest point is on it.
 const ON_EDGE: f64 = 1e-12;
 
-/// The most that a point may lie beyond the outer edge of the master and yet project onto it, as a share of the longest edge of the nearest face: the length by which Abaqus
+/// The maximum distance beyond the outer edge of the master at which a point still projects onto it, as a fraction of the longest edge of the nearest face: the length by which Abaqus
 /// extends the edges of a master surface, unless *CONTACT PAIR, EXTENSION ZONE gives another.
 pub const DEFAULT_EXTENSION: f64 = 0.1;
 
@@ -24,7 +24,7 @@ pub const DEFAULT_EXTENSION: f64 = 0.1;
 pub struct Projection {
     /// The face of the master that is closest.
     pub face: FaceId,
-    /// The place on the face, in its own coordinates ξ and η.
+    /// The point in the face's natural coordinates ξ and η.
     pub place: [f64; 2],
     /// The point in space (L).
     pub point: Point,
@@ -34,21 +34,21 @@ pub struct Projection {
     pub clearance: f64,
     /// The master's unit normal there; zero where its faces have none.
     pub normal: Vector,
-    /// The distance of the point beside the master (L): 0 but beyond its outer edge.
+    /// The distance of the point beyond the master's outer edge (L); 0 within.
     pub overhang: f64,
-    /// The point projects onto the master: the overhang is no more than the extension times the longest edge of the face.
+    /// Whether the point projects onto the master: the overhang is at most the extension times the longest edge of the face.
     pub projects: bool,
 }
 
 impl Projection {
-    /// The weights of the nodes of a face at this place, in the face's order: any field of the master is their sum. They sum to 1, to rounding.
+    /// The interpolation weights of the nodes of a face at this point, in the face's order. They sum to 1, to rounding.
     pub fn weights(&self, shape: FaceShape) -> Vec<f64> {
         shape.weights(self.place)
     }
 }
 
 impl Master<'_> {
-    /// The projection of a point; `None` where the master has no face or a coordinate of the point is not finite. `extension` is a share of an edge, [`DEFAULT_EXTENSION`] unless given.
+    /// The projection of a point; `None` where the master has no face or a coordinate of the point is not finite. `extension` is a fraction of an edge, by default [`DEFAULT_EXTENSION`].
     ///
     /// ```
     /// use inpact_geometry::{DEFAULT_EXTENSION, Face, FaceShape, Master, NodeId, Placed, Surface};
@@ -87,7 +87,7 @@ impl Master<'_> {
         Some(Projection { face, place, point: on_master, distance, clearance, normal, overhang, projects })
     }
 
-    /// The same for many points, on all threads where feature `threads` is on; the answers do not depend on how many there are.
+    /// The same for many points, on all threads where feature `threads` is on; the results do not depend on their number.
     pub fn project_all(&self, points: &[Point], extension: f64) -> Vec<Option<Projection>> {
         spread::map(points, |point| self.project(*point, extension))
     }

@@ -5,14 +5,14 @@ use crate::coordinates::{Placed, finite};
 use crate::{FaceId, Point};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
-/// A surface that closest points are sought on: time and memory in proportion to its faces (n log n to build).
+/// A surface indexed for closest-point queries: memory is linear in its faces (n log n time to build).
 pub struct Master<'a> {
     placed: Placed<'a>,
     tree: RTree<Boxed>,
 }
 
 impl<'a> Master<'a> {
-    /// Makes the surface ready.
+    /// Builds the index.
     pub fn new(placed: Placed<'a>) -> Self {
         let boxes = placed.surface().faces().map(|face| {
             let (low, high) = bounds(&placed.patch(face));
@@ -26,9 +26,9 @@ impl<'a> Master<'a> {
         &self.placed
     }
 
-    /// The face that is closest to a point, and where on it; `None` where the surface has no face. Of faces equally far the first is taken.
+    /// The face that is closest to a point, and the closest point on it; `None` where the surface has no face. Of equally distant faces the first is taken.
     ///
-    /// Neither is there a closest face of a point with a coordinate that is no number or whose square is not finite.
+    /// `None` also for a point with a coordinate that is NaN or whose square is not finite.
     pub fn closest(&self, point: Point) -> Option<(FaceId, Closest)> {
         finite(point).ok()?;
         let mut best: Option<(FaceId, Closest)> = None;

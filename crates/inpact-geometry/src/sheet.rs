@@ -4,8 +4,8 @@ use crate::{Error, ErrorKind, FaceLabel, Surface};
 
 /// The distance (L) of the side of a shell from its nodes, along the normal of that side.
 ///
-/// The nodes lie on the surface of reference, `offset` times the thickness from the middle, positive towards the shell's normal (*SHELL SECTION, OFFSET; SPOS is
-/// 0.5, SNEG is −0.5). A clearance between two sides is the clearance between their surfaces of reference less the shift of each.
+/// The nodes lie on the reference surface, `offset` times the thickness from the midsurface, positive towards the shell's normal (*SHELL SECTION, OFFSET; SPOS is
+/// 0.5, SNEG is −0.5). A clearance between two sides is the clearance between their reference surfaces minus the shift of each.
 ///
 /// ```
 /// use inpact_geometry::{FaceLabel, sheet_shift};
@@ -22,11 +22,11 @@ pub fn sheet_shift(side: FaceLabel, thickness: f64, offset: f64) -> f64 {
     }
 }
 
-/// The shift of each node, the average of the shifts of the faces around it (one a face), in the order of [`Surface::nodes`].
+/// The shift of each node, the average of the shifts of the faces around it (one per face), in the order of [`Surface::nodes`].
 ///
 /// # Errors
 ///
-/// There is not one shift a face.
+/// There is not one shift per face.
 pub fn node_shifts(surface: &Surface, of_faces: &[f64]) -> Result<Vec<f64>, Error> {
     if of_faces.len() != surface.len() {
         return Err(ErrorKind::Values { what: "shift", expected: surface.len(), found: of_faces.len() }.into());

@@ -11,7 +11,7 @@ use crate::ElementShape;
 use crate::quadrature::gauss;
 use std::sync::OnceLock;
 
-/// The most nodes of a solid element.
+/// The maximum number of nodes of a solid element.
 pub const MAX_SOLID_NODES: usize = 20;
 
 /// The number of integration points of an element.

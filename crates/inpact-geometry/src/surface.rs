@@ -11,7 +11,7 @@ pub struct Face<'a> {
     pub nodes: &'a [NodeId],
 }
 
-/// Faces by their nodes, and the faces around each node.
+/// The topology of a surface: faces by their nodes, and the faces around each node.
 ///
 /// ```
 /// use inpact_geometry::{Face, FaceId, FaceShape, NodeId, Surface};
@@ -38,11 +38,11 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A surface of these faces; they are numbered in this order.
+    /// A surface of these faces, numbered in this order.
     ///
     /// # Errors
     ///
-    /// A face has not its shape's number of nodes, lines and areas are mixed, or there are more than 2³² faces or nodes of faces.
+    /// A face does not have its shape's number of nodes, lines and areas are mixed, or there are more than 2³² faces or nodes of faces.
     pub fn new<'a>(faces: impl IntoIterator<Item = Face<'a>>) -> Result<Self, Error> {
         let mut surface = Self { starts: vec![0], ..Self::default() };
         for Face { shape, nodes } in faces {

@@ -1,6 +1,6 @@
 //! Points and vectors in three dimensions, and operations on them.
 
-/// A place in space, in units of length; plane and axisymmetric meshes have 0 as their third coordinate.
+/// A point in space, in units of length; plane and axisymmetric meshes have 0 as the third coordinate.
 pub type Point = [f64; 3];
 
 /// A direction, or the difference of two points.

@@ -35,14 +35,14 @@ pub struct Figure {
     pub deck: String,
     /// The laws, interaction by interaction; small multiples of one law are adjacent.
     pub panels: Vec<Panel>,
-    /// The parts that are not drawn, and why: a line each.
+    /// The parts that are not drawn, with the reason, one line each.
     pub notes: Vec<String>,
 }
 
 /// One law of one interaction, at one value of all variables but those of its axes and its curves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// The name of the interaction as the deck writes it.
+    /// The name of the interaction as written in the deck.
     pub interaction: String,
     /// Its law.
     pub law: LawKind,
@@ -50,7 +50,7 @@ pub struct Panel {
     pub value: Quantity,
     /// The quantity that distinguishes the curves; `None` for a single curve.
     pub family: Option<Quantity>,
-    /// The variables that have one value here although the rows know several.
+    /// The variables that are fixed here although the rows have several values.
     pub held: Vec<Held>,
     /// To the left of contact.
     pub open: Half,
@@ -62,13 +62,13 @@ pub struct Panel {
     pub all_curves: usize,
     /// The reason why the rows cannot be evaluated, where they cannot: the curves are then the rows as written.
     pub fault: Option<String>,
-    /// The law at other values of its variables, where requested; of small multiples the first has it.
+    /// The law at other values of its variables, where requested; only in the first of small multiples.
     pub probe: Option<Probe>,
     /// Findings with a place on the curves.
     pub marks: Vec<Mark>,
     /// Rows of a node table on the curves.
     pub nodes: Option<NodeRows>,
-    /// Remarks on the panel: a line each.
+    /// Remarks on the panel, one line each.
     pub notes: Vec<String>,
 }
 
@@ -88,7 +88,7 @@ pub struct Quantity {
 pub struct Held {
     /// The quantity.
     pub quantity: Quantity,
-    /// At which value.
+    /// Its value.
     pub at: f64,
     /// The number of its values in the rows.
     pub of: usize,
@@ -105,7 +105,7 @@ pub struct Half {
     pub start: f64,
     /// The largest abscissa, beyond the last row.
     pub end: f64,
-    /// Abscissae have a meaning: without rows or a cutoff the law is the same all along the side.
+    /// Whether the law varies along the side: without rows or a cutoff it is constant.
     pub has_scale: bool,
     /// The number of rows of its table; `None` without a table.
     pub rows: Option<usize>,
@@ -129,7 +129,7 @@ pub struct Branch {
     pub knots: Vec<Knot>,
     /// The number of rows on it; more than `knots` where there are too many to distinguish.
     pub knot_count: usize,
-    /// The law's values, by ascending abscissa; of rows that form no table the rows as they are.
+    /// The law's values, by ascending abscissa; for rows that form no table the rows unchanged.
     pub samples: Vec<Sample>,
 }
 
@@ -155,7 +155,7 @@ pub struct Sample {
     pub reach: Reach,
 }
 
-/// Whether a table says a value or continues to it.
+/// Whether a value is from a table or its continuation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
     /// Between the first and the last row.
@@ -205,13 +205,13 @@ impl Panel {
         format!("{}: {}{}", self.interaction, self.law.name(), held.collect::<String>())
     }
 
-    /// Over how many decades the values above zero go; `None` without any.
+    /// The number of decades of the positive values; `None` without any.
     pub fn decades(&self) -> Option<f64> {
         let values = self.values().filter(|value| 0.0 < *value && value.is_finite());
         range(values).map(|(least, greatest)| greatest.log10() - least.log10())
     }
 
-    /// All values that are shown, those of continuations and of nodes included.
+    /// All values that are shown, including continuations and nodes.
     pub fn values(&self) -> impl Iterator<Item = f64> {
         let branches = self.curves.iter().flat_map(|curve| Side::BOTH.map(|side| curve.branch(side)));
         let of_curves = branches.flat_map(|branch| {
@@ -247,7 +247,7 @@ pub(crate) fn range(numbers: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// A number for a label: the shortest digits that read back, with an exponent where they would be mostly zeros.
+/// A number for a label: the shortest digits that round-trip, with an exponent where they would be mostly zeros.
 pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 || (1e-3..1e5).contains(&magnitude) || !magnitude.is_finite() {

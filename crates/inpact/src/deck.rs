@@ -15,9 +15,9 @@ use inpact_parser::json;
 use inpact_parser::model::{self, Model};
 use std::path::{Path, PathBuf};
 
-/// A deck or a fragment of one, with everything it includes and the settings that count for it.
+/// A deck or a fragment of one, with everything it includes and its settings.
 ///
-/// Reading never fails over what a deck says: that is what [`check`](Self::check) is for.
+/// Reading never fails because of the content of a deck: faults are reported by [`check`](Self::check).
 pub struct Deck {
     name: String,
     pub(crate) read: ReadDeck,
@@ -26,7 +26,7 @@ pub struct Deck {
 }
 
 impl Deck {
-    /// Reads the deck at `path`, or standard input for `-`, and what it includes.
+    /// Reads the deck at `path`, or standard input for `-`, and the files it includes.
     ///
     /// ```no_run
     /// use inpact::{Deck, ReadOptions, Release};
@@ -40,8 +40,8 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// A file that cannot be read, or a configuration that says what it cannot say.
-    /// An included file that is missing is no error but a finding.
+    /// A file that cannot be read, or an invalid configuration.
+    /// A missing included file is a finding, not an error.
     pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
         let path = path.as_ref();
         let settings = Settings::of(path, options)?;
@@ -49,7 +49,7 @@ impl Deck {
         Ok(Self { name: path.display().to_string(), read, settings, options: options.clone() })
     }
 
-    /// Reads a deck from its text; `name` is what messages call it, and files that it includes are found from there.
+    /// Reads a deck from its text; `name` is its name in messages, and included files are searched relative to it.
     ///
     /// ```
     /// use inpact::{Deck, ReadOptions};
@@ -63,13 +63,13 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// A configuration that cannot be read, or says what it cannot say.
+    /// A configuration that cannot be read, or is invalid.
     pub fn parse(name: impl AsRef<Path>, text: impl Into<Vec<u8>>, options: &ReadOptions) -> Result<Self, Error> {
         let name = name.as_ref();
         Self::read(name, &options.clone().file(name, text))
     }
 
-    /// Makes a deck from JSON that [`to_json`](Self::to_json) or [`to_syntax_json`](Self::to_syntax_json) gave.
+    /// Makes a deck from JSON written by [`to_json`](Self::to_json) or [`to_syntax_json`](Self::to_syntax_json).
     ///
     /// ```
     /// use inpact::{Deck, ReadOptions};
@@ -82,7 +82,7 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// JSON that is no deck, with the path of what is wrong with it.
+    /// JSON that is not a deck, with the path of the fault.
     pub fn from_json(json: &str, options: &ReadOptions) -> Result<Self, Error> {
         let json_deck::Files { files, language } = json_deck::files(json).map_err(Error::data)?;
         let mut options = options.clone();
@@ -116,7 +116,7 @@ impl Deck {
         &self.read.deck
     }
 
-    /// The keyword language it was read in.
+    /// The keyword language with which it was read.
     pub fn grammar(&self) -> &'static Grammar {
         self.settings.grammar
     }
@@ -178,7 +178,7 @@ impl Deck {
         Ok(json::syntax::write(&self.read.deck, self.settings.grammar))
     }
 
-    /// A deck that says the same of the contact interfaces, in its dialect and release.
+    /// A deck with the same contact interfaces, in its dialect and release.
     ///
     /// # Errors
     /// A model that no deck can contain.

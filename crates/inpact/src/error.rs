@@ -7,7 +7,7 @@ use std::fmt;
 
 /// A failure: a file that cannot be read or written, wrong usage, or data with errors.
 ///
-/// Faults of a deck that could be read are no error but a list of findings.
+/// Faults of a deck that could be read are findings, not an error.
 ///
 /// ```
 /// use inpact::{Deck, ReadOptions};
@@ -50,12 +50,12 @@ impl Error {
         matches!(self.failure, Failure::Read { .. } | Failure::Write { .. } | Failure::Output(_))
     }
 
-    /// Whether the request makes no sense, such as options that contradict one another.
+    /// Whether the request is invalid, such as options that contradict one another.
     pub fn is_usage(&self) -> bool {
         matches!(self.failure, Failure::Usage(_))
     }
 
-    /// Whether the data has errors that leave nothing to go on with.
+    /// Whether the data has errors that make it unusable.
     pub fn is_data(&self) -> bool {
         matches!(self.failure, Failure::Data(_) | Failure::AlreadySaid)
     }

@@ -18,7 +18,7 @@ use inpact_evaluation::{Accuracy, Evaluation, HistoryStart, Tolerance, Wanted};
 use inpact_parser::model::{Name, Regime};
 use std::ops::ControlFlow;
 
-/// Options of an evaluation; by default the deck and the columns decide, in full accuracy.
+/// Options of an evaluation; the defaults follow from deck and columns, with full accuracy.
 #[derive(Debug, Clone, Default)]
 pub struct EvaluateOptions {
     outputs: Option<Vec<String>>,
@@ -26,7 +26,7 @@ pub struct EvaluateOptions {
     choices: Choices,
 }
 
-/// The result of an evaluation beside its rows.
+/// The result of an evaluation, without its rows.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct EvaluatedTo {
@@ -51,21 +51,21 @@ impl EvaluateOptions {
         Self::default()
     }
 
-    /// These columns of results alone, by the names that `inpact explain columns` lists; one that cannot be given is an error then.
+    /// Only these columns of results, by the names that `inpact explain columns` lists; one that cannot be computed is then an error.
     #[must_use]
     pub fn outputs<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.outputs = Some(names.into_iter().map(Into::into).collect());
         self
     }
 
-    /// The interaction that governs every row, instead of the one that column `interaction` names.
+    /// The interaction that governs every row, overriding the column `interaction`.
     #[must_use]
     pub fn interaction(mut self, name: &str) -> Self {
         self.choices.interaction = Some(Name::new(name));
         self
     }
 
-    /// Steady state or transient, instead of what the deck's procedures say.
+    /// Steady state or transient, overriding the deck's procedures.
     #[must_use]
     pub fn regime(mut self, regime: Regime) -> Self {
         self.choices.regime = Some(regime);
@@ -79,14 +79,14 @@ impl EvaluateOptions {
         self
     }
 
-    /// The error that is acceptable: each table is evaluated in the cheapest way whose bound is within it.
+    /// The acceptable error: each table is evaluated by the cheapest method whose bound is within it.
     #[must_use]
     pub fn tolerance(mut self, tolerance: Tolerance) -> Self {
         self.choices.accuracy = Wanted::Within(tolerance);
         self
     }
 
-    /// Gives the slopes of conductances and permeability as well.
+    /// Computes the slopes of conductances and permeability as well.
     #[must_use]
     pub fn derivatives(mut self) -> Self {
         self.choices.derivatives = Derivatives::Given;
@@ -114,7 +114,7 @@ impl EvaluateOptions {
         self
     }
 
-    /// So many threads, instead of one a core; results do not depend on it.
+    /// The number of threads, instead of one per core; results do not depend on it.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;
@@ -140,9 +140,9 @@ impl EvaluateOptions {
 impl Deck {
     /// Evaluates its interface laws on the rows of a node table, which has the columns that `inpact explain columns` lists.
     ///
-    /// Rows out are rows in, in their order.
-    /// The table is read to its end before the first row is evaluated, since a row with a history needs those of its node before it:
-    /// what goes beyond 128 MiB waits in a temporary file.
+    /// Results have the rows of the input, in the same order.
+    /// The table is read to its end before the first row is evaluated, since a row with a history needs the earlier rows of its node:
+    /// data beyond 128 MiB is spilled to a temporary file.
     ///
     /// ```
     /// use inpact::arrow::array::{AsArray, Float64Array, RecordBatch};
@@ -165,7 +165,7 @@ impl Deck {
     ///
     /// # Errors
     /// A deck with errors in the interactions that are used, rows with errors, a requested output that cannot be given:
-    /// [`Error::findings`] says what and where.
+    /// [`Error::findings`] has the details.
     pub fn evaluate<I>(&self, schema: SchemaRef, batches: I, options: &EvaluateOptions) -> Result<Evaluated, Error>
     where
         I: IntoIterator<Item = Result<RecordBatch, ArrowError>, IntoIter: Send + 'static>,
@@ -179,9 +179,9 @@ impl Deck {
         Ok(Evaluated { batches: out, to })
     }
 
-    /// The same, batch by batch: `take` gets each with the number of rows that are done, and may stop.
+    /// The same, batch by batch: `take` gets each with the number of rows done, and may stop.
     ///
-    /// The rows given before an error are invalid.
+    /// Rows passed before an error are invalid.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate), and where `take` stops.
@@ -296,12 +296,12 @@ impl Evaluated {
         &self.to.schema
     }
 
-    /// The rows, as many as went in.
+    /// The rows, as many as in the input.
     pub fn batches(&self) -> &[RecordBatch] {
         &self.batches
     }
 
-    /// The rows, to be taken away.
+    /// The rows, by value.
     pub fn into_batches(self) -> Vec<RecordBatch> {
         self.batches
     }

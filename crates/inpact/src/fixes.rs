@@ -17,25 +17,25 @@ use std::path::{Path, PathBuf};
 pub struct Fixes(FixSelection);
 
 impl Fixes {
-    /// All fixes that leave the meaning of the deck as it is, in the deck and in what it includes from below its folder.
+    /// All fixes that keep the meaning of the deck, in the deck and in included files below its folder.
     pub fn safe() -> Self {
         Self::default()
     }
 
-    /// The fixes of the rules of these codes alone, also where they change the meaning of the deck.
+    /// Only the fixes of the rules with these codes, even if they change the meaning of the deck.
     pub fn of<S: Into<String>>(codes: impl IntoIterator<Item = S>) -> Self {
         let codes: Vec<String> = codes.into_iter().map(Into::into).collect();
         Self(FixSelection { also: codes.clone(), only: Some(codes), ..FixSelection::default() })
     }
 
-    /// The fixes of the rules of these codes as well, although they change the meaning of the deck.
+    /// Additionally the fixes of the rules with these codes, even if they change the meaning of the deck.
     #[must_use]
     pub fn also<S: Into<String>>(mut self, codes: impl IntoIterator<Item = S>) -> Self {
         self.0.also.extend(codes.into_iter().map(Into::into));
         self
     }
 
-    /// In included files that lie outside of the folder of the deck too.
+    /// Also in included files outside of the folder of the deck.
     #[must_use]
     pub fn in_every_included_file(mut self) -> Self {
         self.0.reach = FixReach::EveryIncluded;
@@ -85,7 +85,7 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// Files that cannot be read again, or a code that no rule has.
+    /// Files that cannot be read again, or an unknown code.
     pub fn fix(&self, fixes: &Fixes) -> Result<Fixed, Error> {
         Fixed::of(self, fixes)
     }
@@ -115,12 +115,12 @@ impl Fixed {
         Ok(Self { name: name.to_owned(), options: deck.options.clone(), findings, left, files: files.collect(), held })
     }
 
-    /// The number of findings that it mends.
+    /// The number of findings that it fixes.
     pub fn findings(&self) -> usize {
         self.findings
     }
 
-    /// The findings left although they have a fix, and why, as sentences.
+    /// The remaining findings that have a fix, with the reason, as sentences.
     pub fn left(&self) -> &[String] {
         &self.left
     }
@@ -130,7 +130,7 @@ impl Fixed {
         &self.files
     }
 
-    /// The deck as it is once fixed; nothing is written for it.
+    /// The fixed deck; nothing is written for it.
     ///
     /// # Errors
     /// As [`Deck::read`].
@@ -142,10 +142,10 @@ impl Fixed {
         Deck::read(&self.name, &options)
     }
 
-    /// Writes the files that change, all of them or none, on condition that each is what was read, byte for byte.
+    /// Writes the files that change, all of them or none, if each is unchanged since it was read, byte for byte.
     ///
     /// # Errors
-    /// A file that cannot be written, or that another program changed meanwhile, or whose text came from no file.
+    /// A file that cannot be written, or that another program changed meanwhile, or a text without a file.
     pub fn write(&self) -> Result<(), Error> {
         if let Some(unread) = self.held.changed().into_iter().find(|file| !file.read.is_file()) {
             let message = format!("`{}` was not read from a file, and is not written", unread.read.name.display());
@@ -164,7 +164,7 @@ impl FixedFile {
         &self.name
     }
 
-    /// Its path, links followed.
+    /// Its path, with links resolved.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -179,7 +179,7 @@ impl FixedFile {
         &self.after
     }
 
-    /// The changes, as a unified difference.
+    /// The changes, as a unified diff.
     pub fn difference(&self) -> String {
         difference::unified(&self.name.display().to_string(), &self.before, &self.after)
     }

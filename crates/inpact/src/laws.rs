@@ -23,7 +23,7 @@ pub struct GapConductance {
     abscissae: [Vec<f64>; 2],
 }
 
-/// The points of a conductance, a column a variable; a column has one value a point.
+/// The points of a conductance, one column per variable, with one value per point.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ContactColumns<'a> {
     /// Clearance d, L.
@@ -53,7 +53,7 @@ const SHARE: usize = 1 << 17;
 const SHARE_OF_ONE_AXIS: usize = 1 << 20;
 
 impl Deck {
-    /// The electrical conductance of an interaction; `None` where it has none but a user subroutine's, or no *GAP ELECTRICAL CONDUCTANCE at all.
+    /// The electrical conductance of an interaction; `None` where it is given only by a user subroutine, or there is no *GAP ELECTRICAL CONDUCTANCE at all.
     ///
     /// ```
     /// use inpact::{Deck, ReadOptions};
@@ -114,12 +114,12 @@ impl GapConductance {
         self.kernel(against).is_some()
     }
 
-    /// The variables of its tables beside clearance and pressure: whether the value depends on the temperature, then on each field variable.
+    /// The variables of its tables other than clearance and pressure: whether the value depends on the temperature, then on each field variable.
     pub fn depends_on(&self) -> &[bool] {
         &self.depends_on
     }
 
-    /// The conductance at one point; NaN where the point is NaN along what decides.
+    /// The conductance at one point; NaN where a deciding coordinate is NaN.
     ///
     /// The point is closed where d ≤ 0 or p ≠ 0 (T-22); without a clearance it is closed.
     /// `variables` are temperature and field variables, as far as the tables depend on them.
@@ -127,7 +127,7 @@ impl GapConductance {
         self.tables.conductance(&point(clearance, pressure, variables)).value
     }
 
-    /// The slopes at one point, along clearance and pressure, and along the variables into `slopes`: right-hand at an abscissa, zero outside of the table.
+    /// The slopes at one point, along clearance and pressure, and along the variables in `slopes`: right-hand at an abscissa, zero outside of the table.
     pub fn slopes_at(
         &self,
         (clearance, pressure): (Option<f64>, Option<f64>),
@@ -138,9 +138,9 @@ impl GapConductance {
         [found.clearance, found.pressure]
     }
 
-    /// The conductance at all points of some columns; the bits are those of [`at`](Self::at).
+    /// The conductance at all points of some columns; bitwise equal to [`at`](Self::at).
     ///
-    /// Many points are shared by the threads of the machine, or as many as the environment variable `RAYON_NUM_THREADS` says.
+    /// Many points are evaluated in parallel, on all cores or the number of threads in the environment variable `RAYON_NUM_THREADS`.
     ///
     /// # Panics
     /// A column is shorter than `values`, unless no table depends on it.
@@ -222,7 +222,7 @@ impl GapConductance {
         }
     }
 
-    /// One table by itself over columns, whatever is closed: its own variable first, then temperature and field variables.
+    /// A single table over columns, whatever the state of contact: its own variable first, then temperature and field variables.
     ///
     /// `None` where there is no such table.
     ///
@@ -238,7 +238,7 @@ impl GapConductance {
         Some(())
     }
 
-    /// The abscissae of a table's own variable, in ascending order without repetition; empty where there is no such table.
+    /// The distinct abscissae of a table's own variable, in ascending order; empty where there is no such table.
     pub fn abscissae(&self, against: Against) -> &[f64] {
         match against {
             Against::Clearance => &self.abscissae[0],

@@ -26,7 +26,7 @@ pub mod cli;
 pub mod curves;
 pub mod pages;
 
-/// A conductance of the caller's own, in the place of user subroutine GAPELECTR.
+/// A conductance defined by the caller, in place of user subroutine GAPELECTR.
 pub mod user {
     pub use inpact_evaluation::law::{
         NAME_LENGTH, UserConductance, UserConductancePoint, UserConductanceValue, UserFault, UserName, UserNames,

@@ -12,7 +12,7 @@ use inpact_evaluation::results::node_record_batch;
 use inpact_parser::mesh::MeshNote;
 use std::path::{Path, PathBuf};
 
-/// The node table of the contact pairs of a deck: a row a slave node and state.
+/// The node table of the contact pairs of a deck: one row per slave node and state.
 #[derive(Debug, Clone)]
 pub struct NodeTable {
     batches: Vec<RecordBatch>,
@@ -20,7 +20,7 @@ pub struct NodeTable {
 }
 
 impl Deck {
-    /// Makes the node table of its contact pairs: from its mesh and what its nodes begin with, or in the states of result files of its own job.
+    /// Makes the node table of its contact pairs: from its mesh and initial conditions, or in the states of result files of its own job.
     ///
     /// ```
     /// use inpact::arrow::array::AsArray;
@@ -78,12 +78,12 @@ impl NodeTable {
         &self.batches
     }
 
-    /// The rows, to be taken away.
+    /// The rows, by value.
     pub fn into_batches(self) -> Vec<RecordBatch> {
         self.batches
     }
 
-    /// The parts of mesh and results that were not read, and why, a sentence each.
+    /// The parts of mesh and results that were not read, with the reason, one sentence each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }

@@ -11,7 +11,7 @@ use inpact_evaluation::results::Output;
 use inpact_parser::grammar::{Grammar, nearest_names};
 use std::collections::BTreeMap;
 
-/// Every rule there is: those of decks, of node tables, of scenes.
+/// All rules: those of decks, of node tables, of scenes.
 ///
 /// ```
 /// assert!(inpact::pages::rules().any(|rule| rule.code == "D003"));
@@ -39,7 +39,7 @@ pub fn all() -> String {
 /// ```
 ///
 /// # Errors
-/// A text that names none of them, with what it may have meant.
+/// A text that names none of them, with suggestions.
 pub fn explain(what: &str) -> Result<String, Error> {
     let is_meant = |code: &str, name: &str| code.eq_ignore_ascii_case(what) || name.eq_ignore_ascii_case(what);
     if let Some(rule) = registry::all().find(|rule| is_meant(rule.code, rule.name)) {

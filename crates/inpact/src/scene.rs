@@ -20,14 +20,14 @@ pub struct Scene {
     findings: Vec<Diagnostic>,
 }
 
-/// Options of solving; the default is to the last digit.
+/// Options of solving; by default to the last digit.
 #[derive(Debug, Clone, Copy)]
 pub struct SolveOptions {
     method: Method,
     tolerance: f64,
 }
 
-/// The states of a scene: one of a steady scene, one an increment of a transient.
+/// The states of a scene: one for a steady scene, one per increment for a transient.
 #[derive(Debug, Clone)]
 pub struct Solution {
     nodes: Vec<String>,
@@ -60,14 +60,14 @@ impl SolveOptions {
         Self::default()
     }
 
-    /// Sets the solver of linear equations; one that does not reach the tolerance is replaced by the next safer one.
+    /// Sets the solver of linear equations; one that does not reach the tolerance falls back to a more robust one.
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
         self.method = method;
         self
     }
 
-    /// The relative error of a flow that is acceptable.
+    /// The acceptable relative error of a flow.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -120,12 +120,12 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// The scene lacks something, or has no solution.
+    /// The scene is incomplete, or has no solution.
     pub fn solve(&self, options: &SolveOptions) -> Result<Solution, Error> {
         self.solve_watched(options, |_| ControlFlow::Continue(()))
     }
 
-    /// The same; `watch` is called with the time of every state that is found, and may stop the transient, of which the states so far are kept.
+    /// The same; `watch` is called with the time of every computed state, and may stop the transient, whose states so far are kept.
     ///
     /// # Errors
     /// As [`solve`](Self::solve).
@@ -175,7 +175,7 @@ impl Solution {
         &self.nodes
     }
 
-    /// The two nodes of each link, as places among [`nodes`](Self::nodes).
+    /// The two nodes of each link, as indices in [`nodes`](Self::nodes).
     pub fn links(&self) -> &[[u32; 2]] {
         &self.links
     }
@@ -185,7 +185,7 @@ impl Solution {
         &self.fields
     }
 
-    /// The parts not solved and why, a sentence each.
+    /// The parts not solved, with the reason, one sentence each.
     pub fn left_out(&self) -> &[String] {
         &self.left_out
     }

@@ -12,7 +12,7 @@ use inpact_results::{Field, Format, Frame, Region, Results, Rows};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
 
-/// Ways of finding the nodes of a file in the mesh.
+/// Methods of matching the nodes of a file with the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MatchedBy {

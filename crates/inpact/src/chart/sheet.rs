@@ -65,7 +65,7 @@ impl Figure {
         svg(std::slice::from_ref(self), Scales::LINEAR)
     }
 
-    /// The panels in letters, for 80 columns, on linear axes.
+    /// The panels as text, for 80 columns, on linear axes.
     pub fn letters(&self) -> String {
         super::terminal::text(std::slice::from_ref(self), Scales::LINEAR)
     }

@@ -7,7 +7,7 @@ use inpact_parser::model::Model;
 /// Rows of one table that are named one by one.
 const MOST_ROWS: usize = 4;
 
-/// Changes: a line for each table that differs; empty where the laws are the same.
+/// Changes, one line for each table that differs; empty where the laws are the same.
 pub fn changes(old: &Model, new: &Model, kinds: &[LawKind]) -> Vec<String> {
     let mut lines = Vec::new();
     for interaction in new.interactions.values() {

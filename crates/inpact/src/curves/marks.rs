@@ -25,7 +25,7 @@ pub struct Mark {
     pub line: u64,
 }
 
-/// Marks on the panels of a deck what a check of it found in the rows that are drawn.
+/// Marks the findings of a check on the panels of a deck.
 pub fn mark_findings(figure: &mut Figure, model: &Model, found: &[Diagnostic]) {
     let in_deck: Vec<&Diagnostic> = found.iter().filter(|found| found.primary.extent == Extent::Span).collect();
     for panel in &mut figure.panels {

@@ -10,7 +10,7 @@ pub struct NodeRows {
     pub count: [u64; 2],
     /// The number of them beyond the rows of the table along any variable, while open and while closed.
     pub beyond: [u64; 2],
-    /// Some of them, evenly spread.
+    /// An evenly spaced sample of them.
     pub sample: Vec<NodeSample>,
 }
 

@@ -4,7 +4,7 @@ use super::law::Law;
 use super::sample::{Side as SideRows, sort_and_dedup, spread, thinned_together};
 use super::{Detail, Half, Quantity, Side};
 
-/// The values of a law at all combinations of stops.
+/// The values of a law at all combinations of sample values.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Probe {
     /// The variables that can be moved, the first slowest.
@@ -13,7 +13,7 @@ pub struct Probe {
     pub branches: [ProbeBranch; 2],
 }
 
-/// A variable with its stops.
+/// A variable with its sample values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeAxis {
     /// The quantity.
@@ -27,9 +27,9 @@ pub struct ProbeAxis {
 pub struct ProbeBranch {
     /// Clearances or contact pressures, ascending.
     pub abscissae: Vec<f64>,
-    /// The number of all abscissae of its rows: more than there are here where there are too many for a page.
+    /// The number of all abscissae of its rows; more than here where there are too many for a page.
     pub all_abscissae: usize,
-    /// For each combination of stops, the last variable running fastest, a value an abscissa; `None` where the law has none.
+    /// For each combination of sample values, the last variable varying fastest, one value per abscissa; `None` where the law has none.
     pub values: Vec<Option<f64>>,
 }
 

@@ -18,17 +18,17 @@ pub struct Request {
     pub interactions: Vec<Name>,
     /// The laws; all where there is none.
     pub laws: Vec<LawKind>,
-    /// Variables by the names of their columns, held at these values.
+    /// Variables by the names of their columns, fixed at these values.
     pub at: Vec<(String, f64)>,
     /// The names of units.
     pub units: Units,
-    /// Places that the axes of a law shall hold besides its rows.
+    /// Points that the axes of a law must include besides its rows.
     pub held_places: Vec<HeldPlace>,
     /// The number of values of a curve.
     pub detail: Detail,
-    /// The most panels of a deck.
+    /// The maximum number of panels of a deck.
     pub most_panels: usize,
-    /// Values at other temperatures and field variables are found as well.
+    /// Whether values at other temperatures and field variables are computed as well.
     pub probing: Probing,
 }
 
@@ -48,7 +48,7 @@ impl Default for Request {
     }
 }
 
-/// A place that the axes of a law shall hold.
+/// A point that the axes of a law must include.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldPlace {
     /// The interaction.
@@ -70,7 +70,7 @@ pub enum Probing {
     On,
 }
 
-/// At how many places curves are evaluated.
+/// The number of points at which curves are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// At the abscissae of the rows: enough for linear axes.
