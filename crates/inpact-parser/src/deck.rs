@@ -27,7 +27,7 @@ pub use text::{Excerpts, Source};
 
 use crate::grammar::KeywordId;
 use crate::span::{Position, SourceId, Span};
-use lines::{LineKind, line_kind, without_line_end};
+use lines::{is_comment, without_line_end};
 use parameter::{AfterName, More, Place};
 use std::num::NonZeroU32;
 
@@ -226,10 +226,7 @@ impl Deck {
             let content = without_line_end(line);
             let start = rows.start() + range.start as u64;
             let span = Span::new(rows.source(), start, start + content.len() as u64);
-            match line_kind(line) {
-                LineKind::Comment | LineKind::IndentedComment => None,
-                _ => Some(DataLine { span, text: content }),
-            }
+            (!is_comment(line)).then_some(DataLine { span, text: content })
         })
     }
 
@@ -284,14 +281,8 @@ impl Block {
     pub fn rows(&self) -> Span {
         let [b0, b1, b2, b3, b4, b5] = self.rows_length;
         let length = u64::from_le_bytes([b0, b1, b2, b3, b4, b5, 0, 0]);
-        let start = self.start_of_rows();
+        let start = self.span_of_keyword();
         Span::new(start.source(), start.end(), start.end() + length)
-    }
-
-    /// A span that ends where the rows begin.
-    fn start_of_rows(&self) -> Span {
-        let without_keyword = || self.elsewhere.as_ref().and_then(|elsewhere| elsewhere.start).unwrap_or_default();
-        self.keyword.as_ref().map_or_else(without_keyword, |keyword| keyword.span)
     }
 
     /// Rows of this block in another file: in a file that begins with rows, or after the *INCLUDE of one (S-51).
@@ -317,12 +308,13 @@ impl Block {
 
     /// The keyword line; for rows before the first keyword an empty span at their start.
     pub fn span_of_keyword(&self) -> Span {
-        self.start_of_rows()
+        let without_keyword = || self.elsewhere.as_ref().and_then(|elsewhere| elsewhere.start).unwrap_or_default();
+        self.keyword.as_ref().map_or_else(without_keyword, |keyword| keyword.span)
     }
 
     /// Keyword line and rows.
     pub fn span(&self) -> Span {
-        self.start_of_rows().to(self.rows())
+        self.span_of_keyword().to(self.rows())
     }
 }
 

@@ -27,8 +27,9 @@ mod substitute;
 mod value;
 
 pub use division::{Division, IntegerDivision};
+pub use lexer::is_parameter_name;
 pub use logical_line::StatementLine;
-pub use names::{is_parameter_name, names};
+pub use names::names;
 pub use parameters::{Definition, Parameters};
 pub use statement::define;
 pub use substitute::{Reference, SubstitutionError, references, substitute};

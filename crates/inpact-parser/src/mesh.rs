@@ -168,7 +168,7 @@ pub fn read_with_conditions(
     (targets, step): (&[Target], usize),
 ) -> io::Result<(Mesh, Vec<Option<usize>>, DeckConditions)> {
     let mut reader = reader::Reader::new(deck, grammar, rows);
-    let (mut conditions, theirs) = reader.conditions(step, grammar.dialect())?;
+    let (mut conditions, theirs) = reader.conditions(step)?;
     let all: Vec<Target> = targets.iter().chain(&theirs).cloned().collect();
     let (mesh, mut places) = reader.read(model, &all)?;
     let of_conditions = places.split_off(targets.len());

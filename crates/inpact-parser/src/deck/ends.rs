@@ -71,10 +71,10 @@ pub(super) fn trend_of(definition: &Definition, keyword: &KeywordLine) -> Option
     if definition.rows() != RowShape::Table {
         return None;
     }
-    let is_given = |name: &str| {
-        keyword.parameters().any(|given| given.index().is_some_and(|index| definition.parameters[index].name == name))
-    };
-    let mut columns = definition.data.columns_for(is_given).map(|column| column.name.as_str());
+    let mut columns = definition
+        .data
+        .columns_for(|name| keyword.given(name, definition).is_some())
+        .map(|column| column.name.as_str());
     match (columns.next()?, columns.next()?) {
         ("conductance", "clearance") => Some(Trend::Falling),
         ("conductance", "pressure") => Some(Trend::Rising),

@@ -192,7 +192,7 @@ impl Assembly<'_> {
         };
         let name = name.filter(|name| !name.is_empty());
         let outcome = match name {
-            _ if self.is_given(keyword, "PASSWORD") => IncludeOutcome::Encrypted,
+            _ if self.given(keyword, "PASSWORD").is_some() => IncludeOutcome::Encrypted,
             None => IncludeOutcome::Unnamed,
             Some(name) => self.read_file(name, keyword.span),
         };
@@ -252,7 +252,9 @@ impl Assembly<'_> {
         }
         self.lengths.insert(found.path.clone(), length);
         let excerpts = self.files.excerpts(&found);
-        included.sources.iter_mut().for_each(|source| source.set_included_by(keyword, excerpts));
+        for source in &mut included.sources {
+            (source.included_by, source.excerpts) = (Some(keyword), excerpts);
+        }
         self.deck.sources.append(&mut included.sources);
         self.deck.notes.append(&mut included.notes);
         self.deck.directives.append(&mut included.directives);
@@ -268,22 +270,7 @@ impl Assembly<'_> {
         self.given(keyword, parameter)?.value.filter(|value| !value.is_empty())
     }
 
-    fn is_given(&self, keyword: &KeywordLine, parameter: &str) -> bool {
-        self.given(keyword, parameter).is_some()
-    }
-
     fn given(&self, keyword: &KeywordLine, parameter: &str) -> Option<super::Parameter> {
-        let definition = self.options.grammar.keyword(keyword.id()?).definition()?;
-        let is_meant = |given: &super::Parameter| {
-            given.index().is_some_and(|index| definition.parameters[index].name == parameter)
-        };
-        keyword.parameters().rev().find(is_meant)
-    }
-}
-
-impl Source {
-    pub(super) fn set_included_by(&mut self, keyword: Span, excerpts: Excerpts) {
-        self.included_by = Some(keyword);
-        self.excerpts = excerpts;
+        keyword.given(parameter, self.options.grammar.keyword(keyword.id()?).definition()?)
     }
 }

@@ -11,7 +11,7 @@ use nom::sequence::{delimited, preceded};
 use nom::{IResult, Parser};
 use std::ops::Range;
 
-use super::lines::{LineKind, line_kind, lines, without_line_end};
+use super::lines::{is_comment, lines, without_line_end};
 
 /// The pieces of a keyword line as byte ranges of the text that was parsed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -84,8 +84,7 @@ fn join_physical_lines(text: &[u8]) -> std::borrow::Cow<'_, [u8]> {
     let mut joined = text.to_vec();
     for line in lines(text) {
         let content = without_line_end(&text[line.clone()]).len();
-        let comment = matches!(line_kind(&text[line.clone()]), LineKind::Comment | LineKind::IndentedComment);
-        let blank_from = if comment { line.start } else { line.start + content };
+        let blank_from = if is_comment(&text[line.clone()]) { line.start } else { line.start + content };
         joined[blank_from..line.end].fill(b' ');
     }
     joined.into()

@@ -31,6 +31,11 @@ pub fn line_kind(line: &[u8]) -> LineKind {
     }
 }
 
+/// Whether a line is a comment, indented or not.
+pub fn is_comment(line: &[u8]) -> bool {
+    matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment)
+}
+
 /// The offset after the line end of the line that begins at `from`, or the length of `bytes` for an unfinished line.
 pub fn next_line(bytes: &[u8], from: usize) -> usize {
     match memchr2(b'\n', b'\r', &bytes[from..]) {

@@ -3,7 +3,7 @@
 //! They are stored by their offsets in the line, and returned with their spans.
 
 use super::KeywordLine;
-use crate::grammar::{Dialect, Lookup};
+use crate::grammar::{Definition, Dialect, Lookup};
 use crate::span::Span;
 use std::num::{NonZeroU16, NonZeroU32};
 use std::ops::Range;
@@ -26,6 +26,11 @@ impl Parameter {
     /// The parameter's index in the keyword's definition, when the name means exactly one.
     pub fn index(&self) -> Option<usize> {
         self.resolved.found().map(usize::from)
+    }
+
+    /// Whether it is the parameter of that full name; `definition` is that of its keyword.
+    pub fn is(&self, name: &str, definition: &Definition) -> bool {
+        self.index().is_some_and(|index| definition.parameters[index].name == name)
     }
 
     /// Name and value.
@@ -234,6 +239,11 @@ impl KeywordLine {
                 resolved: kept.resolved,
             }
         })
+    }
+
+    /// The last setting of the parameter of that full name, which counts; `definition` is that of the keyword.
+    pub fn given(&self, name: &str, definition: &Definition) -> Option<Parameter> {
+        self.parameters().rev().find(|given| given.is(name, definition))
     }
 }
 

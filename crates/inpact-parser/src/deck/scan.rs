@@ -8,14 +8,15 @@ mod keyword;
 
 use super::ends::{Trend, thin, trend_of};
 use super::lines::{
-    LineKind, count_line_ends, find_keyword_line, find_long_line, line_kind, lines, next_line, without_line_end,
+    LineKind, count_line_ends, find_keyword_line, find_long_line, is_comment, line_kind, lines, next_line,
+    without_line_end,
 };
 use super::parameter::LONGEST_KEYWORD_LINE;
 use super::survey::Survey;
 use super::{Block, Deck, KeywordLine, LineNote, LineNoteKind, RowsKept, Source, byte_order_mark, items, keyword_line};
 use crate::grammar::{Definition, Dialect, Grammar, KeywordId, Lookup, RowShape};
 use crate::span::{SourceId, Span};
-use keyword::{AfterComma, NextLine, after_comma, id_of, resolve};
+use keyword::{AfterComma, after_comma, resolve};
 use std::ops::Range;
 
 /// The most characters of a keyword or data line (S-06).
@@ -233,7 +234,7 @@ impl<'grammar> Scanner<'grammar> {
         self.process(&last_line);
         self.close_keyword();
         self.close_block();
-        self.source.set_length(self.offset);
+        self.source.length = self.offset;
         Deck {
             sources: vec![self.source],
             blocks: self.blocks,
@@ -360,7 +361,8 @@ impl<'grammar> Scanner<'grammar> {
     fn open_keyword(&mut self, line: &[u8]) {
         self.close_block();
         let may_continue = self.options.grammar.dialect() == Dialect::Abaqus && keyword_line::ends_in_comma(line);
-        let id = if may_continue { id_of(&line[keyword_line::parse(line).name], self.options.grammar) } else { None };
+        let named = || self.options.grammar.keyword_named(&line[keyword_line::parse(line).name]);
+        let id = if may_continue { named().found() } else { None };
         self.open_keyword = Some(OpenKeyword {
             start: self.offset,
             id,
@@ -388,19 +390,16 @@ impl<'grammar> Scanner<'grammar> {
         let end = next_line(bytes, at);
         let line = &bytes[at..end];
         let Some(open) = &mut self.open_keyword else { return at };
-        let is_comment = matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment);
+        let is_comment = is_comment(line);
         let most = self.longest_keyword_line;
         if u32::try_from(open.text.len() + line.len()).map_or(true, |length| most < length) {
             open.after_comma = AfterComma::TooLong(most);
             self.close_keyword();
             return at;
         }
-        let next = if is_comment { None } else { Some(after_comma(open.id, line, self.options.grammar)) };
-        if let Some(NextLine::PerhapsFlags | NextLine::NoParameters) = next {
-            open.after_comma = match next {
-                Some(NextLine::PerhapsFlags) => AfterComma::PerhapsFlags,
-                _ => AfterComma::NoParameters,
-            };
+        let next = if is_comment { None } else { after_comma(open.id, line, self.options.grammar) };
+        if let Some(next) = next {
+            open.after_comma = next;
             self.close_keyword();
             return at;
         }

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     name: String,
-    length: u64,
+    pub(super) length: u64,
     /// The *INCLUDE that named it.
     pub(super) included_by: Option<Span>,
     pub(super) excerpts: Excerpts,
@@ -121,10 +121,6 @@ impl Source {
             });
         }
         self.bytes.extend_from_slice(bytes);
-    }
-
-    pub(super) fn set_length(&mut self, length: u64) {
-        self.length = length;
     }
 
     /// The bytes from `start` on, where they are kept up to the end of what was scanned.
@@ -288,7 +284,7 @@ mod tests {
         let mut source = Source::new("x");
         source.keep(0, 1, b"*A\nb c\n");
         source.keep(100, 10, b"*D\r\n e\n");
-        source.set_length(200);
+        source.length = 200;
         let found = source.positions(&[0, 3, 5, 100, 105, 106]);
         let pairs: Vec<_> = found.iter().map(|position| (position.line, position.column)).collect();
         assert_eq!(pairs, [(1, 1), (2, 1), (2, 3), (10, 1), (11, 2), (11, 3)]);

@@ -32,8 +32,8 @@ pub(super) const FUNCTIONS: [Function; 16] = [
     Function { name: "int", arguments: 1..=1, compute: int },
     Function { name: "float", arguments: 1..=1, compute: float },
     Function { name: "str", arguments: 1..=1, compute: str },
-    Function { name: "min", arguments: 2..=MAX_ARGUMENTS, compute: min },
-    Function { name: "max", arguments: 2..=MAX_ARGUMENTS, compute: max },
+    Function { name: "min", arguments: 2..=MAX_ARGUMENTS, compute: |values| extreme("min", values, Ordering::Less) },
+    Function { name: "max", arguments: 2..=MAX_ARGUMENTS, compute: |values| extreme("max", values, Ordering::Greater) },
 ];
 
 /// The function of that name.
@@ -127,14 +127,6 @@ fn str(values: &[Value]) -> Result<Value, Complaint> {
         Value::Real(value) => python_text(*value),
         Value::Text(text) => text.clone(),
     })
-}
-
-fn min(values: &[Value]) -> Result<Value, Complaint> {
-    extreme("min", values, Ordering::Less)
-}
-
-fn max(values: &[Value]) -> Result<Value, Complaint> {
-    extreme("max", values, Ordering::Greater)
 }
 
 /// The first of the values that no other is less, or greater, than; it keeps its type.

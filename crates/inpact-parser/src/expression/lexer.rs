@@ -171,7 +171,7 @@ pub(super) fn is_name_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// Whether the text is a name: a letter, then letters, digits, underscores (S-60); Python adds the underscore in front.
-pub(super) fn is_name(text: &[u8]) -> bool {
+/// Whether a text is a name that a statement may define: a letter, then letters, digits, underscores (S-60); Python adds the underscore in front.
+pub fn is_parameter_name(text: &[u8]) -> bool {
     text.first().is_some_and(|byte| !byte.is_ascii_digit()) && text.iter().all(|byte| is_name_byte(*byte))
 }

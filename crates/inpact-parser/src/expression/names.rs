@@ -1,6 +1,6 @@
 //! The places where statements of *PARAMETER name parameters, to be renamed together.
 
-use super::lexer::{self, Lexer, Token};
+use super::lexer::{Lexer, Token};
 use std::ops::Range;
 
 /// The names in a physical line of *PARAMETER, from left to right: parameters, and functions such as `sqrt`.
@@ -19,11 +19,6 @@ pub fn names(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
             }
         }
     })
-}
-
-/// Whether a text is a name that a statement may define: a letter or underscore, then letters, digits, underscores (S-60).
-pub fn is_parameter_name(text: &[u8]) -> bool {
-    lexer::is_name(text)
 }
 
 #[cfg(test)]

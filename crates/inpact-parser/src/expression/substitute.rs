@@ -1,6 +1,6 @@
 //! Substitution of `<name>` in keyword values and data lines (S-62).
 
-use super::lexer::{is_blank, is_name, is_name_byte};
+use super::lexer::{is_blank, is_name_byte, is_parameter_name};
 use super::parameters::Parameters;
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -50,7 +50,7 @@ pub fn references(text: &[u8]) -> impl Iterator<Item = Reference<'_>> {
                 continue;
             }
             let name = inner[..length].trim_ascii();
-            if let (true, Ok(name)) = (is_name(name), str::from_utf8(name)) {
+            if let (true, Ok(name)) = (is_parameter_name(name), str::from_utf8(name)) {
                 from += 1;
                 return Some(Reference { range: open..from, name });
             }

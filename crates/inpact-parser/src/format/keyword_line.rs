@@ -3,7 +3,7 @@
 //! The pieces between the commas and the separators are replaced; a value is never changed.
 
 use super::LINE_CHARACTERS;
-use crate::deck::lines::{LineKind, line_kind, lines, without_line_end};
+use crate::deck::lines::{is_comment, lines, without_line_end};
 use crate::deck::{Deck, KeywordLine, Parameter};
 use crate::grammar::{Definition, Dialect};
 use crate::span::Span;
@@ -112,8 +112,4 @@ impl<'deck> Line<'deck> {
         self.formatted.extend_from_slice(&rest[content.len()..]);
         Some(())
     }
-}
-
-fn is_comment(line: &[u8]) -> bool {
-    matches!(line_kind(line), LineKind::Comment | LineKind::IndentedComment)
 }

@@ -54,10 +54,7 @@ impl Order {
             RowShape::Line | RowShape::Table | RowShape::HeadedTable => {}
         }
         let keyword = block.keyword.as_ref()?;
-        let parameter = |name: &str| {
-            let is_meant = |index: usize| definition.parameters[index].name == name;
-            keyword.parameters().rev().find(|parameter| parameter.index().is_some_and(is_meant))
-        };
+        let parameter = |name: &str| keyword.given(name, definition);
         let counted = definition.data.counted.as_ref().and_then(|counted| parameter(&counted.count)?.value);
         // The value of a symbol is not known here, and nothing but the look depends on it.
         let count = counted.and_then(|value| read_integer(deck.text(value)).ok()).unwrap_or(0);

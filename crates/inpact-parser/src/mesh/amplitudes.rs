@@ -1,6 +1,5 @@
 //! *AMPLITUDE: the time variation of a condition, where it is tabular.
 
-use super::layout::canonical;
 use super::reader::Reader;
 use super::rows::data_lines;
 use crate::deck::items;
@@ -46,7 +45,7 @@ impl Reader<'_, '_> {
     /// All amplitudes of the deck.
     pub(super) fn amplitudes(&mut self) -> io::Result<Vec<Amplitude>> {
         let mut read = Vec::new();
-        for entry in std::mem::take(&mut self.amplitudes) {
+        for entry in std::mem::take(&mut self.layout.amplitudes) {
             let Some(name) = entry.named("NAME") else { continue };
             let mut numbers = Vec::new();
             let mut wrong = None;
@@ -62,8 +61,7 @@ impl Reader<'_, '_> {
                     }
                 }
             })?;
-            let given = |name: &str| entry.parameter(name).map(|text| canonical(text.as_bytes()));
-            let definition = given("DEFINITION").filter(|definition| definition != "TABULAR");
+            let definition = entry.choice("DEFINITION").filter(|definition| definition != "TABULAR");
             let elsewhere = ["INPUT", "FILE", "USER", "SHIFTX", "SHIFTY", "FIXEDINTERVAL", "SMOOTH"];
             let elsewhere = elsewhere.into_iter().find(|name| entry.parameter(name).is_some());
             let points: Vec<[f64; 2]> = numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
@@ -78,11 +76,11 @@ impl Reader<'_, '_> {
                 (None, None, None) if !ascends => Err("its times do not ascend".to_owned()),
                 (None, None, None) => Ok(points),
             };
-            let time = match given("TIME").as_deref() {
+            let time = match entry.choice("TIME").as_deref() {
                 Some("TOTALTIME") => AmplitudeTime::Total,
                 _ => AmplitudeTime::Step,
             };
-            let value = match given("VALUE").as_deref() {
+            let value = match entry.choice("VALUE").as_deref() {
                 Some("ABSOLUTE") => AmplitudeValue::Absolute,
                 _ => AmplitudeValue::Relative,
             };

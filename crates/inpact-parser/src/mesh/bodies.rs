@@ -10,7 +10,7 @@ use super::orientations::MaterialAxes;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use super::selected::{Kind, Selection};
-use super::surfaces::Picks;
+use super::surfaces::{Found, Picks};
 use super::{MeshNode, MeshNote};
 use crate::model::{Name, Reference};
 use crate::span::Span;
@@ -121,12 +121,6 @@ struct SolidSection {
     axes: MaterialAxes,
 }
 
-/// The parts of a terminal, before nodes have positions.
-struct Picked {
-    span: Span,
-    is_of_faces: bool,
-}
-
 impl<'deck> Reader<'deck, '_> {
     pub(super) fn read_bodies(mut self, names: &[Name]) -> io::Result<BodyMesh> {
         let mut mesh = BodyMesh { materials: self.read_materials()?, ..BodyMesh::default() };
@@ -159,7 +153,7 @@ impl<'deck> Reader<'deck, '_> {
             })
             .collect();
         mesh.known = self.known_names();
-        mesh.left_out.extend(self.beside_elements.iter().map(|(name, entry)| MeshNote {
+        mesh.left_out.extend(self.layout.beside_elements.iter().map(|(name, entry)| MeshNote {
             span: entry.span(),
             message: match *name {
                 "TIE"
@@ -182,9 +176,7 @@ impl<'deck> Reader<'deck, '_> {
         for (name, span) in self.makers_of(instance) {
             self.note(span, format!("*{name} is not read, so that nodes or elements would be missing or elsewhere"));
         }
-        let options: Vec<Entry<'deck>> =
-            self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.elements.clone()).collect();
-        for option in options {
+        for option in self.entries_of(instance, |definitions| &definitions.elements) {
             if option.parameter("INPUT").is_some() {
                 self.note(option.span(), "the elements in a file of their own (INPUT) are not read".to_owned());
             }
@@ -256,10 +248,8 @@ impl<'deck> Reader<'deck, '_> {
     }
 
     fn solid_sections(&mut self, instance: usize, materials: &[BodyMaterial]) -> io::Result<Vec<SolidSection>> {
-        let entries: Vec<Entry<'deck>> =
-            self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.sections.clone()).collect();
         let mut sections = Vec::new();
-        for entry in entries {
+        for entry in self.entries_of(instance, |definitions| &definitions.sections) {
             if canonical(entry.deck.text(entry.keyword.name())) != "SOLIDSECTION" {
                 continue;
             }
@@ -283,20 +273,18 @@ impl<'deck> Reader<'deck, '_> {
     }
 
     /// Finds what a terminal names: a surface, or else a node set, or else a node by its number.
-    fn pick_terminal(&mut self, at: usize, name: &Name, picks: &mut Picks) -> io::Result<Option<Picked>> {
+    fn pick_terminal(&mut self, at: usize, name: &Name, picks: &mut Picks) -> io::Result<Option<Found>> {
         let reference = Reference { name: name.clone(), span: Span::default() };
-        if let Some((_, entry)) = self.find_surface(&reference) {
-            let found = self.pick_surface(at, &reference, picks)?;
-            let is_of_faces = picks.nodes.iter().all(|pick| pick.surface != at);
-            return Ok(found.map(|_| Picked { span: entry.span(), is_of_faces }));
+        if self.find_surface(&reference).is_some() {
+            return self.pick_surface(at, &reference, picks);
         }
         let (context, set) = self.without_prefix(Context::Top, name.clone());
         let (sets, options) = self.definitions_of(Kind::Nodes, context, &set);
         let is_node = sets.is_empty() && options.is_empty() && set.canonical().parse::<u32>().is_ok();
         let span = sets.first().map(Entry::span).or(options.first().copied());
         let Some(span) = span.or(is_node.then(Span::default)) else { return Ok(None) };
-        self.pick_set(at, (context, &set), span, picks)?;
-        Ok(Some(Picked { span, is_of_faces: false }))
+        self.pick_nodes(at, context, (set.written(), None), span, picks)?;
+        Ok(Some(Found { span, of_nodes: true }))
     }
 
     /// Finds the nodes of an instance, and turns the numbers of its elements' nodes into positions.
@@ -369,7 +357,7 @@ impl<'deck> Reader<'deck, '_> {
     fn terminal(
         &mut self,
         name: &Name,
-        picked: &Picked,
+        picked: &Found,
         mut nodes: Vec<NodeId>,
         (at, faces): (usize, &[RawFace]),
         positions: &[Positions],
@@ -395,7 +383,7 @@ impl<'deck> Reader<'deck, '_> {
         nodes.dedup();
         let surface = Surface::new(of_faces.iter().map(|(face, nodes)| Face { shape: face.shape, nodes }));
         let faces = match surface {
-            Ok(surface) => picked.is_of_faces.then_some(surface),
+            Ok(surface) => (!picked.of_nodes).then_some(surface),
             Err(error) => {
                 self.note(picked.span, format!("{error}, so that `{name}` was not read"));
                 None

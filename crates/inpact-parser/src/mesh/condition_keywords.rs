@@ -1,38 +1,32 @@
 //! The keywords of conditions of a step.
 
-/// The keywords that conditions are read of, without blanks, and as they are written.
-pub(super) const TAKEN: [(&str, &str); 8] = [
-    ("BOUNDARY", "BOUNDARY"),
-    ("CFLUX", "CFLUX"),
-    ("CECURRENT", "CECURRENT"),
-    ("DFLUX", "DFLUX"),
-    ("DSFLUX", "DSFLUX"),
-    ("DSECURRENT", "DSECURRENT"),
-    ("FILM", "FILM"),
-    ("SFILM", "SFILM"),
+use super::layout::is_called;
+
+/// The keywords that conditions are read of.
+pub(super) const TAKEN: [&str; 8] =
+    ["BOUNDARY", "CFLUX", "CECURRENT", "DFLUX", "DSFLUX", "DSECURRENT", "FILM", "SFILM"];
+
+/// The keywords of conditions on the same fields that are not read.
+const NOT_TAKEN: [&str; 16] = [
+    "CFILM",
+    "CFLOW",
+    "CRADIATE",
+    "DECURRENT",
+    "DFLOW",
+    "DSFLOW",
+    "FIELD",
+    "FLOW",
+    "MASS FLOW RATE",
+    "RADIATE",
+    "RADIATION VIEWFACTOR",
+    "CAVITY DEFINITION",
+    "SFLOW",
+    "SRADIATE",
+    "TEMPERATURE",
+    "MODEL CHANGE",
 ];
 
-/// The keywords of conditions on the same fields that are not read, without blanks, and as they are written.
-pub(super) const NOT_TAKEN: [(&str, &str); 16] = [
-    ("CFILM", "CFILM"),
-    ("CFLOW", "CFLOW"),
-    ("CRADIATE", "CRADIATE"),
-    ("DECURRENT", "DECURRENT"),
-    ("DFLOW", "DFLOW"),
-    ("DSFLOW", "DSFLOW"),
-    ("FIELD", "FIELD"),
-    ("FLOW", "FLOW"),
-    ("MASSFLOWRATE", "MASS FLOW RATE"),
-    ("RADIATE", "RADIATE"),
-    ("RADIATIONVIEWFACTOR", "RADIATION VIEWFACTOR"),
-    ("CAVITYDEFINITION", "CAVITY DEFINITION"),
-    ("SFLOW", "SFLOW"),
-    ("SRADIATE", "SRADIATE"),
-    ("TEMPERATURE", "TEMPERATURE"),
-    ("MODELCHANGE", "MODEL CHANGE"),
-];
-
-/// Whether a keyword, in upper case and without blanks, may be a condition.
-pub(super) fn is_condition(name: &str) -> bool {
-    TAKEN.iter().chain(&NOT_TAKEN).any(|(of, _)| *of == name)
+/// The keyword of a condition, by its name in upper case and without blanks.
+pub(super) fn condition(name: &str) -> Option<&'static str> {
+    TAKEN.into_iter().chain(NOT_TAKEN).find(|keyword| is_called(keyword, name))
 }

@@ -6,8 +6,8 @@
 
 use super::MeshNote;
 use super::amplitudes::Amplitude;
-use super::condition_keywords::{NOT_TAKEN, TAKEN};
-use super::layout::{Entry, StepEntry, canonical};
+use super::condition_keywords::TAKEN;
+use super::layout::{Entry, StepEntry};
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
 use super::surfaces::{Found, Picks};
@@ -108,26 +108,27 @@ pub enum Target {
     Faces(Reference, FaceLabel),
 }
 
+/// What a target is, its name, and its face.
+type TargetKey = (Discriminant<Target>, Name, Option<FaceLabel>);
+
 /// Parts of the mesh, each once: a deck may name every node by itself.
 #[derive(Debug, Default)]
 pub(super) struct Targets {
     pub(super) list: Vec<Target>,
-    /// The position of each, by what it is, its name, and its face.
-    positions: HashMap<(Discriminant<Target>, Name, Option<FaceLabel>), usize>,
+    positions: HashMap<TargetKey, usize>,
 }
 
 impl Targets {
     /// The position of a target, which is new or known.
     pub(super) fn position(&mut self, target: Target) -> usize {
-        let face = match &target {
-            Target::Faces(_, face) => Some(*face),
-            Target::Surface(_) | Target::Nodes(_) => None,
-        };
-        let key = (discriminant(&target), target.reference().name.clone(), face);
-        *self.positions.entry(key).or_insert_with(|| {
+        *self.positions.entry(target.key()).or_insert_with(|| {
             self.list.push(target);
             self.list.len() - 1
         })
+    }
+
+    pub(super) fn known(&self, target: &Target) -> Option<usize> {
+        self.positions.get(&target.key()).copied()
     }
 }
 
@@ -164,28 +165,25 @@ struct Said {
 
 impl<'deck> Reader<'deck, '_> {
     /// The conditions that hold in a step, and the parts of the mesh that they are on; these have no positions yet.
-    pub(super) fn conditions(&mut self, step: usize, dialect: Dialect) -> io::Result<(DeckConditions, Vec<Target>)> {
+    pub(super) fn conditions(&mut self, step: usize) -> io::Result<(DeckConditions, Vec<Target>)> {
         let amplitudes = self.amplitudes()?;
-        let step_amplitude = step.checked_sub(1).and_then(|at| self.step_entries.get(at));
-        let step_amplitude = step_amplitude.and_then(|entry| entry.parameter("AMPLITUDE"));
-        let step_amplitude = step_amplitude.map(|text| canonical(text.as_bytes()));
+        let step_amplitude = step.checked_sub(1).and_then(|at| self.layout.steps.get(at));
+        let step_amplitude = step_amplitude.and_then(|entry| entry.choice("AMPLITUDE"));
         let mut read = DeckConditions { step, amplitudes, step_amplitude, ..DeckConditions::default() };
         let mut targets = Targets::default();
-        for StepEntry { step: of, name, entry } in std::mem::take(&mut self.conditions) {
+        for StepEntry { step: of, keyword, entry } in std::mem::take(&mut self.layout.conditions) {
             if step < of {
                 continue;
             }
-            let named = |known: &&(&str, &'static str)| known.0 == name;
-            let Some((_, keyword)) = TAKEN.iter().find(named) else {
+            if !TAKEN.contains(&keyword) {
                 // One of an earlier step may have been taken away again, which is not followed up.
-                let keyword = NOT_TAKEN.iter().find(named).map_or(name.as_str(), |(_, keyword)| keyword);
                 read.not_taken.push(MeshNote { span: entry.span(), message: format!("*{keyword} is not taken over") });
                 continue;
-            };
-            if entry.parameter("OP").is_some_and(|op| canonical(op.as_bytes()) == "NEW") {
-                read.conditions.retain(|condition| condition.keyword != *keyword || condition.step == of);
             }
-            self.read_condition(keyword, entry, of, dialect, (&mut read, &mut targets))?;
+            if entry.choice("OP").as_deref() == Some("NEW") {
+                read.conditions.retain(|condition| condition.keyword != keyword || condition.step == of);
+            }
+            self.read_condition(keyword, entry, of, (&mut read, &mut targets))?;
         }
         Ok((read, targets.list))
     }
@@ -195,9 +193,9 @@ impl<'deck> Reader<'deck, '_> {
         keyword: &'static str,
         entry: Entry<'deck>,
         step: usize,
-        dialect: Dialect,
         (read, targets): (&mut DeckConditions, &mut Targets),
     ) -> io::Result<()> {
+        let dialect = self.dialect;
         let mut refuse = |span: Span, message: String| read.not_taken.push(MeshNote { span, message });
         let rows = self.cells(entry)?;
         let elsewhere = ["USER", "FILE", "FIXED", "INPUT", "SUBMODEL", "FILMAMPLITUDE", "LOADCASE"];
@@ -270,11 +268,16 @@ impl<'deck> Reader<'deck, '_> {
                 (name, false)
             }
         };
-        Ok(Some(Found::new(name.span, of_nodes)))
+        Ok(Some(Found { span: name.span, of_nodes }))
     }
 }
 
 impl Target {
+    fn key(&self) -> TargetKey {
+        let face = if let Self::Faces(_, face) = self { Some(*face) } else { None };
+        (discriminant(self), self.reference().name.clone(), face)
+    }
+
     /// Its name, and where it is named.
     pub(super) fn reference(&self) -> &Reference {
         match self {

@@ -1,7 +1,7 @@
 //! Elements: from the rows of *ELEMENT to the faces that surfaces select.
 
 use super::layout::Entry;
-use super::reader::{Context, Reader};
+use super::reader::Reader;
 use super::rows::data_lines;
 use super::selected::Selection;
 use super::selection::unsigned;
@@ -70,9 +70,7 @@ impl Reader<'_, '_> {
             }
             // Which faces are free does not depend on who asks: one map does for all picks.
             let mut free = here.iter().any(|pick| pick.face.is_none()).then(Free::default);
-            let options: Vec<Entry<'_>> =
-                self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.elements.clone()).collect();
-            for option in options {
+            for option in self.entries_of(instance, |definitions| &definitions.elements) {
                 self.rows_of(option, &here, &mut free, faces)?;
             }
             named.extend(free.into_iter().flat_map(|free| free.picks(&here)));

@@ -4,7 +4,7 @@
 //! A quantity without a row is absent: the solver's default is not assumed here.
 
 use super::Mesh;
-use super::layout::{Entry, canonical};
+use super::layout::Entry;
 use super::located::Located;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
@@ -57,7 +57,7 @@ impl Reader<'_, '_> {
         if located.len() == 0 {
             return Ok(fields);
         }
-        for option in std::mem::take(&mut self.initial_conditions) {
+        for option in std::mem::take(&mut self.layout.initial_conditions) {
             let Some(quantity) = self.quantity(option) else { continue };
             let at = fields.iter().position(|field| field.quantity == quantity).unwrap_or_else(|| {
                 fields.push(InitialField { quantity, values: vec![None; located.len()] });
@@ -74,7 +74,7 @@ impl Reader<'_, '_> {
 
     /// The quantity of an option; `None` where it is of something else, or is not read.
     fn quantity(&mut self, option: Entry<'_>) -> Option<InitialQuantity> {
-        let kind = canonical(option.parameter("TYPE").unwrap_or("").as_bytes());
+        let kind = option.choice("TYPE").unwrap_or_default();
         let quantity = match kind.as_str() {
             "TEMPERATURE" => InitialQuantity::Temperature,
             "POREPRESSURE" => InitialQuantity::PorePressure,

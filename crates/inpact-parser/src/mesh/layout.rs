@@ -1,8 +1,8 @@
 //! Structure of a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
 
-use super::condition_keywords::is_condition;
+use super::condition_keywords::condition;
 use crate::deck::{Block, Deck, KeywordLine};
-use crate::grammar::Grammar;
+use crate::grammar::{Grammar, Level};
 use crate::model::Name;
 use crate::span::Span;
 use std::collections::HashMap;
@@ -19,8 +19,7 @@ pub(super) struct Entry<'deck> {
 #[derive(Debug, Clone)]
 pub(super) struct StepEntry<'deck> {
     pub(super) step: usize,
-    /// Upper case, without blanks.
-    pub(super) name: String,
+    pub(super) keyword: &'static str,
     pub(super) entry: Entry<'deck>,
 }
 
@@ -35,9 +34,19 @@ impl<'deck> Entry<'deck> {
         })
     }
 
+    /// The value of a parameter in upper case, without blanks.
+    pub(super) fn choice(&self, parameter: &str) -> Option<String> {
+        self.parameter(parameter).map(|text| canonical(text.as_bytes()))
+    }
+
     /// The value of a parameter as a name.
     pub(super) fn named(&self, parameter: &str) -> Option<Name> {
         self.parameter(parameter).map(Name::new)
+    }
+
+    /// NAME, which is empty where it is not given.
+    fn name(&self) -> Name {
+        self.named("NAME").unwrap_or_else(|| Name::new(""))
     }
 
     /// The keyword line.
@@ -114,13 +123,6 @@ pub(super) struct Layout<'deck> {
     pub(super) amplitudes: Vec<Entry<'deck>>,
 }
 
-enum Level {
-    Model,
-    Part,
-    Assembly,
-    Instance,
-}
-
 impl<'deck> Layout<'deck> {
     pub(super) fn of(deck: &'deck Deck, grammar: &Grammar) -> Self {
         let mut layout = Self::default();
@@ -132,14 +134,13 @@ impl<'deck> Layout<'deck> {
             let name = canonical(grammar.keyword(id).name.as_bytes());
             match name.as_str() {
                 "PART" => {
-                    layout.parts.push((entry.named("NAME").unwrap_or_else(|| Name::new("")), Definitions::default()));
+                    layout.parts.push((entry.name(), Definitions::default()));
                     level = Level::Part;
                 }
                 "INSTANCE" => {
                     let part = entry.named("PART");
                     let part = part.and_then(|part| layout.parts.iter().position(|(name, _)| *name == part));
-                    let name = entry.named("NAME").unwrap_or_else(|| Name::new(""));
-                    layout.instances.push(Instance { name, entry, part, own: Definitions::default() });
+                    layout.instances.push(Instance { name: entry.name(), entry, part, own: Definitions::default() });
                     level = Level::Instance;
                 }
                 "ASSEMBLY" => {
@@ -153,8 +154,7 @@ impl<'deck> Layout<'deck> {
                 "CLEARANCE" => layout.clearances.push(entry),
                 "INITIALCONDITIONS" => layout.initial_conditions.push(entry),
                 "MATERIAL" => {
-                    let name = entry.named("NAME").unwrap_or_else(|| Name::new(""));
-                    layout.materials.push(MaterialEntries { name, entry, properties: Vec::new() });
+                    layout.materials.push(MaterialEntries { name: entry.name(), entry, properties: Vec::new() });
                 }
                 "CONDUCTIVITY" | "ELECTRICALCONDUCTIVITY" | "DENSITY" | "SPECIFICHEAT" | "JOULEHEATFRACTION" => {
                     if let Some(material) = layout.materials.last_mut() {
@@ -162,12 +162,12 @@ impl<'deck> Layout<'deck> {
                     }
                 }
                 _ => {
-                    let beside = BESIDE_ELEMENTS.iter().find(|shown| canonical(shown.as_bytes()) == name);
-                    layout.beside_elements.extend(beside.map(|shown| (*shown, entry)));
-                    if is_condition(&name) {
-                        layout.conditions.push(StepEntry { step: layout.steps.len(), name, entry });
+                    let beside = BESIDE_ELEMENTS.into_iter().find(|keyword| is_called(keyword, &name));
+                    layout.beside_elements.extend(beside.map(|keyword| (keyword, entry)));
+                    if let Some(keyword) = condition(&name) {
+                        layout.conditions.push(StepEntry { step: layout.steps.len(), keyword, entry });
                     } else if beside.is_none() {
-                        layout.at(&level).add(&name, entry);
+                        layout.at(level).add(&name, entry);
                     }
                 }
             }
@@ -175,12 +175,12 @@ impl<'deck> Layout<'deck> {
         layout
     }
 
-    fn at(&mut self, level: &Level) -> &mut Definitions<'deck> {
+    fn at(&mut self, level: Level) -> &mut Definitions<'deck> {
         match level {
             Level::Part => self.parts.last_mut().map_or(&mut self.model, |(_, definitions)| definitions),
             Level::Instance => self.instances.last_mut().map_or(&mut self.model, |instance| &mut instance.own),
             Level::Assembly => &mut self.assembly,
-            Level::Model => &mut self.model,
+            Level::Model | Level::Step => &mut self.model,
         }
     }
 }
@@ -241,6 +241,11 @@ const BESIDE_ELEMENTS: [&str; 12] = [
     "CAVITY DEFINITION",
     "RADIATION VIEWFACTOR",
 ];
+
+/// Whether a keyword has that name, which is in upper case and without blanks.
+pub(super) fn is_called(keyword: &str, name: &str) -> bool {
+    keyword.bytes().filter(|byte| *byte != b' ').eq(name.bytes())
+}
 
 /// Upper case, without blanks.
 pub(super) fn canonical(text: &[u8]) -> String {

@@ -1,6 +1,6 @@
 //! Properties of materials: *CONDUCTIVITY, *ELECTRICAL CONDUCTIVITY, *DENSITY, *SPECIFIC HEAT and *JOULE HEAT FRACTION.
 
-use super::layout::{Entry, MaterialEntries, canonical};
+use super::layout::{Entry, MaterialEntries, is_called};
 use super::reader::Reader;
 use super::rows::data_lines;
 use crate::deck::items;
@@ -70,9 +70,9 @@ impl<'deck> Reader<'deck, '_> {
     /// Reads all materials.
     pub(super) fn read_materials(&mut self) -> io::Result<Vec<BodyMaterial>> {
         let mut materials = Vec::new();
-        for MaterialEntries { name, entry, properties } in std::mem::take(&mut self.materials) {
+        for MaterialEntries { name, entry, properties } in std::mem::take(&mut self.layout.materials) {
             let mut property = |keyword: &'static str| -> io::Result<Option<MaterialProperty>> {
-                let mut of_keyword = properties.iter().filter(|(name, _)| *name == canonical(keyword.as_bytes()));
+                let mut of_keyword = properties.iter().filter(|(name, _)| is_called(keyword, name));
                 // Of an option given twice the later one counts.
                 of_keyword.next_back().map_or(Ok(None), |(_, entry)| self.property(keyword, *entry))
             };
@@ -91,11 +91,11 @@ impl<'deck> Reader<'deck, '_> {
 
     /// An option of a material; `None`, with a note, where something in it is not understood.
     fn property(&mut self, keyword: &'static str, entry: Entry<'deck>) -> io::Result<Option<MaterialProperty>> {
-        let kind = match canonical(entry.parameter("TYPE").unwrap_or("ISO").as_bytes()).as_str() {
-            "ISO" | "" => TensorKind::Isotropic,
-            "ORTHO" => TensorKind::Orthotropic,
-            "ANISO" => TensorKind::Anisotropic,
-            other => {
+        let kind = match entry.choice("TYPE").as_deref() {
+            None | Some("ISO" | "") => TensorKind::Isotropic,
+            Some("ORTHO") => TensorKind::Orthotropic,
+            Some("ANISO") => TensorKind::Anisotropic,
+            Some(other) => {
                 let message =
                     format!("expected TYPE=ISO, ORTHO or ANISO of *{keyword}, found `{other}`; it was not read");
                 self.note(entry.span(), message);

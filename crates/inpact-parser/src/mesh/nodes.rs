@@ -2,11 +2,10 @@
 
 use super::layout::Entry;
 use super::placement::Placement;
-use super::reader::{Context, Reader};
-use super::rows::data_lines;
+use super::reader::Reader;
+use super::rows::{data_lines, number_rows};
 use super::selected::Selection;
 use super::selection::unsigned;
-use crate::deck::items;
 use crate::number::read_float;
 use crate::span::Span;
 use inpact_geometry::Point;
@@ -56,16 +55,9 @@ impl System {
 impl Reader<'_, '_> {
     /// Reads the rows of *INSTANCE: a translation, then an axis and an angle.
     pub(super) fn placement(&mut self, instance: Entry<'_>) -> io::Result<Placement> {
-        let mut rows: Vec<(Vec<Option<f64>>, Span)> = Vec::new();
-        data_lines(&mut *self.rows, instance.block, &mut |line, span| {
-            let value =
-                |item: std::ops::Range<usize>| if item.is_empty() { Some(0.0) } else { read_float(&line[item]).ok() };
-            rows.push((items(line).map(value).collect(), span));
-        })?;
         let mut placement = Placement::NONE;
-        for (number, (row, span)) in rows.into_iter().enumerate() {
-            let numbers: Option<Vec<f64>> = row.into_iter().collect();
-            match (number, numbers.as_deref()) {
+        for (number, (row, span)) in number_rows(&mut *self.rows, instance.block)?.into_iter().enumerate() {
+            match (number, row.as_deref()) {
                 (0, Some(row)) if row.len() <= 4 => placement.translation = [0, 1, 2].map(|k| row.get(k).copied().unwrap_or(0.0)),
                 (1, Some(&[ax, ay, az, bx, by, bz, angle])) if [ax, ay, az] != [bx, by, bz] => {
                     placement.rotation = Some(([ax, ay, az], [bx, by, bz], angle));
@@ -88,10 +80,8 @@ impl Reader<'_, '_> {
         if wanted.labels.is_empty() && selections.is_empty() {
             return Ok(selected);
         }
-        let options: Vec<Entry<'_>> =
-            self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.nodes.clone()).collect();
         let placement = self.instances[instance].placement;
-        for option in options {
+        for option in self.entries_of(instance, |definitions| &definitions.nodes) {
             let key = option.keyword.span;
             if option.parameter("INPUT").is_some() {
                 self.note(option.span(), "the nodes in a file of their own (INPUT) are not read".to_owned());

@@ -3,14 +3,12 @@
 //! The first row has a point on the local x axis, a point in the local plane of x and y, and the origin (0 unless given; CalculiX reads none);
 //! the second, where there is one, a local axis and the angle in degrees by which the system is rotated about it.
 
-use super::layout::{Entry, canonical};
+use super::layout::Entry;
 use super::placement::Placement;
 use super::reader::{Context, Reader};
-use super::rows::data_lines;
-use crate::deck::items;
+use super::rows::number_rows;
 use crate::grammar::Dialect;
 use crate::model::Name;
-use crate::number::read_float;
 use inpact_geometry::Point;
 use std::io;
 
@@ -51,21 +49,15 @@ impl Reader<'_, '_> {
 
     fn axes_of(&mut self, entry: Entry<'_>) -> io::Result<Result<[Point; 3], String>> {
         for (parameter, only) in [("SYSTEM", "RECTANGULAR"), ("DEFINITION", "COORDINATES")] {
-            let found = entry.parameter(parameter).map(|value| canonical(value.as_bytes()));
-            if let Some(found) = found.filter(|found| found != only) {
+            if let Some(found) = entry.choice(parameter).filter(|found| found != only) {
                 return Ok(Err(format!("has {parameter}={found}, which is not read")));
             }
         }
         if entry.parameter("LOCAL DIRECTIONS").is_some() {
             return Ok(Err("has LOCAL DIRECTIONS, which are not read".to_owned()));
         }
-        let mut rows: Vec<Option<Vec<f64>>> = Vec::new();
-        data_lines(&mut *self.rows, entry.block, &mut |line, _| {
-            let number = |item: std::ops::Range<usize>| {
-                if item.is_empty() { Some(0.0) } else { read_float(&line[item]).ok() }
-            };
-            rows.push(items(line).map(number).collect());
-        })?;
+        let rows = number_rows(&mut *self.rows, entry.block)?;
+        let rows: Vec<Option<Vec<f64>>> = rows.into_iter().map(|(row, _)| row).collect();
         let has_origin = self.dialect != Dialect::Calculix;
         Ok(axes(&rows, has_origin).ok_or_else(|| {
             let origin = if has_origin { ", and 3 of the origin" } else { "" };

@@ -1,5 +1,6 @@
 //! Contact pairs: which surfaces, and what their options mean for the geometry (C-02).
 
+use super::conditions::{Target, Targets};
 use super::layout::Entry;
 use super::reader::Reader;
 use super::{FaceSurface, Mesh, SurfaceKind};
@@ -136,10 +137,8 @@ impl FaceSurface {
 /// The surfaces and pairs that the model needs; pairs by position among these surfaces.
 #[derive(Default)]
 pub(super) struct Request {
-    pub(super) names: Vec<Reference>,
+    pub(super) surfaces: Targets,
     pub(super) pairs: Vec<MeshPair>,
-    /// The position of each name.
-    positions: HashMap<Name, usize>,
 }
 
 impl MeshPair {
@@ -185,7 +184,7 @@ impl Reader<'_, '_> {
                 ..MeshPair::plain(line.span, slave, master, interaction)
             });
         }
-        let clearances = std::mem::take(&mut self.clearances);
+        let clearances = std::mem::take(&mut self.layout.clearances);
         let mut of_surfaces = HashMap::new();
         if !clearances.is_empty() {
             for (index, pair) in request.pairs.iter().enumerate() {
@@ -252,7 +251,10 @@ impl Reader<'_, '_> {
 
     /// Takes a *CLEARANCE over; `of_surfaces` has the first pair of a slave and a master.
     fn clearance(&mut self, entry: Entry<'_>, request: &mut Request, of_surfaces: &HashMap<[usize; 2], usize>) {
-        let position = |parameter| request.positions.get(&entry.named(parameter)?).copied();
+        let position = |parameter| {
+            let named = Reference { name: entry.named(parameter)?, span: entry.span() };
+            request.surfaces.known(&Target::Surface(named))
+        };
         let surfaces = position("SLAVE").zip(position("MASTER"));
         let pair = surfaces.and_then(|(slave, master)| of_surfaces.get(&[slave, master]));
         let pair = pair.map(|index| &mut request.pairs[*index]);
@@ -292,9 +294,6 @@ impl MeshPair {
 impl Request {
     /// The position of a surface, which is new or known.
     fn surface(&mut self, reference: &Reference) -> usize {
-        *self.positions.entry(reference.name.clone()).or_insert_with(|| {
-            self.names.push(reference.clone());
-            self.names.len() - 1
-        })
+        self.surfaces.position(Target::Surface(reference.clone()))
     }
 }

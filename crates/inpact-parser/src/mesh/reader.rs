@@ -1,7 +1,7 @@
 //! State shared by all readers of a mesh: the options of each scope, positions of instances, and notes.
 
 use super::MeshNote;
-use super::layout::{Definitions, Entry, Layout, MaterialEntries, StepEntry};
+use super::layout::{Definitions, Entry, Layout};
 use super::placement::Placement;
 use super::rows::RowBytes;
 use super::selected::{Kind, Selected};
@@ -44,16 +44,9 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) rows: &'rows mut dyn RowBytes,
     pub(super) instances: Vec<Instance<'deck>>,
     pub(super) sets: HashMap<(Kind, Context, String), Selected>,
-    pub(super) clearances: Vec<Entry<'deck>>,
-    pub(super) initial_conditions: Vec<Entry<'deck>>,
-    pub(super) materials: Vec<MaterialEntries<'deck>>,
-    pub(super) beside_elements: Vec<(&'static str, Entry<'deck>)>,
-    pub(super) step_entries: Vec<Entry<'deck>>,
-    pub(super) conditions: Vec<StepEntry<'deck>>,
-    pub(super) amplitudes: Vec<Entry<'deck>>,
+    /// The options that are no part of an instance.
+    pub(super) layout: Layout<'deck>,
     pub(super) dialect: Dialect,
-    assembly: Definitions<'deck>,
-    assembly_name: Option<Name>,
     /// The instances by the canonical forms of their names, the first of each.
     by_name: HashMap<String, usize>,
     pub(super) notes: Vec<MeshNote>,
@@ -63,10 +56,10 @@ pub(super) struct Reader<'deck, 'rows> {
 
 impl<'deck, 'rows> Reader<'deck, 'rows> {
     pub(super) fn new(deck: &'deck Deck, grammar: &Grammar, rows: &'rows mut dyn RowBytes) -> Self {
-        let layout = Layout::of(deck, grammar);
-        let mut instances =
-            vec![Instance { name: None, chain: vec![layout.model], placement: Placement::NONE, entry: None }];
-        for instance in layout.instances {
+        let mut layout = Layout::of(deck, grammar);
+        let model = std::mem::take(&mut layout.model);
+        let mut instances = vec![Instance { name: None, chain: vec![model], placement: Placement::NONE, entry: None }];
+        for instance in std::mem::take(&mut layout.instances) {
             let part = instance.part.map(|part| layout.parts[part].1.clone());
             let chain = std::iter::once(instance.own).chain(part).collect();
             instances.push(Instance {
@@ -87,16 +80,8 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             instances,
             by_name,
             sets: HashMap::new(),
-            clearances: layout.clearances,
-            initial_conditions: layout.initial_conditions,
-            materials: layout.materials,
-            beside_elements: layout.beside_elements,
-            step_entries: layout.steps,
-            conditions: layout.conditions,
-            amplitudes: layout.amplitudes,
+            layout,
             dialect: grammar.dialect(),
-            assembly: layout.assembly,
-            assembly_name: layout.assembly_name,
             notes: Vec::new(),
             noted: HashSet::new(),
         }
@@ -128,8 +113,17 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
 
     /// The options that names are looked up in.
     pub(super) fn chain(&self, context: Context) -> impl Iterator<Item = &Definitions<'deck>> {
-        let assembly = matches!(context, Context::Top).then_some(&self.assembly);
+        let assembly = matches!(context, Context::Top).then_some(&self.layout.assembly);
         self.instances[context.instance()].chain.iter().chain(assembly)
+    }
+
+    /// The options of one kind in an instance.
+    pub(super) fn entries_of(
+        &self,
+        instance: usize,
+        of: for<'a> fn(&'a Definitions<'deck>) -> &'a [Entry<'deck>],
+    ) -> Vec<Entry<'deck>> {
+        self.chain(Context::Instance(instance)).flat_map(of).copied().collect()
     }
 
     pub(super) fn instance_named(&self, name: &Name) -> Option<usize> {
@@ -144,7 +138,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
             // In quotes it stays as it is.
             (!rest.is_empty()).then(|| Name::new(&format!("\"{rest}\"")))
         };
-        let assembly = self.assembly_name.as_ref().map(Name::canonical);
+        let assembly = self.layout.assembly_name.as_ref().map(Name::canonical);
         let dots = || written.match_indices('.').map(|(dot, _)| dot);
         if let Some(name) = dots().find(|dot| assembly == Some(&written[..*dot])).and_then(rest_after) {
             return self.without_prefix(Context::Top, name);

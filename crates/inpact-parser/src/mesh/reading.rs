@@ -1,7 +1,7 @@
 //! Reads the mesh of a deck: surfaces, sets, elements, nodes, in this order.
 
 use super::Mesh;
-use super::conditions::{Target, Targets};
+use super::conditions::Target;
 use super::elements::RawFace;
 use super::located::Located;
 use super::nodes::Wanted;
@@ -16,11 +16,7 @@ use std::io;
 impl Reader<'_, '_> {
     /// Reads the contact pairs, and targets beside them; gives the positions of these among the surfaces of the mesh.
     pub(super) fn read(mut self, model: &Model, targets: &[Target]) -> io::Result<(Mesh, Vec<Option<usize>>)> {
-        let Request { names, pairs, .. } = self.request(model);
-        let mut wanted = Targets::default();
-        for name in names {
-            wanted.position(Target::Surface(name));
-        }
+        let Request { surfaces: mut wanted, pairs } = self.request(model);
         let places: Vec<usize> = targets.iter().map(|target| wanted.position(target.clone())).collect();
         let wanted = wanted.list;
         let mut picks = Picks::default();
@@ -58,7 +54,7 @@ impl Reader<'_, '_> {
         let initial = self.initial(&located)?;
         let Located { points, nodes, .. } = located;
         let surfaces = surfaces.into_iter().flatten().collect();
-        let steps = self.step_entries.iter().map(|step| step.named("NAME")).collect();
+        let steps = self.layout.steps.iter().map(|step| step.named("NAME")).collect();
         let mesh = Mesh { points, nodes, surfaces, pairs, initial, steps, notes: self.notes };
         Ok((mesh, places.into_iter().map(|place| positions[place]).collect()))
     }

@@ -1,10 +1,12 @@
 //! The source of the bytes of rows, and the lines in them.
 
 use crate::deck::lines::{LineKind, line_kind, lines, next_line, without_line_end};
-use crate::deck::{Block, Deck};
+use crate::deck::{Block, Deck, items};
+use crate::number::read_float;
 use crate::span::{SourceId, Span};
 use std::collections::HashMap;
 use std::io::{self, Read, Seek, SeekFrom};
+use std::ops::Range;
 
 /// The number of bytes read at a time.
 const PIECE: usize = 1 << 20;
@@ -63,6 +65,16 @@ impl<R: Read + Seek> RowBytes for SeekableRows<R> {
         }
         Ok(())
     }
+}
+
+/// The rows of a block as numbers, with their places: 0 for an empty item, `None` for a row with something else.
+pub(super) fn number_rows(bytes: &mut dyn RowBytes, block: &Block) -> io::Result<Vec<(Option<Vec<f64>>, Span)>> {
+    let mut rows = Vec::new();
+    data_lines(bytes, block, &mut |line, span| {
+        let number = |item: Range<usize>| if item.is_empty() { Some(0.0) } else { read_float(&line[item]).ok() };
+        rows.push((items(line).map(number).collect(), span));
+    })?;
+    Ok(rows)
 }
 
 /// Hands every data line of a block to `take`, without its line end and with its place.

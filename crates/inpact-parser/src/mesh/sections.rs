@@ -27,10 +27,8 @@ impl Section {
 impl Reader<'_, '_> {
     /// The sections of a instance.
     pub(super) fn sections(&mut self, instance: usize) -> io::Result<Vec<Section>> {
-        let entries: Vec<Entry<'_>> =
-            self.chain(Context::Instance(instance)).flat_map(|definitions| definitions.sections.clone()).collect();
         let mut sections = Vec::new();
-        for entry in entries {
+        for entry in self.entries_of(instance, |definitions| &definitions.sections) {
             let Some(set) = entry.parameter("ELSET") else { continue };
             let selected = self.select(Kind::Elements, Context::Instance(instance), set, entry.span())?;
             let Some(elements) = selected.get(&instance).cloned() else { continue };

@@ -1,7 +1,7 @@
 //! Surfaces: from the rows of *SURFACE to faces and nodes of the mesh.
 
 use super::elements::{Pick, RawFace};
-use super::layout::{Entry, Gives, canonical};
+use super::layout::{Entry, Gives};
 use super::located::Located;
 use super::reader::{Context, Reader};
 use super::rows::data_lines;
@@ -9,7 +9,7 @@ use super::sections::Section;
 use super::selected::{Kind, Selection};
 use super::{FaceSurface, MeshNode, MeshSurface, NodeSurface, SurfaceKind};
 use crate::deck::items;
-use crate::model::{Name, Reference};
+use crate::model::Reference;
 use crate::number::read_float;
 use crate::span::Span;
 use inpact_geometry::{ElementSpace, Face, FaceLabel, NodeId, Surface, sheet_shift};
@@ -38,14 +38,8 @@ pub(super) struct NodePick {
 /// A surface that was found: its keyword line and what it is made of.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
-    span: Span,
-    of_nodes: bool,
-}
-
-impl Found {
-    pub(super) fn new(span: Span, of_nodes: bool) -> Self {
-        Self { span, of_nodes }
-    }
+    pub(super) span: Span,
+    pub(super) of_nodes: bool,
 }
 
 impl<'deck> Reader<'deck, '_> {
@@ -64,16 +58,10 @@ impl<'deck> Reader<'deck, '_> {
             return Ok(None);
         };
         let span = entry.span();
-        let kind = canonical(entry.parameter("TYPE").unwrap_or("ELEMENT").as_bytes());
-        if !["ELEMENT", "NODE"].contains(&kind.as_str())
-            || entry.parameter("COMBINE").is_some()
-            || entry.parameter("CROP").is_some()
-        {
-            let what = if entry.parameter("COMBINE").is_some() || entry.parameter("CROP").is_some() {
-                "combined or cropped".to_owned()
-            } else {
-                format!("of type {kind}")
-            };
+        let kind = entry.choice("TYPE").unwrap_or_else(|| "ELEMENT".to_owned());
+        let is_made_of_others = entry.parameter("COMBINE").is_some() || entry.parameter("CROP").is_some();
+        if !["ELEMENT", "NODE"].contains(&kind.as_str()) || is_made_of_others {
+            let what = if is_made_of_others { "combined or cropped".to_owned() } else { format!("of type {kind}") };
             self.note(
                 span,
                 format!(
@@ -153,20 +141,6 @@ impl<'deck> Reader<'deck, '_> {
         let area = area.and_then(Result::ok);
         for (instance, nodes) in self.select(Kind::Nodes, context, first, span)? {
             picks.nodes.push(NodePick { surface, instance, number: nodes.single(), nodes, area, span });
-        }
-        Ok(())
-    }
-
-    /// Picks the nodes of a set.
-    pub(super) fn pick_set(
-        &mut self,
-        surface: usize,
-        (context, name): (Context, &Name),
-        span: Span,
-        picks: &mut Picks,
-    ) -> io::Result<()> {
-        for (instance, nodes) in self.select(Kind::Nodes, context, name.written(), span)? {
-            picks.nodes.push(NodePick { surface, instance, number: nodes.single(), nodes, area: None, span });
         }
         Ok(())
     }

@@ -3,8 +3,9 @@
 //! An interaction holds its name already, so it is not stored a second time: a deck may have more interactions than anything else.
 
 use super::{Interaction, Name};
+use indexmap::IndexSet;
 use indexmap::set::MutableValues;
-use indexmap::{Equivalent, IndexSet};
+use std::borrow::Borrow;
 use std::hash::{Hash, Hasher};
 use std::ops::Index;
 
@@ -32,13 +33,9 @@ impl PartialEq for ByName {
 
 impl Eq for ByName {}
 
-/// A name that is sought.
-#[derive(Hash)]
-struct Sought<'a>(&'a Name);
-
-impl Equivalent<ByName> for Sought<'_> {
-    fn equivalent(&self, key: &ByName) -> bool {
-        *self.0 == key.0.name
+impl Borrow<Name> for ByName {
+    fn borrow(&self) -> &Name {
+        &self.0.name
     }
 }
 
@@ -55,12 +52,12 @@ impl Interactions {
 
     /// The interaction of that name.
     pub fn get(&self, name: &Name) -> Option<&Interaction> {
-        self.by_name.get(&Sought(name)).map(|of| &of.0)
+        self.by_name.get(name).map(|of| &of.0)
     }
 
     /// Whether there is one of that name.
     pub fn contains_key(&self, name: &Name) -> bool {
-        self.by_name.contains(&Sought(name))
+        self.by_name.contains(name)
     }
 
     /// The interaction number `index`, counted from 0.
@@ -70,7 +67,7 @@ impl Interactions {
 
     /// The number of the interaction of that name, counted from 0.
     pub fn get_index_of(&self, name: &Name) -> Option<usize> {
-        self.by_name.get_index_of(&Sought(name))
+        self.by_name.get_index_of(name)
     }
 
     /// Appends an interaction, or replaces and returns the one of the same name.

@@ -37,7 +37,7 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, Error> {
         print_contact_pair(&mut out, pair);
     }
     print_property_assignments(&mut out, &model.property_assignments);
-    print_procedures(&mut out, &model.procedures);
+    print_procedures(&mut out, &model.procedures, grammar);
     let named = named_in(grammar.dialect(), model.without_places());
     // Names that the dialect does not tell apart were two.
     if named.interactions.len() < model.interactions.len() {
@@ -283,7 +283,7 @@ fn print_property_assignments(out: &mut String, assignments: &[PropertyAssignmen
 }
 
 /// Each procedure in the step it belongs to, or between steps; the order is that of the list.
-fn print_procedures(out: &mut String, procedures: &[Procedure]) {
+fn print_procedures(out: &mut String, procedures: &[Procedure], grammar: &Grammar) {
     let (mut steps, mut is_open) = (0, false);
     for procedure in procedures {
         if is_open && procedure.step != steps {
@@ -297,10 +297,7 @@ fn print_procedures(out: &mut String, procedures: &[Procedure]) {
             print_keyword(out, "STEP", []);
             (steps, is_open) = (steps + 1, true);
         }
-        print_keyword(out, &procedure.option.keyword, &procedure.option.parameters);
-        for row in procedure.option.rows.iter() {
-            let _ = writeln!(out, "{}", if row.is_empty() { ",".to_owned() } else { row.join(", ") });
-        }
+        print_option(out, &procedure.option, grammar);
     }
     if is_open {
         print_keyword(out, "END STEP", []);

@@ -88,8 +88,7 @@ fn is_explicit_procedure(block: &Block, grammar: &Grammar) -> bool {
     let Some(definition) = grammar.keyword(id).definition().filter(|definition| definition.procedure) else {
         return false;
     };
-    let is_explicit = |index: usize| definition.parameters[index].name == "EXPLICIT";
-    keyword.parameters().any(|parameter| parameter.index().is_some_and(is_explicit))
+    keyword.given("EXPLICIT", definition).is_some()
 }
 
 impl<'a> Reader<'a> {

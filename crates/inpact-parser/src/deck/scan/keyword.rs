@@ -2,33 +2,33 @@
 
 use crate::deck::lines::{LineKind, line_kind};
 use crate::deck::parameter::{AfterName, LastComma, Place, PlacedParameter};
-use crate::deck::{KeywordLine, items, keyword_line};
+use crate::deck::{KeywordLine, Resolved, items, keyword_line};
 use crate::grammar::{Dialect, Grammar, KeywordId, Lookup, RowShape, ValueUse};
 use crate::span::{SourceId, Span};
 use std::num::NonZeroU32;
 
-/// Readings of a line after a keyword line that ends in a comma (S-19).
+/// Lines after a comma at the end of a keyword line that do not continue it (S-19).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum NextLine {
-    /// As parameters of the keyword: it goes on with them.
-    Parameters,
-    /// As names that may be flags of a keyword whose parameters are not all known here.
+pub(super) enum AfterComma {
+    /// The comma is answered by nothing.
+    NoParameters,
+    /// Names that may be flags of a keyword whose parameters are not all known here, or that another file may go on with.
     ///
     /// The line is read as a row, and the comma in front of it is nothing to complain about: without it a flag would be one.
     PerhapsFlags,
-    /// As something else: the comma is answered by nothing.
-    NoParameters,
+    /// The next line would make it longer than so many bytes.
+    TooLong(u32),
 }
 
-/// The reading of `line` after a keyword line: as its parameters if it has `=`, or if its fields are flags the keyword knows (S-19).
-pub(super) fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> NextLine {
+/// The reading of `line` after a keyword line; `None` where it goes on with its parameters: these have `=`, or are flags the keyword knows (S-19).
+pub(super) fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Grammar) -> Option<AfterComma> {
     let definition = keyword.and_then(|id| grammar.keyword(id).definition());
     let knows_all = definition.is_some_and(|definition| definition.parameters_complete);
     match line_kind(line) {
         // No manual says what a blank line means here.
-        LineKind::Blank if !knows_all => return NextLine::PerhapsFlags,
+        LineKind::Blank if !knows_all => return Some(AfterComma::PerhapsFlags),
         LineKind::Data => {}
-        _ => return NextLine::NoParameters,
+        _ => return Some(AfterComma::NoParameters),
     }
     let is_parameter = |item: &[u8]| {
         let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
@@ -57,9 +57,9 @@ pub(super) fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Gra
             })
     };
     match (continues, perhaps) {
-        (true, _) => NextLine::Parameters,
-        (false, true) => NextLine::PerhapsFlags,
-        (false, false) => NextLine::NoParameters,
+        (true, _) => None,
+        (false, true) => Some(AfterComma::PerhapsFlags),
+        (false, false) => Some(AfterComma::NoParameters),
     }
 }
 
@@ -67,24 +67,6 @@ pub(super) fn after_comma(keyword: Option<KeywordId>, line: &[u8], grammar: &Gra
 pub(super) fn is_like_a_flag(word: &[u8]) -> bool {
     let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b' ' | b'\t' | b'-' | b'_');
     word.first().is_some_and(u8::is_ascii_alphabetic) && word.iter().all(is_inside)
-}
-
-pub(super) fn id_of(name: &[u8], grammar: &Grammar) -> Option<KeywordId> {
-    match grammar.keyword_named(name) {
-        Lookup::Exact(id) | Lookup::Abbreviated(id) => Some(id),
-        Lookup::Ambiguous(_) | Lookup::Unknown => None,
-    }
-}
-
-/// Lines after a comma at the end of a keyword line (S-19).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum AfterComma {
-    /// Nothing continues it.
-    NoParameters,
-    /// Something follows that it may belong to.
-    PerhapsFlags,
-    /// The next line would make it longer than so many bytes.
-    TooLong(u32),
 }
 
 /// Resolves the pieces of a keyword line that begins at `start` in the file.
@@ -100,11 +82,8 @@ pub(super) fn resolve(
     };
     // An asterisk stands before both.
     let point = |at: usize| u32::try_from(at).ok().and_then(NonZeroU32::new);
-    let resolved = grammar.keyword_named(&text[pieces.name.clone()]);
-    let definition = match resolved {
-        Lookup::Exact(id) | Lookup::Abbreviated(id) => grammar.keyword(id).definition(),
-        Lookup::Ambiguous(_) | Lookup::Unknown => None,
-    };
+    let resolved = Resolved::from(grammar.keyword_named(&text[pieces.name.clone()]));
+    let definition = resolved.found().and_then(|id| grammar.keyword(id).definition());
     let parameters = pieces.parameters.into_iter().map(|parameter| {
         let resolved =
             definition.map_or(Lookup::Unknown, |known| grammar.parameter_named(known, &text[parameter.name.clone()]));
@@ -118,7 +97,7 @@ pub(super) fn resolve(
     KeywordLine {
         span: Span::new(id, start, start + text.len() as u64),
         name: Place::of(pieces.name),
-        resolved: resolved.into(),
+        resolved,
         after_name: AfterName::new(parameters, pieces.unterminated_quote.and_then(point), last_comma),
     }
 }

@@ -26,16 +26,12 @@ pub(super) struct Entry<'a> {
 impl Entry<'_> {
     /// The last setting of a parameter counts.
     pub(super) fn parameter(self, name: &str) -> Option<Parameter> {
-        self.keyword.parameters().rev().find(|parameter| self.is_called(parameter, name))
+        self.keyword.given(name, self.definition)
     }
 
     /// The first setting of a parameter.
     pub(super) fn first_parameter(self, name: &str) -> Option<Parameter> {
-        self.keyword.parameters().find(|parameter| self.is_called(parameter, name))
-    }
-
-    fn is_called(self, parameter: &Parameter, name: &str) -> bool {
-        parameter.index().is_some_and(|index| self.definition.parameters[index].name == name)
+        self.keyword.parameters().find(|parameter| parameter.is(name, self.definition))
     }
 
     pub(super) fn is_given(self, name: &str) -> bool {

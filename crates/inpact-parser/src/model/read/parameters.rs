@@ -11,11 +11,8 @@ impl Reader<'_> {
     pub(super) fn define_parameters(&mut self, block: &Block) {
         let Some(keyword) = &block.keyword else { return };
         let Some(id) = keyword.id().filter(|id| self.grammar.keyword(*id).name == "PARAMETER") else { return };
-        let from_table = self.grammar.keyword(id).definition().is_some_and(|definition| {
-            let is_table = |index: usize| definition.parameters[index].name == "TABLE";
-            keyword.parameters().any(|parameter| parameter.index().is_some_and(is_table))
-        });
-        if from_table {
+        let definition = self.grammar.keyword(id).definition();
+        if definition.is_some_and(|definition| keyword.given("TABLE", definition).is_some()) {
             let span = keyword.visible_span(self.deck);
             self.problems.push(Problem { kind: ProblemKind::UninterpretedParameters, span, keyword: keyword.span });
             return;
