@@ -50,22 +50,7 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
         let failed = |fault| Error::from(ErrorKind::Row { row, fault }).of_field(field);
         let Some(laws) = knowledge.problem.laws_of(row as usize) else { continue };
         let (of, contact, sides) = (knowledge.row(row), knowledge.contact(row), knowledge.sides(row));
-        let conducts = match field {
-            Field::Potential => match &laws.electrical {
-                Some(source) => {
-                    let node = node_number(&knowledge.problem.scene.nodes[of.slave as usize]);
-                    interface::electrical(source, of, &contact, &sides, knowledge.moment(), node)
-                        .map_err(|fault| failed(RowFault::User(fault)))?
-                }
-                None => Conducts::default(),
-            },
-            Field::Temperature => interface::thermal(laws, of, &contact, &sides),
-            Field::PorePressure => match interface::pore(laws, of, &contact, &sides, knowledge.gap(row)).0 {
-                PoreElement::Finite(conducts) => conducts,
-                PoreElement::Constrained => Conducts { conductance: f64::INFINITY, ..Conducts::default() },
-                PoreElement::NeedsLength => return Err(failed(RowFault::NeedsLength)),
-            },
-        };
+        let conducts = conducts(knowledge, field, laws, (of, &contact, &sides)).map_err(failed)?;
         let asks_elsewhere = conducts.conductance == 0.0 && knowledge.guess == Guess::WhereRowsConduct;
         let found = if asks_elsewhere { elsewhere(knowledge, field, laws, (of, &contact, &sides)) } else { None };
         let conducts = found.unwrap_or(conducts);
@@ -87,6 +72,28 @@ pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNo
     Ok(terms)
 }
 
+/// The conductance of a row for a field, with its slopes.
+fn conducts(
+    knowledge: &Knowledge<'_>,
+    field: Field,
+    laws: &InterfaceLaws,
+    (of, contact, sides): (&SceneInterface, &Contact, &Sides),
+) -> Result<Conducts, RowFault> {
+    match field {
+        Field::Potential => {
+            let Some(source) = &laws.electrical else { return Ok(Conducts::default()) };
+            let node = node_number(&knowledge.problem.scene.nodes[of.slave as usize]);
+            interface::electrical(source, of, contact, sides, knowledge.moment(), node).map_err(RowFault::User)
+        }
+        Field::Temperature => Ok(interface::thermal(laws, of, contact, sides)),
+        Field::PorePressure => match interface::pore(laws, of, contact, sides, knowledge.gap(of)).0 {
+            PoreElement::Finite(conducts) => Ok(conducts),
+            PoreElement::Constrained => Ok(Conducts { conductance: f64::INFINITY, ..Conducts::default() }),
+            PoreElement::NeedsLength => Err(RowFault::NeedsLength),
+        },
+    }
+}
+
 /// The number of temperatures or pore pressures at which a row that conducts nothing at a first guess is evaluated.
 const PROBES: u32 = 65;
 
@@ -101,23 +108,11 @@ fn elsewhere(
     let probes = (0..PROBES).map(|probe| {
         let part = f64::from(probe) / f64::from(PROBES - 1);
         let value = [DoubleDouble::new((1.0 - part) * least + part * greatest); 2];
-        match field {
-            Field::Potential => match &laws.electrical {
-                Some(source) => {
-                    let sides = Sides { temperatures: value, ..*sides };
-                    interface::electrical(source, of, contact, &sides, knowledge.moment(), 0).unwrap_or_default()
-                }
-                None => Conducts::default(),
-            },
-            Field::Temperature => interface::thermal(laws, of, contact, &Sides { temperatures: value, ..*sides }),
-            Field::PorePressure => {
-                let sides = Sides { pore_pressures: value, ..*sides };
-                match interface::pore(laws, of, contact, &sides, knowledge.gap_of(of)).0 {
-                    PoreElement::Finite(conducts) => conducts,
-                    PoreElement::Constrained | PoreElement::NeedsLength => Conducts::default(),
-                }
-            }
-        }
+        let sides = match field {
+            Field::PorePressure => Sides { pore_pressures: value, ..*sides },
+            _ => Sides { temperatures: value, ..*sides },
+        };
+        conducts(knowledge, field, laws, (of, contact, &sides)).unwrap_or_default()
     });
     let largest = probes.max_by(|one, other| one.conductance.total_cmp(&other.conductance))?;
     (0.0 < largest.conductance && largest.conductance.is_finite()).then_some(largest)
@@ -130,7 +125,7 @@ pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNode
     let given = |node: &u32| conditions.sources.get(node).map_or(0.0, |course| course.at(knowledge.time));
     let mut sources: Vec<f64> = nodes.nodes.iter().map(given).collect();
     let mut add = |of: &SceneInterface, into: [f64; 2]| {
-        for (node, flow) in [of.slave, of.master].into_iter().zip(into) {
+        for (node, flow) in of.nodes().into_iter().zip(into) {
             if let Some(sum) = sources.get_mut(nodes.place[node as usize] as usize) {
                 *sum += flow;
             }
@@ -148,7 +143,7 @@ pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNode
                 let of = knowledge.row(row);
                 let Some(laws) = knowledge.problem.laws_of(row as usize) else { continue };
                 let (contact, sides) = (knowledge.contact(row), knowledge.sides(row));
-                let (_, filling) = interface::pore(laws, of, &contact, &sides, knowledge.gap(row));
+                let (_, filling) = interface::pore(laws, of, &contact, &sides, knowledge.gap(of));
                 add(of, filling.map(|flux| flux * of.area));
             }
         }
@@ -264,10 +259,12 @@ pub(crate) fn network(
         let of = &scene.links[link as usize];
         Link { nodes: of.nodes.map(place_of), conductance: of.conductances[field.index()] }
     }));
-    network.links.extend(nodes.rows.iter().zip(rows).map(|(&row, &conductance)| {
-        let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
-        Link { nodes: [place_of(slave), place_of(master)], conductance }
-    }));
+    network.links.extend(
+        nodes.rows.iter().zip(rows).map(|(&row, &conductance)| Link {
+            nodes: scene.interfaces[row as usize].nodes().map(place_of),
+            conductance,
+        }),
+    );
     if capacities == Capacities::Held {
         let is_fixed = |place: u32| conditions.fixed.contains_key(&nodes.nodes[place as usize]);
         part_initial_values(&mut network, is_fixed);

@@ -53,14 +53,8 @@ fn distance_of_flows(
     (found, wanted): (&FieldState, &FieldState),
 ) -> f64 {
     let scene = problem.scene;
-    let of_links = nodes.links.iter().map(|&link| {
-        let of = &scene.links[link as usize];
-        (of.nodes, of.conductances[field.index()])
-    });
-    let of_rows = nodes.rows.iter().zip(&wanted.rows).map(|(&row, &conductance)| {
-        let of = &scene.interfaces[row as usize];
-        ([of.slave, of.master], conductance)
-    });
+    let of_links = nodes.links.iter().map(|&link| scene.links[link as usize].conductances[field.index()]);
+    let conductances = of_links.chain(wanted.rows.iter().copied());
     let of_nodes =
         |ends: [u32; 2], of: &[f64]| -> [f64; 2] { ends.map(|node| of[nodes.place[node as usize] as usize]) };
     let values: Vec<f64> = wanted.values().collect();
@@ -68,7 +62,7 @@ fn distance_of_flows(
     let flows = |of: &FieldState| of.solution.flows.iter().map(|flow| flow.to_f64()).collect::<Vec<f64>>();
     let mut largest = 0.0_f64;
     for ((ends, conductance), (found, wanted)) in
-        of_links.chain(of_rows).zip(flows(found).into_iter().zip(flows(wanted)))
+        nodes.ends(scene).zip(conductances).zip(flows(found).into_iter().zip(flows(wanted)))
     {
         let [one, other] = of_nodes(ends, &values).map(f64::abs);
         let quieter = of_nodes(ends, &through).into_iter().fold(f64::INFINITY, f64::min);
@@ -86,12 +80,7 @@ fn distance_of_flows(
 fn through(problem: &Problem<'_>, field: Field, nodes: &FieldNodes, state: &FieldState) -> Vec<f64> {
     let (scene, conditions) = (problem.scene, problem.scene.conditions(field));
     let mut through: Vec<f64> = state.sources.iter().map(|source| source.abs()).collect();
-    let of_links = nodes.links.iter().map(|&link| scene.links[link as usize].nodes);
-    let of_rows = nodes.rows.iter().map(|&row| {
-        let of = &scene.interfaces[row as usize];
-        [of.slave, of.master]
-    });
-    for (ends, flow) in of_links.chain(of_rows).zip(&state.solution.flows) {
+    for (ends, flow) in nodes.ends(scene).zip(&state.solution.flows) {
         for end in ends {
             let part = &mut through[nodes.place[end as usize] as usize];
             *part = part.max(flow.to_f64().abs());

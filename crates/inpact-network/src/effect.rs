@@ -1,7 +1,6 @@
 //! Contradictions in a scene, and values in it without effect: temperatures below absolute zero, friction that cools, numbers that no law reads.
 
 use crate::interface::Contact;
-use crate::linear::NONE;
 use crate::problem::Problem;
 use crate::scene::{Course, Field, Procedure, SceneInterface, UNUSABLE_NUMBER};
 use inpact_evaluation::law::{ContactState, contradicts};
@@ -109,7 +108,9 @@ impl Problem<'_> {
         note(apart, "heat of friction", "interface", "it is open, and what does not touch does not rub");
         let one_sided = |row: &&SceneInterface| {
             let [slave, master] = row.bulk_permeabilities;
-            slave.is_some() != master.is_some() && self.carries(Field::PorePressure, row)
+            let pore = self.field(Field::PorePressure);
+            slave.is_some() != master.is_some()
+                && pore.is_some_and(|of| row.nodes().into_iter().all(|node| of.carries(node)))
         };
         let count = rows.iter().filter(one_sided).count();
         note(
@@ -128,11 +129,6 @@ impl Problem<'_> {
         let corners = row.clearance.iter().chain(&row.pressure).flat_map(Course::corners);
         let is_open = |time: f64| Contact::of(row, time).is_some_and(|contact| contact.state == ContactState::Open);
         std::iter::once(self.start()).chain(corners).all(is_open)
-    }
-
-    fn carries(&self, field: Field, row: &SceneInterface) -> bool {
-        let Some(nodes) = self.field(field) else { return false };
-        [row.slave, row.master].iter().all(|&node| nodes.place[node as usize] != NONE)
     }
 
     /// Whether a row has field variables that no law of a field crossing it reads.

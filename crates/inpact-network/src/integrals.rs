@@ -5,7 +5,7 @@
 //! Errors are relative to the largest integral of their kind, taken by magnitude so that flows of alternating sign do not cancel.
 
 use crate::problem::Problem;
-use crate::scene::{Field, SceneInterface};
+use crate::scene::Field;
 use crate::state::State;
 
 /// The integrals: of current, of its heat, of heat, of pore fluid.
@@ -51,10 +51,10 @@ impl RowFlows {
             for &row in &nodes.rows {
                 let flow = state.row_flow(problem, field, row).unwrap_or(0.0);
                 found.flows[kind].push(flow);
-                let SceneInterface { slave, master, .. } = problem.scene.interfaces[row as usize];
-                let value = |node| state.value(problem, field, node).map_or(0.0, f64::abs);
+                let sides = problem.scene.interfaces[row as usize].nodes();
+                let [slave, master] = sides.map(|node| state.value(problem, field, node).map_or(0.0, f64::abs));
                 let conductance = state.conductance(problem, field, row).unwrap_or(0.0);
-                let rounding = ROUNDING * conductance * value(slave).max(value(master));
+                let rounding = ROUNDING * conductance * slave.max(master);
                 if rounding.is_finite() {
                     found.rounding[kind] = found.rounding[kind].max(rounding);
                 }
@@ -62,7 +62,7 @@ impl RowFlows {
                     let jump = state.row_jump(problem, field, row).unwrap_or(0.0);
                     found.flows[1].push(conductance);
                     found.jumps.push(jump);
-                    let rounding = rounding * value(slave).max(value(master));
+                    let rounding = rounding * slave.max(master);
                     if rounding.is_finite() {
                         found.rounding[1] = found.rounding[1].max(rounding);
                     }

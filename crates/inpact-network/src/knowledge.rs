@@ -5,7 +5,7 @@ use crate::problem::Problem;
 use crate::scene::{Field, SceneInterface};
 use crate::state::State;
 use inpact_evaluation::HistoryStart;
-use inpact_evaluation::law::{Clearance, ClearanceRate, ClosingHeat, Gap};
+use inpact_evaluation::law::{Clearance, ClearanceRate, ClosingHeat, ContactPressure, ContactState, Gap};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The least first guess of a temperature, above absolute zero, θ.
@@ -129,16 +129,16 @@ impl<'a> Knowledge<'a> {
     pub(crate) fn contact(&self, row: u32) -> Contact {
         // Rows without contact were refused before anything is solved.
         Contact::of(self.row(row), self.time).unwrap_or(Contact {
-            clearance: inpact_evaluation::law::Clearance(f64::NAN),
-            pressure: inpact_evaluation::law::ContactPressure(f64::NAN),
-            state: inpact_evaluation::law::ContactState::Undetermined,
+            clearance: Clearance(f64::NAN),
+            pressure: ContactPressure(f64::NAN),
+            state: ContactState::Undetermined,
         })
     }
 
     /// The values on both sides of a row.
     pub(crate) fn sides(&self, row: u32) -> Sides {
         let of = self.row(row);
-        let nodes = [of.slave as usize, of.master as usize];
+        let nodes = of.nodes().map(|node| node as usize);
         let known = |value: DoubleDouble| (!value.to_f64().is_nan()).then_some(value);
         let of_nodes = nodes.map(|node| known(self.temperatures[node]));
         let temperatures = of.temperatures(of_nodes, self.problem.scene.initial_temperature, DoubleDouble::new);
@@ -150,11 +150,7 @@ impl<'a> Knowledge<'a> {
 
     /// Time and increment, for user subroutines.
     pub(crate) fn moment(&self) -> Moment {
-        let start = match self.problem.scene.procedure {
-            crate::scene::Procedure::Steady => 0.0,
-            crate::scene::Procedure::Transient(span) => span.start,
-        };
-        Moment { time: self.time, step_time: self.time - start, increment: self.number.max(1) }
+        Moment { time: self.time, step_time: self.time - self.problem.start(), increment: self.number.max(1) }
     }
 
     /// The jump of potential of a row at the start of the increment; `None` in a steady state, and where the increment closes a circuit whose heat is to balance.
@@ -183,12 +179,7 @@ impl<'a> Knowledge<'a> {
     }
 
     /// The gap of a row: in a transient it changes at the rate that is given, otherwise as its clearance has changed over the increment; and the length that its cutoffs default to.
-    pub(crate) fn gap(&self, row: u32) -> (Gap, Option<f64>) {
-        self.gap_of(self.row(row))
-    }
-
-    /// The same for a row of the scene by itself.
-    pub(crate) fn gap_of(&self, of: &SceneInterface) -> (Gap, Option<f64>) {
+    pub(crate) fn gap(&self, of: &SceneInterface) -> (Gap, Option<f64>) {
         let from_course = || {
             let (course, increment) = (of.clearance.as_ref()?, self.increment?);
             let clearance = Clearance(course.at(increment.before.time));

@@ -73,6 +73,19 @@ struct Couplings {
     pore_on_itself: bool,
 }
 
+impl FieldNodes {
+    /// Whether a node of the scene carries the field.
+    pub(crate) fn carries(&self, node: u32) -> bool {
+        self.place[node as usize] != NONE
+    }
+
+    /// The nodes of the scene that each of its links joins, then those of each row.
+    pub(crate) fn ends(&self, scene: &Scene) -> impl Iterator<Item = [u32; 2]> {
+        let links = self.links.iter().map(|&link| scene.links[link as usize].nodes);
+        links.chain(self.rows.iter().map(|&row| scene.interfaces[row as usize].nodes()))
+    }
+}
+
 impl<'a> Problem<'a> {
     /// Combines a scene and the model of its deck; `None` after reporting what is missing.
     pub fn new(scene: &'a Scene, model: &Model, choices: &Choices, findings: &mut Findings) -> Option<Self> {
@@ -191,7 +204,7 @@ impl<'a> Problem<'a> {
                 }
             }
             let with_law = || (0..index(scene.interfaces.len())).filter(|row| has_law(&(*row as usize)));
-            let ends = |row: u32| [scene.interfaces[row as usize].slave, scene.interfaces[row as usize].master];
+            let ends = |row: u32| scene.interfaces[row as usize].nodes();
             if field != Field::PorePressure {
                 spread(&mut carries, with_law().map(ends));
             }
@@ -240,7 +253,7 @@ impl<'a> Problem<'a> {
 
     /// The name of a row in messages.
     pub(crate) fn label(&self, row: &SceneInterface) -> String {
-        let [slave, master] = [row.slave, row.master].map(|node| &self.scene.nodes[node as usize]);
+        let [slave, master] = row.nodes().map(|node| &self.scene.nodes[node as usize]);
         format!("the interface of `{slave}` and `{master}`")
     }
 
@@ -294,8 +307,7 @@ impl<'a> Problem<'a> {
 
     /// Whether one of the nodes of a row carries temperature and so receives the heat of its current.
     fn receives_heat(&self, row: &SceneInterface) -> bool {
-        let Some(field) = self.field(Field::Temperature) else { return false };
-        [row.slave, row.master].into_iter().any(|node| field.place[node as usize] != NONE)
+        self.field(Field::Temperature).is_some_and(|of| row.nodes().into_iter().any(|node| of.carries(node)))
     }
 
     /// The heat of friction of a row at a time, into slave and master; zero where nothing gives it, and where the surfaces are apart.

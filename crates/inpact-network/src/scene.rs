@@ -109,8 +109,10 @@ pub struct TimeSpan {
     pub closing_heat: ClosingHeat,
 }
 
-/// Start of histories (C-25).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Start of histories.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename = "StartFromName"))]
 pub enum StartFrom {
     /// The state at the start, with its jumps of potential.
     #[default]
@@ -170,7 +172,7 @@ pub struct SceneLink {
 }
 
 /// A slave node, the opposite point of the master surface, and the inputs of their laws.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SceneInterface {
     /// The *SURFACE INTERACTION; `None` for the only one of the deck.
     pub interaction: Option<Name>,
@@ -251,6 +253,11 @@ impl Field {
 }
 
 impl SceneInterface {
+    /// Slave and master.
+    pub(crate) fn nodes(&self) -> [u32; 2] {
+        [self.slave, self.master]
+    }
+
     /// The temperatures of both sides, from those of their nodes: a side without one has that of the row, of the scene, or of the other side.
     pub(crate) fn temperatures<T: Copy>(
         &self,

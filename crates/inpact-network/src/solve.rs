@@ -116,28 +116,25 @@ impl<'a> Equations<'a> {
         self.solve(knowledge, Capacities::Stored)
     }
 
-    fn solve(&mut self, mut knowledge: Knowledge<'_>, capacities: Capacities) -> Result<State, Error> {
-        let mut state = State {
-            time: knowledge.time,
-            increment: knowledge.number,
-            fields: [None, None, None],
-            reports: Vec::new(),
-        };
+    fn solve(&mut self, knowledge: Knowledge<'_>, capacities: Capacities) -> Result<State, Error> {
+        let (time, increment) = (knowledge.time, knowledge.number);
+        let state = State { time, increment, fields: [None, None, None], reports: Vec::new() };
+        let mut at = At { knowledge, capacities, state };
         for stage in &self.problem.stages {
-            let report = if stage.is_linear {
-                self.solve_fields(stage, &mut knowledge, capacities, &mut state)?;
-                StageReport { fields: stage.fields.clone(), iterations: 0, inconsistency: 0.0, linear: Vec::new() }
+            let (iterations, inconsistency) = if stage.is_linear {
+                self.solve_fields(stage, &mut at)?;
+                (0, 0.0)
             } else {
-                self.solve_nonlinear(stage, &mut knowledge, capacities, &mut state)?
+                self.solve_nonlinear(stage, &mut at)?
             };
-            let linear = stage.fields.iter().filter_map(|field| state.field(*field));
+            let linear = stage.fields.iter().filter_map(|field| at.state.field(*field));
             let linear = linear.map(|field| field.solution.report.clone()).collect();
-            state.reports.push(StageReport { linear, ..report });
+            at.state.reports.push(StageReport { fields: stage.fields.clone(), iterations, inconsistency, linear });
             if stage.fields.contains(&Field::Temperature) {
-                self.refuse_cold(&state)?;
+                self.refuse_cold(&at.state)?;
             }
         }
-        Ok(state)
+        Ok(at.state)
     }
 
     /// Refuses temperatures below absolute zero: the laws say nothing there, and a balance that is met is met by accident.
@@ -155,13 +152,8 @@ impl<'a> Equations<'a> {
     }
 
     /// Solves the fields of a stage one after the other, each with the conductances that follow from what is known; then their values are known.
-    fn solve_fields(
-        &mut self,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &mut State,
-    ) -> Result<(), Error> {
+    fn solve_fields(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(), Error> {
+        let At { knowledge, capacities, state } = at;
         for &field in &stage.fields {
             let Some(nodes) = self.problem.field(field) else { continue };
             let terms = row_terms(knowledge, field, nodes)?;
@@ -169,7 +161,7 @@ impl<'a> Equations<'a> {
             if field == Field::Temperature {
                 sources.iter_mut().zip(&knowledge.heat).for_each(|(sum, heat)| *sum += heat);
             }
-            let network = network(knowledge, field, nodes, &terms.conductances, &sources, capacities);
+            let network = network(knowledge, field, nodes, &terms.conductances, &sources, *capacities);
             let solution =
                 self.solvers[field.index()].solve(&network).map_err(|error| error.in_field(field, &nodes.nodes))?;
             if field == Field::Potential {
@@ -198,27 +190,21 @@ impl<'a> Equations<'a> {
         heat
     }
 
-    /// Solves a stage in which fields depend on themselves or on each other.
+    /// Solves a stage in which fields depend on themselves or on each other; gives the number of Newton steps, and how consistent the conductances are.
     ///
     /// A failure within a tolerance that is larger than need be is tried again to the last digit: conductances that are to agree leave no room for it.
-    fn solve_nonlinear(
-        &mut self,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &mut State,
-    ) -> Result<StageReport, Error> {
-        let begin = knowledge.clone();
-        let found = self.solve_within(stage, knowledge, capacities, state);
+    fn solve_nonlinear(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(usize, f64), Error> {
+        let begin = at.knowledge.clone();
+        let found = self.solve_within(stage, at);
         let is_rough = self.solvers.iter().any(|solver| LAST_DIGIT < solver.tolerance());
         let is_short =
             |error: &Error| matches!(error.kind(), ErrorKind::NotConverged { .. } | ErrorKind::NotSolved { .. });
         if !is_rough || !found.as_ref().is_err_and(is_short) {
             return found;
         }
-        *knowledge = begin;
+        at.knowledge = begin;
         let tolerances = self.solvers.each_mut().map(|solver| solver.set_tolerance(LAST_DIGIT));
-        let found = self.solve_within(stage, knowledge, capacities, state);
+        let found = self.solve_within(stage, at);
         for (solver, tolerance) in self.solvers.iter_mut().zip(tolerances) {
             solver.set_tolerance(tolerance);
         }
@@ -226,18 +212,12 @@ impl<'a> Equations<'a> {
     }
 
     /// Solves the fields with the conductances of a first guess; where nothing flows at that guess, with those they have elsewhere.
-    fn solve_first(
-        &mut self,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &mut State,
-    ) -> Result<(), Error> {
-        match self.solve_fields(stage, knowledge, capacities, state) {
+    fn solve_first(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(), Error> {
+        match self.solve_fields(stage, at) {
             Err(error) if matches!(error.kind(), ErrorKind::Floating { .. }) => {
-                knowledge.guess = Guess::WhereRowsConduct;
-                let solved = self.solve_fields(stage, knowledge, capacities, state);
-                knowledge.guess = Guess::AsItIs;
+                at.knowledge.guess = Guess::WhereRowsConduct;
+                let solved = self.solve_fields(stage, at);
+                at.knowledge.guess = Guess::AsItIs;
                 solved
             }
             solved => solved,
@@ -245,43 +225,32 @@ impl<'a> Equations<'a> {
     }
 
     /// Solves a nonlinear stage within the tolerance of the solvers: by Newton's iteration and, where that ends short of a solution, from where substitution leads.
-    fn solve_within(
-        &mut self,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &mut State,
-    ) -> Result<StageReport, Error> {
+    fn solve_within(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(usize, f64), Error> {
         for _ in 0..FIRST_PASSES {
-            self.solve_first(stage, knowledge, capacities, state)?;
+            self.solve_first(stage, at)?;
         }
-        let begin = knowledge.clone();
+        let begin = at.knowledge.clone();
         let mut steps = 0;
-        let mut attempt = self.converge(stage, knowledge, capacities, state, &mut steps)?;
+        let mut attempt = self.converge(stage, at, &mut steps)?;
         if attempt.is_short() {
             // From where the iteration began: it may have gone astray, and its state with it.
             let mut ways = [Relaxation::Parts, Relaxation::Brackets].into_iter();
             while attempt.is_short()
                 && let Some(way) = ways.next()
             {
-                let (mut relaxed, mut of_relaxed) = (begin.clone(), state.clone());
+                let mut relaxed = At { knowledge: begin.clone(), capacities: at.capacities, state: at.state.clone() };
                 // A failure of a last resort is no failure of the scene: that is where Newton's iteration ended short.
-                if let Ok(true) = self.relax(way, stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)
-                    && let Ok(again) = self.converge(stage, &mut relaxed, capacities, &mut of_relaxed, &mut steps)
+                if let Ok(true) = self.relax(way, stage, &mut relaxed, &mut steps)
+                    && let Ok(again) = self.converge(stage, &mut relaxed, &mut steps)
                     && !again.is_short()
                 {
-                    (*knowledge, *state, attempt) = (relaxed, of_relaxed, again);
+                    (*at, attempt) = (relaxed, again);
                 }
             }
         }
         let Attempt { iterated, inconsistency, .. } = &attempt;
         if !attempt.is_short() {
-            return Ok(StageReport {
-                fields: stage.fields.clone(),
-                iterations: steps,
-                inconsistency: *inconsistency,
-                linear: Vec::new(),
-            });
+            return Ok((steps, *inconsistency));
         }
         let inconsistency = iterated.has_converged.then_some(*inconsistency);
         let worst = stage
@@ -297,25 +266,18 @@ impl<'a> Equations<'a> {
     }
 
     /// Newton's iteration, until the conductances of its state are those it was found with.
-    fn converge(
-        &mut self,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &mut State,
-        steps: &mut usize,
-    ) -> Result<Attempt, Error> {
+    fn converge(&mut self, stage: &Stage, at: &mut At<'_>, steps: &mut usize) -> Result<Attempt, Error> {
         let (mut inconsistency, mut beyond) = (f64::INFINITY, f64::INFINITY);
         loop {
-            let iterated = self.iterate(stage, knowledge, capacities, state)?;
+            let iterated = self.iterate(stage, at)?;
             *steps += iterated.steps;
             if !iterated.has_converged {
                 return Ok(Attempt { iterated, inconsistency, beyond });
             }
             // The flows of the conductances that were found, to the last digit; the conductances there measure their error.
-            self.solve_fields(stage, knowledge, capacities, state)?;
+            self.solve_fields(stage, at)?;
             let before = inconsistency;
-            (inconsistency, beyond) = self.inconsistency(stage, knowledge, state)?;
+            (inconsistency, beyond) = self.inconsistency(stage, at)?;
             if inconsistency <= CONSISTENT || 0.5 * before <= inconsistency {
                 return Ok(Attempt { iterated, inconsistency, beyond });
             }
@@ -323,25 +285,17 @@ impl<'a> Equations<'a> {
     }
 
     /// Substitutes the solution of the conductances as they are, a part of the way at each node. Whether it came to rest.
-    fn relax(
-        &mut self,
-        way: Relaxation,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &mut State,
-        steps: &mut usize,
-    ) -> Result<bool, Error> {
+    fn relax(&mut self, way: Relaxation, stage: &Stage, at: &mut At<'_>, steps: &mut usize) -> Result<bool, Error> {
         let unknowns: usize = stage.fields.iter().map(|field| self.problem.nodes_of(*field).len()).sum();
         let passes = (MOST_RELAXED_NODES / unknowns.max(1)).min(MOST_PASSES);
-        let nodes = knowledge.temperatures.len();
+        let nodes = at.knowledge.temperatures.len();
         let mut walks = vec![Walk::default(); 2 * nodes];
         for _ in 0..passes {
             *steps += 1;
-            let before = [knowledge.temperatures.clone(), knowledge.pore_pressures.clone()];
-            self.solve_first(stage, knowledge, capacities, state)?;
+            let before = [at.knowledge.temperatures.clone(), at.knowledge.pore_pressures.clone()];
+            self.solve_first(stage, at)?;
             let (mut largest, mut size) = (0.0_f64, f64::MIN_POSITIVE);
-            let found = [&mut knowledge.temperatures, &mut knowledge.pore_pressures];
+            let found = [&mut at.knowledge.temperatures, &mut at.knowledge.pore_pressures];
             for ((found, before), walks) in found.into_iter().zip(&before).zip(walks.chunks_mut(nodes.max(1))) {
                 for ((found, before), walk) in found.iter_mut().zip(before).zip(walks) {
                     let change = (*found - *before).to_f64();
@@ -360,28 +314,22 @@ impl<'a> Equations<'a> {
         Ok(false)
     }
 
-    fn iterate(
-        &mut self,
-        stage: &Stage,
-        knowledge: &mut Knowledge<'_>,
-        capacities: Capacities,
-        state: &State,
-    ) -> Result<Iterated, Error> {
+    fn iterate(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<Iterated, Error> {
         let first = stage.fields.iter().filter_map(|&field| {
-            let state = state.field(field)?;
+            let state = at.state.field(field)?;
             Some((field, state.solution.clone(), state.rows.clone()))
         });
         // The conductances change, and with them the factors: in a large scene they only take room.
         if LARGE <= self.problem.scene.nodes.len() {
             self.solvers.iter_mut().for_each(Solver::release_factor);
         }
-        let mut newton = Newton::new(knowledge, first.collect(), capacities, self.solvers[0].method());
-        newton.iterate(knowledge)
+        let mut newton = Newton::new(&at.knowledge, first.collect(), at.capacities, self.solvers[0].method());
+        newton.iterate(&mut at.knowledge)
     }
 
     /// The largest relative distance of the conductances at a state from those it was found with; and the largest of those that the last digits
     /// of temperatures and pore pressures do not account for.
-    fn inconsistency(&self, stage: &Stage, knowledge: &Knowledge<'_>, state: &State) -> Result<(f64, f64), Error> {
+    fn inconsistency(&self, stage: &Stage, At { knowledge, state, .. }: &At<'_>) -> Result<(f64, f64), Error> {
         let (mut largest, mut beyond) = (0.0_f64, 0.0_f64);
         for &field in &stage.fields {
             let (Some(nodes), Some(found)) = (self.problem.field(field), state.field(field)) else { continue };
@@ -407,6 +355,13 @@ impl<'a> Equations<'a> {
         }
         Ok((largest, beyond))
     }
+}
+
+/// A state in the making, and what is known for it.
+struct At<'a> {
+    knowledge: Knowledge<'a>,
+    capacities: Capacities,
+    state: State,
 }
 
 /// Result of an attempt at a nonlinear stage.

@@ -2,7 +2,7 @@
 
 use crate::linear::{LinearReport, LinearSolution};
 use crate::problem::Problem;
-use crate::scene::{Field, Scene, SceneInterface};
+use crate::scene::Field;
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The state of a scene at one time.
@@ -87,8 +87,8 @@ impl State {
     pub fn row_jump(&self, problem: &Problem<'_>, field: Field, row: u32) -> Option<f64> {
         let nodes = problem.field(field)?;
         let state = self.field(field)?;
-        let SceneInterface { slave, master, .. } = problem.scene.interfaces[row as usize];
-        let [slave, master] = [slave, master].map(|node| self.exact_value(problem, field, node));
+        let sides = problem.scene.interfaces[row as usize].nodes();
+        let [slave, master] = sides.map(|node| self.exact_value(problem, field, node));
         let values = [slave?, master?];
         let jump = match nodes.rows.binary_search(&row) {
             Ok(place) => state.solution.jump_at(nodes.links.len() + place, state.rows[place]),
@@ -106,15 +106,9 @@ impl State {
     /// The flow that leaves each node of a field through links and rows, less its sources; zero but at held values and stores.
     pub(crate) fn leaving(&self, problem: &Problem<'_>, field: Field) -> Vec<DoubleDouble> {
         let (Some(nodes), Some(state)) = (problem.field(field), self.field(field)) else { return Vec::new() };
-        let scene: &Scene = problem.scene;
         let mut leaving: Vec<DoubleDouble> = state.sources.iter().map(|&source| -DoubleDouble::new(source)).collect();
         let place = |node: u32| nodes.place[node as usize] as usize;
-        let of_links = nodes.links.iter().map(|&link| scene.links[link as usize].nodes);
-        let of_rows = nodes.rows.iter().map(|&row| {
-            let SceneInterface { slave, master, .. } = scene.interfaces[row as usize];
-            [slave, master]
-        });
-        for (ends, &flow) in of_links.chain(of_rows).zip(&state.solution.flows) {
+        for (ends, &flow) in nodes.ends(problem.scene).zip(&state.solution.flows) {
             leaving[place(ends[0])] += flow;
             leaving[place(ends[1])] -= flow;
         }

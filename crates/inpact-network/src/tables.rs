@@ -213,7 +213,7 @@ fn interface_labels(problem: &Problem<'_>) -> Vec<String> {
     let mut taken: HashSet<(usize, String)> = HashSet::new();
     let mut last_numbers: HashMap<(usize, u32, u32), usize> = HashMap::new();
     let mut label = |(row, &interaction): (&SceneInterface, &usize)| {
-        let [slave, master] = [row.slave, row.master].map(|node| &scene.nodes[node as usize]);
+        let [slave, master] = row.nodes().map(|node| &scene.nodes[node as usize]);
         if !shared.contains(&(row.slave, interaction)) {
             return slave.clone();
         }

@@ -113,7 +113,7 @@ impl<'a> Newton<'a> {
             let of_own = 0.5 * conducts.along_pore_pressure * jump * of.area;
             let mut couple = |other: Field, slopes: [f64; 2]| {
                 let Some(other) = self.fields.iter().find(|system| system.field == other) else { return };
-                for (node, slope) in [of.slave, of.master].into_iter().zip(slopes) {
+                for (node, slope) in of.nodes().into_iter().zip(slopes) {
                     if slope == 0.0 {
                         continue;
                     }
@@ -151,7 +151,7 @@ impl<'a> Newton<'a> {
                     let of_row = term.flow.checked_sub(potential.nodes.links.len());
                     if let Some(of_row) = of_row.filter(|_| slope != 0.0) {
                         let of = knowledge.row(potential.nodes.rows[of_row]);
-                        for node in [of.slave, of.master] {
+                        for node in of.nodes() {
                             system.on_value(node, |column, factor| {
                                 entries.push(Triplet::new(row, column, -into(factor(slope))));
                             });

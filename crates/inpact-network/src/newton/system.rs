@@ -6,7 +6,7 @@ use crate::linear::{
     Balance, Core, DeadEnds, Edges, Form, LinearNetwork, LinearSolution, NONE, Origins, Series, index, largest_or_nan,
 };
 use crate::problem::FieldNodes;
-use crate::scene::Field;
+use crate::scene::{Field, SceneInterface};
 use inpact_evaluation::numbers::{DoubleDouble, scale_by_power};
 
 /// One field.
@@ -47,7 +47,7 @@ impl<'a> System<'a> {
         // Nodes at which something depends on the state have to stay.
         let mut stays = vec![false; core.free as usize];
         let scene = knowledge.problem.scene;
-        let ends = scene.interfaces.iter().flat_map(|of| [of.slave, of.master]);
+        let ends = scene.interfaces.iter().flat_map(SceneInterface::nodes);
         let heated = scene.links.iter().filter(|link| link.joule_heat_fraction > 0.0).flat_map(|link| link.nodes);
         for node in ends.chain(heated) {
             let place = nodes.place[node as usize];

@@ -2,7 +2,6 @@
 
 use super::{Problem, field_of};
 use crate::interface::Contact;
-use crate::linear::NONE;
 use crate::scene::nearest::meant_or;
 use crate::scene::{Course, Field, MISSING_QUANTITY, Scene, SceneInterface};
 use inpact_evaluation::nodes::{Findings, Place, UNKNOWN_INTERACTION};
@@ -58,7 +57,7 @@ impl Problem<'_> {
             for (flow, left) in left_out {
                 let field = field_of(*flow);
                 let Some(nodes) = self.field(field) else { continue };
-                if [of.slave, of.master].iter().any(|&node| nodes.place[node as usize] != NONE) {
+                if of.nodes().into_iter().any(|node| nodes.carries(node)) {
                     let message =
                         format!("the {} of {} cannot be evaluated: {}", left.what, self.label(of), left.reason);
                     report_row(of, findings, &message, "give what it needs, or leave the interface out of the scene");
@@ -92,28 +91,23 @@ impl Problem<'_> {
 
     /// Notes what goes to nodes that do not carry the field it belongs to.
     pub(super) fn note_one_sided(&mut self) {
-        let carries = |field: Field, node: u32| self.field(field).is_some_and(|of| of.place[node as usize] != NONE);
-        let sides = |of: &SceneInterface| [of.slave, of.master];
-        let has_pore = self.field(Field::PorePressure).is_some();
+        let [temperature, pore] = [Field::Temperature, Field::PorePressure].map(|field| self.field(field));
         let impermeable = self.scene.interfaces.iter().enumerate().filter(|(row, of)| {
             let has_law = self.laws_of(*row).is_some_and(|laws| laws.pore.is_some());
-            has_pore
-                && has_law
-                && sides(of).map(|node| carries(Field::PorePressure, node)) != [true; 2]
-                && sides(of).iter().any(|&node| carries(Field::PorePressure, node))
+            let carries = pore.filter(|_| has_law).map(|pore| of.nodes().map(|node| pore.carries(node)));
+            carries.is_some_and(|[slave, master]| slave != master)
         });
         let impermeable = impermeable.count();
-        let has_temperature = self.field(Field::Temperature).is_some();
         let loses = |nodes: [u32; 2], shares: [f64; 2]| {
-            has_temperature
-                && nodes.into_iter().zip(shares).any(|(node, share)| share > 0.0 && !carries(Field::Temperature, node))
+            let loses = |(node, share)| share > 0.0 && temperature.is_some_and(|of| !of.carries(node));
+            nodes.into_iter().zip(shares).any(loses)
         };
         let heated = self.rows_of(Field::Potential).filter(|(_, of, laws)| {
             let heat = laws.heat_generation.filter(|heat| heat.fraction > 0.0);
-            heat.is_some_and(|heat| loses(sides(of), [heat.slave_weight, 1.0 - heat.slave_weight]))
+            heat.is_some_and(|heat| loses(of.nodes(), [heat.slave_weight, 1.0 - heat.slave_weight]))
         });
         let rubbed = (0..self.scene.interfaces.len())
-            .filter(|&row| loses(sides(&self.scene.interfaces[row]), self.friction(row, self.start())));
+            .filter(|&row| loses(self.scene.interfaces[row].nodes(), self.friction(row, self.start())));
         let links = self.field(Field::Potential).map_or(&[][..], |of| &of.links);
         let heated_links = links.iter().filter(|&&link| {
             let of = &self.scene.links[link as usize];

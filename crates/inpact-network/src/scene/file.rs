@@ -2,7 +2,8 @@
 //!
 //! The format is a contract; its JSON Schema is committed (`schema/scene.schema.json`).
 
-use super::values::{Entries, Entry, Keyed, List, Number, Pair};
+use super::StartFrom;
+use super::values::Number;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -19,40 +20,39 @@ pub(crate) struct SceneFile {
     pub(crate) procedure: ProcedureName,
     /// The time of a transient.
     #[cfg_attr(test, schemars(with = "Option<TimeEntry>"))]
-    pub(crate) time: Option<Spanned<Keyed<TimeEntry>>>,
+    pub(crate) time: Option<Spanned<TimeEntry>>,
     /// Values at the start of a transient of nodes with a capacity, and where a nonlinear solution begins.
     #[serde(default)]
-    #[cfg_attr(test, schemars(with = "InitialEntry"))]
-    pub(crate) initial: Keyed<InitialEntry>,
+    pub(crate) initial: InitialEntry,
     /// The share of the energy dissipated in links that becomes heat in their nodes, where a link gives none; 0 unless given.
     pub(crate) joule_heat_fraction: Option<Number>,
     /// Conditions of the deck at the nodes that name a set or a surface of it.
     #[cfg_attr(test, schemars(with = "Option<ConditionsEntry>"))]
-    pub(crate) conditions: Option<Spanned<Keyed<ConditionsEntry>>>,
+    pub(crate) conditions: Option<Spanned<ConditionsEntry>>,
     /// The nodes.
     #[serde(default, rename = "node")]
     #[cfg_attr(test, schemars(with = "Vec<NodeEntry>"))]
-    pub(crate) nodes: Entries<NodeEntry>,
+    pub(crate) nodes: Vec<Spanned<NodeEntry>>,
     /// Lumped bulk conductances.
     #[serde(default, rename = "link")]
     #[cfg_attr(test, schemars(with = "Vec<LinkEntry>"))]
-    pub(crate) links: Entries<LinkEntry>,
+    pub(crate) links: Vec<Spanned<LinkEntry>>,
     /// The interfaces.
     #[serde(default, rename = "interface")]
     #[cfg_attr(test, schemars(with = "Vec<InterfaceEntry>"))]
-    pub(crate) interfaces: Entries<InterfaceEntry>,
+    pub(crate) interfaces: Vec<Spanned<InterfaceEntry>>,
     /// Further nodes, in tables of comma-separated values.
     #[serde(default, rename = "node_file")]
     #[cfg_attr(test, schemars(with = "Vec<FileEntry>"))]
-    pub(crate) node_files: Entries<FileEntry>,
+    pub(crate) node_files: Vec<Spanned<FileEntry>>,
     /// Further links, in tables or Matrix Market files; tables name nodes that the scene defines, unless it defines none.
     #[serde(default, rename = "link_file")]
     #[cfg_attr(test, schemars(with = "Vec<LinkFileEntry>"))]
-    pub(crate) link_files: Entries<LinkFileEntry>,
+    pub(crate) link_files: Vec<Spanned<LinkFileEntry>>,
     /// Further interfaces, in tables of comma-separated values.
     #[serde(default, rename = "interface_file")]
     #[cfg_attr(test, schemars(with = "Vec<FileEntry>"))]
-    pub(crate) interface_files: Entries<FileEntry>,
+    pub(crate) interface_files: Vec<Spanned<FileEntry>>,
 }
 
 /// Steady state or transient.
@@ -84,22 +84,10 @@ pub(crate) struct TimeEntry {
     pub(crate) first_step: Option<Number>,
     /// Start of histories: with the jumps of potential of the state at the start, or without any, as in Abaqus.
     #[serde(default)]
-    pub(crate) start_from: StartFromName,
+    pub(crate) start_from: StartFrom,
     /// The jump of potential in the heat of a current at the start of an increment that closes a circuit: the jump at its end, so that power balances, or that of the open circuit, as in the manual.
     #[serde(default)]
     pub(crate) closing_heat: ClosingHeatName,
-}
-
-/// Start of histories.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(crate) enum StartFromName {
-    /// The state at the start, with its jumps of potential.
-    #[default]
-    FirstRow,
-    /// No jump of potential.
-    AtRest,
 }
 
 /// The jump of potential in the heat of a current at the start of an increment that closes a circuit.
@@ -150,13 +138,13 @@ pub(crate) struct NodeEntry {
     pub(crate) surface: Option<Spanned<String>>,
     /// Its electric potential.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
-    pub(crate) potential: Option<Spanned<Keyed<Condition>>>,
+    pub(crate) potential: Option<Spanned<Condition>>,
     /// Its temperature.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
-    pub(crate) temperature: Option<Spanned<Keyed<Condition>>>,
+    pub(crate) temperature: Option<Spanned<Condition>>,
     /// Its pore pressure.
     #[cfg_attr(test, schemars(with = "Option<Condition>"))]
-    pub(crate) pore_pressure: Option<Spanned<Keyed<Condition>>>,
+    pub(crate) pore_pressure: Option<Spanned<Condition>>,
 }
 
 /// Given values of one field at a node.
@@ -200,7 +188,7 @@ pub(crate) const TWO_NAMES: &str = "the names of two nodes such as [\"a\", \"b\"
 pub(crate) struct LinkEntry {
     /// The two nodes; flows are positive from the first to the second.
     #[cfg_attr(test, schemars(with = "[String; 2]"))]
-    pub(crate) nodes: Spanned<Pair>,
+    pub(crate) nodes: Spanned<[String; 2]>,
     /// Current per potential.
     pub(crate) electrical: Option<Number>,
     /// Heat per time and temperature.
@@ -239,8 +227,7 @@ pub(crate) struct InterfaceEntry {
     pub(crate) closed: Option<bool>,
     /// Field variables from number 1 on, averages of both sides; a thousand at most.
     #[serde(default)]
-    #[cfg_attr(test, schemars(with = "Vec<f64>"))]
-    pub(crate) fv: List<Number>,
+    pub(crate) fv: Vec<Number>,
     /// The mean temperature, where no temperature is solved for.
     pub(crate) temperature: Option<Number>,
     /// The mean of the magnitudes of the mass flow rates of both sides.
@@ -295,28 +282,6 @@ pub(crate) enum Conducts {
     Thermal,
     /// Pore fluid.
     Hydraulic,
-}
-
-/// The names of entries in messages.
-macro_rules! entries {
-    ($($entry:ty: $one:literal, $many:literal;)+) => {
-        $(impl Entry for $entry {
-            const ONE: &'static str = $one;
-            const MANY: &'static str = $many;
-        })+
-    };
-}
-
-entries! {
-    TimeEntry: "a table such as { end = 1.0, step = 0.1 }", "tables such as { end = 1.0, step = 0.1 }";
-    InitialEntry: "a table such as { temperature = 20.0 }", "tables such as { temperature = 20.0 }";
-    ConditionsEntry: "a table such as { step = 1 }", "tables such as { step = 1 }";
-    Condition: "a table such as { fixed = 1.0 }", "tables such as { fixed = 1.0 }";
-    NodeEntry: "an entry under [[node]]", "entries under [[node]]";
-    LinkEntry: "an entry under [[link]]", "entries under [[link]]";
-    InterfaceEntry: "an entry under [[interface]]", "entries under [[interface]]";
-    FileEntry: "an entry with `file`", "entries with `file`, each under a heading in double brackets";
-    LinkFileEntry: "an entry under [[link_file]]", "entries under [[link_file]]";
 }
 
 #[cfg(test)]

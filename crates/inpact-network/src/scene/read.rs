@@ -14,7 +14,7 @@ use super::rules::MALFORMED_SCENE;
 use super::shape::{self, Shaped};
 use super::syntax::{self, Sound};
 use super::usable::{self, Refusal};
-use super::values::{Keyed, Number};
+use super::values::Number;
 use super::{Conditions, Field, Scene, SceneLink};
 use inpact_diagnostics::{Diagnostic, Findings, Place, Rule, Severity};
 use serde::Deserialize;
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
         self.is_steady = file.procedure == ProcedureName::Steady;
         let key = "joule_heat_fraction";
         let fraction = self.value(key, file.joule_heat_fraction.as_ref(), || format!("`{key}`")).unwrap_or(0.0);
-        let Keyed(entry) = file.initial;
+        let entry = file.initial;
         let mut initial = |key: &str, number: Option<&Number>| self.value(key, number, || format!("`initial.{key}`"));
         let mut scene = Scene {
             deck: file.deck.into_inner(),
@@ -192,21 +192,21 @@ impl<'a> Reader<'a> {
             links: Vec::new(),
             interfaces: Vec::new(),
         };
-        for node in file.nodes.0 {
-            self.take_node(node.into_inner().0, &mut scene);
+        for node in file.nodes {
+            self.take_node(node.into_inner(), &mut scene);
         }
-        for entry in file.node_files.0 {
-            self.take_node_file(&entry.into_inner().0.file, files, &mut scene);
+        for entry in file.node_files {
+            self.take_node_file(&entry.into_inner().file, files, &mut scene);
         }
         // If the scene names nodes, another name in a table of links is a slip; rows of a matrix have no names but their numbers.
         let links_define_nodes = scene.nodes.is_empty() && !self.lacks_nodes;
-        let link_files: Vec<LinkFileEntry> = file.link_files.0.into_iter().map(|entry| entry.into_inner().0).collect();
+        let link_files: Vec<LinkFileEntry> = file.link_files.into_iter().map(|entry| entry.into_inner()).collect();
         // First, so that all links and interfaces can name their nodes.
         let mut matrices: Vec<Option<Vec<SceneLink>>> =
             link_files.iter().map(|entry| self.take_matrix(entry, fraction, files, &mut scene)).collect();
-        for link in file.links.0 {
+        for link in file.links {
             let at = start(&link);
-            self.take_link(link.into_inner().0, at, fraction, &mut scene);
+            self.take_link(link.into_inner(), at, fraction, &mut scene);
         }
         for (entry, links) in link_files.iter().zip(&mut matrices) {
             match links {
@@ -214,12 +214,12 @@ impl<'a> Reader<'a> {
                 None => self.take_link_file(&entry.file, links_define_nodes, fraction, files, &mut scene),
             }
         }
-        for interface in file.interfaces.0 {
+        for interface in file.interfaces {
             let at = start(&interface);
-            self.take_interface(interface.into_inner().0, at, &mut scene);
+            self.take_interface(interface.into_inner(), at, &mut scene);
         }
-        for entry in file.interface_files.0 {
-            self.take_interface_file(&entry.into_inner().0.file, files, &mut scene);
+        for entry in file.interface_files {
+            self.take_interface_file(&entry.into_inner().file, files, &mut scene);
         }
         self.check_parts(&scene);
         // Whatever else is wrong comes first.

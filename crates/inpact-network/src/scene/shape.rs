@@ -8,7 +8,6 @@ use super::file;
 use super::nearest::{listed, meant_or, near};
 use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use super::usable::lost;
-use super::values::{Entry, Listed, Number};
 use inpact_diagnostics::Rule;
 use std::ops::Range;
 use toml::Spanned;
@@ -82,12 +81,14 @@ const fn needed(name: &'static str, kind: Kind) -> Key {
     Key { name, other: None, kind, need: Need::Needed }
 }
 
-const fn shape<T: Entry>(keys: &'static [Key]) -> Shape {
-    Shape { keys, one: T::ONE, many: T::MANY, defines_nodes: false }
+/// A table of these keys; one of them, and many, for a message.
+const fn shape([one, many]: [&'static str; 2], keys: &'static [Key]) -> Shape {
+    Shape { keys, one, many, defines_nodes: false }
 }
 
-static SCENE: Shape = Shape {
-    keys: &[
+static SCENE: Shape = shape(
+    ["a scene", "scenes"],
+    &[
         needed("deck", Kind::Text),
         key("procedure", Kind::OneOf(&["steady", "transient"])),
         key("time", Kind::Table(&TIME)),
@@ -101,84 +102,105 @@ static SCENE: Shape = Shape {
         key("link_file", Kind::Entries(&LINK_FILE)),
         key("interface_file", Kind::Entries(&INTERFACE_FILE)),
     ],
-    one: "a scene",
-    many: "scenes",
-    defines_nodes: false,
-};
+);
 
-static TIME: Shape = shape::<file::TimeEntry>(&[
-    key("start", Kind::Number),
-    needed("end", Kind::Number),
-    key("step", Kind::Number),
-    key("tolerance", Kind::Number),
-    key("first_step", Kind::Number),
-    key("start_from", Kind::OneOf(&["first-row", "at-rest"])),
-    key("closing_heat", Kind::OneOf(&["balanced", "manual"])),
-]);
+static TIME: Shape = shape(
+    ["a table such as { end = 1.0, step = 0.1 }", "tables such as { end = 1.0, step = 0.1 }"],
+    &[
+        key("start", Kind::Number),
+        needed("end", Kind::Number),
+        key("step", Kind::Number),
+        key("tolerance", Kind::Number),
+        key("first_step", Kind::Number),
+        key("start_from", Kind::OneOf(&["first-row", "at-rest"])),
+        key("closing_heat", Kind::OneOf(&["balanced", "manual"])),
+    ],
+);
 
-static INITIAL: Shape =
-    shape::<file::InitialEntry>(&[key("temperature", Kind::Number), key("pore_pressure", Kind::Number)]);
+static INITIAL: Shape = shape(
+    ["a table such as { temperature = 20.0 }", "tables such as { temperature = 20.0 }"],
+    &[key("temperature", Kind::Number), key("pore_pressure", Kind::Number)],
+);
 
-static CONDITIONS: Shape = shape::<file::ConditionsEntry>(&[key("step", Kind::Number)]);
+static CONDITIONS: Shape =
+    shape(["a table such as { step = 1 }", "tables such as { step = 1 }"], &[key("step", Kind::Number)]);
 
 static NODE: Shape = Shape {
     defines_nodes: true,
-    ..shape::<file::NodeEntry>(&[
-        needed("name", Kind::Text),
-        key("set", Kind::Text),
-        key("surface", Kind::Text),
-        key("potential", Kind::Table(&CONDITION)),
-        key("temperature", Kind::Table(&CONDITION)),
-        key("pore_pressure", Kind::Table(&CONDITION)),
-    ])
+    ..shape(
+        ["an entry under [[node]]", "entries under [[node]]"],
+        &[
+            needed("name", Kind::Text),
+            key("set", Kind::Text),
+            key("surface", Kind::Text),
+            key("potential", Kind::Table(&CONDITION)),
+            key("temperature", Kind::Table(&CONDITION)),
+            key("pore_pressure", Kind::Table(&CONDITION)),
+        ],
+    )
 };
 
-static CONDITION: Shape = shape::<file::Condition>(&[
-    key("fixed", Kind::Course),
-    key("source", Kind::Course),
-    key("capacity", Kind::Number),
-    key("initial", Kind::Number),
-]);
+static CONDITION: Shape = shape(
+    ["a table such as { fixed = 1.0 }", "tables such as { fixed = 1.0 }"],
+    &[
+        key("fixed", Kind::Course),
+        key("source", Kind::Course),
+        key("capacity", Kind::Number),
+        key("initial", Kind::Number),
+    ],
+);
 
-static LINK: Shape = shape::<file::LinkEntry>(&[
-    needed("nodes", Kind::TwoNames),
-    key("electrical", Kind::Number),
-    key("thermal", Kind::Number),
-    key("hydraulic", Kind::Number),
-    key("joule_heat_fraction", Kind::Number),
-]);
+static LINK: Shape = shape(
+    ["an entry under [[link]]", "entries under [[link]]"],
+    &[
+        needed("nodes", Kind::TwoNames),
+        key("electrical", Kind::Number),
+        key("thermal", Kind::Number),
+        key("hydraulic", Kind::Number),
+        key("joule_heat_fraction", Kind::Number),
+    ],
+);
 
-static INTERFACE: Shape = shape::<file::InterfaceEntry>(&[
-    key("interaction", Kind::Text),
-    Key { name: "slave", other: Some("secondary"), kind: Kind::Text, need: Need::Needed },
-    Key { name: "master", other: Some("main"), kind: Kind::Text, need: Need::Needed },
-    needed("area", Kind::Number),
-    key("clearance", Kind::Course),
-    key("pressure", Kind::Course),
-    key("closed", Kind::Flag),
-    key("fv", Kind::Numbers),
-    key("temperature", Kind::Number),
-    key("mass_flow", Kind::Number),
-    key("shear", Kind::Number),
-    key("slip_rate", Kind::Number),
-    key("clearance_rate", Kind::Number),
-    key("char_length", Kind::Number),
-    key("perm_s", Kind::Number),
-    key("perm_m", Kind::Number),
-]);
+static INTERFACE: Shape = shape(
+    ["an entry under [[interface]]", "entries under [[interface]]"],
+    &[
+        key("interaction", Kind::Text),
+        Key { name: "slave", other: Some("secondary"), kind: Kind::Text, need: Need::Needed },
+        Key { name: "master", other: Some("main"), kind: Kind::Text, need: Need::Needed },
+        needed("area", Kind::Number),
+        key("clearance", Kind::Course),
+        key("pressure", Kind::Course),
+        key("closed", Kind::Flag),
+        key("fv", Kind::Numbers),
+        key("temperature", Kind::Number),
+        key("mass_flow", Kind::Number),
+        key("shear", Kind::Number),
+        key("slip_rate", Kind::Number),
+        key("clearance_rate", Kind::Number),
+        key("char_length", Kind::Number),
+        key("perm_s", Kind::Number),
+        key("perm_m", Kind::Number),
+    ],
+);
 
-static NODE_FILE: Shape = Shape { defines_nodes: true, ..shape::<file::FileEntry>(&[needed("file", Kind::Text)]) };
+static NODE_FILE: Shape = Shape { defines_nodes: true, ..INTERFACE_FILE };
 
 static LINK_FILE: Shape = Shape {
     defines_nodes: true,
-    ..shape::<file::LinkFileEntry>(&[
-        needed("file", Kind::Text),
-        key("conducts", Kind::OneOf(&["electrical", "thermal", "hydraulic"])),
-        key("prefix", Kind::Text),
-    ])
+    ..shape(
+        ["an entry under [[link_file]]", "entries under [[link_file]]"],
+        &[
+            needed("file", Kind::Text),
+            key("conducts", Kind::OneOf(&["electrical", "thermal", "hydraulic"])),
+            key("prefix", Kind::Text),
+        ],
+    )
 };
 
-static INTERFACE_FILE: Shape = shape::<file::FileEntry>(&[needed("file", Kind::Text)]);
+const INTERFACE_FILE: Shape = shape(
+    ["an entry with `file`", "entries with `file`, each under a heading in double brackets"],
+    &[needed("file", Kind::Text)],
+);
 
 /// Holds a text against the shape of a scene.
 ///
@@ -426,7 +448,7 @@ impl Kind {
             Self::Text => "a text in quotes".to_owned(),
             Self::Flag => "`true` or `false`".to_owned(),
             Self::OneOf(names) => format!("one of {}", listed(names)),
-            Self::Numbers => Number::LIST.to_owned(),
+            Self::Numbers => "a list of numbers such as [1.0]".to_owned(),
             Self::Course => file::COURSE.to_owned(),
             Self::TwoNames => file::TWO_NAMES.to_owned(),
             Self::Table(shape) => shape.one.to_owned(),

@@ -222,24 +222,7 @@ pub(super) fn interfaces(
 }
 
 fn interface_of(row: &Row<'_, InterfaceColumn>) -> Result<SceneInterface, Refusal> {
-    let mut interface = SceneInterface {
-        interaction: None,
-        slave: 0,
-        master: 0,
-        area: f64::NAN,
-        clearance: None,
-        pressure: None,
-        closed: None,
-        field_variables: Vec::new(),
-        temperature: None,
-        mass_flow: None,
-        shear: None,
-        slip_rate: None,
-        clearance_rate: None,
-        characteristic_length: None,
-        bulk_permeabilities: [None; 2],
-        place: (row.line, None),
-    };
+    let mut interface = SceneInterface { place: (row.line, None), ..SceneInterface::default() };
     let name = row.text(InterfaceColumn::Interaction);
     interface.interaction = (!name.is_empty()).then(|| Name::new(name));
     for &(place, column) in row.columns {
@@ -304,10 +287,14 @@ struct Row<'a, C> {
 }
 
 impl<C: Copy + PartialEq> Row<'_, C> {
-    /// The text of a column; empty where there is none.
-    fn text(&self, column: C) -> &str {
+    /// What a record has in a column; empty where there is none.
+    fn cell<'r>(&self, record: &'r StringRecord, column: C) -> &'r str {
         let place = self.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
-        place.and_then(|place| self.record.get(place)).unwrap_or_default()
+        place.and_then(|place| record.get(place)).unwrap_or_default()
+    }
+
+    fn text(&self, column: C) -> &str {
+        self.cell(self.record, column)
     }
 
     /// The name of a node.
@@ -318,10 +305,8 @@ impl<C: Copy + PartialEq> Row<'_, C> {
         Ok(name.to_owned())
     }
 
-    /// The header of a column; empty where there is none.
     fn header(&self, column: C) -> &str {
-        let place = self.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
-        place.and_then(|place| self.headers.get(place)).unwrap_or_default()
+        self.cell(self.headers, column)
     }
 
     /// A refusal that is about the cell of a column.

@@ -1,7 +1,5 @@
 //! The keywords of conditions of a step.
 
-use super::layout::is_called;
-
 /// The keywords that conditions are read of.
 pub(super) const TAKEN: [&str; 8] =
     ["BOUNDARY", "CFLUX", "CECURRENT", "DFLUX", "DSFLUX", "DSECURRENT", "FILM", "SFILM"];
@@ -29,4 +27,9 @@ const NOT_TAKEN: [&str; 16] = [
 /// The keyword of a condition, by its name in upper case and without blanks.
 pub(super) fn condition(name: &str) -> Option<&'static str> {
     TAKEN.into_iter().chain(NOT_TAKEN).find(|keyword| is_called(keyword, name))
+}
+
+/// Whether a keyword has that name, which is in upper case and without blanks.
+pub(super) fn is_called(keyword: &str, name: &str) -> bool {
+    keyword.bytes().filter(|byte| *byte != b' ').eq(name.bytes())
 }

@@ -1,6 +1,6 @@
 //! Structure of a deck: model, parts, instances, assembly, and the mesh options in each (S-71 to S-75).
 
-use super::condition_keywords::condition;
+use super::condition_keywords::{condition, is_called};
 use crate::deck::{Block, Deck, KeywordLine};
 use crate::grammar::{Grammar, Level};
 use crate::model::Name;
@@ -241,11 +241,6 @@ const BESIDE_ELEMENTS: [&str; 12] = [
     "CAVITY DEFINITION",
     "RADIATION VIEWFACTOR",
 ];
-
-/// Whether a keyword has that name, which is in upper case and without blanks.
-pub(super) fn is_called(keyword: &str, name: &str) -> bool {
-    keyword.bytes().filter(|byte| *byte != b' ').eq(name.bytes())
-}
 
 /// Upper case, without blanks.
 pub(super) fn canonical(text: &[u8]) -> String {

@@ -1,6 +1,7 @@
 //! Properties of materials: *CONDUCTIVITY, *ELECTRICAL CONDUCTIVITY, *DENSITY, *SPECIFIC HEAT and *JOULE HEAT FRACTION.
 
-use super::layout::{Entry, MaterialEntries, is_called};
+use super::condition_keywords::is_called;
+use super::layout::{Entry, MaterialEntries};
 use super::reader::Reader;
 use super::rows::data_lines;
 use crate::deck::items;

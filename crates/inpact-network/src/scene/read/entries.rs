@@ -5,7 +5,7 @@ use crate::scene::course::Course;
 use crate::scene::file::{self, Condition, InterfaceEntry, LinkEntry, NodeEntry};
 use crate::scene::rules::{MALFORMED_SCENE, MALFORMED_TIME};
 use crate::scene::usable::{self, Given};
-use crate::scene::values::{Number, Pair};
+use crate::scene::values::Number;
 use crate::scene::{Field, Scene, SceneInterface, SceneLink};
 use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
 use toml::Spanned;
@@ -28,7 +28,7 @@ impl Reader<'_> {
         for (field, condition) in Field::ALL.into_iter().zip(conditions) {
             let Some(condition) = condition else { continue };
             let at = start(&condition);
-            if let Some(condition) = self.checked(field, condition.into_inner().0, at, &name) {
+            if let Some(condition) = self.checked(field, condition.into_inner(), at, &name) {
                 put_condition(scene, field, number, condition);
             }
         }
@@ -110,7 +110,7 @@ impl Reader<'_> {
 
     pub(super) fn take_link(&mut self, entry: LinkEntry, at: usize, default: f64, scene: &mut Scene) {
         let (at_nodes, written) = (start(&entry.nodes), self.text.get(entry.nodes.span()).unwrap_or_default());
-        let Pair(names) = entry.nodes.into_inner();
+        let names = entry.nodes.into_inner();
         let numbers = [0, 1].map(|end| {
             // A name with an escape is not found as it is, and then the list is meant.
             let place = ['"', '\''].iter().find_map(|quote| written.find(&format!("{quote}{}{quote}", names[end])));
@@ -142,13 +142,13 @@ impl Reader<'_> {
         let numbers = ends.map(|(name, what)| self.number(name.as_ref(), start(name), what, scene));
         let [slave, master] = [entry.slave.as_ref(), entry.master.as_ref()];
         let label = format!("the interface of `{slave}` and `{master}`");
-        if entry.fv.0.len() > MOST_FIELD_VARIABLES {
-            let message = format!("`fv` of {label} has {} numbers", entry.fv.0.len());
+        if entry.fv.len() > MOST_FIELD_VARIABLES {
+            let message = format!("`fv` of {label} has {} numbers", entry.fv.len());
             let help = format!("a deck has {MOST_FIELD_VARIABLES} field variables at most");
             self.report(&MALFORMED_SCENE, at, message, &help);
         }
         let mut field_variables = Vec::new();
-        for (number, position) in entry.fv.0.iter().zip(1..) {
+        for (number, position) in entry.fv.iter().zip(1..) {
             field_variables.extend(self.value("fv", Some(number), || format!("`fv{position}` of {label}")));
         }
         let clearance = self.course("clearance", entry.clearance, &label);

@@ -3,7 +3,6 @@
 use super::{Reader, start};
 use crate::scene::file::ConditionsEntry;
 use crate::scene::rules::MALFORMED_SCENE;
-use crate::scene::values::Keyed;
 use crate::scene::{ConditionsOfDeck, NodePart, PartKind, Scene};
 use inpact_parser::model::Name;
 use toml::Spanned;
@@ -13,14 +12,10 @@ const MOST_STEPS: f64 = 1e6;
 
 impl Reader<'_> {
     /// The conditions that are taken from the deck.
-    pub(super) fn deck_conditions(
-        &mut self,
-        entry: Option<&Spanned<Keyed<ConditionsEntry>>>,
-    ) -> Option<ConditionsOfDeck> {
+    pub(super) fn deck_conditions(&mut self, entry: Option<&Spanned<ConditionsEntry>>) -> Option<ConditionsOfDeck> {
         let entry = entry?;
         let line = self.line_of(entry);
-        let Keyed(ConditionsEntry { step }) = entry.as_ref();
-        let Some(number) = step else { return Some(ConditionsOfDeck { step: None, line }) };
+        let Some(number) = &entry.as_ref().step else { return Some(ConditionsOfDeck { step: None, line }) };
         let value = number.value();
         if !((1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0) {
             let message = format!("`conditions.step` is {}", self.written(number));

@@ -1,10 +1,10 @@
 //! Procedure and times of a scene: start, end, increments, start of histories.
 
 use super::{Reader, start};
-use crate::scene::file::{ClosingHeatName, ProcedureName, SceneFile, StartFromName, TimeEntry};
+use crate::scene::file::{ClosingHeatName, ProcedureName, SceneFile, TimeEntry};
 use crate::scene::rules::MALFORMED_TIME;
-use crate::scene::values::{Keyed, Number};
-use crate::scene::{Procedure, StartFrom, Steps, TimeSpan};
+use crate::scene::values::Number;
+use crate::scene::{Procedure, Steps, TimeSpan};
 use inpact_evaluation::law::ClosingHeat;
 
 /// Below this share of the range of values, the local error of an increment is lost in rounding.
@@ -28,17 +28,14 @@ impl Reader<'_> {
                 self.report(&MALFORMED_TIME, 0, "a transient needs `time`", help);
                 Procedure::Steady
             }
-            (ProcedureName::Transient, Some(time)) => {
-                let Keyed(entry) = time.as_ref();
-                self.time_span(entry).map_or_else(
-                    |(number, message, help)| {
-                        let at = number.map_or_else(|| start(time), |number| number.span().start);
-                        self.report(&MALFORMED_TIME, at, message, help);
-                        Procedure::Steady
-                    },
-                    Procedure::Transient,
-                )
-            }
+            (ProcedureName::Transient, Some(time)) => self.time_span(time.as_ref()).map_or_else(
+                |(number, message, help)| {
+                    let at = number.map_or_else(|| start(time), |number| number.span().start);
+                    self.report(&MALFORMED_TIME, at, message, help);
+                    Procedure::Steady
+                },
+                Procedure::Transient,
+            ),
         }
     }
 
@@ -78,15 +75,11 @@ impl Reader<'_> {
                 return Err((None, "`time` needs one of `step` and `tolerance`".to_owned(), help));
             }
         };
-        let start_from = match start_from {
-            StartFromName::FirstRow => StartFrom::FirstRow,
-            StartFromName::AtRest => StartFrom::AtRest,
-        };
         let closing_heat = match closing_heat {
             ClosingHeatName::Balanced => ClosingHeat::Balanced,
             ClosingHeatName::Manual => ClosingHeat::Manual,
         };
-        let span = TimeSpan { start: from, end: to, steps, start_from, closing_heat };
+        let span = TimeSpan { start: from, end: to, steps, start_from: *start_from, closing_heat };
         let shown = |number: &Option<Number>| number.as_ref().map_or("", |number| self.written(number));
         if let Some(number) = tolerance.as_ref().filter(|tolerance| tolerance.value() < LEAST_TOLERANCE) {
             let message = format!("`tolerance` is {}, below what rounding leaves of an error", shown(tolerance));
