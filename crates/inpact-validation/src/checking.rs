@@ -58,8 +58,7 @@ fn check_all(
         }
     });
     silence(deck, &mut diagnostics);
-    diagnostics
-        .sort_by_key(|found| (found.primary.span.source(), found.primary.span.start(), found.severity, found.code));
+    sort(&mut diagnostics);
     locate(deck, &mut diagnostics);
     diagnostics
 }
@@ -78,8 +77,7 @@ pub fn fixable(deck: &Deck, grammar: &Grammar, model: &Model, problems: &[Proble
             diagnostics.append(&mut found);
         }
     });
-    diagnostics
-        .sort_by_key(|found| (found.primary.span.source(), found.primary.span.start(), found.severity, found.code));
+    sort(&mut diagnostics);
     name_files(deck, &mut diagnostics);
     diagnostics
 }
@@ -133,6 +131,12 @@ fn is_silenced(directives: &mut [Directive], found: &Diagnostic) -> bool {
         Directive::Ignore(ignore) => ignore.silences(found),
         Directive::Unknown(_) => false,
     })
+}
+
+/// Puts findings in the order of the deck.
+fn sort(diagnostics: &mut [Diagnostic]) {
+    diagnostics
+        .sort_by_key(|found| (found.primary.span.source(), found.primary.span.start(), found.severity, found.code));
 }
 
 /// Finds file, line and column of every label, in one sweep over the deck.

@@ -21,7 +21,7 @@ pub(crate) fn fortran_value(text: &[u8]) -> Option<f64> {
 
 /// Item `index` of the rows of a block, with its place: 0 for an empty item.
 pub(crate) fn constants(context: &Context<'_>, block: DefinedBlock<'_>, index: usize) -> Vec<(Span, f64)> {
-    let lines = context.deck.data_lines(block.block).filter(|line| !line.is_blank());
+    let lines = context.rows(block);
     let constant = lines.filter_map(|line| {
         let place = line.items().nth(index).filter(|item| !item.is_empty());
         let value = place.map_or(Some(0.0), |item| fortran_value(context.deck.text(item)));

@@ -21,15 +21,11 @@ fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
 /// Abaqus reads one row; CalculiX judges every row, though the last alone counts (CX-10).
 pub(crate) fn items(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
     if context.is_for_calculix() {
-        return items_of_all_rows(context, index);
+        let options = context.defined_blocks().filter(|block| block.kind() == OptionKind::GapHeatGeneration);
+        return options.flat_map(|block| constants(context, block, index)).collect();
     }
     let of = |heat: &HeatGeneration| (item(context, heat, index), [heat.fraction, heat.slave_weight][index]);
     all(context.model).map(of).collect()
-}
-
-fn items_of_all_rows(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
-    let blocks = context.defined_blocks().filter(|block| block.kind() == OptionKind::GapHeatGeneration);
-    blocks.flat_map(|block| constants(context, block, index)).collect()
 }
 
 /// The span of an item of its row; the row where the item is not written, the keyword line where there is no row.

@@ -1,12 +1,13 @@
 //! Invisible and confusable characters: blanks, marks and dashes that a text editor inserts (S-01).
 
+use inpact_parser::span::Span;
 use std::ops::Range;
 
 /// A character that is not what it looks like.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Hidden {
-    pub(crate) start: usize,
-    pub(crate) end: usize,
+    /// Its bytes in the text.
+    pub(crate) range: Range<usize>,
     /// Its name and number.
     pub(crate) name: String,
     /// The plain text meant by it.
@@ -14,9 +15,9 @@ pub(crate) struct Hidden {
 }
 
 impl Hidden {
-    /// Its range in the text.
-    pub(crate) fn range(&self) -> Range<usize> {
-        self.start..self.end
+    /// Its place, in a text with that span.
+    pub(crate) fn span(&self, text: Span) -> Span {
+        Span::new(text.source(), text.start() + self.range.start as u64, text.start() + self.range.end as u64)
     }
 
     /// The help of findings.
@@ -45,7 +46,7 @@ pub(crate) fn all(text: &[u8]) -> impl Iterator<Item = Hidden> {
     characters.filter_map(|(start, character)| {
         let (name, plain) = known(character)?;
         let name = format!("{name} (U+{:04X})", u32::from(character));
-        Some(Hidden { start, end: start + character.len_utf8(), name, plain })
+        Some(Hidden { range: start..start + character.len_utf8(), name, plain })
     })
 }
 
@@ -54,9 +55,9 @@ pub(crate) fn plain(text: &[u8]) -> Vec<u8> {
     let mut result = Vec::with_capacity(text.len());
     let mut copied = 0;
     for hidden in all(text) {
-        result.extend_from_slice(&text[copied..hidden.start]);
+        result.extend_from_slice(&text[copied..hidden.range.start]);
         result.extend_from_slice(hidden.plain.as_bytes());
-        copied = hidden.end;
+        copied = hidden.range.end;
     }
     result.extend_from_slice(&text[copied..]);
     result
@@ -83,7 +84,7 @@ mod tests {
     #[test]
     fn invisible_characters_are_found_among_any_bytes() {
         let text = b"a\xFF\xC2\xA0b\xE2\x88\x923";
-        let found: Vec<_> = all(text).map(|hidden| (hidden.range(), hidden.plain)).collect();
+        let found: Vec<_> = all(text).map(|hidden| (hidden.range, hidden.plain)).collect();
         assert_eq!(found, [(2..4, " "), (5..8, "-")]);
         assert_eq!(plain(text), b"a\xFF b-3");
         assert_eq!(first(b"plain"), None);

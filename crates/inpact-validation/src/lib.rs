@@ -15,38 +15,24 @@
 //! assert_eq!((findings[0].code, findings[0].primary.line()), ("T001", Some(4)));
 //! ```
 
-mod rule;
-
-mod rules;
-
 mod assembly;
 mod checking;
-
 mod constants;
-
+mod directives;
 mod heat;
 mod invisible;
 mod lost;
-
 mod order;
-
 mod parameter;
-
 mod placement;
-
 mod problems;
-
 mod quantity;
-
 mod references;
-
-mod tables;
-
-mod trend;
-
+mod rule;
+mod rules;
 mod suggestion;
-
-mod directives;
+mod tables;
+mod trend;
 
 pub use checking::{check, check_watched, check_with, fixable, time_rules};
 pub use inpact_diagnostics::{Diagnostic, Edit, Fix, FixKind, FixSafety, Label, Rule, Severity, apply};

@@ -63,8 +63,8 @@ fn meant_by<'a>(grammar: &'a Grammar, line: DataLine<'_>) -> Option<&'a str> {
     let text = line.text.trim_ascii_start();
     let is_hidden = !text.first()?.is_ascii();
     let visible = if is_hidden {
-        let hidden = invisible::first(text).filter(|hidden| hidden.start == 0)?;
-        text[hidden.end..].strip_prefix(b"*")?
+        let hidden = invisible::first(text).filter(|hidden| hidden.range.start == 0)?;
+        text[hidden.range.end..].strip_prefix(b"*")?
     } else {
         text
     };
@@ -78,9 +78,7 @@ fn meant_by<'a>(grammar: &'a Grammar, line: DataLine<'_>) -> Option<&'a str> {
     let mut has_parameter = false;
     for item in items.filter(|item| !item.is_empty()) {
         let name = item.split(|byte| *byte == b'=').next().unwrap_or(item);
-        if !matches!(grammar.parameter_named(definition, name), Lookup::Exact(_) | Lookup::Abbreviated(_)) {
-            return None;
-        }
+        grammar.parameter_named(definition, name).found()?;
         has_parameter = true;
     }
     // A single word may be the name of a set or a surface.

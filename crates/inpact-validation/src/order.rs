@@ -75,6 +75,11 @@ fn takes_part(row: &[f64]) -> bool {
     !row.iter().any(|value| value.is_nan())
 }
 
+/// Whether every row is in the group it is meant for: each has all its numbers, and no outer variable falls.
+pub(crate) fn has_clear_groups(table: &Table) -> bool {
+    !table.values.iter().any(|value| value.is_nan()) && falls(table, |column| column > 1).is_none()
+}
+
 /// The groups of a table; none where an outer variable falls, since then nobody knows which rows belong together (T003).
 pub(crate) fn groups(table: &Table) -> impl Iterator<Item = Group> {
     let count = if falls(table, |column| column > 1).is_some() { 0 } else { table.row_count() };

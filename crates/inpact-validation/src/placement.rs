@@ -19,6 +19,17 @@ pub(crate) struct Run<'a> {
     pub(crate) above: Option<&'a KeywordLine>,
 }
 
+impl Run<'_> {
+    /// The beginning of a message about it, of which the first has that keyword: `` `*FRICTION` is``.
+    pub(crate) fn subject(&self, keyword: &str) -> String {
+        match self.further {
+            0 => format!("`*{keyword}` is"),
+            1 => format!("`*{keyword}` and the sub-option after it are"),
+            more => format!("`*{keyword}` and {more} sub-options after it are"),
+        }
+    }
+}
+
 /// The runs of the problems that are meant, in reading order.
 pub(crate) fn runs<'a>(context: &Context<'a>, is_meant: impl Fn(&ProblemKind) -> bool) -> Vec<Run<'a>> {
     let meant = context.problems.iter().filter(|problem| is_meant(&problem.kind));

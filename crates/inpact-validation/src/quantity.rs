@@ -38,6 +38,13 @@ pub(crate) fn group_label(table: &Table, row: &[f64]) -> String {
     if values.is_empty() { String::new() } else { format!(" at {}", values.join(", ")) }
 }
 
+/// The values of a row from a column on: `temperature = 300, field variable 1 = 2`.
+pub(crate) fn values_of_row(table: &Table, row: usize, from: usize) -> String {
+    let values = table.columns.iter().zip(table.row(row)).skip(from);
+    let values = values.map(|(column, value)| format!("{} = {}", column_name(column), number(*value)));
+    values.collect::<Vec<_>>().join(", ")
+}
+
 /// The name of the dependent value of a table.
 pub(crate) fn value_name(kind: TableKind) -> &'static str {
     match kind {

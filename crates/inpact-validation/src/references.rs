@@ -86,12 +86,7 @@ impl Definitions {
     }
 
     fn add_name_of(&mut self, context: &Context<'_>, keyword: &KeywordLine) {
-        for parameter in keyword.parameters() {
-            let is_name = context.deck.text(parameter.name).eq_ignore_ascii_case(b"NAME");
-            if let Some(value) = parameter.value.filter(|_| is_name) {
-                self.add(context.name(value), value);
-            }
-        }
+        context.values_of(keyword, b"NAME").for_each(|value| self.add(context.name(value), value));
     }
 
     /// Whether a name is defined.

@@ -3,7 +3,7 @@
 use crate::lost::LostLine;
 use inpact_diagnostics::{Diagnostic, Label, Rule};
 use inpact_parser::Problem;
-use inpact_parser::deck::{Block, Deck, IncludeOutcome, KeywordLine};
+use inpact_parser::deck::{Block, DataLine, Deck, IncludeOutcome, KeywordLine, Parameter};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Dialect, Grammar};
 use inpact_parser::model::{Model, Name, OptionKind, Table, TableKind, TableOf};
@@ -160,6 +160,17 @@ impl<'a> Context<'a> {
     /// The span without blanks and line ends around it: what a label underlines.
     pub(crate) fn trimmed(&self, span: Span) -> Span {
         trimmed(self.deck, span)
+    }
+
+    /// The data lines of a block that are not blank.
+    pub(crate) fn rows(&self, block: DefinedBlock<'a>) -> impl Iterator<Item = DataLine<'a>> {
+        self.deck.data_lines(block.block).filter(|line| !line.is_blank())
+    }
+
+    /// The values of a parameter on a keyword line, whether or not the keyword has one of that name; abbreviations are other names.
+    pub(crate) fn values_of(&self, line: &KeywordLine, name: &[u8]) -> impl Iterator<Item = Span> {
+        let is_meant = |given: &Parameter| self.deck.text(given.name).eq_ignore_ascii_case(name);
+        line.parameters().filter(is_meant).filter_map(|given| given.value)
     }
 }
 

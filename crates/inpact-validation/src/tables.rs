@@ -99,8 +99,16 @@ pub(crate) fn radiation_tables(deck: &Deck, grammar: &Grammar, model: &Model) ->
     tables.filter(|table| table.row_count() > 0).collect()
 }
 
+/// The emissivities of every *GAP RADIATION, with their places.
+pub(crate) fn emissivities(context: &Context<'_>) -> Vec<(Span, f64)> {
+    let options = context.defined_blocks().filter(|block| block.kind() == OptionKind::GapRadiation);
+    let heads = options.filter_map(|block| context.rows(block).next());
+    let items = heads.flat_map(|head| head.items().take(2).collect::<Vec<_>>());
+    items.map(|item| (item, number_in(context.deck, &context.model.parameters, item))).collect()
+}
+
 /// The number in an item, a `<parameter>` replaced by its value: 0 for an empty item (S-32), NaN where it is no number.
-pub(crate) fn number_in(deck: &Deck, parameters: &Parameters, item: Span) -> f64 {
+fn number_in(deck: &Deck, parameters: &Parameters, item: Span) -> f64 {
     if item.is_empty() {
         return 0.0;
     }

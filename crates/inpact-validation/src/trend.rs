@@ -1,8 +1,10 @@
 //! Trend of the value of a conductance table along its first independent variable, for P005 and P006.
 
 use crate::order::curves;
-use crate::rule::Context;
+use crate::quantity::{number, value_name};
+use crate::rule::{Context, Report};
 use crate::tables::{is_written, sound_tables, starts_as_it_must};
+use inpact_diagnostics::Diagnostic;
 use inpact_parser::model::{TableKind, TableOf};
 use std::ops::Range;
 
@@ -17,6 +19,28 @@ pub(crate) struct Trend {
     pub(crate) wrong: usize,
     /// The number of steps.
     pub(crate) total: usize,
+}
+
+impl Trend {
+    /// Reports the step: `conductance rises from 1 to 2 as the clearance grows from 0 to 0.1`.
+    pub(crate) fn report<'r>(
+        &self,
+        context: &Context<'_>,
+        report: &'r mut Report<'_>,
+        of: TableOf<'_>,
+        [goes, as_axis_goes]: [&str; 2],
+    ) -> &'r mut Diagnostic {
+        let [before, row] = [self.before, self.row].map(|row| of.table.row(row));
+        let [[from, to], [start, end]] = [0, 1].map(|column| [before, row].map(|row| number(row[column])));
+        let name = value_name(of.kind);
+        let message = format!("{name} {goes} from {from} to {to} as {as_axis_goes} from {start} to {end}");
+        report.at(context.cell(of, self.row, 0), message)
+    }
+
+    /// The help: a table whose every step goes the wrong way may be of the other kind.
+    pub(crate) fn help(&self, of_other_kind: &'static str) -> &'static str {
+        if self.wrong == self.total { of_other_kind } else { "check the values" }
+    }
 }
 
 /// The tables of a kind in which some step inside a group `is_wrong`, with the first such step.

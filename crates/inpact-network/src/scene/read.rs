@@ -200,7 +200,7 @@ impl<'a> Reader<'a> {
         }
         // If the scene names nodes, another name in a table of links is a slip; rows of a matrix have no names but their numbers.
         let links_define_nodes = scene.nodes.is_empty() && !self.lacks_nodes;
-        let link_files: Vec<LinkFileEntry> = file.link_files.into_iter().map(|entry| entry.into_inner()).collect();
+        let link_files: Vec<LinkFileEntry> = file.link_files.into_iter().map(Spanned::into_inner).collect();
         // First, so that all links and interfaces can name their nodes.
         let mut matrices: Vec<Option<Vec<SceneLink>>> =
             link_files.iter().map(|entry| self.take_matrix(entry, fraction, files, &mut scene)).collect();

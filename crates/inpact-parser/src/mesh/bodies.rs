@@ -121,7 +121,7 @@ struct SolidSection {
     axes: MaterialAxes,
 }
 
-impl<'deck> Reader<'deck, '_> {
+impl Reader<'_, '_> {
     pub(super) fn read_bodies(mut self, names: &[Name]) -> io::Result<BodyMesh> {
         let mut mesh = BodyMesh { materials: self.read_materials()?, ..BodyMesh::default() };
         for instance in 0..self.instances.len() {

@@ -2,7 +2,6 @@
 
 use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
-use crate::rule::trimmed;
 use inpact_parser::model::{Interaction, OptionKind, Procedure};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
@@ -89,7 +88,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let Some(first) = properties.next() else { continue };
         let more = and_more(properties.count(), "option of this deck is", "options of this deck are");
         report
-            .at(trimmed(context.deck, first), format!("never used: no step of the deck solves {}", field.name))
+            .at(context.trimmed(first), format!("never used: no step of the deck solves {}", field.name))
             .label(format!("needs {}", field.name))
             .note(format!("the property is legal and has no effect{more}"))
             .help(field.help);

@@ -75,7 +75,7 @@ fn is_unclear(context: &Context<'_>, block: DefinedBlock<'_>) -> bool {
     let is_given = |name: &String| given_as(block, name).is_some();
     given(block).any(|parameter| parameter.definition.ignored_with.iter().any(is_given))
         || (block.definition.data.ignored_with.iter().any(is_given)
-            && context.deck.data_lines(block.block).any(|line| !line.is_blank()))
+            && context.rows(block).next().is_some())
 }
 
 /// The start of the keyword line of a block.

@@ -34,7 +34,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         if method.definition.choice_named(value.as_bytes()) != Some("PENALTY") {
             continue;
         }
-        let Some(row) = context.deck.data_lines(block.block).find(|line| !line.is_blank()) else { continue };
+        let Some(row) = context.rows(block).next() else { continue };
         report
             .at(method.parameter.span(), "`CONSTRAINT METHOD=PENALTY` beside a permeability")
             .label("legal without rows only")

@@ -7,7 +7,6 @@ use crate::rule::{Context, Report, declare_rule};
 use crate::suggestion::did_you_mean;
 use inpact_parser::deck::{KeywordLine, Resolved};
 use inpact_parser::grammar::{Dialect, Grammar, Lookup};
-use inpact_parser::span::Span;
 
 declare_rule! {
     /// The name after an asterisk is no keyword of Abaqus, nor the beginning of one.
@@ -94,16 +93,11 @@ fn say_hidden<'r>(
     let written = context.deck.text(keyword.name());
     let first = invisible::first(written)?;
     let plain = invisible::plain(written);
-    if !matches!(context.grammar.keyword_named(&plain), Lookup::Exact(_) | Lookup::Abbreviated(_)) {
-        return None;
-    }
-    let place = |hidden: &invisible::Hidden| {
-        let (start, end) = (hidden.start as u64, hidden.end as u64);
-        Span::new(keyword.name().source(), keyword.name().start() + start, keyword.name().start() + end)
-    };
-    let edits = invisible::all(written).map(|hidden| Edit::new(place(&hidden), hidden.plain)).collect();
+    context.grammar.keyword_named(&plain).found()?;
+    let name = keyword.name();
+    let edits = invisible::all(written).map(|hidden| Edit::new(hidden.span(name), hidden.plain)).collect();
     let plain = String::from_utf8_lossy(&plain).into_owned();
-    let found = report.at(place(&first), format!("{} in `*{plain}` makes it an unknown keyword", first.name));
+    let found = report.at(first.span(name), format!("{} in `*{plain}` makes it an unknown keyword", first.name));
     found.label("not what it looks like").help(first.help());
     Some(found.fix(FixSafety::ChangesMeaning, format!("write `*{plain}`"), edits))
 }

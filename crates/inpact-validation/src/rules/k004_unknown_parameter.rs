@@ -9,7 +9,6 @@ use crate::rule::{Context, DefinedBlock, Report, declare_rule};
 use crate::suggestion::{alternatives, did_you_mean};
 use inpact_parser::deck::{Parameter, Resolved};
 use inpact_parser::grammar::{Lookup, ParameterDefinition, ValueUse};
-use inpact_parser::span::Span;
 
 declare_rule! {
     /// A keyword line gives a parameter that the keyword does not have.
@@ -73,11 +72,9 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, block: DefinedBlock<'_>, 
         let plain = invisible::plain(written);
         let plain = plain.trim_ascii();
         if context.grammar.parameter_named(block.definition, plain) != Lookup::Unknown {
-            let at = |offset: usize| parameter.name.start() + offset as u64;
-            let place = Span::new(parameter.name.source(), at(first.start), at(first.end));
             let plain = String::from_utf8_lossy(plain).into_owned();
             report
-                .at(place, format!("{} in the parameter `{plain}` of `*{keyword}`", first.name))
+                .at(first.span(parameter.name), format!("{} in the parameter `{plain}` of `*{keyword}`", first.name))
                 .label("not what it looks like")
                 .help(first.help())
                 .fix(FixSafety::ChangesMeaning, format!("write `{plain}`"), vec![Edit::new(parameter.name, plain)]);

@@ -54,13 +54,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             continue;
         }
         let entry = context.grammar.keyword(keyword);
-        let name = &entry.name;
-        let message = match run.further {
-            0 => format!("`*{name}` is outside a `*SURFACE INTERACTION`"),
-            1 => format!("`*{name}` and the sub-option after it are outside a `*SURFACE INTERACTION`"),
-            more => format!("`*{name}` and {more} sub-options after it are outside a `*SURFACE INTERACTION`"),
-        };
-        let found = report.at(run.first.span, message);
+        let subject = run.subject(&entry.name);
+        let found = report.at(run.first.span, format!("{subject} outside a `*SURFACE INTERACTION`"));
         found.help("move it after the `*SURFACE INTERACTION` that it belongs to");
         match closed_by {
             None => found.label("no `*SURFACE INTERACTION` is above"),

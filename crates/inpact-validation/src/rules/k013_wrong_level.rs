@@ -40,13 +40,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let ProblemKind::WrongLevel { keyword, level, opened_by } = run.first.kind else { continue };
         let entry = context.grammar.keyword(keyword);
         let allowed = entry.definition().map(|definition| &definition.levels[..]).unwrap_or_default();
-        let (name, place_here) = (&entry.name, place(level));
-        let message = match run.further {
-            0 => format!("`*{name}` is {place_here}"),
-            1 => format!("`*{name}` and the sub-option after it are {place_here}"),
-            more => format!("`*{name}` and {more} sub-options after it are {place_here}"),
-        };
-        let found = report.at(run.first.span, message);
+        let found = report.at(run.first.span, format!("{} {}", run.subject(&entry.name), place(level)));
         found.label("not allowed here");
         if let Some(opened_by) = opened_by {
             found.also(visible(context, opened_by), format!("{} begins here", begin(level)));

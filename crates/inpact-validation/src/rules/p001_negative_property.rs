@@ -2,9 +2,8 @@
 
 use crate::quantity::{and_more, column_name, number, value_name};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{number_in, sound_tables};
-use inpact_parser::deck::DataLine;
-use inpact_parser::model::{TableKind, TableOf, OptionKind};
+use crate::tables::{emissivities, sound_tables};
+use inpact_parser::model::{TableKind, TableOf};
 use inpact_parser::span::Span;
 
 declare_rule! {
@@ -48,14 +47,8 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         let more = and_more(negative.count(), "row of this table is negative", "rows of this table are negative");
         say(report, context.cell(of, index, 0), name(of).as_ref(), row[0], &more);
     }
-    for block in context.defined_blocks().filter(|block| block.kind() == OptionKind::GapRadiation) {
-        let head = context.deck.data_lines(block.block).find(|line| !line.is_blank());
-        for item in head.iter().flat_map(DataLine::items).take(2) {
-            let emissivity = number_in(context.deck, &context.model.parameters, item);
-            if emissivity < 0.0 {
-                say(report, item, "emissivity", emissivity, "");
-            }
-        }
+    for (item, emissivity) in emissivities(context).into_iter().filter(|(_, emissivity)| *emissivity < 0.0) {
+        say(report, item, "emissivity", emissivity, "");
     }
 }
 

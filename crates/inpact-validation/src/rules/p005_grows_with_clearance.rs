@@ -1,8 +1,8 @@
 //! P005: conductances that grow as the gap opens.
 
-use crate::quantity::{and_more, number, value_name};
+use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
-use crate::trend::{Trend, against};
+use crate::trend::against;
 use inpact_parser::model::TableKind;
 
 declare_rule! {
@@ -36,26 +36,11 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for (of, trend) in against(context, TableKind::is_conductance_against_clearance, |before, value| value > before) {
-        let Trend { before, row, wrong: rising, total } = trend;
-        let (lower, upper) = (of.table.row(before), of.table.row(row));
-        let message = format!(
-            "{} rises from {} to {} as the clearance grows from {} to {}",
-            value_name(of.kind),
-            number(lower[0]),
-            number(upper[0]),
-            number(lower[1]),
-            number(upper[1]),
-        );
-        let more = and_more(rising - 1, "step of this table rises", "steps of this table rise");
-        let found = report.at(context.cell(of, row, 0), message);
-        found
-            .label("higher than at the smaller clearance")
-            .also(context.cell(of, before, 0), "the value at the smaller clearance")
-            .note(format!("a wider gap conducts worse{more}"));
-        if rising == total {
-            found.help("give `PRESSURE` if the second column holds contact pressures");
-        } else {
-            found.help("check the values");
-        }
+        let more = and_more(trend.wrong - 1, "step of this table rises", "steps of this table rise");
+        let found = trend.report(context, report, of, ["rises", "the clearance grows"]);
+        found.label("higher than at the smaller clearance");
+        found.also(context.cell(of, trend.before, 0), "the value at the smaller clearance");
+        found.note(format!("a wider gap conducts worse{more}"));
+        found.help(trend.help("give `PRESSURE` if the second column holds contact pressures"));
     }
 }

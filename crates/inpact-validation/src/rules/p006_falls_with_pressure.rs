@@ -1,8 +1,8 @@
 //! P006: conductances that fall as contact pressure rises.
 
-use crate::quantity::{and_more, number, value_name};
+use crate::quantity::and_more;
 use crate::rule::{Context, Report, declare_rule};
-use crate::trend::{Trend, against};
+use crate::trend::against;
 use inpact_parser::model::TableKind;
 
 declare_rule! {
@@ -41,26 +41,11 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for (of, trend) in against(context, TableKind::is_conductance_against_pressure, |before, value| value < before) {
-        let Trend { before, row, wrong: falling, total } = trend;
-        let (lower, upper) = (of.table.row(before), of.table.row(row));
-        let message = format!(
-            "{} falls from {} to {} as the contact pressure rises from {} to {}",
-            value_name(of.kind),
-            number(lower[0]),
-            number(upper[0]),
-            number(lower[1]),
-            number(upper[1]),
-        );
-        let more = and_more(falling - 1, "step of this table falls", "steps of this table fall");
-        let found = report.at(context.cell(of, row, 0), message);
-        found
-            .label("lower than at the lower pressure")
-            .also(context.cell(of, before, 0), "the value at the lower pressure")
-            .note(format!("pressure brings more of the surfaces into touch{more}"));
-        if falling == total {
-            found.help("take `PRESSURE` out if the second column holds clearances");
-        } else {
-            found.help("check the values");
-        }
+        let more = and_more(trend.wrong - 1, "step of this table falls", "steps of this table fall");
+        let found = trend.report(context, report, of, ["falls", "the contact pressure rises"]);
+        found.label("lower than at the lower pressure");
+        found.also(context.cell(of, trend.before, 0), "the value at the lower pressure");
+        found.note(format!("pressure brings more of the surfaces into touch{more}"));
+        found.help(trend.help("take `PRESSURE` out if the second column holds clearances"));
     }
 }

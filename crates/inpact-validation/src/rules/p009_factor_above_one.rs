@@ -1,10 +1,9 @@
 //! P009: view factors and emissivities above 1.
 
-use inpact_parser::model::{OptionKind, TableKind};
+use inpact_parser::model::TableKind;
 use crate::quantity::{and_more, number};
 use crate::rule::{Context, Report, declare_rule};
-use crate::tables::{number_in, sound_tables};
-use inpact_parser::deck::DataLine;
+use crate::tables::{emissivities, sound_tables};
 
 declare_rule! {
     /// A view factor or an emissivity of *GAP RADIATION is above 1.
@@ -46,17 +45,11 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
             .note(format!("a surface cannot see more than the whole of another{more}"))
             .help("check the value, and that the view factor precedes the clearance");
     }
-    for block in context.defined_blocks().filter(|block| block.kind() == OptionKind::GapRadiation) {
-        let head = context.deck.data_lines(block.block).find(|line| !line.is_blank());
-        for item in head.iter().flat_map(DataLine::items).take(2) {
-            let emissivity = number_in(context.deck, &context.model.parameters, item);
-            if emissivity > 1.0 {
-                report
-                    .at(item, format!("emissivity {} is above 1", number(emissivity)))
-                    .label("should be from 0 to 1")
-                    .note("no surface radiates more than a black body")
-                    .help("check the value; the first row holds the emissivities of both surfaces");
-            }
-        }
+    for (item, emissivity) in emissivities(context).into_iter().filter(|(_, emissivity)| *emissivity > 1.0) {
+        report
+            .at(item, format!("emissivity {} is above 1", number(emissivity)))
+            .label("should be from 0 to 1")
+            .note("no surface radiates more than a black body")
+            .help("check the value; the first row holds the emissivities of both surfaces");
     }
 }

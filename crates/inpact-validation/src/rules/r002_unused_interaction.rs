@@ -74,13 +74,9 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 fn all_uses(context: &Context<'_>) -> Vec<Use> {
     let mut uses = uses_of_interactions(context);
     for keyword in context.keyword_lines() {
-        for parameter in keyword.parameters() {
-            let name = context.deck.text(parameter.name);
-            let Some(value) = parameter.value.filter(|_| name.eq_ignore_ascii_case(b"INTERACTION")) else { continue };
-            // *CONTACT PAIR is among the uses already; twice does no harm.
-            let name = context.name(value);
-            uses.push(Use { name, span: value, keyword: "" });
-        }
+        // *CONTACT PAIR is among the uses already; twice does no harm.
+        let values = context.values_of(keyword, b"INTERACTION");
+        uses.extend(values.map(|span| Use { name: context.name(span), span, keyword: "" }));
     }
     uses
 }

@@ -36,7 +36,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks().filter(|block| block.name == "CONTACT PAIR") {
         let keyword = context.trimmed(block.keyword.span);
         let mut rows = 0;
-        for line in context.deck.data_lines(block.block).filter(|line| !line.is_blank()) {
+        for line in context.rows(block) {
             rows += 1;
             let mut names = line.items().take(2);
             let lacking = ["slave", "master"].into_iter().find(|_| names.next().is_none_or(Span::is_empty));

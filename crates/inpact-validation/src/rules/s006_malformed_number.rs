@@ -113,16 +113,10 @@ fn say(context: &Context<'_>, report: &mut Report<'_>, span: Span, error: Number
 
 /// A number that is one but for a character which is not what it looks like.
 fn say_hidden(report: &mut Report<'_>, span: Span, hidden: &Hidden, written: &[u8]) {
-    let at = span.start() + hidden.start as u64;
-    let place = Span::new(span.source(), at, span.start() + hidden.end as u64);
-    let edits = invisible::all(written).map(|hidden| {
-        let range = hidden.range();
-        let span = Span::new(span.source(), span.start() + range.start as u64, span.start() + range.end as u64);
-        Edit::new(span, hidden.plain)
-    });
+    let edits = invisible::all(written).map(|hidden| Edit::new(hidden.span(span), hidden.plain));
     let mended = invisible::plain(written).escape_ascii().to_string();
     report
-        .at(place, format!("{} in the number `{mended}`", hidden.name))
+        .at(hidden.span(span), format!("{} in the number `{mended}`", hidden.name))
         .label("not what it looks like")
         .help(hidden.help())
         .fix(FixSafety::ChangesMeaning, format!("write `{mended}`"), edits.collect());

@@ -1,7 +1,6 @@
 //! S015: parameters that nothing defines.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::grammar::Dialect;
 use inpact_parser::ProblemKind;
 
 declare_rule! {
@@ -44,7 +43,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
         found.label("has no value");
         match similar {
             Some(similar) => found.help(format!("did you mean `{similar}`? Upper and lower case differ")),
-            None if context.grammar.dialect() == Dialect::Calculix => {
+            None if context.is_for_calculix() => {
                 found.help("write the value: CalculiX has no parameters")
             }
             None => found.help(format!("define it: `*PARAMETER` and below it `{name} = …`")),

@@ -39,7 +39,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for &LostLine { span, meant, .. } in &context.lost_lines {
         let shown = context.shown(span);
         let text = context.deck.text(span);
-        let Some(hidden) = invisible::first(text).filter(|hidden| hidden.start == 0) else {
+        let Some(hidden) = invisible::first(text).filter(|hidden| hidden.range.start == 0) else {
             report
                 .at(span, format!("`{shown}` reads as the keyword line `*{meant}`, and is a row"))
                 .label("an asterisk is missing")
@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .fix(FixSafety::ChangesMeaning, "write the asterisk", vec![Edit::new(Span::new(span.source(), span.start(), span.start()), "*")]);
             continue;
         };
-        let place = Span::new(span.source(), span.start(), span.start() + hidden.end as u64);
+        let place = hidden.span(span);
         report
             .at(place, format!("{} in front of `*{meant}` makes it a row", hidden.name))
             .label("an invisible character")

@@ -4,7 +4,6 @@ use crate::order::starts;
 use crate::quantity::{group_label, number};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::{sound_tables, starts_as_it_must};
-use inpact_parser::grammar::Dialect;
 
 declare_rule! {
     /// A table of conductance against contact pressure starts above zero pressure.
@@ -39,7 +38,7 @@ declare_rule! {
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
     // CalculiX takes the first value for all lower pressures.
-    if context.grammar.dialect() == Dialect::Calculix {
+    if context.is_for_calculix() {
         return;
     }
     for of in sound_tables(context).filter(|of| of.kind.is_conductance_against_pressure()) {

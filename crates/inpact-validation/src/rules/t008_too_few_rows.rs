@@ -1,11 +1,11 @@
 //! T008: tables with fewer rows than their option needs.
 
 use inpact_diagnostics::Severity;
-use crate::order::falls;
-use crate::quantity::{and_more, column_name, number};
+use crate::order::has_clear_groups;
+use crate::quantity::{and_more, column_name, values_of_row};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
-use inpact_parser::model::{Table, TableKind, TableOf};
+use inpact_parser::model::{TableKind, TableOf};
 
 declare_rule! {
     /// A table has one row where its option needs two.
@@ -73,14 +73,14 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     }
     for of in sound_tables(context).filter(|of| of.table.row_count() > 1 && is_thermal_clearance(*of)) {
         // Out of order the second row may occur elsewhere (T003), and a cell without a number may be in it (S006).
-        if of.table.values.iter().any(|value| value.is_nan()) || falls(of.table, |column| column > 1).is_some() {
+        if !has_clear_groups(of.table) {
             continue;
         }
         let mut alone = of.table.groups().filter(|group| group.len() == 1).map(|group| group.start);
         let Some(row) = alone.next() else { continue };
         let more = and_more(alone.count(), "group has one row", "groups have one row");
         report
-            .at(of.table.row_span(row), format!("one row against clearance for {}", group_of(of.table, row)))
+            .at(of.table.row_span(row), format!("one row against clearance for {}", values_of_row(of.table, row, 2)))
             .label("the only row of its group")
             .also(context.trimmed(of.table.keyword), "the option")
             .note(format!("each combination of temperature, mass flow and field variables needs two rows or more{more}"))
@@ -91,12 +91,4 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
 /// Whether every group of the table needs two rows.
 pub(crate) fn is_thermal_clearance(of: TableOf<'_>) -> bool {
     of.kind == TableKind::ThermalClearance
-}
-
-/// The values that a group has in common.
-fn group_of(table: &Table, row: usize) -> String {
-    let values = table.columns.iter().zip(table.row(row)).skip(2);
-    let values: Vec<String> =
-        values.map(|(column, value)| format!("{} = {}", column_name(column), number(*value))).collect();
-    values.join(", ")
 }

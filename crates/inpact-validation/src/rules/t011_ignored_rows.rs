@@ -34,7 +34,7 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for block in context.defined_blocks() {
         let mut ignoring = block.definition.data.ignored_with.iter().filter_map(|name| given_as(block, name));
         let Some(ignoring) = ignoring.next() else { continue };
-        let mut rows = context.deck.data_lines(block.block).filter(|line| !line.is_blank());
+        let mut rows = context.rows(block);
         let Some(first) = rows.next() else { continue };
         let name = &ignoring.definition.name;
         let message = format!("{} beside `{name}` in `*{}`", count(1 + rows.count(), "row"), block.name);

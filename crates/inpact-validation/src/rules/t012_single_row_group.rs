@@ -1,8 +1,8 @@
 //! T012: values of a field variable with one row.
 
 use super::t008_too_few_rows::is_thermal_clearance;
-use crate::order::{falls, is_alone};
-use crate::quantity::{and_more, column_name, number};
+use crate::order::{has_clear_groups, is_alone};
+use crate::quantity::{and_more, values_of_row};
 use crate::rule::{Context, Report, declare_rule};
 use crate::tables::sound_tables;
 use inpact_parser::model::Table;
@@ -42,16 +42,13 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
     for of in sound_tables(context).filter(|of| with_fields(of.table) && !is_thermal_clearance(*of)) {
         let table = of.table;
         // A row that takes no part may be the second one (S006), and out of order it may occur elsewhere (T003).
-        let is_clear = !table.values.iter().any(|value| value.is_nan()) && falls(table, |column| column > 1).is_none();
+        let is_clear = has_clear_groups(table);
         let mut alone = (0..table.row_count()).filter(|row| is_clear && is_alone(table, *row));
         let Some(row) = alone.next() else { continue };
         let fields = table.width() - table.dependencies();
-        let values = table.columns[fields..].iter().zip(&table.row(row)[fields..]);
-        let values: Vec<String> =
-            values.map(|(column, value)| format!("{} = {}", column_name(column), number(*value))).collect();
         let more = and_more(alone.count(), "value has one row", "values have one row");
         report
-            .at(table.row_span(row), format!("one row for {}", values.join(", ")))
+            .at(table.row_span(row), format!("one row for {}", values_of_row(table, row, fields)))
             .label("the only row for these values")
             .also(context.trimmed(table.keyword), "the table of this option")
             .note(format!("every value of a field variable needs two or more rows{more}"))

@@ -1,7 +1,6 @@
 //! T016: more rows than CalculiX has room for.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::grammar::Dialect;
 
 /// The rows a temperature that `springforc_f2f_th.f` has room for.
 const ROWS: usize = 20;
@@ -54,7 +53,7 @@ declare_rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report<'_>) {
-    if context.grammar.dialect() != Dialect::Calculix {
+    if !context.is_for_calculix() {
         return;
     }
     for of in context.tables().filter(|of| of.kind.is_thermal_conductance()) {
