@@ -48,7 +48,7 @@ impl DeckRequest {
 ///
 /// # Errors
 /// Those of the writer, and [`io::ErrorKind::InvalidInput`] where the interactions alone take more
-/// than the size that was asked for.
+/// than the size that was requested.
 pub fn write(request: &DeckRequest, out: impl Write) -> io::Result<u64> {
     let mut out = Counted::new(out);
     match request.content {

@@ -166,7 +166,7 @@ impl Body {
         block.each().filter(|nodes| self.has_terminal(nodes)).map(|nodes| self.body_of(nodes)).collect()
     }
 
-    /// Whether an element is of a body with a terminal; others are passed over.
+    /// Whether an element is of a body with a terminal; others are skipped.
     pub(crate) fn has_terminal(&self, nodes: &[NodeId]) -> bool {
         !self.parts[self.body_of(nodes) as usize].terminals.is_empty()
     }

@@ -115,7 +115,7 @@ fn is_balanced(imbalance: f64) -> bool {
     imbalance <= LARGEST_IMBALANCE
 }
 
-/// The larger magnitude; what is no number counts as the largest.
+/// The larger magnitude; what is not a number counts as the largest.
 fn larger(largest: f64, value: f64) -> f64 {
     if value.abs() <= largest { largest } else { value.abs() }
 }

@@ -74,7 +74,7 @@ pub enum TableFault {
     NotAscending {
         /// The axis, counted from zero.
         axis: usize,
-        /// The abscissa of the row before.
+        /// The abscissa of the previous row.
         previous: f64,
         /// The abscissa of this row.
         found: f64,

@@ -35,7 +35,7 @@ pub struct Evaluation<'a> {
     laws: Laws,
     workers: Vec<Worker<'a>>,
     shards: Vec<Shard>,
-    /// The rows and the totals; workers and shards count the rest.
+    /// Counts of rows, and totals; workers and shards count the rest.
     tally: Tally,
 }
 
@@ -113,7 +113,7 @@ impl<'a> Evaluation<'a> {
     }
 }
 
-/// Batches are shared out among the workers; rows with a history wait until all are through, and are shared out by their nodes.
+/// Batches are distributed to the workers; rows with a history are evaluated afterwards, partitioned by node.
 fn evaluate_shared(
     laws: &Laws,
     workers: &mut [Worker<'_>],

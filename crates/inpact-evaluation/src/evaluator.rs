@@ -21,11 +21,11 @@ struct Ready {
     grid: Option<Resampled>,
 }
 
-/// Data beside the table where a grid stands in for it.
+/// Data besides the table where a grid replaces it.
 #[derive(Debug)]
 struct Resampled {
     grid: Grid,
-    /// The table with marks, if its axes have one range each: it says which rows lie outside without a search.
+    /// The table with marks, if its axes have one range each: it finds rows outside without a search.
     marked: Option<PiecewiseTable>,
 }
 
@@ -100,7 +100,7 @@ impl Evaluator {
                 marked.mark_sides(columns, &mut found.sides);
             }
             (None, Some(range)) if !range.is_left_by(columns, rows) => self.0.kernel.values(columns, &mut found.values),
-            // Without one range an axis only the table itself can tell which rows lie outside.
+            // Without a single range per axis only the table itself can determine which rows lie outside.
             (None, _) => {
                 found.sides.resize(rows, Sides::default());
                 self.0.kernel.values_and_sides(columns, &mut found.values, &mut found.sides);
@@ -117,8 +117,8 @@ impl Evaluator {
         }
     }
 
-    /// The table's kernel, where its values are those of the kernel and depend on the first coordinate alone: then a value costs less than to find out
-    /// which rows need it.
+    /// The table's kernel, where its values are those of the kernel and depend on the first coordinate only: then evaluating all rows costs less than selecting
+    /// those that need it.
     pub(crate) fn small_kernel(&self) -> Option<(&TableKernel, OnlyRange)> {
         let is_plain = self.0.grid.is_none() && self.0.method == Method::Full;
         let range = self.0.kernel.only_range().filter(|range| is_plain && range.axis == 0)?;
@@ -147,9 +147,9 @@ impl Evaluator {
         }
     }
 
-    /// Which of so many values are compared with the reference.
+    /// The indices of the values that are compared with the reference.
     pub(crate) fn compared(count: usize) -> impl Iterator<Item = usize> {
-        /// How many values of a batch are compared.
+        /// The sample size per batch.
         const SAMPLE: usize = 16;
         (0..count).step_by(count.div_ceil(SAMPLE).max(1))
     }
@@ -163,7 +163,7 @@ impl Evaluator {
         self.0.table.values().iter().fold(0.0_f64, |largest, value| largest.max(value.abs()))
     }
 
-    /// The reference value in a row, rounded, and what rounding took away.
+    /// The reference value in a row, rounded, and the rounding error.
     fn reference_in(&self, columns: &[&[f64]], row: usize) -> (f64, f64) {
         let coordinate = |column: &&[f64]| column.get(row).copied().unwrap_or(f64::NAN);
         let mut coordinates = columns.iter().map(coordinate);
@@ -185,12 +185,12 @@ impl PartialEq for Evaluator {
 }
 
 impl SeenError {
-    /// Takes a value with the reference and what rounding took away from it.
+    /// Takes a value with the reference and its rounding error.
     fn take(&mut self, value: f64, (reference, rest): (f64, f64), largest: f64) {
         if !reference.is_finite() {
             return;
         }
-        // The rest decides between errors of less than an ulp.
+        // The remainder resolves errors of less than an ulp.
         let error = ((value - reference) - rest).abs();
         self.rows += 1;
         if error > 0.0 {

@@ -45,7 +45,7 @@ impl HistoryStart {
 /// Δφ₀ in the heat of an increment at whose start the interface did not conduct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ClosingHeat {
-    /// The jump of the open circuit, as the manual has it: a heat that no circuit supplied.
+    /// The jump of the open circuit, as in the manual: a heat that no circuit supplied.
     #[default]
     Manual,
     /// The jump at the end of the increment, so that power balances.
@@ -104,7 +104,7 @@ impl ElectricalHistory {
                 }
             }
         };
-        // A row at the start itself is at rest, whatever jump it has.
+        // A row exactly at the start is at rest, whatever its jump.
         let starts_at_rest = before.is_none() && self.start != HistoryStart::FirstRow;
         self.previous = Some(if starts_at_rest { at_rest(time) } else { ElectricalRow { time, jump, conducts } });
         increment
@@ -113,14 +113,14 @@ impl ElectricalHistory {
     /// Adds the increment's flow; `area` is the node's area at its end, if known, and `rest` the rounding error of the current density.
     pub fn finish(&mut self, increment: &ElectricalIncrement, flow: &ElectricalFlow, rest: f64, area: Option<f64>) {
         self.current.add(Amount::new(flow.current_density), increment.duration, area);
-        // Where currents of either sign cancel, the roundings of each would be what is left.
+        // Where currents of opposite sign cancel, only their rounding errors would remain.
         if rest != 0.0 && rest.is_finite() {
             self.current.add(Amount::new(rest), increment.duration, area);
         }
         self.heat.add(Amount::new(flow.heat.total), increment.duration, area);
     }
 
-    /// [`Self::finish`] for steps that were found in columns.
+    /// [`Self::finish`] for steps computed by column.
     #[inline]
     pub(crate) fn finish_steps(&mut self, increment: &ElectricalIncrement, steps: &ElectricalSteps) {
         if increment.duration.is_some() {
@@ -130,12 +130,12 @@ impl ElectricalHistory {
         }
     }
 
-    /// Forgets the row before, as [`Self::begin`] must for the first row of another node; what was added up stays.
+    /// Forgets the previous row, as [`Self::begin`] must for the first row of another node; the sums stay.
     pub(crate) fn restart(&mut self) {
         self.previous = None;
     }
 
-    /// Forgets what was added up.
+    /// Resets the sums.
     pub(crate) fn clear_integrals(&mut self) {
         (self.current, self.heat) = Default::default();
     }
@@ -176,7 +176,7 @@ pub struct PoreHistory {
     is_unknown: bool,
 }
 
-/// A given rate that differs by more than that part from the change of the clearance contradicts it (D021).
+/// A given rate with a larger relative difference from the change of the clearance contradicts it (D021).
 const CONTRADICTION: f64 = 0.01;
 
 /// Whether a given rate of the clearance contradicts that at which it changes.
@@ -257,7 +257,7 @@ impl PoreHistory {
     }
 }
 
-/// One integral per unit of area, and over the node's whole area for as long as that is known.
+/// One integral per unit of area, and one over the node's area as long as that is known.
 #[derive(Clone, Debug, Default)]
 struct Integral {
     per_unit: UnboundedSum,
@@ -266,9 +266,9 @@ struct Integral {
 }
 
 impl Integral {
-    /// Adds `rate` × `duration`; without a duration, in a first row, only the lack of an area counts.
+    /// Adds `rate` × `duration`; without a duration, in a first row, only a missing area matters.
     ///
-    /// Where rate, duration or area are extreme, the products are made without a limit to their size; those with what is infinite or NaN are plain ones.
+    /// Where rate, duration or area are extreme, the products are computed without overflow; products with infinities or NaN are plain ones.
     fn add(&mut self, rate: Amount, duration: Option<f64>, area: Option<f64>) {
         self.lacks_area |= area.is_none();
         let Some(duration) = duration else { return };

@@ -34,7 +34,7 @@ use nested::NestedKernel;
 /// A table prepared for evaluation over columns.
 #[derive(Clone, Debug)]
 pub struct TableKernel {
-    /// Evaluates the rows that the vectors leave over.
+    /// Evaluates the rows that the vectors leave as NaN.
     table: PiecewiseTable,
     shape: Shape,
     set: InstructionSet,
@@ -50,7 +50,7 @@ pub(crate) struct OnlyRange {
 }
 
 impl OnlyRange {
-    /// Whether one of so many rows lies outside the table; NaN lies nowhere.
+    /// Whether any of some rows lies outside the table; NaN does not.
     pub(crate) fn is_left_by(&self, columns: &[&[f64]], rows: usize) -> bool {
         scan::has_outside(column_of(columns, self.axis, rows), self.below, self.above)
     }
@@ -74,7 +74,7 @@ impl OnlyRange {
 enum Shape {
     Constant(f64),
     Nested {
-        /// The table in vector registers, if it has one axis and is small, for processors that can hold it there.
+        /// The table in vector registers, if it has one axis and is small, for processors with enough registers.
         #[cfg(target_arch = "x86_64")]
         registers: Option<Box<registers::RegisterKernel>>,
         nested: NestedKernel,
@@ -170,7 +170,7 @@ impl TableKernel {
         }
     }
 
-    /// The range of the only axis that the table depends on, where its rows say which points lie outside.
+    /// The range of the only axis that the table depends on, where its rows determine which points lie outside.
     pub(crate) fn only_range(&self) -> Option<OnlyRange> {
         let [level] = self.table.levels() else { return None };
         if self.table.marks_sides() {
@@ -195,7 +195,7 @@ impl TableKernel {
         }
     }
 
-    /// Does again, by the scalar functions, the rows whose value is NaN.
+    /// Recomputes the rows whose value is NaN by the scalar functions.
     #[cold]
     fn redo(&self, columns: &[&[f64]], values: &mut [f64], mut sides: Option<&mut [Sides]>) {
         let mut others = [f64::NAN; FEW_AXES];
@@ -224,7 +224,7 @@ impl TableKernel {
     }
 }
 
-/// Coordinates beside axis 0 that need no allocation when a row is done again.
+/// The number of coordinates besides axis 0 that need no allocation when a row is recomputed.
 const FEW_AXES: usize = 16;
 
 /// The column of `axis`, as long as there are rows.
@@ -233,7 +233,7 @@ fn column_of<'a>(columns: &[&'a [f64]], axis: usize, rows: usize) -> &'a [f64] {
     &columns[axis][..rows]
 }
 
-/// [`NestedKernel::values`] as a thing that can be run under an instruction set.
+/// [`NestedKernel::values`] as an operation under an instruction set.
 struct NestedValues<'a> {
     nested: &'a NestedKernel,
     set: InstructionSet,

@@ -141,7 +141,7 @@ pub enum ColumnRole {
     KeyAndRead,
     /// Its numbers are used.
     Read,
-    /// It is passed over.
+    /// It is skipped.
     NotRead(Reason),
 }
 

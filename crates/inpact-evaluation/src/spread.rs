@@ -5,7 +5,7 @@
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
 
-/// How many threads share the work.
+/// The number of threads.
 pub(crate) fn threads() -> usize {
     #[cfg(feature = "threads")]
     return rayon::current_num_threads();
@@ -13,7 +13,7 @@ pub(crate) fn threads() -> usize {
     1
 }
 
-/// Does `work` on each of some things.
+/// Runs `work` on each item.
 pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync + Send) {
     let items: Vec<T> = items.into_iter().collect();
     #[cfg(feature = "threads")]
@@ -22,7 +22,7 @@ pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl F
     items.into_iter().for_each(work);
 }
 
-/// Results of `work` on each of some things, in their order.
+/// Results of `work` on each item, in order.
 pub(crate) fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
     let items: Vec<T> = items.into_iter().collect();
     #[cfg(feature = "threads")]
@@ -31,7 +31,7 @@ pub(crate) fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: im
     items.into_iter().map(work).collect()
 }
 
-/// Does both.
+/// Runs both, possibly in parallel.
 pub(crate) fn join<A: Send, B: Send>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B + Send) -> (A, B) {
     #[cfg(feature = "threads")]
     return rayon::join(one, other);

@@ -41,19 +41,19 @@ pub struct PiecewiseTable(Arc<Content>);
 /// Parts of a table.
 #[derive(Clone, Debug)]
 struct Content {
-    /// How many axes the rows have.
+    /// The number of axes of the rows.
     axis_count: usize,
     /// The continuation beyond the last row of a group of axis 0.
     tail: Tail,
     /// The axes the value depends on, fastest first. An axis every group of which has one row is left out, unless the value drops beyond it.
     levels: Vec<Level>,
-    /// One value a row.
+    /// One value per row.
     values: Vec<f64>,
-    /// For each row the slope towards the next; of no meaning in the last row of a group.
+    /// For each row the slope towards the next; meaningless in the last row of a group.
     slopes: Vec<KernelSlope>,
-    /// Each axis by the rows, left out or not.
+    /// Each axis of the rows, left out or not.
     axes: Vec<AxisSummary>,
-    /// Which points count as outside, where the rows of a folded table no longer tell.
+    /// Which points count as outside, where the rows of a folded table no longer determine it.
     marks: Option<Marks>,
 }
 
@@ -97,7 +97,7 @@ impl AxisSummary {
 /// One axis the value depends on: the abscissae of all its groups in row order.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Level {
-    /// Which axis of the rows this is.
+    /// The axis of the rows.
     pub(crate) axis: usize,
     /// The abscissae.
     pub(crate) knots: Vec<f64>,
@@ -161,7 +161,7 @@ impl PiecewiseTable {
         &self.0.levels
     }
 
-    /// For each row the slope towards the next; of no meaning in the last row of a group.
+    /// For each row the slope towards the next; meaningless in the last row of a group.
     pub(crate) fn slopes(&self) -> &[KernelSlope] {
         &self.0.slopes
     }

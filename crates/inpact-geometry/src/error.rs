@@ -49,7 +49,7 @@ pub enum ErrorKind {
         /// The number of points.
         points: usize,
     },
-    /// A coordinate is no number, infinite, or so large that its square is infinite.
+    /// A coordinate is not a number, infinite, or so large that its square is infinite.
     #[error("node {} has the coordinate {coordinate:?}, whose square is no finite number", node.0)]
     Coordinate {
         /// The node.

@@ -37,7 +37,7 @@ impl<'a> Master<'a> {
             if least < candidate.distance_2(&point).sqrt() {
                 break;
             }
-            // A bit above what was found, so that a face equally far but with a lower number is not passed over.
+            // A bit above what was found, so that a face equally far but with a lower number is not skipped.
             let Some(closest) = self.placed.patch(candidate.face).closest_within(point, least * (1.0 + 1e-12)) else {
                 continue;
             };

@@ -279,7 +279,7 @@ fn variables(first: &[f64], field_variables: &[f64]) -> Vec<f64> {
 fn corrected(conductance: f64, slopes: &[(f64, Mean)]) -> f64 {
     let lost: f64 = slopes.iter().map(|(slope, mean)| slope * mean.lost).sum();
     let sum = conductance + lost;
-    // A table that falls to zero there stays at zero; what is no number stays none.
+    // A table that falls to zero there stays at zero; what is not a number stays none.
     if conductance == 0.0 || sum < 0.0 { 0.0 } else { sum }
 }
 

@@ -261,7 +261,7 @@ fn cell(problem: &Problem<'_>, state: &State, number: u32, row: &SceneInterface,
         Column::FlowAcross => {
             let is_constrained = state.is_constrained(problem, Field::PorePressure, number);
             let flow = state.row_flow(problem, Field::PorePressure, number).filter(|_| is_constrained)?;
-            // From slave to master in the network, from master to slave in the law; no flow is 0, not −0.
+            // From slave to master in the network, from master to slave in the law; zero flow is +0, not −0.
             Some(0.0 - flow / row.area)
         }
         Column::FieldVariable(number, _) => {

@@ -49,7 +49,7 @@ pub(crate) fn push(field: &mut Field, row: Row, values: &[f64]) {
     }
 }
 
-/// Parts passed over, counted by name.
+/// Parts skipped, counted by name.
 #[derive(Debug, Default)]
 pub(crate) struct PassedOver {
     found: Vec<NotRead>,

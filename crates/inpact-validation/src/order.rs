@@ -58,7 +58,7 @@ pub(crate) fn steps(table: &Table) -> impl Iterator<Item = (usize, usize, Orderi
     })
 }
 
-/// The order of a row after the one before: by the slowest independent variable in which they differ (T-02, T-09).
+/// The order of a row after the previous one: by the slowest independent variable in which they differ (T-02, T-09).
 ///
 /// `Equal` is always that of column 1.
 pub(crate) fn step(before: &[f64], row: &[f64]) -> (Ordering, usize) {
@@ -144,7 +144,7 @@ pub(crate) fn is_alone(table: &Table, row: usize) -> bool {
 
 /// The edits that put the rows of a table in order, each row whole; comments between rows stay in their places.
 ///
-/// `None` where sorting does not mend the table: a cell is no number, or rows agree in all independent variables.
+/// `None` where sorting does not mend the table: a cell is not a number, or rows agree in all independent variables.
 pub(crate) fn sort_edits(context: &Context<'_>, table: &Table) -> Option<Vec<Edit>> {
     if !table.row_values().all(takes_part) {
         return None;

@@ -57,7 +57,7 @@ pub(crate) fn given_as<'a>(block: DefinedBlock<'a>, name: &str) -> Option<GivenP
 
 /// Whether the line gives the parameter of that full name, or a likely misspelling of it.
 pub(crate) fn may_be_given(context: &Context<'_>, block: DefinedBlock<'_>, name: &str) -> bool {
-    // CalculiX passes over a misspelt parameter (CX-04): then the one that is meant is not given.
+    // CalculiX skips a misspelt parameter (CX-04): then the one that is meant is not given.
     given_as(block, name).is_some()
         || !context.is_for_calculix()
             && block.keyword.parameters().any(|parameter| match parameter.resolved {

@@ -76,7 +76,7 @@ impl Definitions {
 
     /// Adds the definitions of misspelt keywords: these have findings of their own.
     fn add_possible(&mut self, context: &Context<'_>) {
-        // CalculiX passes over it.
+        // CalculiX skips it.
         if context.is_for_calculix() {
             return;
         }

@@ -45,7 +45,7 @@ impl Trend {
 
 /// The tables of a kind in which some step inside a group `is_wrong`, with the first such step.
 ///
-/// Negative values and empty ones have findings of their own and are passed over.
+/// Negative values and empty ones have findings of their own and are skipped.
 pub(crate) fn against<'a>(
     context: &'a Context<'_>,
     is_meant: impl Fn(TableKind) -> bool,

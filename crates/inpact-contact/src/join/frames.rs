@@ -341,7 +341,7 @@ pub(super) fn slave_nodes(mesh: &Mesh) -> (Vec<NodeId>, Vec<NodeId>) {
     (of(1).map(|(node, _)| node).collect(), of(2).map(|(node, _)| node).collect())
 }
 
-/// Adds to states in the order of time the rate of slip since the one before; before the first there is none.
+/// Adds to states in the order of time the rate of slip since the previous one; before the first there is none.
 pub(super) fn slip_rates(building: &mut [Building]) {
     let mut before: Vec<(Option<usize>, f64, Vec<Option<Vector>>)> = Vec::new();
     for state in building {

@@ -19,7 +19,7 @@ use crate::table::PiecewiseTable;
 pub struct Grid {
     bound: ErrorBound,
     axes: Vec<GridAxis>,
-    /// The values at the nodes, axis 0 running fastest.
+    /// The values at the nodes, axis 0 varying fastest.
     nodes: Vec<f64>,
     /// The coordinate of the innermost axis beyond which every value is zero; infinite if there is none.
     zero_beyond: f64,
@@ -27,7 +27,7 @@ pub struct Grid {
 
 #[derive(Clone, Debug)]
 struct GridAxis {
-    /// Which axis of the table this is.
+    /// The axis of the table.
     axis: usize,
     least: f64,
     greatest: f64,
@@ -38,14 +38,14 @@ struct GridAxis {
     stride: usize,
 }
 
-/// Half an ulp, as a part of a number of the normal range; and the smallest subnormal, which bounds a rounding below it.
+/// Half an ulp relative to a normal number; and the smallest subnormal, which bounds the rounding below it.
 const UNIT: f64 = f64::EPSILON / 2.0;
 const UNDERFLOW: f64 = f64::from_bits(1);
 
 /// A number of which four can be added without overflow.
 const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
 
-/// How many rows are done at a time: places first, then values.
+/// The block size in rows: cells first, then values.
 const BLOCK: usize = 64;
 
 impl Grid {
@@ -58,7 +58,7 @@ impl Grid {
         Self::made(table, cells).map_err(|refusal| ErrorKind::Grid(refusal).into())
     }
 
-    /// The same, with the bare reason why there is none.
+    /// The same, with the plain reason for a failure.
     pub(super) fn made(table: &PiecewiseTable, cells: &[usize]) -> Result<Self, Refusal> {
         match table.levels().len() {
             0 => return Err(Refusal::Constant),
@@ -144,7 +144,7 @@ impl Grid {
         InstructionSet::best().run(Each { grid: self, along, values });
     }
 
-    /// The largest error at a vertex of the common refinement, and what rounding can add to it.
+    /// The largest error at a vertex of the common refinement, and a bound on the rounding error.
     fn true_maximum(&self, table: &PiecewiseTable, lines: &[Vec<f64>]) -> Result<ErrorBound, Refusal> {
         let height = table.levels().len();
         let outer = &table.levels()[height - 1];
@@ -188,11 +188,11 @@ impl Grid {
         Ok(ErrorBound::of_magnitudes(worst.0 + rounding, pointwise, largest))
     }
 
-    /// The error that rounding can add to that found at the vertices.
+    /// A bound on the rounding error, in addition to the error at the vertices.
     ///
-    /// The place of a coordinate in units of cells is off by two roundings of itself, and a line of the grid is not exactly where its node was evaluated;
-    /// either costs as much of the largest difference of neighbouring nodes. Each axis rounds a difference and a result. All that counts twice, at the vertex and at the query,
-    /// and the table's own kernel is off by n + 1 ulp at the vertex.
+    /// A coordinate in units of cells has an error of two roundings, and a grid line is not exactly where its node was evaluated;
+    /// each contributes that fraction of the largest difference of neighbouring nodes. Each axis rounds a difference and a result. All of this counts twice, at the vertex and at the query,
+    /// and the table's own kernel has an error of n + 1 ulp at the vertex.
     fn rounding(&self, largest: f64) -> f64 {
         let unit = UNIT;
         let mut of_kernel = 0.0;
@@ -283,7 +283,7 @@ impl Grid {
         if self.zero_beyond < f64::INFINITY {
             let column = &along[0][start..start + rows];
             for (value, &x) in values.iter_mut().zip(column) {
-                // A NaN along another axis stays one.
+                // A NaN along another axis stays NaN.
                 *value = if x > self.zero_beyond && !value.is_nan() { 0.0 } else { *value };
             }
         }
@@ -291,7 +291,7 @@ impl Grid {
 }
 
 impl GridAxis {
-    /// The coordinates of the grid's lines: the table's own abscissae where a line meets one to a few ulp.
+    /// The coordinates of the grid lines, snapped to the table's abscissae within a few ulp.
     fn lines(&self, table: &PiecewiseTable, level: usize) -> Vec<f64> {
         let knots = all_abscissae(table, level);
         let width = self.greatest - self.least;
@@ -328,7 +328,7 @@ pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
     (nodes <= MOST_NODES).then_some(cells)
 }
 
-/// `x` brought between `least` and `greatest`; NaN stays.
+/// `x` clamped to `least` and `greatest`; NaN stays NaN.
 #[inline(always)]
 fn bounded(x: f64, least: f64, greatest: f64) -> f64 {
     let raised = if x < least { least } else { x };
@@ -341,7 +341,7 @@ fn lerp(part: f64, a: f64, b: f64) -> f64 {
     part.mul_add(b - a, a)
 }
 
-/// Two rising lists as one, each number once.
+/// Merges two ascending lists without duplicates.
 fn merged(mut a: Vec<f64>, b: &[f64]) -> Vec<f64> {
     a.extend_from_slice(b);
     a.sort_unstable_by(f64::total_cmp);
@@ -366,7 +366,7 @@ fn smallest_magnitude(table: &PiecewiseTable) -> f64 {
     if ends_early || (least <= 0.0 && greatest >= 0.0) { 0.0 } else { least.abs().min(greatest.abs()) }
 }
 
-/// The grid's values compiled for the processor at hand.
+/// The grid's values, compiled for an instruction set.
 struct Each<'a> {
     grid: &'a Grid,
     /// The columns of the axes that matter.

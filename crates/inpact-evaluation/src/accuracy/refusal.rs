@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The most axes of a grid. Each doubles the number of nodes that take part in a value.
+/// The maximum number of axes of a grid. Each doubles the number of nodes in a value.
 pub(super) const MOST_AXES: usize = 4;
 
 /// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
@@ -15,11 +15,11 @@ pub(super) const MOST_VERTICES: usize = 1 << 20;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The value depends on nothing: there is nothing to make faster.
+    /// The table is constant: there is nothing to speed up.
     Constant,
     /// The value depends on more axes than grids are made for.
     TooManyAxes(usize),
-    /// A number too large to be added up.
+    /// A number so large that a sum could overflow.
     TooLarge(f64),
     /// The number of cells for a unit of an axis is outside the range of f64.
     Slope(f64),

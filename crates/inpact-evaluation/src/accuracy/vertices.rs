@@ -36,7 +36,7 @@ fn groups_at(table: &PiecewiseTable, level: usize, height: usize, group: Range<u
     groups
 }
 
-/// Calls `visit` with every combination of one number of each of `axes`, the first running fastest.
+/// Calls `visit` with every combination of one number of each of `axes`, the first varying fastest.
 pub(super) fn for_each_vertex(axes: &[Vec<f64>], visit: &mut impl FnMut(&[f64])) {
     let mut indices = vec![0; axes.len()];
     let mut vertex: Vec<f64> = axes.iter().map(|axis| axis[0]).collect();

@@ -94,7 +94,7 @@ impl<'a> Coordinates<'a> {
     }
 }
 
-/// Keeps the coordinates of the rows that are chosen and have no NaN among them.
+/// Keeps the coordinates of the selected rows without NaN.
 fn keep(
     reads: &mut Vec<TableReads>,
     (part, quantity, against): (&Part<'_>, TabulatedQuantity, Along),

@@ -4,7 +4,7 @@ use crate::evaluator::TableValues;
 use crate::law::conductance::columns::ConductanceColumn;
 use crate::law::thermal::columns::ThermalFound;
 
-/// Results of a part in columns, before its rows are gone through.
+/// Columns of table values of a part, before the pass over its rows.
 #[derive(Debug, Default)]
 pub(super) struct Found {
     pub(super) conductances: Option<ConductanceColumn>,

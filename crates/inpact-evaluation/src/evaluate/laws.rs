@@ -15,27 +15,27 @@ use inpact_parser::model::Model;
 pub(super) struct Laws {
     /// The laws of each interaction of the model; `None` for those that govern no row.
     pub(super) interactions: Vec<Option<InteractionLaws>>,
-    /// How many columns of numbers the results have.
+    /// The number of columns of numbers in the results.
     pub(super) result_columns: usize,
-    /// The outputs that are added up over an interface, with their places among the results; none where the times of the rows are not known.
+    /// The outputs that are summed over an interface, with their indices in the results; none where the times of the rows are unknown.
     pub(super) summed: Vec<(Output, usize)>,
-    /// Where a batch has the texts of column `node`.
+    /// The index of column `node` among the texts of a batch.
     pub(super) node: Option<usize>,
-    /// Where a batch has the texts of column `interaction`.
+    /// The index of column `interaction` among the texts of a batch.
     pub(super) interaction: Option<usize>,
-    /// Where a batch has the numbers of column `time`.
+    /// The index of column `time` among the numbers of a batch.
     pub(super) time: Option<usize>,
-    /// Where the histories of nodes start.
+    /// The start of the histories of nodes.
     pub(super) history_start: HistoryStart,
     /// The jump in the heat of an increment that closes a circuit.
     pub(super) closing_heat: ClosingHeat,
-    /// Whether what only a summary says is found.
+    /// Whether data of the summary are computed.
     pub(super) summary: Summary,
-    /// Whether a routine of the user's is asked, which sees the rows in their order and one at a time.
+    /// Whether a user's routine is called, sequentially in the order of the rows.
     pub(super) asks_user: bool,
 }
 
-/// What only a summary says: totals, and the errors of a sample of rows.
+/// Data of the summary: totals, and the errors of a sample of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Summary {
     Made,
@@ -75,12 +75,12 @@ impl Laws {
         }
     }
 
-    /// The outputs that are added up over an interface.
+    /// The outputs that are summed over an interface.
     pub(super) fn summed_outputs(&self) -> Vec<Output> {
         self.summed.iter().map(|(output, _)| *output).collect()
     }
 
-    /// The same without what only a summary says.
+    /// The same without the data of the summary.
     pub(super) fn leave_out_summary(&mut self) {
         self.summary = Summary::LeftOut;
         self.summed.clear();

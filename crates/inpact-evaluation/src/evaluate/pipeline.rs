@@ -27,7 +27,7 @@ impl Evaluation<'_> {
     ) -> io::Result<Result<(), E>> {
         let (mut ready, mut next) = (Window::default(), Window::default());
         if spread::threads() == 1 {
-            // One window, whose memory is still in the cache when it is filled again.
+            // One window, which is still in the cache when it is refilled.
             loop {
                 ready.fill(self, rows, plan)?;
                 let written = ready.write(&mut write);
@@ -51,13 +51,13 @@ impl Evaluation<'_> {
 }
 
 impl Window {
-    /// Writes the batches one after the other.
+    /// Writes the batches in order.
     fn write<E>(&mut self, write: &mut impl FnMut(&Batch, &mut ResultBatch) -> Result<(), E>) -> Result<(), E> {
         let mut each = self.batches.iter().zip(&mut self.results);
         each.try_for_each(|(batch, results)| write(batch, results))
     }
 
-    /// Takes the next batches and evaluates them.
+    /// Evaluates the next batches.
     fn fill(&mut self, evaluation: &mut Evaluation<'_>, rows: &mut GivenBack, plan: &Plan) -> io::Result<()> {
         self.batches.clear();
         while self.batches.len() < evaluation.batches_at_a_time() {

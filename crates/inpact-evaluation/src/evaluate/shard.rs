@@ -9,7 +9,7 @@ use crate::plan::Plan;
 use crate::results::ResultBatch;
 use crate::rows::{Part, Row, Tally};
 
-/// The nodes whose labels fall to it.
+/// The nodes whose labels hash to it.
 #[derive(Debug)]
 pub(super) struct Shard {
     nodes: NodeIndex,
@@ -21,7 +21,7 @@ pub(super) struct Shard {
 #[derive(Debug, Clone)]
 struct NodeHistory {
     electrical: ElectricalHistory,
-    /// Those of the other laws, once one of them has begun: without them the histories of more nodes fit into the cache.
+    /// Those of the other laws, allocated when one of them begins: without them the histories of more nodes fit into the cache.
     others: Option<Box<OtherHistories>>,
 }
 
@@ -31,7 +31,7 @@ struct OtherHistories {
     pore: PoreHistory,
 }
 
-/// A part whose rows have histories, with what was found of it in columns.
+/// A part whose rows have histories, with its columns of table values.
 #[derive(Debug)]
 pub(super) struct Waiting<'a> {
     part: Part<'a>,
@@ -60,11 +60,11 @@ impl<'a> Waiting<'a> {
     }
 }
 
-/// The shard of a node: the same for all of its rows. Blanks around a label do not count.
+/// The shard of a node, the same for all of its rows. Blanks around a label are ignored.
 fn shard_of(interaction: usize, label: &[u8], shards: usize) -> u32 {
     let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
     let hash = label.trim_ascii().iter().fold(0xcbf2_9ce4_8422_2325 ^ interaction as u64, step);
-    // Its upper half is mixed better; a remainder of 32 bits fits.
+    // The upper half of the hash is mixed better; the remainder fits into 32 bits.
     ((hash >> 32) % shards as u64) as u32
 }
 
@@ -83,7 +83,7 @@ impl NodeHistory {
     }
 }
 
-/// The history of a row that has begun; that of a node's first row adds up from nothing.
+/// The history of a row; that of a node's first row starts from zero.
 #[inline]
 fn entered(histories: &mut [NodeHistory], slot: HistorySlot) -> &mut NodeHistory {
     let history = &mut histories[slot.number];
@@ -103,7 +103,7 @@ impl Shard {
         Self { nodes, histories: Vec::new(), tally }
     }
 
-    /// Evaluates the rows of shard `number` among those that wait, batch by batch.
+    /// Evaluates the pending rows of shard `number`, batch by batch.
     pub(super) fn evaluate(&mut self, laws: &Laws, number: usize, waiting: &[Vec<Waiting<'_>>]) -> Vec<ShardResults> {
         let mut all = Vec::new();
         for (batch, waiting) in waiting.iter().enumerate() {
@@ -155,7 +155,7 @@ impl Shard {
         }
     }
 
-    /// The same where each row ends an increment of the electrical law, which goes through them in columns.
+    /// The same where each row ends an increment of the electrical law, which is evaluated by column.
     fn evaluate_chunk(
         &mut self,
         laws: &Laws,

@@ -12,7 +12,7 @@ use crate::results::ResultBatch;
 use crate::rows::{InteractionTally, Outcome, Part, Tally, UserFaultInRow};
 use inpact_parser::model::Model;
 
-/// The interactions that a thread has met, and what it counted.
+/// The interactions that a thread has processed, and its counts.
 #[derive(Debug)]
 pub(super) struct Worker<'a> {
     interactions: RowInteractions<'a>,
@@ -57,7 +57,7 @@ impl<'a> Worker<'a> {
         parts.collect()
     }
 
-    /// Evaluates a batch; rows with a history go to the one `shard`, or wait for one of `shards` where there are several.
+    /// Evaluates a batch; rows with a history go to the single `shard`, or are queued for one of `shards` where there are several.
     pub(super) fn evaluate<'b>(
         &mut self,
         laws: &Laws,
@@ -131,7 +131,7 @@ impl<'a> Worker<'a> {
 }
 
 impl InteractionLaws {
-    /// Evaluates the tables over a part; some conductances are compared with the reference, where that is wanted.
+    /// Evaluates the tables over a part; a sample of conductances is compared with the reference on request.
     pub(super) fn find(&self, part: &Part<'_>, seen: Option<&mut SeenError>) -> Found {
         Found {
             conductances: self.electrical.as_ref().and_then(|law| law.conductances(part, seen)),
@@ -140,7 +140,7 @@ impl InteractionLaws {
         }
     }
 
-    /// Every law in the rows of a part, none of which has a history.
+    /// All laws of the rows of a part without histories.
     fn evaluate_rows(
         &self,
         part: &Part<'_>,

@@ -8,7 +8,7 @@
 use crate::kernel::scan::are_moderate;
 use crate::kernel::{InstructionSet, Lanes, Operation};
 
-/// A product, rounded, and what the rounding took away.
+/// A product, rounded, and its rounding error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Step {
     pub(crate) product: f64,
@@ -23,7 +23,7 @@ impl Step {
     }
 }
 
-/// The steps of a row: of the current density, of what its rounding took away, and of the heat; each per area, and times the area of the node.
+/// The steps of a row: of the current density, of its rounding error, and of the heat; each per area, and times the area of the node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ElectricalSteps {
     pub(super) current: [Step; 2],
@@ -32,8 +32,8 @@ pub(crate) struct ElectricalSteps {
 }
 
 impl ElectricalSteps {
-    /// The steps of some rows, from conductance and jump, the current density that they make, the heat, the duration and the area;
-    /// `None` where a number is not moderate, so that plain arithmetic may lose what it is.
+    /// The steps of some rows, from conductance and jump, the resulting current density, the heat, the duration and the area;
+    /// `None` where a number is not moderate, so that plain arithmetic may be inaccurate.
     pub(crate) fn of(
         [conductance, jump]: [&[f64]; 2],
         current: &[f64],
@@ -53,7 +53,7 @@ impl ElectricalSteps {
     }
 }
 
-/// What rounding took away from current densities; 0 where that is not known.
+/// The rounding errors of current densities; 0 where that is not known.
 struct FindRests<'a> {
     conductance: &'a [f64],
     jump: &'a [f64],
@@ -105,7 +105,7 @@ mod tests {
     use crate::law::electrical::ElectricalFlow;
     use crate::law::heat::GeneratedHeat;
 
-    /// Steps in columns give the integrals that rows give one after the other, bit for bit.
+    /// Steps by column give the same integrals as row by row, bit for bit.
     #[test]
     fn steps_add_up_as_rows_do() {
         let mut state = 1_u64;

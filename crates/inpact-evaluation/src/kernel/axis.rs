@@ -6,18 +6,18 @@ use super::Search;
 use super::search::{BISECTION, BITS, Breaks, GroupSearch, LINEAR};
 use crate::table::{Level, Sides};
 
-/// Rows that are taken through all axes together.
+/// The block size in rows.
 pub(super) const BLOCK: usize = 256;
 
 /// One axis: its groups and the search in them.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
-    /// Which axis of the rows this is.
+    /// The axis of the rows.
     pub(super) column: usize,
     /// The ranges of its groups; one where all have the same abscissae.
     ranges: Vec<GroupRange>,
     search: GroupSearch,
-    /// The number of pieces of a group where all have the same abscissae, otherwise 0: then pieces are numbered through all groups.
+    /// The number of pieces of a group where all have the same abscissae, otherwise 0: then pieces are numbered across all groups.
     stride: u32,
 }
 
@@ -31,12 +31,12 @@ struct GroupRange {
     above: f64,
 }
 
-/// Where the rows of a block lie along an axis.
+/// Positions of the rows of a block along an axis.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     /// The coordinates within the range of their group.
     pub(super) clamped: [f64; BLOCK],
-    /// The pieces that hold them.
+    /// The pieces that contain them.
     pub(super) pieces: [u32; BLOCK],
 }
 
@@ -47,10 +47,10 @@ impl Default for Found {
     }
 }
 
-/// Where the sides of the rows of a block are noted.
+/// Where the sides of the rows of a block are recorded.
 pub(super) struct Noted<'a> {
     sides: &'a mut [Sides],
-    /// Whether the group under evaluation takes part in the value of a row.
+    /// Whether the current group contributes to the value of a row.
     pub(super) takes_part: [bool; BLOCK],
 }
 
@@ -66,7 +66,7 @@ impl Axis {
     pub(super) fn new(level: &Level, groups: &[Range<usize>], mut breaks: Vec<Vec<f64>>, drops: bool) -> Self {
         let knots = |group: &Range<usize>| &level.knots[group.clone()];
         let first = knots(&groups[0]);
-        // To the bit: −0 and 0 are one abscissa, but a value interpolated from −0 may differ in its sign.
+        // Bitwise: −0 and 0 are one abscissa, but a value interpolated from −0 may differ in its sign.
         let is_same = |other: &[f64]| {
             other.len() == first.len() && other.iter().zip(first).all(|(a, b)| a.to_bits() == b.to_bits())
         };
@@ -98,12 +98,12 @@ impl Axis {
         self.stride > 0
     }
 
-    /// How its rows' places are found.
+    /// The search method.
     pub(super) fn search(&self) -> Search {
         self.search.kind()
     }
 
-    /// Clamps the coordinates of a block to the groups they are in, one group for all if none are given, and finds the pieces that hold them.
+    /// Clamps the coordinates of a block to the groups they are in, one group for all if none are given, and finds the pieces that contain them.
     #[inline(always)]
     pub(super) fn find(&self, column: &[f64], groups: Option<&[u32; BLOCK]>, found: &mut Found) {
         match (self.search.kind(), self.search.steps()) {
@@ -131,7 +131,7 @@ impl Axis {
             }
             self.search.find::<KIND, STEPS>(clamped, |row| self.search.group(groups[row] as usize), pieces);
         } else {
-            // One group for all: what it tells stays in registers.
+            // One group for all: its data stay in registers.
             let range = self.ranges[0];
             self.search.find_in_one::<KIND, STEPS>(column, |x| range.clamp(x), clamped, pieces);
         }
@@ -145,7 +145,7 @@ impl Axis {
         }
     }
 
-    /// Notes which of the rows that take part lie outside their group.
+    /// Records which of the contributing rows lie outside their group.
     #[inline(always)]
     pub(super) fn note(&self, groups: Option<&[u32; BLOCK]>, column: &[f64], noted: &mut Noted<'_>) {
         let of_rows = column.iter().zip(&mut *noted.sides).zip(&noted.takes_part).enumerate();

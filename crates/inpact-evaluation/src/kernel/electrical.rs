@@ -9,7 +9,7 @@ use crate::law::electrical::{Dissipation, generated_heat};
 use crate::law::heat::HeatGeneration;
 use crate::numbers::is_zero_or_ordinary;
 
-/// Rows that are gone through together, so that what one step writes is still in the first cache for the next.
+/// The chunk size in rows, so that the output of one step is still in the L1 cache for the next.
 const CHUNK: usize = 512;
 
 /// The inputs of the electrical law in a block of rows, one column each.
@@ -146,13 +146,13 @@ fn products(a: &[f64], b: &[f64], products: &mut [f64]) {
     }
 }
 
-/// Whether no row is of extreme size, infinite or NaN.
+/// Whether all rows are finite and of ordinary magnitude.
 #[inline(always)]
 fn all_ordinary(column: &[f64]) -> bool {
     column.iter().fold(true, |all, &number| all & is_zero_or_ordinary(number))
 }
 
-/// The heat of a chunk that holds an extreme input, by the scalar law.
+/// The heat of a chunk with an extreme input, by the scalar law.
 #[cold]
 fn extreme_heat(
     generation: HeatGeneration,

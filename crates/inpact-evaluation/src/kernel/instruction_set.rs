@@ -51,7 +51,7 @@ impl InstructionSet {
         return if cfg!(target_arch = "aarch64") { Self::Neon } else { Self::Scalar };
     }
 
-    /// Runs `operation`, all of which must be inlined, compiled for this set; with plain instructions where the machine lacks it.
+    /// Runs `operation`, all of which must be inlined, compiled for this set; with scalar instructions where the machine lacks it.
     #[inline]
     pub(crate) fn run<O: Operation>(self, operation: O) -> O::Output {
         match self {
@@ -70,22 +70,22 @@ impl InstructionSet {
     }
 }
 
-/// Something that is compiled for each set of instructions.
+/// An operation that is compiled for each instruction set.
 pub(crate) trait Operation {
     /// Its result.
     type Output;
 
-    /// Does it; all that it calls must be inlined.
+    /// Runs it; all functions that it calls must be inlined.
     fn call<L: Lanes>(self, lanes: L) -> Self::Output;
 }
 
-/// The operations of a set of instructions that kernels use beside those the compiler makes of plain loops.
+/// Explicit vector operations of an instruction set, in addition to auto-vectorised loops.
 pub(crate) trait Lanes: Copy {
     /// The values at `x` on the pieces of `places`, row by row: [`Piece::value`].
     fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]);
 }
 
-/// No vector instructions of our own.
+/// No explicit vector instructions.
 #[derive(Clone, Copy)]
 struct Plain;
 
@@ -98,7 +98,7 @@ impl Lanes for Plain {
     }
 }
 
-/// Four pieces are loaded whole and transposed: a gather of their parts would take one load a number.
+/// Four pieces are loaded as vectors and transposed: a gather would take one load per number.
 #[cfg(target_arch = "x86_64")]
 impl Lanes for V3 {
     #[inline(always)]

@@ -16,7 +16,7 @@ use super::{InstructionSet, Search, column_of};
 use crate::numbers::{is_ordinary, two_difference};
 use crate::table::{Level, PiecewiseTable, Sides};
 
-/// A table with at least one axis that matters.
+/// A table whose value depends on at least one axis.
 #[derive(Clone, Debug)]
 pub(super) struct NestedKernel {
     /// The axes, innermost first.
@@ -113,17 +113,17 @@ impl NestedKernel {
     }
 }
 
-/// A block of rows on its way through the axes.
+/// A block of rows during the recursion over the axes.
 #[derive(Clone, Copy)]
 struct Block<'a> {
     kernel: &'a NestedKernel,
     set: InstructionSet,
-    /// The axis that is gone through.
+    /// The current axis.
     height: usize,
     columns: &'a [&'a [f64]],
     /// The block's first row.
     first: usize,
-    /// Where the rows lie along the axes whose groups share their abscissae.
+    /// Positions of the rows along the axes whose groups share their abscissae.
     shared: &'a [Found],
 }
 
@@ -183,7 +183,7 @@ impl Block<'_> {
     }
 }
 
-/// [`Block::values`] one axis further inside: a call of its own, which the instruction set would be lost in if it were not asked for again.
+/// [`Block::values`] one axis further inside: a separate call, in which the instruction set must be requested again.
 struct InnerValues<'a, 'b> {
     block: Block<'a>,
     groups: &'a [u32; BLOCK],

@@ -9,7 +9,7 @@ use std::hint::select_unpredictable;
 use crate::numbers::KernelSlope;
 
 /// The numbers that interpolation needs on one half segment: the abscissa of the end it starts from and the value there,
-/// the slope and what its rounding took away; the slope is NaN where the segment has no kernel slope.
+/// the slope and its rounding error; the slope is NaN where the segment has no kernel slope.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Piece(pub(super) [f64; 4]);
@@ -65,7 +65,7 @@ pub(super) fn half_segments(
         }
         pieces.push(Piece::new(x0, values[left], slope));
         let right_half = last_of_left_half(x0, x1).next_up();
-        // The right half of an inner segment may hold x1 alone, which begins the next one.
+        // The right half of an inner segment may contain only x1, which begins the next one.
         if right_half < x1 || left + 1 == last {
             breaks.push(right_half);
             pieces.push(Piece::new(x1, values[left + 1], slope));

@@ -11,12 +11,12 @@ use pulp::x86::V4;
 use super::pieces::last_of_left_half;
 use crate::table::{PiecewiseTable, Sides, Tail};
 
-/// The most knots that fit: two registers of each number of a knot.
+/// The maximum number of knots: two registers for each number of a knot.
 const MOST_KNOTS: usize = 16;
 
 type Lanes = [f64; 8];
 
-/// Vectors that are evaluated together, so that the steps of one fill the waits of another, and their rows.
+/// Vectors that are evaluated together to hide latency (instruction-level parallelism), and their rows.
 const VECTORS: usize = 4;
 const ROWS: usize = 8 * VECTORS;
 
@@ -27,9 +27,9 @@ pub(super) struct RegisterKernel {
     first: f64,
     last: f64,
     tail: Tail,
-    /// How many halvings find the segment, 0 to 4.
+    /// The number of binary search steps, 0 to 4.
     halvings: u32,
-    /// The abscissae that each halving compares with, at the index found so far.
+    /// The abscissae of each binary search step, at the index found so far.
     halving_knots: [[Lanes; 2]; 4],
     /// Where the right half of each segment begins.
     right_halves: [Lanes; 2],
@@ -58,7 +58,7 @@ impl RegisterKernel {
         for (done, at) in halving_knots.iter_mut().enumerate().take(halvings as usize) {
             let step = 1 << (halvings as usize - 1 - done);
             for index in (0..MOST_KNOTS).step_by(2 * step) {
-                // The comparison with a knot that is not there, or with the last one, fails.
+                // The comparison with a missing knot, or with the last one, fails.
                 at[index] = if index + step < segments { knots[index + step] } else { f64::NAN };
             }
         }
@@ -107,7 +107,7 @@ impl RegisterKernel {
         }
     }
 
-    /// Notes on which side of the table each row lies.
+    /// Records on which side of the table each row lies.
     pub(super) fn sides(&self, column: &[f64], sides: &mut [Sides]) {
         for (&x, sides) in column.iter().zip(sides) {
             if x < self.first {
@@ -120,7 +120,7 @@ impl RegisterKernel {
     }
 }
 
-/// One evaluation, compiled for each number of halvings and each tail.
+/// One evaluation, compiled for each number of search steps and each tail.
 struct Run<'a, const HALVINGS: u32, const DROPS: bool> {
     kernel: &'a RegisterKernel,
     simd: V4,
@@ -139,7 +139,7 @@ impl<const HALVINGS: u32, const DROPS: bool> pulp::NullaryFnOnce for Run<'_, HAL
         let (blocks, rest) = column.as_chunks::<ROWS>();
         let (value_blocks, value_rest) = values.as_chunks_mut::<ROWS>();
         for (x, value) in blocks.iter().zip(value_blocks) {
-            // All are read before the first is written: a read that seems to follow a write to its place modulo 4096 would wait for it.
+            // All are read before the first is written, to avoid 4K aliasing: a load that matches a preceding store modulo 4096 would wait for it.
             let x: [Lanes; VECTORS] = cast(*x);
             let x: [__m512d; VECTORS] = [cast(x[0]), cast(x[1]), cast(x[2]), cast(x[3])];
             let results =

@@ -8,17 +8,17 @@ use super::InstructionSet;
 use super::instruction_set::{Lanes, Operation};
 use crate::numbers::is_moderate;
 
-/// The numbers of a block, each with extremes of its own.
+/// The number of lanes, each with its own minimum and maximum.
 const LANES: usize = 64;
 
-/// What a column holds.
+/// Properties of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extremes {
     /// The smallest of the finite numbers, the first of those that are equal; infinity where there is none.
     pub(crate) least: f64,
     /// The largest of them; minus infinity where there is none.
     pub(crate) greatest: f64,
-    /// How many are NaN or infinite.
+    /// The number of NaNs and infinities.
     pub(crate) non_finite: u64,
 }
 
@@ -28,7 +28,7 @@ pub(crate) fn extremes(values: &[f64]) -> Extremes {
         return values.iter().fold(Extremes::default(), |found, value| found.with(*value));
     }
     let mut found = InstructionSet::best().run(FindExtremes { values });
-    // 0 and −0 are equal: the first of them is the one that comparing one after the other finds.
+    // 0 and −0 are equal: the first of them is the result of a sequential comparison.
     let first_zero = || values.iter().copied().find(|value| *value == 0.0);
     if found.least == 0.0 {
         found.least = first_zero().unwrap_or(found.least);
@@ -85,7 +85,7 @@ impl Operation for FindExtremes<'_> {
     }
 }
 
-/// How many numbers are above zero; NaN is not.
+/// The number of positive numbers; NaN is not.
 pub(crate) fn count_above_zero(values: &[f64]) -> u64 {
     InstructionSet::best().run(Count { values, is_counted: |value| value > 0.0 })
 }
@@ -123,7 +123,7 @@ pub(crate) fn are_moderate(values: &[f64]) -> bool {
 mod tests {
     use super::*;
 
-    /// One after the other.
+    /// Sequentially.
     fn plainly(values: &[f64]) -> Extremes {
         let mut found = Extremes { least: f64::INFINITY, greatest: f64::NEG_INFINITY, non_finite: 0 };
         for value in values {

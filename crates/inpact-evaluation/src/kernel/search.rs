@@ -10,23 +10,23 @@ use super::pieces::ordered;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Search {
-    /// There is nothing to find: the table is a constant.
+    /// No search: the table is constant.
     Constant,
-    /// The table stands in vector registers and is searched there.
+    /// The table is in vector registers and searched there.
     Registers,
     /// Buckets of equal width.
     LinearBuckets,
     /// Buckets of equal count of f64 numbers, for abscissae over many decades.
     BitBuckets,
-    /// Repeated halving, where buckets would be too many.
+    /// Binary search, where there would be too many buckets.
     Bisection,
 }
 
-/// The search over all groups of one axis. Pieces are numbered through all groups.
+/// The search over all groups of one axis. Pieces are numbered across all groups.
 #[derive(Clone, Debug)]
 pub(super) struct GroupSearch {
     kind: Search,
-    /// How many breaks a bucket holds at most.
+    /// The maximum number of breaks in a bucket.
     steps: usize,
     groups: Vec<Group>,
     /// For each bucket the piece at its left end.
@@ -35,7 +35,7 @@ pub(super) struct GroupSearch {
     ends: Vec<f64>,
 }
 
-/// One group: where its pieces and buckets begin and how a bucket is told.
+/// One group: the starts of its pieces and buckets, and the parameters of its keys.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group {
     /// The least abscissa, and the order of its bits.
@@ -43,7 +43,7 @@ pub(super) struct Group {
     order: i64,
     /// Buckets per unit of x.
     scale: f64,
-    /// How far the order of the bits is shifted to make a bucket.
+    /// The right shift from ordered bits to a bucket.
     shift: u32,
     first_bucket: u32,
     last_key: u32,
@@ -61,7 +61,7 @@ pub(super) struct Breaks {
 /// 2⁵²: a number below 2³² added to it has its nearest integer in the low bits.
 const INTEGER_BITS: f64 = 4_503_599_627_370_496.0;
 
-/// More buckets than this are not worth their memory.
+/// The maximum number of buckets, beyond which they are not worth their memory.
 const MOST_BUCKETS: usize = 1 << 22;
 
 impl GroupSearch {
@@ -91,7 +91,7 @@ impl GroupSearch {
 
     /// Finds the piece that holds each `x`, which is within the range of its group or NaN.
     ///
-    /// `group_of` gives the group of a row. What can be vectorised stands in a loop of its own, before the loads that depend on it.
+    /// `group_of` gives the group of a row. The vectorisable part is a separate loop, before the loads that depend on it.
     #[inline(always)]
     pub(super) fn find<const KIND: u8, const STEPS: usize>(
         &self,
@@ -113,7 +113,7 @@ impl GroupSearch {
     }
 
     /// [`Self::find`] where there is one group, with the clamping of `x` in the same loop as the keys.
-    /// Halving goes through all rows step by step, so that none waits for another.
+    /// The binary search advances all rows step by step, so that they are independent.
     #[inline(always)]
     pub(super) fn find_in_one<const KIND: u8, const STEPS: usize>(
         &self,
@@ -141,7 +141,7 @@ impl GroupSearch {
         }
     }
 
-    /// Replaces each row's bucket by the piece that holds its `x`.
+    /// Replaces each row's bucket by the piece that contains its `x`.
     #[inline(always)]
     fn pieces_of_buckets<const STEPS: usize>(&self, x: &[f64], pieces: &mut [u32]) {
         let (buckets, ends) = (&self.buckets[..], &self.ends[..]);
@@ -232,7 +232,7 @@ impl Group {
         let key = if KIND == LINEAR {
             ((x - self.least) * self.scale + INTEGER_BITS).to_bits()
         } else {
-            // Adding 0 makes −0 the same number as 0.
+            // Adding 0 turns −0 into 0.
             ordered(x + 0.0).wrapping_sub(self.order).cast_unsigned() >> self.shift
         };
         #[expect(clippy::cast_possible_truncation, reason = "the low bits are the number")]
@@ -244,7 +244,7 @@ impl Group {
         if kind == Search::LinearBuckets { self.key::<LINEAR>(x) } else { self.key::<BITS>(x) }
     }
 
-    /// The fewest buckets that hold at most `steps` breaks each; none where there would be too many.
+    /// The smallest number of buckets with at most `steps` breaks each; `None` where there would be too many.
     fn choose_buckets(&mut self, breaks: &Breaks, kind: Search, steps: usize) -> Option<()> {
         let Breaks { least, greatest, at: breaks } = breaks;
         let most = 64 + 16 * breaks.len();

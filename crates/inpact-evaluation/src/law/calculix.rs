@@ -34,11 +34,11 @@ use std::ops::Range;
 pub struct CalculixConductance {
     /// The temperature of each curve, ascending.
     temperatures: Vec<f64>,
-    /// The first and the last curve against pressure, by which ccx goes on outside the temperatures.
+    /// The first and the last curve against pressure, with which ccx continues outside the temperatures.
     outermost: [PiecewiseTable; 2],
     /// For each curve but the last the clipped table against pressure and temperature up to the next.
     between: Vec<PiecewiseTable>,
-    /// All rows as one table, of which a plan tells its axes.
+    /// All rows as one table, whose axes a plan shows.
     rows: PiecewiseTable,
 }
 
@@ -149,17 +149,17 @@ enum Outside {
     Above,
 }
 
-/// A curve by itself, against pressure.
+/// A single curve, against pressure.
 fn curve_table(rows: &[[f64; WIDTH]]) -> Result<PiecewiseTable, Error> {
     let cells: Vec<[f64; 2]> = rows.iter().map(|&[value, pressure, _]| [value, pressure]).collect();
     PiecewiseTable::from_rows(cells.as_flattened(), 2, Tail::Constant)
 }
 
-/// Two neighbouring curves over the pressures both have; the second begins in that row of the table.
+/// Two neighbouring curves over their common pressures; the second begins in that row of the table.
 fn clipped(row: usize, first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Result<PiecewiseTable, Error> {
     let (first_range, second_range) = (pressures(first), pressures(second));
     let shared = first_range.start.max(second_range.start)..first_range.end.min(second_range.end);
-    // Curves that begin together share at least that pressure; otherwise the one that begins earlier must reach beyond where the other begins.
+    // Curves with the same start share at least that pressure; otherwise the one that starts earlier must reach beyond the start of the other.
     let do_share = first_range.start == second_range.start
         || if first_range.start < second_range.start {
             second_range.start < first_range.end
@@ -184,7 +184,7 @@ fn clipped(row: usize, first: &[[f64; WIDTH]], second: &[[f64; WIDTH]]) -> Resul
     PiecewiseTable::from_rows(cells.as_flattened(), WIDTH, Tail::Constant)
 }
 
-/// From the first to the last pressure of a curve; both belong to it.
+/// From the first to the last pressure of a curve, inclusive.
 fn pressures(curve: &[[f64; WIDTH]]) -> Range<f64> {
     curve[0][1]..curve[curve.len() - 1][1]
 }

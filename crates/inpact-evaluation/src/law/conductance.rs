@@ -53,7 +53,7 @@ pub enum Branch {
     Clearance,
     /// The table against contact pressure.
     Pressure,
-    /// No table: open with a pressure table alone, or a state that cannot be told.
+    /// No table: open with a pressure table alone, or a state that is undetermined.
     Neither,
 }
 
@@ -91,7 +91,7 @@ impl ConductanceTables {
         Conductance { value: found.value, branch, sides: found.sides }
     }
 
-    /// [`Self::conductance`] with the tables' values as `find` gives them.
+    /// [`Self::conductance`] with the tables' values from `find`.
     fn found_with(
         &self,
         point: &ContactPoint<'_>,
@@ -192,16 +192,16 @@ pub struct ConductanceSlopes {
 pub(crate) enum SlopeAlong {
     /// The first quantity of this branch, clearance or contact pressure.
     Contact(Branch),
-    /// A variable behind it, by its place.
+    /// A further variable, by its index.
     Variable(usize),
 }
 
 impl SlopeAlong {
-    /// The axis of the table of the branch in force along which the slope is; `None` where there is none to speak of.
+    /// The axis of the table of the branch in force along which the slope is; `None` where there is none.
     #[inline]
     pub(crate) fn axis_of(self, branch: Branch, state: ContactState, clearance: f64) -> Option<usize> {
         let is_moot = || match state {
-            // Of a closed point the clearance counts at d = 0 alone, where it opens.
+            // For a closed point the clearance matters only at d = 0, where it opens.
             ContactState::Closed => clearance != 0.0,
             _ => clearance < 0.0,
         };

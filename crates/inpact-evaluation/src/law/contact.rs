@@ -38,7 +38,7 @@ pub enum ContactState {
     Closed,
     /// Apart.
     Open,
-    /// It cannot be told, because clearance or pressure is NaN.
+    /// It is undetermined, because clearance or pressure is NaN.
     Undetermined,
 }
 

@@ -148,7 +148,7 @@ pub fn generated_heat(
     GeneratedHeat { total, slave: slave_weight * total, master: (1.0 - slave_weight) * total }
 }
 
-/// [`generated_heat`] for finite inputs of any size, whose intermediate products may leave the range of f64; rounded once.
+/// [`generated_heat`] for finite inputs of any size, whose intermediate products may exceed the range of f64; rounded once.
 #[cold]
 fn scaled_heat(conductance: Scaled, jumps: (f64, f64), generation: HeatGeneration) -> GeneratedHeat {
     HeatAmounts::share(scaled_total(conductance, jumps, generation.fraction), generation.slave_weight).rounded()

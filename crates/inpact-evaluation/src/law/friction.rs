@@ -34,11 +34,11 @@ pub fn frictional_heat(shear: ShearStress, slip_rate: SlipRate, generation: Heat
     let share = |weight: f64| {
         if is_zero_or_ordinary(total) { weight * total } else { product(&[weight, fraction, shear.0, slip_rate.0]) }
     };
-    // No heat is 0, not −0.
+    // Zero heat is +0, not −0.
     GeneratedHeat { total: total + 0.0, slave: share(slave_weight) + 0.0, master: share(1.0 - slave_weight) + 0.0 }
 }
 
-/// [`frictional_heat`] for what it is multiplied with and summed up to.
+/// [`frictional_heat`] without overflow, for products and sums.
 pub(crate) fn frictional_heat_amounts(
     shear: ShearStress,
     slip_rate: SlipRate,

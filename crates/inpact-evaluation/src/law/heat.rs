@@ -64,7 +64,7 @@ impl HeatAmounts {
         }
     }
 
-    /// Heat into slave and master surface, where plain arithmetic has found it.
+    /// Heat into slave and master surface, from plain arithmetic.
     #[inline]
     pub(crate) fn plain_shares(&self) -> Option<[f64; 2]> {
         Some([self.slave.plain()?, self.master.plain()?])

@@ -65,10 +65,10 @@ pub struct Cutoffs {
 /// Whether flow at a clearance equal to the cutoff is still in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CutoffBoundary {
-    /// Yes, as the user's guide has it: off above the cutoff.
+    /// Yes, as in the user's guide: off above the cutoff.
     #[default]
     Inclusive,
-    /// No, as the theory guide has it: off from the cutoff on.
+    /// No, as in the theory guide: off from the cutoff on.
     Exclusive,
 }
 
@@ -131,7 +131,7 @@ pub enum Flow {
     Active,
     /// The surfaces are beyond its cutoff.
     CutOff,
-    /// The cutoff is the characteristic element length, which is not known and would decide.
+    /// The cutoff is the characteristic element length, which is needed and unknown.
     NeedsCharacteristicLength,
 }
 
@@ -217,7 +217,7 @@ impl PoreLaw {
         };
         let (slave_share, master_share) = self.gap_shares(point.bulk);
         let width_change = self.width_change(point);
-        // The rate of the filled width; the cutoff of an increment stands in its widths.
+        // The rate of the filled width; for an increment the cutoff is applied to its widths.
         let rate = match (gap_fill, point.gap) {
             (Flow::NeedsCharacteristicLength, _) => None,
             (_, Gap::Since { duration, .. }) => Some(width_rate(width_change, duration)),
@@ -267,7 +267,7 @@ impl PoreLaw {
         }
     }
 
-    /// Δb over the increment, as a rounded difference and what the rounding took away.
+    /// Δb over the increment, as a rounded difference and its rounding error.
     fn width_change(&self, point: &PorePoint<'_>) -> (f64, f64) {
         let Gap::Since { clearance: start, .. } = point.gap else { return (0.0, 0.0) };
         let cutoff = self.cutoffs.gap_fill.or(point.characteristic_length).unwrap_or(f64::INFINITY);
@@ -281,7 +281,7 @@ impl PoreLaw {
     fn flow_within(&self, cutoff: Option<f64>, point: &PorePoint<'_>) -> Flow {
         let d = point.clearance.0;
         let Some(cutoff) = cutoff.or(point.characteristic_length) else {
-            // Any length is positive, so a closed interface is within it.
+            // Any cutoff is positive, so a closed interface is within it.
             return if d > 0.0 { Flow::NeedsCharacteristicLength } else { Flow::Active };
         };
         let is_beyond = match self.boundary {
@@ -331,7 +331,7 @@ pub(crate) fn given_rate(clearance: Clearance, rate: ClearanceRate) -> f64 {
     if has_gap || clearance.0.is_nan() { rate.0 } else { 0.0 }
 }
 
-/// ḃ over an increment, of the change of the width and what its rounding took away.
+/// ḃ over an increment, from the change of the width and its rounding error.
 fn width_rate((change, error): (f64, f64), duration: f64) -> Amount {
     let inputs = [change, error, duration];
     if inputs.into_iter().all(is_moderate) || !inputs.into_iter().all(f64::is_finite) {
@@ -346,12 +346,12 @@ fn filling_of(share: f64, rate: Amount) -> Amount {
         Some(exact) if !(rate.is_moderate() && is_moderate(share)) && share.is_finite() => {
             Amount::exactly(-(Scaled::new(share) * exact))
         }
-        // 0 − q and not −q: no flow is 0, not −0.
+        // 0 − q and not −q: zero flow is +0, not −0.
         _ => Amount::new(0.0 - share * rate.value()),
     }
 }
 
-/// k (p_master − p_slave); `rest` is what rounding took away from k, where that is known.
+/// k (p_master − p_slave); `rest` is the rounding error of k, where that is known.
 fn flow_of(permeability: f64, rest: Option<f64>, point: &PorePoint<'_>) -> Amount {
     let (slave, master) = point.jump.map_or((point.slave.0, point.master.0), |jump| (jump, 0.0));
     let inputs = [permeability, rest.unwrap_or(0.0), slave, master];

@@ -84,7 +84,7 @@ impl RadiationLaw {
     pub fn view_factor(&self, clearance: Clearance, state: ContactState) -> (f64, Sides) {
         match state.table_clearance(Some(clearance.0)) {
             Some(clearance) if !clearance.is_nan() => self.view_factor.value_and_sides_at(clearance, &[]),
-            // A table of one value does not depend on the clearance, but on whether it can be told.
+            // A table of one value does not depend on the clearance, but on whether it is determined.
             _ => (f64::NAN, Sides::default()),
         }
     }
@@ -149,7 +149,7 @@ fn is_mild(value: f64) -> bool {
 /// q_r for temperatures from absolute zero and their difference, none of them extreme.
 #[inline]
 fn plain_heat(coefficient: RadiationCoefficient, view_factor: f64, [a, b]: [f64; 2], difference: f64) -> f64 {
-    // No heat is 0, not −0.
+    // Zero heat is +0, not −0.
     coefficient.0 * view_factor * ((a * a + b * b) * (a + b)) * difference + 0.0
 }
 

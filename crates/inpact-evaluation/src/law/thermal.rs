@@ -36,9 +36,9 @@ use crate::numbers::{Amount, Scaled, is_moderate, mean, scaled_difference_produc
 /// Of the `variables` of a [`ContactPoint`], 0 is the mean temperature, 1 the mean mass flow rate, the rest are the field variables.
 #[derive(Clone, Debug)]
 pub enum ThermalConductance {
-    /// As *GAP CONDUCTANCE of Abaqus has it: against clearance, contact pressure, or both.
+    /// *GAP CONDUCTANCE of Abaqus: against clearance, contact pressure, or both.
     Tables(ConductanceTables),
-    /// As that of CalculiX has it: against pressure and temperature, closed only.
+    /// *GAP CONDUCTANCE of CalculiX: against pressure and temperature, closed only.
     Calculix(CalculixConductance),
 }
 
@@ -97,14 +97,14 @@ impl Temperatures {
 /// The heat q_k that is conducted out of the slave into the master surface.
 #[inline]
 pub fn conducted_heat(conductance: f64, temperatures: Temperatures) -> f64 {
-    // No heat is 0, not −0.
+    // Zero heat is +0, not −0.
     match temperatures.jump {
         Some(jump) => conductance * jump + 0.0,
         None => scaled_difference_product(conductance, temperatures.slave, temperatures.master) + 0.0,
     }
 }
 
-/// [`conducted_heat`] for what it is multiplied with and summed up to; `rest` is what rounding took away from the conductance, where that is known.
+/// [`conducted_heat`] without overflow, for products and sums; `rest` is the rounding error of the conductance, where that is known.
 pub(crate) fn conducted_heat_amount(value: f64, rest: Option<f64>, temperatures: Temperatures) -> Amount {
     let Temperatures { slave, master, jump } = temperatures;
     if rest.is_none() && [value, slave, master, jump.unwrap_or(0.0)].into_iter().all(is_moderate) {
@@ -167,7 +167,7 @@ impl InterfaceHeat {
     /// All heat into the slave surface.
     #[inline]
     pub fn into_slave(&self) -> f64 {
-        // No heat is 0, not −0.
+        // Zero heat is +0, not −0.
         0.0 - self.leaving_slave().value()
     }
 

@@ -51,7 +51,7 @@ pub trait UserConductance: Send + Sync {
     /// The conductance at one slave node in one increment.
     ///
     /// # Errors
-    /// The routine refuses the point. Values that are no conductance are found by the caller, with [`UserConductanceValue::checked`].
+    /// The routine rejects the point. Invalid values are detected by the caller, with [`UserConductanceValue::checked`].
     fn conductance(&self, point: &UserConductancePoint<'_>) -> Result<UserConductanceValue, UserFault>;
 }
 
@@ -100,7 +100,7 @@ pub enum UserFault {
     },
     /// The conductance is below zero, which would create energy (K-13).
     Negative(f64),
-    /// The routine, or what calls it, refuses: why, in words that follow "the routine".
+    /// The routine, or its caller, rejects the point: the reason, in words that follow "the routine".
     Refused(String),
 }
 
@@ -137,7 +137,7 @@ impl UserConductanceValue {
         if self.conductance < 0.0 {
             return Err(UserFault::Negative(self.conductance));
         }
-        // No conductance is 0, not −0.
+        // A zero conductance is +0, not −0.
         Ok(Self { conductance: self.conductance + 0.0, ..self })
     }
 

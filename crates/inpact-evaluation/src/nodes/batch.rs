@@ -22,12 +22,12 @@ pub struct Batch {
 #[derive(Debug, Clone, Default)]
 pub struct LabelColumn {
     texts: Texts,
-    /// The column as it was stored, where it was stored as a column; its texts are made when they are asked for.
+    /// The stored array, for columnar files; its texts are made lazily.
     #[cfg(feature = "columnar")]
     array: Option<(crate::arrow::array::ArrayRef, std::sync::OnceLock<Texts>)>,
 }
 
-/// Texts one after the other.
+/// Concatenated texts.
 #[derive(Debug, Clone, Default)]
 struct Texts {
     bytes: Vec<u8>,
@@ -39,11 +39,11 @@ struct Texts {
 pub struct NumberColumn {
     /// NaN where the number is missing.
     values: Values,
-    /// Which of them are there; empty where all of them are.
+    /// Flags of the numbers present; empty where all of them are.
     present: Vec<bool>,
 }
 
-/// Numbers of its own, or those of an array that others hold too, which are copied when they change.
+/// Owned numbers, or a shared array, copied on write.
 #[derive(Debug, Clone)]
 enum Values {
     Owned(Vec<f64>),
@@ -52,7 +52,7 @@ enum Values {
 }
 
 impl Values {
-    /// The numbers as a vector, which may change.
+    /// The numbers as a mutable vector.
     #[inline]
     fn owned(&mut self) -> &mut Vec<f64> {
         #[cfg(feature = "columnar")]
@@ -66,7 +66,7 @@ impl Values {
         }
     }
 
-    /// An empty vector; what it had allocated stays, where it is its own.
+    /// An empty vector; an owned allocation is kept.
     fn clear(&mut self) {
         match self {
             Self::Owned(values) => values.clear(),
@@ -75,7 +75,7 @@ impl Values {
         }
     }
 
-    /// How many bytes of memory they take.
+    /// Their size in bytes.
     fn size(&self) -> usize {
         let count = match self {
             Self::Owned(values) => values.capacity(),
@@ -122,13 +122,13 @@ impl LabelColumn {
         self.texts.push(text);
     }
 
-    /// Makes it a column of so many rows of one text.
+    /// Makes it a column of this many rows with the same text.
     pub(crate) fn fill(&mut self, text: &[u8], rows: usize) {
         self.clear();
         (0..rows).for_each(|_| self.texts.push(text));
     }
 
-    /// A column of texts that stand one after the other and end there.
+    /// A column of concatenated texts with these ends.
     pub(super) fn from_texts(bytes: Vec<u8>, ends: Vec<usize>) -> Self {
         Self {
             texts: Texts { bytes, ends },
@@ -137,7 +137,7 @@ impl LabelColumn {
         }
     }
 
-    /// The texts one after the other, and where each ends.
+    /// The concatenated texts, and their ends.
     pub(super) fn texts(&self) -> (&[u8], &[usize]) {
         (&self.texts.bytes, &self.texts.ends)
     }
@@ -187,7 +187,7 @@ impl Texts {
         self.ends.push(self.bytes.len());
     }
 
-    /// The texts of an array: floats as a result table prints them, nulls as empty texts.
+    /// The texts of an array: floats as printed in a result table, nulls as empty texts.
     #[cfg(feature = "columnar")]
     fn of_array(array: &crate::arrow::array::ArrayRef) -> Self {
         use super::arrays;
@@ -227,7 +227,7 @@ impl Texts {
             }
         } else {
             let strings = arrays::texts(array);
-            // The reader lets no type through that has no text.
+            // The reader rejects types without a text form.
             let strings = strings.unwrap_or_else(|_| std::sync::Arc::new(StringArray::new_null(array.len())));
             strings.as_string::<i32>().iter().for_each(|text| texts.push(text.unwrap_or_default().as_bytes()));
         }
@@ -235,7 +235,7 @@ impl Texts {
     }
 }
 
-/// Adds a whole number.
+/// Adds an integer.
 #[cfg(feature = "columnar")]
 fn push_digits(text: &mut Vec<u8>, mut number: u64) {
     let mut digits = [0; 20];
@@ -252,7 +252,7 @@ fn push_digits(text: &mut Vec<u8>, mut number: u64) {
 }
 
 impl NumberColumn {
-    /// A column of numbers, and which of them are there: none is missing where there are no flags.
+    /// A column of numbers with flags of those present: none is missing without flags.
     #[cfg(feature = "columnar")]
     pub(super) fn from_parts(mut values: Vec<f64>, present: Vec<bool>) -> Self {
         for (value, present) in values.iter_mut().zip(&present) {
@@ -261,7 +261,7 @@ impl NumberColumn {
         Self { values: Values::Owned(values), present }
     }
 
-    /// The column of an array of which no number is missing; its memory becomes the column's where nobody else has it, and is shared otherwise.
+    /// The column of an array of which no number is missing; its memory is taken over if it is not shared, and shared otherwise.
     #[cfg(feature = "columnar")]
     pub(super) fn of_buffer(buffer: arrow_buffer::ScalarBuffer<f64>) -> Self {
         let values = match buffer.into_inner().into_vec() {
@@ -348,14 +348,14 @@ impl NumberColumn {
         self.values.owned()[rows].iter_mut().enumerate().for_each(|(row, value)| *value = of(row));
     }
 
-    /// Drops the flags of a column that lacks no number.
+    /// Drops the flags of a column without missing numbers.
     pub(crate) fn settle(&mut self) {
         if !self.present.contains(&false) {
             self.present.clear();
         }
     }
 
-    /// Says that no number is missing: all of them have been set.
+    /// Marks all numbers as present: all of them have been set.
     pub(crate) fn set_all_present(&mut self) {
         self.present.clear();
     }
@@ -371,7 +371,7 @@ impl NumberColumn {
         }
     }
 
-    /// Puts the numbers of some rows, those that are there, into their places in `whole`.
+    /// Scatters the numbers of some rows, those present, into `whole`.
     pub(crate) fn scatter(&self, rows: &[u32], whole: &mut Self) {
         for (index, row) in rows.iter().enumerate() {
             if let Some(value) = self.get(index) {
@@ -388,7 +388,7 @@ impl NumberColumn {
         self.present.resize(rows, false);
     }
 
-    /// Makes it a column of so many numbers, all of which are about to be set.
+    /// Makes it a column of this many numbers, all of which are about to be set.
     pub(crate) fn shape(&mut self, rows: usize) {
         self.present.clear();
         match &mut self.values {
@@ -408,7 +408,7 @@ impl NumberColumn {
         self.present.clear();
     }
 
-    /// Takes the numbers and their presence out, and leaves memory of no meaning for others.
+    /// Takes the numbers and their flags, leaving reusable memory with arbitrary contents.
     #[cfg(feature = "columnar")]
     pub(crate) fn take(&mut self, room: Vec<f64>) -> (Vec<f64>, Option<Vec<bool>>) {
         let present = std::mem::take(&mut self.present);
@@ -448,14 +448,14 @@ impl Batch {
         gathered
     }
 
-    /// How many bytes of memory its rows take.
+    /// The size of its rows in bytes.
     pub(super) fn size(&self) -> usize {
         let labels: usize = self.labels.iter().map(LabelColumn::size).sum();
         let numbers: usize = self.numbers.iter().map(NumberColumn::size).sum();
         labels + numbers + size_of::<u64>() * self.lines.capacity()
     }
 
-    /// The same rows with other columns: those at these places, each at most once; `None` for one that has nothing.
+    /// The same rows with other columns: those at these indices, each at most once; `None` for an empty one.
     pub(super) fn with_selected(mut self, labels: &[Option<usize>], numbers: &[Option<usize>]) -> Self {
         let label = |place: &Option<usize>| match place {
             Some(place) => std::mem::take(&mut self.labels[*place]),
@@ -474,13 +474,13 @@ impl Batch {
         Self { labels, numbers, ..self }
     }
 
-    /// Makes room for the numbers of so many rows.
+    /// Reserves memory for the numbers of this many rows.
     pub(super) fn reserve(&mut self, rows: usize) {
         self.lines.reserve(rows);
         self.numbers.iter_mut().for_each(|column| column.values.owned().reserve(rows));
     }
 
-    /// Makes it an empty batch with so many columns of each kind; what it had allocated stays.
+    /// Resets it to an empty batch with this many columns of each kind; allocations are kept.
     pub(super) fn clear(&mut self, labels: usize, numbers: usize) {
         self.rows = 0;
         self.first_row = 0;

@@ -4,7 +4,7 @@ use super::batch::{Batch, NumberColumn};
 use crate::plan::Source;
 use std::borrow::Cow;
 
-/// Numbers, NaN where one is missing, and which of them are there.
+/// Numbers, NaN where one is missing, with flags of those present.
 #[derive(Debug, Clone)]
 pub(crate) struct Cells<'a> {
     pub(crate) values: Cow<'a, [f64]>,
@@ -22,7 +22,7 @@ impl<'a> Cells<'a> {
         Self::of(&batch.numbers[place])
     }
 
-    /// The numbers of a source; `combine` makes one of slave and master.
+    /// The numbers of a source; `combine` combines slave and master.
     pub(crate) fn of_source(batch: &'a Batch, source: &Source<usize>, combine: impl Fn(f64, f64) -> f64) -> Self {
         let sides = |slave, master| Self::at(batch, slave).combined(&Self::at(batch, master), &combine);
         match *source {
@@ -42,7 +42,7 @@ impl<'a> Cells<'a> {
         Cells { values: Cow::Owned(values), present }
     }
 
-    /// These, and where one is missing the other.
+    /// These, or the other where one is missing.
     fn or(self, other: &Self) -> Self {
         let Some(present) = &self.present else { return self };
         let values = present.iter().zip(&*self.values).zip(&*other.values);
@@ -54,7 +54,7 @@ impl<'a> Cells<'a> {
         Self { values: Cow::Owned(values), present }
     }
 
-    /// Whether the number of a row is there.
+    /// Whether the number of a row is present.
     #[inline]
     pub(crate) fn has(&self, row: usize) -> bool {
         self.present.as_ref().is_none_or(|present| present[row])

@@ -19,14 +19,14 @@ impl Column {
             return None;
         }
         let name = header.trim().to_ascii_lowercase();
-        // A field variable has the number that the header has.
+        // A field variable has the number of the header.
         let digits: String = name.chars().filter(char::is_ascii_digit).collect();
         let number = digits.parse().ok().filter(|_| name.starts_with("fv") && !digits.starts_with('0'));
         let parts = [Part::Both, Part::Slave, Part::Master];
         let fields = number.map(|number| parts.map(|part| Self::FieldVariable(number, part).to_string()));
         let names = plain_columns().flat_map(|page| page.names).copied();
         let names: Vec<&str> = names.chain(fields.iter().flatten().map(String::as_str)).collect();
-        // What differs by underscores and blanks only is nearest of all.
+        // Names that differ only by underscores and blanks are the nearest.
         let plain = |name: &str| name.chars().filter(|character| character.is_alphanumeric()).collect::<String>();
         let alike = names.iter().copied().find(|known| plain(known) == plain(&name));
         Self::named(alike.or_else(|| nearest_names(name.as_bytes(), names, 1).first().copied())?)

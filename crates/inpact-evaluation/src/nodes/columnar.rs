@@ -25,7 +25,7 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// How a table of columns is stored.
+/// Formats of columnar tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Storage {
     Parquet,
@@ -48,7 +48,7 @@ pub(super) struct ColumnarReader {
     header: Header,
     schema: SchemaRef,
     rows: Rows,
-    /// Places in the schema of the columns that were asked for; `usize::MAX` for one it does not have.
+    /// Indices in the schema of the requested columns; `usize::MAX` for one it does not have.
     labels: Vec<usize>,
     numbers: Vec<usize>,
     rows_of_a_batch: usize,
@@ -62,10 +62,10 @@ enum Rows {
     Parquet(Shared, ArrowReaderMetadata),
     /// Nothing has been read.
     Arrow(Storage, Box<dyn ReadSeek>),
-    /// Rows that come as record batches; nothing has been read.
+    /// Rows given as record batches; nothing has been read.
     Batches(RecordBatches),
     Begun(Source),
-    /// Another thread reads the next rows.
+    /// Another thread is reading the next rows.
     UnderWay(Receiver<(Source, Read1)>),
     Ended,
 }
@@ -76,19 +76,19 @@ type Read1 = io::Result<Option<Columns>>;
 /// An iterator of record batches.
 pub type RecordBatches = Box<dyn Iterator<Item = Result<RecordBatch, ArrowError>> + Send>;
 
-/// Rows of the columns that were asked for.
+/// Rows of the requested columns.
 struct Source {
     kind: &'static str,
     batches: RecordBatches,
     /// The rest of the batch read last.
     rest: Option<RecordBatch>,
     rows_of_a_batch: usize,
-    /// The place of each label and number in a record batch, if it can be read.
+    /// The index of each label and number in a record batch, if it can be read.
     labels: Vec<Option<usize>>,
     numbers: Vec<Option<usize>>,
 }
 
-/// Rows as they go into a batch: arrays of labels, and of numbers as f64.
+/// Rows for a batch: arrays of labels, and of numbers as f64.
 struct Columns {
     rows: usize,
     labels: Vec<Option<ArrayRef>>,
@@ -119,7 +119,7 @@ impl ColumnarReader {
         Ok(Self::new(schema, rows, findings))
     }
 
-    /// Reads what comes as record batches of this schema.
+    /// Reads record batches of this schema.
     pub(super) fn of_batches(schema: SchemaRef, batches: RecordBatches, findings: &mut Findings) -> Self {
         Self::new(schema, Rows::Batches(batches), findings)
     }
@@ -143,7 +143,7 @@ impl ColumnarReader {
         &self.header
     }
 
-    /// Chooses the columns of the batches to come.
+    /// Selects the columns of the following batches.
     pub(super) fn select(&mut self, labels: &[usize], numbers: &[usize], rows_of_a_batch: usize) {
         self.labels = labels.to_vec();
         self.numbers = numbers.to_vec();
@@ -161,7 +161,7 @@ impl ColumnarReader {
         caught(Storage::Parquet.kind(), || Ok(statistics(metadata, index))).ok()?
     }
 
-    /// Gives the next rows; false when there are no more.
+    /// Reads the next rows; false when there are no more.
     pub(super) fn read_batch(&mut self, batch: &mut Batch, findings: &mut Findings) -> io::Result<bool> {
         batch.clear(self.labels.len(), self.numbers.len());
         batch.first_row = self.rows_read;
@@ -179,7 +179,7 @@ impl ColumnarReader {
         self.rows = if self.reads_ahead {
             let (sender, receiver) = channel();
             begin(move || {
-                // Nobody waits for it when the reader was dropped.
+                // The receiver is gone when the reader was dropped.
                 let _ = sender.send(source.step());
             });
             Rows::UnderWay(receiver)
@@ -191,7 +191,7 @@ impl ColumnarReader {
         Ok(true)
     }
 
-    /// Reports columns that were asked for and hold what is no number or no key.
+    /// Reports requested columns whose type is neither number nor key.
     fn report_types(&self, findings: &mut Findings) {
         let wrong_labels = self.labels.iter().filter(|index| self.is_wrong(**index, is_key));
         let wrong_numbers = self.numbers.iter().filter(|index| self.is_wrong(**index, is_numeric));
@@ -211,7 +211,7 @@ impl ColumnarReader {
         self.schema.fields().get(index).is_some_and(|field| !is_right(field.data_type()))
     }
 
-    /// Begins to read the columns that were asked for.
+    /// Begins to read the requested columns.
     fn begin(&mut self) -> io::Result<Source> {
         let right = |index: &usize, is_right| *index < self.schema.fields().len() && !self.is_wrong(*index, is_right);
         let labels: Vec<Option<usize>> =
@@ -265,7 +265,7 @@ impl ColumnarReader {
     }
 }
 
-/// How many rows of a Parquet file are decoded at once at most.
+/// The maximum number of rows of a Parquet file decoded at once.
 const MOST_ROWS_AT_ONCE: usize = 8192;
 
 impl Source {
@@ -319,7 +319,7 @@ impl Columns {
     }
 }
 
-/// The column of an array of f64, whose memory it takes over or shares where no number is missing.
+/// The column of an array of f64, whose memory is taken over or shared where no number is missing.
 fn number_column(array: ArrayRef) -> NumberColumn {
     let numbers = array.as_primitive::<Float64Type>().clone();
     drop(array);
@@ -373,7 +373,7 @@ fn statistics(metadata: &ArrowReaderMetadata, index: usize) -> Option<ColumnStat
     Some(whole)
 }
 
-/// The smallest and the largest number of some rows, if they are known exactly.
+/// Minimum and maximum of some rows, if known exactly.
 fn bounds(of: &Statistics) -> Option<(f64, f64)> {
     let exact = of.min_is_exact() && of.max_is_exact();
     let (least, greatest) = match of {
@@ -387,7 +387,7 @@ fn bounds(of: &Statistics) -> Option<(f64, f64)> {
     (exact && least <= greatest).then_some((least, greatest))
 }
 
-/// An Arrow file that is wrong inside.
+/// The error of an inconsistent Arrow file.
 fn invalid(error: ArrowError) -> io::Error {
     invalid_as(Storage::ArrowFile.kind(), error)
 }
@@ -395,8 +395,8 @@ fn invalid(error: ArrowError) -> io::Error {
 fn invalid_as(kind: &str, error: ArrowError) -> io::Error {
     use io::ErrorKind::{InvalidData, InvalidInput, Other, UnexpectedEof};
     match error {
-        // A place before its beginning, or beyond its end, is one that a sound file does not point to;
-        // what is packed wrongly comes as an error without a kind, which no system gives.
+        // A sound file does not point before its beginning or beyond its end;
+        // faulty compression is reported as an error without a kind, unlike errors of the system.
         ArrowError::IoError(_, error)
             if !matches!(error.kind(), UnexpectedEof | InvalidInput | InvalidData | Other) =>
         {
@@ -410,14 +410,14 @@ fn invalid_parquet(error: &ParquetError) -> io::Error {
     unsound(Storage::Parquet.kind(), error)
 }
 
-/// A file that several readers read in turn.
+/// A file shared by several readers.
 #[derive(Clone)]
 struct Shared {
     file: Arc<Mutex<Box<dyn ReadSeek>>>,
     length: u64,
 }
 
-/// A place in a [`Shared`] file.
+/// A position in a [`Shared`] file.
 struct Cursor {
     file: Shared,
     at: u64,

@@ -17,23 +17,23 @@ pub(super) struct CsvReader<'a> {
     pieces: Pieces<'a>,
     header: Header,
     layout: Arc<Layout>,
-    /// How many pieces are decoded while others are evaluated.
+    /// The number of pieces decoded ahead while others are evaluated.
     read_ahead: usize,
-    /// Pieces on their way, in their order.
+    /// Pieces in flight, in order.
     under_way: VecDeque<Receiver<Work>>,
-    /// The piece that batches are taken from, and how many were.
+    /// The current piece, and the number of batches taken from it.
     current: Work,
     taken: usize,
     spare: Vec<Work>,
     /// The lines and rows before the current piece.
     rows_before: u64,
     lines_before: u64,
-    /// Whether nothing is left to read, and why if that is an error.
+    /// Whether the input is exhausted, and the error if that is the reason.
     is_read: bool,
     failure: Option<io::Error>,
 }
 
-/// A piece and what came of it; both keep their memory for the next.
+/// A piece and its decoded rows; both keep their memory for reuse.
 #[derive(Default)]
 struct Work {
     piece: Piece,
@@ -64,18 +64,18 @@ impl<'a> CsvReader<'a> {
         &self.header
     }
 
-    /// Chooses the cells of the batches to come.
+    /// Selects the cells of the following batches.
     pub(super) fn select(&mut self, labels: &[usize], numbers: &[usize], rows_of_a_batch: usize) {
         let cells = self.header.cells.len();
         self.layout = Arc::new(Layout::new(self.pieces.separator(), cells, rows_of_a_batch, labels, numbers));
     }
 
-    /// Decodes so many pieces on other threads while others are evaluated; 0 decodes each when its turn comes.
+    /// Decodes this many pieces ahead on other threads; 0 decodes each when it is needed.
     pub(super) fn set_read_ahead(&mut self, pieces: usize) {
         self.read_ahead = pieces;
     }
 
-    /// Gives the next rows; false when there are no more.
+    /// Reads the next rows; false when there are no more.
     pub(super) fn read_batch(&mut self, batch: &mut Batch, findings: &mut Findings) -> io::Result<bool> {
         while self.taken == self.current.decoded.used {
             self.rows_before += self.current.decoded.rows;
@@ -99,7 +99,7 @@ impl<'a> CsvReader<'a> {
         Ok(true)
     }
 
-    /// Reads pieces up to the one with the header, and takes that off.
+    /// Reads pieces up to the one with the header, and removes that.
     fn read_header(&mut self, findings: &mut Findings) -> io::Result<()> {
         let mut piece = Piece::default();
         let separator = self.pieces.separator();
@@ -137,7 +137,7 @@ impl<'a> CsvReader<'a> {
     fn next_piece(&mut self) -> io::Result<bool> {
         while self.under_way.len() <= self.read_ahead && !self.is_read {
             let mut work = self.spare.pop().unwrap_or_default();
-            // What was read together with the header has not been decoded yet.
+            // The rest of the piece with the header is not decoded yet.
             let is_first = self.under_way.is_empty() && self.rows_before == 0 && !work.piece.text.is_empty();
             match if is_first { Ok(true) } else { self.pieces.next(&mut work.piece) } {
                 Ok(true) if self.read_ahead == 0 => {
@@ -150,7 +150,7 @@ impl<'a> CsvReader<'a> {
                     let (sender, receiver) = channel();
                     begin(move || {
                         layout.decode(&work.piece, &mut work.decoded);
-                        // Nobody waits for it when the reader was dropped.
+                        // The receiver is gone when the reader was dropped.
                         let _ = sender.send(work);
                     });
                     self.under_way.push_back(receiver);

@@ -8,14 +8,14 @@ use super::number::number;
 use inpact_parser::number::read_plain;
 use memchr::memchr;
 
-/// Which cells of a row go where.
+/// The mapping of cells of a row to columns.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Layout {
     /// The separator of cells.
     pub(super) separator: u8,
-    /// How many cells a row has.
+    /// The number of cells of a row.
     pub(super) cells: usize,
-    /// The most rows a batch has.
+    /// The maximum number of rows of a batch.
     pub(super) rows_of_a_batch: usize,
     labels: usize,
     numbers: usize,
@@ -40,7 +40,7 @@ enum Target {
 /// Results of a piece of text.
 #[derive(Debug, Default)]
 pub(super) struct Decoded {
-    /// The rows; batches beyond [`Decoded::used`] are what others have left.
+    /// The rows; batches beyond [`Decoded::used`] are left over for reuse.
     pub(super) batches: Vec<Batch>,
     pub(super) used: usize,
     pub(super) problems: Vec<Problem>,
@@ -48,7 +48,7 @@ pub(super) struct Decoded {
     pub(super) lines: u64,
 }
 
-/// As much of a cell's text as a message shows.
+/// The part of a cell's text that a message shows.
 const MOST_SHOWN: usize = 200;
 
 /// Faults of a row or a cell.
@@ -63,9 +63,9 @@ pub(super) struct Problem {
 
 #[derive(Debug)]
 pub(super) enum ProblemKind {
-    /// The row has so many cells.
+    /// The row has this number of cells.
     Count(usize),
-    /// The cell is no number.
+    /// The cell is not a number.
     Cell { field: usize, text: Vec<u8> },
     /// A quote in it is not closed.
     OpenQuote,
@@ -90,7 +90,7 @@ impl Layout {
         Self { separator, cells, rows_of_a_batch, labels: labels.len(), numbers: numbers.len(), steps, absent }
     }
 
-    /// Decodes a piece, whose text ends where a row ends or the table does.
+    /// Decodes a piece, whose text ends at the end of a row or of the table.
     pub(super) fn decode(&self, piece: &Piece, decoded: &mut Decoded) {
         decoded.used = 0;
         decoded.problems.clear();
@@ -104,7 +104,7 @@ impl Layout {
             decoded.used += 1;
             let batch = &mut decoded.batches[decoded.used - 1];
             batch.clear(self.labels, self.numbers);
-            // Rows are about as long as the first of them.
+            // The length of the first row estimates their number.
             let first = memchr(b'\n', rest).map_or(rest.len(), |end| end + 1);
             batch.reserve((rest.len() / first + 1).min(self.rows_of_a_batch));
             batch.first_row = decoded.rows;
@@ -149,11 +149,11 @@ impl Layout {
         (row.strip_suffix(b"\r").unwrap_or(row), after)
     }
 
-    /// Adds a row without quotes; gives how many cells it has.
+    /// Adds a row without quotes; returns its number of cells.
     #[inline]
     fn take_plain(&self, row: &[u8], batch: &mut Batch, problems: &mut Problems<'_>) -> usize {
         let separator = self.separator;
-        // Where cell number `field` begins, and where it ends if that is known.
+        // The start of cell number `field`, and its end if known.
         let (mut field, mut start) = (0, 0);
         let mut end = None;
         let end_of = |start: usize| {
@@ -193,7 +193,7 @@ impl Layout {
         field + 1 + memchr::memchr_iter(separator, &row[end..]).count()
     }
 
-    /// Adds a row with quotes; gives how many cells it has.
+    /// Adds a row with quotes; returns its number of cells.
     #[cold]
     fn take_quoted(&self, row: &[u8], cells: &mut Cells, batch: &mut Batch, problems: &mut Problems<'_>) -> usize {
         if !cells.cut(row, self.separator) {
@@ -221,7 +221,7 @@ impl Layout {
     }
 }
 
-/// Adds a cell that is no plain number.
+/// Adds a cell that is not a plain number.
 fn push_number(cell: &[u8], field: usize, to: usize, batch: &mut Batch, problems: &mut Problems<'_>) {
     let value = number(cell);
     if value.is_none() && !cell.trim_ascii().is_empty() {

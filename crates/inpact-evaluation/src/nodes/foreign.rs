@@ -2,10 +2,10 @@
 
 use std::io;
 
-/// How many bytes are looked at.
+/// The number of bytes inspected.
 pub(super) const LOOKED_AT: usize = 512;
 
-/// A kind of file by the bytes it begins with, what it is called, and the cure.
+/// A file type by its magic bytes, with its name and help.
 type Kind = (&'static [u8], &'static str, &'static str);
 
 const KINDS: &[Kind] = &[
@@ -33,7 +33,7 @@ const KINDS: &[Kind] = &[
     (b"\x7FELF", "a program", "give a node table"),
 ];
 
-/// An error of kind [`io::ErrorKind::InvalidData`] where a file begins as no node table does.
+/// An error of kind [`io::ErrorKind::InvalidData`] where a file does not begin like a node table.
 pub(super) fn refuse(start: &[u8]) -> io::Result<()> {
     let Some((what, cure)) = kind_of(start) else { return Ok(()) };
     Err(io::Error::new(io::ErrorKind::InvalidData, format!("it is {what}, no node table; {cure}")))

@@ -12,7 +12,7 @@ pub struct Header {
     pub cells: Vec<HeaderCell>,
     /// The first cell that means each column.
     places: HashMap<Column, usize>,
-    /// Its line, in a text.
+    /// Its line, in a text table.
     line: Option<u64>,
 }
 
@@ -55,7 +55,7 @@ impl Header {
         self.position(column).map_or_else(|| column.to_string(), |index| self.cells[index].text.clone())
     }
 
-    /// Reports names that mean nothing and are near to a column that the header does not have (D020).
+    /// Reports unknown names that are similar to a column that the header does not have (D020).
     pub(crate) fn report_unknown(&self, findings: &mut Findings) {
         for cell in self.cells.iter().filter(|cell| cell.column.is_none()) {
             let Some(near) = Column::near(&cell.text).filter(|near| !self.has(*near)) else { continue };

@@ -15,16 +15,16 @@ impl<T: Read + Write + Seek + Send> SpillFile for T {}
 /// Makes the file for spilled rows.
 pub type MakeSpillFile = Box<dyn FnMut() -> io::Result<Box<dyn SpillFile>> + Send>;
 
-/// How much is written or read of the file at a time.
+/// The buffer size of file reads and writes.
 const BUFFER: usize = 1 << 20;
 
 /// Rows of a node table in order, to be read again from the first.
 pub struct KeptRows {
-    /// How many bytes of rows stay in memory.
+    /// The number of bytes of rows kept in memory.
     room: usize,
     used: usize,
     batches: VecDeque<Batch>,
-    /// The rows that came after them, and how many batches they are.
+    /// The rows after them, and their number of batches.
     spilled: Option<BufWriter<Box<dyn SpillFile>>>,
     spilled_batches: u64,
     make_file: MakeSpillFile,
@@ -83,7 +83,7 @@ impl KeptRows {
         spill::write(file, &batch).map_err(|error| not_kept(&error))
     }
 
-    /// Goes through the rows, which stay kept.
+    /// Iterates over the rows, which stay kept.
     ///
     /// # Errors
     /// Those of reading the file.
@@ -142,7 +142,7 @@ impl KeptRows {
     }
 }
 
-/// An error that is not one of reading the table.
+/// An error other than reading the table.
 fn not_kept(error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("a temporary file cannot hold its rows until they are evaluated: {error}"))
 }
@@ -152,7 +152,7 @@ pub struct GivenBack {
     batches: VecDeque<Batch>,
     file: Option<BufReader<Box<dyn SpillFile>>>,
     left_in_file: u64,
-    /// Where the columns that are wanted stand among those that were kept.
+    /// The indices of the requested columns among those kept.
     labels: Vec<Option<usize>>,
     numbers: Vec<Option<usize>>,
 }
@@ -188,7 +188,7 @@ mod tests {
     use inpact_diagnostics::Findings;
     use std::io::Cursor;
 
-    /// The rows of a table as texts, kept with so much room and given back.
+    /// The rows of a table as texts, kept with this limit and returned.
     fn kept(table: &str, room: usize, selection: &Selection) -> Vec<String> {
         let mut findings = Findings::new("n.csv");
         let mut reader = NodeReader::open(Box::new(table.as_bytes()), &mut findings).expect("a slice can be read");

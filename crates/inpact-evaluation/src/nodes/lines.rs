@@ -8,19 +8,19 @@ use super::column::Column;
 use memchr::{memchr, memchr2, memchr3, memrchr};
 use std::io::{self, Read};
 
-/// About how much text a piece has.
+/// The approximate size of a piece.
 const PIECE: usize = 512 * 1024;
 
-/// The longest row: a quote that is never closed must not take the whole table for a cell.
+/// The maximum length of a row: an unclosed quote must not make a cell of the whole table.
 pub(super) const LONGEST_ROW: usize = 64 * 1024 * 1024;
 
-/// The mark that some programs begin a text with.
+/// The byte order mark that some programs write.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// Separators of cells; where a header leaves it open, the first of them counts.
+/// Separators of cells; where a header is ambiguous, the first of them is used.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
-/// A text that is read in pieces which end where rows end.
+/// A text read in pieces of whole rows.
 pub(super) struct Pieces<'a> {
     input: Box<dyn Read + Send + 'a>,
     /// Bytes read beyond the last piece.
@@ -32,9 +32,9 @@ pub(super) struct Pieces<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum State {
     Reading,
-    /// All of it was read.
+    /// The end of the input was reached.
     Ended,
-    /// A row was longer than any row may be; what follows is not read.
+    /// A row exceeded the limit; the rest is not read.
     GaveUp,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Piece {
     pub(super) has_quotes: bool,
 }
 
-/// The cells of a row, quotes taken off.
+/// The cells of a row, without quotes.
 #[derive(Debug, Default)]
 pub(super) struct Cells {
     text: Vec<u8>,
@@ -54,7 +54,7 @@ pub(super) struct Cells {
 }
 
 impl<'a> Pieces<'a> {
-    /// Begins to read a text and finds out what stands between its cells.
+    /// Begins to read a text and detects its separator.
     pub(super) fn open(input: Box<dyn Read + Send + 'a>) -> io::Result<Self> {
         let mut pieces = Self { input, rest: Vec::new(), separator: SEPARATORS[0], state: State::Reading };
         let mut start = Vec::new();
@@ -73,7 +73,7 @@ impl<'a> Pieces<'a> {
         self.separator
     }
 
-    /// Whether it ended too early, in a row that is longer than any row may be.
+    /// Whether it ended early, at a row that exceeds the limit.
     pub(super) fn gave_up(&self) -> bool {
         self.state == State::GaveUp
     }
@@ -105,14 +105,14 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Makes every lone CR a LF where it ends a row.
+    /// Turns every lone CR that ends a row into a LF.
     fn mend_line_ends(&self, piece: &mut Piece) {
         let mut at = 0;
         while let Some(found) = memchr(b'\r', &piece.text[at..]) {
             at += found + 1;
             let is_lone = match piece.text.get(at) {
                 Some(next) => *next != b'\n',
-                // What follows may be a LF that was not read yet; the piece does not end here.
+                // The next byte may be a LF that was not read yet; the piece does not end here.
                 None => self.state != State::Reading,
             };
             if is_lone {
@@ -135,7 +135,7 @@ impl<'a> Pieces<'a> {
 }
 
 impl Cells {
-    /// Cuts a row, without its line end, into cells; false where a quote in it is not closed.
+    /// Splits a row, without its line end, into cells; false where a quote in it is not closed.
     pub(super) fn cut(&mut self, row: &[u8], separator: u8) -> bool {
         self.text.clear();
         self.ends.clear();
@@ -160,7 +160,7 @@ impl Cells {
                     at += 1;
                 }
             }
-            // What stands behind a closing quote belongs to the cell.
+            // Text after a closing quote belongs to the cell.
             let end = memchr(separator, &row[at..]).map_or(row.len(), |length| at + length);
             self.text.extend_from_slice(&row[at..end]);
             self.ends.push(self.text.len());
@@ -171,7 +171,7 @@ impl Cells {
         }
     }
 
-    /// How many there are.
+    /// Their number.
     pub(super) fn len(&self) -> usize {
         self.ends.len()
     }
@@ -184,13 +184,13 @@ impl Cells {
     }
 }
 
-/// Whether a line is no row: blanks, and no separator among them.
+/// Whether a line is not a row: blanks, and no separator among them.
 #[inline]
 pub(super) fn is_blank(line: &[u8], separator: u8) -> bool {
     line.trim_ascii().is_empty() && !line.contains(&separator)
 }
 
-/// Where the row that begins a text ends: behind its line end; `None` where the text has not all of it.
+/// The end of the first row of a text, after its line end; `None` where the row is incomplete.
 pub(super) fn end_of_row(text: &[u8], separator: u8) -> Option<usize> {
     let mut at = 0;
     loop {
@@ -211,7 +211,7 @@ pub(super) fn end_of_row(text: &[u8], separator: u8) -> Option<usize> {
     }
 }
 
-/// Makes lone CRs of a text that begins with a row LFs, those in quotes left as they are; the last byte is left too, if it is one.
+/// Turns lone CRs outside of quotes into LFs, in a text that begins with a row; a CR in the last byte is left.
 #[cold]
 fn mend_lone(text: &mut [u8], separator: u8, has_quotes: bool) {
     let mut is_quoted = false;
@@ -236,7 +236,7 @@ fn mend_lone(text: &mut [u8], separator: u8, has_quotes: bool) {
     }
 }
 
-/// Where the last whole row of a piece ends.
+/// The end of the last complete row of a piece.
 fn end_of_rows(piece: &Piece, separator: u8) -> usize {
     if !piece.has_quotes {
         return memrchr(b'\n', &piece.text).map_or(0, |end| end + 1);

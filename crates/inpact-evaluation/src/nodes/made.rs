@@ -9,13 +9,13 @@ use std::io;
 /// Batches of a generated table: the texts of its key columns and its numbers, in the order of its header.
 pub type MadeBatches<'a> = Box<dyn Iterator<Item = io::Result<Batch>> + Send + 'a>;
 
-/// Hands out a table that is made as if it were read.
+/// Returns a generated table as if it were read.
 pub(super) struct MadeReader<'a> {
     header: Header,
-    /// How many of the columns are texts; they come first.
+    /// The number of text columns, which come first.
     texts: usize,
     batches: MadeBatches<'a>,
-    /// The batch made last, and how many of its rows are handed out.
+    /// The last generated batch, and the number of its rows already returned.
     current: Batch,
     done: usize,
     labels: Vec<usize>,
@@ -64,7 +64,7 @@ impl<'a> MadeReader<'a> {
             }
         }
         for (to, from) in batch.numbers.iter_mut().zip(&self.numbers) {
-            // A time is a text that is passed through and a number that is computed with.
+            // A time is both a text that is passed through and a number.
             let text = self.current.labels.get(*from);
             let column = from.checked_sub(self.texts).and_then(|from| self.current.numbers.get(from));
             for row in rows.clone() {

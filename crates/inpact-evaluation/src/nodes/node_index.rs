@@ -7,15 +7,15 @@ use std::collections::hash_map::RandomState;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasher, Hasher};
 
-/// Of so many nodes it is remembered that they were met; a table of more nodes must have ascending numbers for labels.
+/// The maximum number of nodes remembered; a table of more nodes must have ascending numbers as labels.
 const MOST_REMEMBERED: usize = 1 << 20;
 
 /// The order of the rows by node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HistoryOrder {
-    /// All rows of a node under one interaction stand together.
+    /// All rows of a node under one interaction are contiguous.
     ByNode,
-    /// They may stand anywhere: sorted by time, for example.
+    /// In any order: sorted by time, for example.
     #[default]
     Interleaved,
 }
@@ -38,9 +38,9 @@ pub struct NodeIndex {
 /// The nodes by their numbers.
 #[derive(Debug, Clone, Default)]
 struct MetNodes {
-    /// The interaction of each, and where its label ends.
+    /// The interaction of each, and the end of its label.
     nodes: Vec<(usize, usize)>,
-    /// Their labels one after the other.
+    /// Their concatenated labels.
     labels: Vec<u8>,
 }
 
@@ -57,13 +57,13 @@ impl MetNodes {
     }
 }
 
-/// Hashes labels, which are short, eight bytes at a time; a key of chance keeps a table from being made of labels that collide.
+/// Hashes labels, which are short, eight bytes at a time; a random key prevents crafted collisions.
 #[derive(Debug, Clone, Copy)]
 struct LabelHash {
     key: u64,
 }
 
-/// A label on its way through [`LabelHash`].
+/// The state of [`LabelHash`] for a label.
 struct LabelHasher(u64);
 
 impl Default for LabelHash {
@@ -124,9 +124,9 @@ pub struct HistorySlot {
 #[derive(Debug, Default)]
 pub struct NodeRuns {
     current: Option<(usize, Vec<u8>)>,
-    /// Whether every run so far had a label that is a greater number than that of the run before.
+    /// Whether the label of every run so far is a greater number than that of the previous run.
     ascends: Ascent,
-    /// The hashes of the nodes so far; `None` once they were too many.
+    /// The hashes of the nodes so far; `None` once there are too many.
     met: Option<HashSet<u64>>,
     hasher: RandomState,
     has_met_again: bool,
@@ -221,7 +221,7 @@ impl NodeRuns {
             _ => Ascent::No,
         };
         if let Some(met) = &mut self.met {
-            // Two nodes of one hash are taken for one that comes again, which is the safe mistake.
+            // Two nodes with the same hash count as a recurring node, which is the safe side.
             self.has_met_again |= !met.insert(self.hasher.hash_one((interaction, label)));
             if self.has_met_again || MOST_REMEMBERED < met.len() {
                 self.met = None;
@@ -230,7 +230,7 @@ impl NodeRuns {
     }
 }
 
-/// Whether a row is of another node than the row before.
+/// Whether a row is of another node than the previous row.
 #[inline]
 fn begins_run(current: &mut Option<(usize, Vec<u8>)>, interaction: usize, label: &[u8]) -> bool {
     let label = label.trim_ascii();
@@ -305,7 +305,7 @@ mod tests {
             prop_assert_eq!(runs.order(), expected);
         }
 
-        /// Whatever the order of the rows, a node has one number, and the next new node the next one.
+        /// In any order of the rows, a node has one number, and each new node the next one.
         #[test]
         fn nodes_are_numbered_as_they_are_met(rows in prop::collection::vec((0..3_usize, 0..6_u8), 0..60)) {
             let mut index = NodeIndex::default();

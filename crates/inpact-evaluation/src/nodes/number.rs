@@ -4,7 +4,7 @@
 
 use inpact_parser::number::read_plain;
 
-/// The number of a cell, blanks around it taken off; `None` where it is empty or no number.
+/// The number of a cell, ignoring blanks around it; `None` where it is empty or not a number.
 #[inline]
 pub(super) fn number(cell: &[u8]) -> Option<f64> {
     match read_plain(cell) {
@@ -18,7 +18,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The number by the contract, read by the standard library alone.
+    /// The number by the contract, parsed by the standard library.
     fn judge(cell: &[u8]) -> Option<u64> {
         std::str::from_utf8(cell.trim_ascii()).ok()?.parse().ok().map(f64::to_bits)
     }

@@ -43,7 +43,7 @@ pub fn locate(mut table: impl BufRead, found: &mut [Diagnostic]) -> io::Result<(
             else {
                 continue;
             };
-            // Of a header that stands there twice the second is meant where it is about that.
+            // For a duplicate header the second one is meant.
             let index = if line == *header_line {
                 names.iter().rposition(|name| name == field)
             } else {
@@ -61,7 +61,7 @@ pub fn locate(mut table: impl BufRead, found: &mut [Diagnostic]) -> io::Result<(
     Ok(())
 }
 
-/// The cells of a row, without the blanks around them; none behind a quote that is not closed on its line.
+/// The cells of a row, without the blanks around them; none after a quote that is not closed on its line.
 fn cells(row: &[u8], separator: u8) -> impl Iterator<Item = Range<usize>> {
     let mut next = Some(0);
     std::iter::from_fn(move || {

@@ -16,7 +16,7 @@ use inpact_diagnostics::Findings;
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// How many rows a batch has at most, unless asked otherwise.
+/// The default maximum number of rows of a batch.
 const ROWS_OF_A_BATCH: usize = 8192;
 
 /// Reads a node table from a stream.
@@ -26,7 +26,7 @@ pub struct NodeReader<'a> {
     selection: Selection,
 }
 
-/// How the table is stored.
+/// The format of the table.
 enum Table<'a> {
     Csv(Box<CsvReader<'a>>),
     #[cfg(feature = "columnar")]

@@ -14,25 +14,25 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
-/// The most bytes that a piece of a file may come to when it is unpacked, besides so many times its packed size.
+/// The maximum decompressed size of a part of a file, in addition to a multiple of its compressed size.
 ///
-/// Columns of one value shrink to next to nothing, and a piece of a million of them is a sound table.
+/// Constant columns compress to almost nothing, and a part of a million equal values is valid.
 const UNPACKED: u64 = 128 << 20;
 
-/// How many times its packed size a piece of a file may come to, besides [`UNPACKED`].
+/// The maximum decompression ratio, in addition to [`UNPACKED`].
 const TIMES: u64 = 256;
 
-/// The most bytes that so many packed bytes may come to.
+/// The maximum decompressed size of this many compressed bytes.
 fn most_unpacked(packed: u64) -> u64 {
     UNPACKED.saturating_add(packed.saturating_mul(TIMES))
 }
 
 thread_local! {
-    /// Whether a panic of this thread is one that is expected, and nothing to tell.
+    /// Whether a panic of this thread is expected and not reported.
     static IS_EXPECTED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Reads part of a table; a library that panics over it is an error of the table.
+/// Reads part of a table; a panic of a library becomes an error of the table.
 ///
 /// # Errors
 /// Those of `read`, and one of kind [`io::ErrorKind::InvalidData`] for a panic.
@@ -52,7 +52,7 @@ pub(super) fn caught<T>(kind: &str, read: impl FnOnce() -> io::Result<T>) -> io:
     result.unwrap_or_else(|_| Err(unsound(kind, "what it says of itself does not fit what it holds")))
 }
 
-/// The error of a file that is wrong inside.
+/// The error of an inconsistent file.
 pub(super) fn unsound(kind: &str, why: impl std::fmt::Display) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, format!("it is no sound {kind} table ({why})"))
 }

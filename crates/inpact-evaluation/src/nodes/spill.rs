@@ -41,7 +41,7 @@ pub(super) fn read(input: &mut dyn Read) -> io::Result<Batch> {
     Ok(batch)
 }
 
-/// How a label is stored.
+/// Encodings of a label.
 const TEXTS: u64 = 0;
 #[cfg(feature = "columnar")]
 const ARRAY: u64 = 1;

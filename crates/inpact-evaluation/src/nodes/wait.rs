@@ -3,7 +3,7 @@
 use std::io;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-/// Does some work on another thread, or at once where there are none.
+/// Runs work on another thread, or immediately without threads.
 pub(super) fn begin(work: impl FnOnce() + Send + 'static) {
     #[cfg(feature = "threads")]
     rayon::spawn_fifo(work);
@@ -11,7 +11,7 @@ pub(super) fn begin(work: impl FnOnce() + Send + 'static) {
     work();
 }
 
-/// Waits for what another thread of rayon's pool sends, and does what else is to be done on this thread until then.
+/// Waits for a message from another thread of rayon's pool, running other work of the pool on this thread until then.
 pub(super) fn wait_for<T>(receiver: &Receiver<T>) -> io::Result<T> {
     let failed = || io::Error::other("a thread that reads rows has failed");
     loop {
@@ -25,7 +25,7 @@ pub(super) fn wait_for<T>(receiver: &Receiver<T>) -> io::Result<T> {
         #[cfg(not(feature = "threads"))]
         let has_done_other_work = false;
         if !has_done_other_work {
-            // All work is taken: this is being done elsewhere.
+            // No work is left in the pool: this one is running elsewhere.
             return receiver.recv().map_err(|_| failed());
         }
     }

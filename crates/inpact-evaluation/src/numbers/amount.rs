@@ -25,7 +25,7 @@ impl Amount {
 
     /// A number that may lie outside the range of f64.
     pub fn exactly(exact: Scaled) -> Self {
-        // No amount is 0, not −0.
+        // A zero amount is +0, not −0.
         Self { value: exact.to_f64() + 0.0, exact: Some(exact) }
     }
 
@@ -47,13 +47,13 @@ impl Amount {
         }
     }
 
-    /// The number, where plain arithmetic has found it.
+    /// The number, from plain arithmetic.
     #[inline]
     pub(crate) fn plain(self) -> Option<f64> {
         if self.exact.is_none() { Some(self.value) } else { None }
     }
 
-    /// Whether plain arithmetic with a few moderate numbers keeps what it is.
+    /// Whether plain arithmetic with a few moderate numbers is accurate for it.
     pub(crate) fn is_moderate(self) -> bool {
         self.exact.is_none() && is_moderate(self.value)
     }

@@ -74,7 +74,7 @@ impl DoubleDouble {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// The sum of a value and a smaller one; a value that is not finite stands alone.
+    /// The sum of a value and a smaller one; a non-finite value is returned alone.
     #[inline]
     pub(crate) fn of_parts(high: f64, low: f64) -> Self {
         let sum = high + low;

@@ -39,7 +39,7 @@ pub(super) const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
 /// The exponent of the smallest normal f64.
 pub(super) const LEAST_NORMAL: i32 = -1022;
 
-/// Whether the magnitude of `value` lies between 2⁻²⁵⁰ and 2²⁵¹, so that a handful of products and quotients of such numbers neither over- nor underflows.
+/// Whether the magnitude of `value` lies between 2⁻²⁵⁰ and 2²⁵¹, so that a few products and quotients of such numbers neither over- nor underflow.
 /// False for zero, infinities and NaN.
 #[inline]
 pub(crate) fn is_ordinary(value: f64) -> bool {

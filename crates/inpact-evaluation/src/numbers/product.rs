@@ -7,7 +7,7 @@ use super::scaled::Scaled;
 #[inline]
 pub fn mean(a: f64, b: f64) -> f64 {
     let sum = a + b;
-    // A sum beyond the range needs two large values, which halving does not round.
+    // A sum beyond the range needs two large values, whose halves are exact.
     if sum.is_finite() { 0.5 * sum } else { 0.5 * a + 0.5 * b }
 }
 
@@ -28,7 +28,7 @@ pub fn product(factors: &[f64]) -> f64 {
 #[cold]
 fn product_of_extremes(factors: &[f64]) -> f64 {
     if factors.iter().any(|factor| *factor == 0.0 || !factor.is_finite()) {
-        // The finite factors decide nothing but the sign.
+        // The finite factors only determine the sign.
         return factors
             .iter()
             .map(|&factor| if factor == 0.0 || !factor.is_finite() { factor } else { factor.signum() })

@@ -42,7 +42,7 @@ impl Scaled {
         if self.exponent >= LEAST_NORMAL {
             return nearest;
         }
-        // Below the normal range `high` is rounded a second time. What that took away decides together with `low` which neighbour is nearest.
+        // Below the normal range `high` is rounded a second time. That rounding error together with `low` decides which neighbour is nearest.
         let taken = (high - scale_by_power(nearest, -self.exponent)) + low;
         let half_step = scale_by_power(1.0, LEAST_NORMAL - 53 - self.exponent);
         if taken > half_step {
@@ -54,12 +54,12 @@ impl Scaled {
         }
     }
 
-    /// The nearest f64 and the rest, as far as that is within the range of f64.
+    /// The nearest f64 and the remainder, as far as that is within the range of f64.
     pub(crate) fn to_pair(self) -> (f64, f64) {
         (self.to_f64(), scale_by_power(self.mantissa.parts().1, self.exponent))
     }
 
-    /// `value` × 2^`exponent` brought into the form the type promises.
+    /// `value` × 2^`exponent`, normalised.
     fn normalised(value: DoubleDouble, exponent: i32) -> Self {
         if value.is_zero() {
             return Self { mantissa: value, exponent: 0 };

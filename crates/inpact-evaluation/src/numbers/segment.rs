@@ -27,7 +27,7 @@ pub struct KernelSlope {
 const LEAST_KERNEL_SLOPE: f64 = 1.183_052_186_166_774_7e-271;
 
 impl KernelSlope {
-    /// A slope for segments that are never asked for.
+    /// A placeholder slope for segments that are never used.
     pub(crate) const UNUSED: Self = Self { high: f64::NAN, low: 0.0 };
 
     /// The slope of a segment with `x0 < x1`.
@@ -44,7 +44,7 @@ impl KernelSlope {
         if is_harmless { Self { high, low } } else { Self::UNUSED }
     }
 
-    /// The rounded slope and what rounding took from it.
+    /// The rounded slope and its rounding error.
     pub(crate) fn parts(self) -> (f64, f64) {
         (self.high, self.low)
     }
@@ -77,7 +77,7 @@ pub fn slope(start: (f64, f64), end: (f64, f64)) -> f64 {
     precise_slope(start, end).0
 }
 
-/// The slope of a segment, rounded, and what the rounding took away, where that can be told within the range of f64.
+/// The slope of a segment, rounded, and its rounding error, where that is representable in f64.
 fn precise_slope((x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> (f64, f64) {
     let (rise, rise_error) = two_difference(y1, y0);
     let (width, width_error) = two_difference(x1, x0);

@@ -32,7 +32,7 @@ impl CompensatedSum {
         }
     }
 
-    /// Adds a term of twice the precision of f64.
+    /// Adds a term of double-double precision.
     pub fn add_scaled(&mut self, term: Scaled) {
         let (value, rest) = term.to_pair();
         self.add(value);
@@ -78,7 +78,7 @@ pub(crate) fn compensated_sum<const N: usize>(terms: [f64; N]) -> f64 {
     terms.into_iter().collect::<CompensatedSum>().total()
 }
 
-/// 2⁹⁰⁰ and 2¹⁰⁰⁰: many terms below the one added to a sum below the other are far from the end of the range.
+/// 2⁹⁰⁰ and 2¹⁰⁰⁰: many terms below the first added to a sum below the second are far from overflow.
 const SMALL: f64 = f64::from_bits((1023 + 900) << 52);
 const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
 
@@ -90,7 +90,7 @@ const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnboundedSum {
     plain: CompensatedSum,
-    /// The sum, once it or a term of it has left the range.
+    /// The sum, once it or a term has exceeded the range.
     beyond: Option<Box<Scaled>>,
 }
 
@@ -110,14 +110,14 @@ impl UnboundedSum {
     /// Adds the terms of one column to each of some sums, row by row, as [`add`](Self::add) does.
     ///
     /// # Panics
-    /// Where there are fewer columns than sums, or one is shorter than the first.
+    /// If there are fewer columns than sums, or one is shorter than the first.
     pub(crate) fn add_columns(sums: &mut [Self], columns: &[&[f64]]) {
         let count = columns.first().map_or(0, |column| column.len());
         let mut first = 0;
         while first < count {
             let rows = first..count.min(first + Self::BLOCK);
             first = rows.end;
-            // Two sums at a time: each addition waits for the one before it, and the other sum fills the wait.
+            // Two sums at a time: each addition depends on the previous one, and the other sum hides the latency.
             for (pair, columns) in sums.chunks_mut(2).zip(columns.chunks(2)) {
                 match (pair, columns) {
                     ([one, other], [a, b]) => {
@@ -141,7 +141,7 @@ impl UnboundedSum {
         }
     }
 
-    /// Adds a product, rounded, and what the rounding took away, both far from the ends of the range, as [`add_product`](Self::add_product) does.
+    /// Adds a product, rounded, and its rounding error, both far from over- and underflow, as [`add_product`](Self::add_product) does.
     #[inline]
     pub(crate) fn add_exact_product(&mut self, product: f64, error: f64) {
         let add = |sum: &mut CompensatedSum| {
@@ -154,10 +154,10 @@ impl UnboundedSum {
         self.add_plain(add, || Some(Scaled::new(product) + Scaled::new(error)));
     }
 
-    /// How many terms are added together.
+    /// The block size in terms.
     const BLOCK: usize = 512;
 
-    /// Whether [`Self::BLOCK`] terms no larger than these can be added without a look at what comes out: sum and terms are far from the end of the range.
+    /// Whether [`Self::BLOCK`] terms no larger than these can be added without checking the result: sum and terms are far from overflow.
     fn stays_within(&self, terms: &[f64]) -> bool {
         let CompensatedSum { sum, compensation } = self.plain;
         self.beyond.is_none()
@@ -173,12 +173,12 @@ impl UnboundedSum {
         self.add_plain(|sum| sum.add_product(a, b), exact);
     }
 
-    /// Adds a term of twice the precision of f64.
+    /// Adds a term of double-double precision.
     pub fn add_scaled(&mut self, term: Scaled) {
         self.add_plain(|sum| sum.add_scaled(term), || Some(term));
     }
 
-    /// Adds a term in the plain way as long as that stays finite; `exact` is the term, where it is finite.
+    /// Adds a term by plain compensation as long as that stays finite; `exact` is the term, where it is finite.
     #[inline]
     fn add_plain(&mut self, add: impl FnOnce(&mut CompensatedSum), exact: impl FnOnce() -> Option<Scaled>) {
         if self.beyond.is_none() {

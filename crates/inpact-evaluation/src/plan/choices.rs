@@ -41,12 +41,12 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Whether one of these outputs is asked for, by name or because all are.
+    /// Whether one of these outputs is requested, by name or because all are.
     pub(crate) fn asks_for(&self, outputs: &[Output]) -> bool {
         self.asks_where(|output| outputs.contains(output))
     }
 
-    /// Whether an output that fulfils a condition is asked for, by name or because all are.
+    /// Whether an output that fulfils a condition is requested, by name or because all are.
     pub(crate) fn asks_where(&self, is_meant: impl Fn(&Output) -> bool) -> bool {
         self.outputs.as_ref().is_none_or(|requested| requested.iter().any(is_meant))
     }
@@ -68,6 +68,6 @@ pub enum Derivatives {
     /// No.
     #[default]
     LeftOut,
-    /// Along every variable the tables depend on.
+    /// Along every variable that the tables depend on.
     Given,
 }

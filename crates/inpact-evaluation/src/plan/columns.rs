@@ -97,16 +97,16 @@ pub(crate) fn column_plans(
     plans.collect()
 }
 
-/// The columns that all interactions together use, gathered once: a table may have as many columns as a deck has interactions.
+/// The union of the columns of all interactions, collected once: a table may have as many columns as a deck has interactions.
 struct Uses<'a> {
     survey: &'a Survey,
     choices: &'a Choices,
-    /// The smallest and the largest finite number of each column that was surveyed.
+    /// Minimum and maximum of the finite numbers of each surveyed column.
     ranges: HashMap<Column, Option<(f64, f64)>>,
     selected: HashSet<Column>,
-    /// The columns that some law reads.
+    /// The columns read by any law.
     read: HashSet<Column>,
-    /// The value at which tables are folded along a variable: that of the first table which is.
+    /// The value at which tables are folded along a variable: that of the first folded table.
     folds: Vec<(Along, f64)>,
     has_history: bool,
     has_user: bool,
@@ -120,7 +120,7 @@ impl<'a> Uses<'a> {
         let mut folds: Vec<(Along, f64)> = Vec::new();
         for axis in interactions.iter().flat_map(InteractionPlan::tables).flat_map(|(_, table)| &table.axes) {
             let Some(at) = axis.fold else { continue };
-            // There are as many variables as a deck has field variables, a thousand at most.
+            // There are as many variables as field variables in the deck, at most a thousand.
             if !folds.iter().any(|(along, _)| *along == axis.along) {
                 folds.push((axis.along, at));
             }
@@ -165,7 +165,7 @@ impl<'a> Uses<'a> {
     fn why_not_read(&self, column: Column) -> Reason {
         let is_empty = self.ranges.get(&column).is_some_and(Option::is_none);
         let is_one_side = |part| matches!(part, Part::Slave | Part::Master);
-        // The column that stands for both sides, where one side is not read.
+        // The column of both sides, where one side is not read.
         let both = match column {
             Column::Temperature(part) if is_one_side(part) => Some(Column::Temperature(Part::Both)),
             Column::FieldVariable(number, part) if is_one_side(part) => Some(Column::FieldVariable(number, Part::Both)),

@@ -35,7 +35,7 @@ pub fn concerning<'a>(
     if chosen.is_none() {
         regions.extend(deciding(deck, model, names));
     }
-    // Blocks do not overlap: the one that begins last before a place is the only one that may hold it.
+    // Blocks do not overlap: only the last one that begins before a place can contain it.
     regions.sort_unstable_by_key(|region| (region.span.source(), region.span.start()));
     let concerns = |found: &&Diagnostic| {
         let span = found.primary.span;
@@ -50,7 +50,7 @@ pub fn concerning<'a>(
     diagnostics.iter().filter(concerns).collect()
 }
 
-/// A block that has to do with the interactions of an evaluation.
+/// A block related to the interactions of an evaluation.
 #[derive(Debug, Clone, Copy)]
 struct Region {
     span: Span,
@@ -60,7 +60,7 @@ struct Region {
 /// Relation of a block to them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Part {
-    /// It says what they are, or what they depend on.
+    /// It defines them, or their inputs.
     Feeds,
     /// It does so if it is misplaced.
     FeedsIfMisplaced,
@@ -79,7 +79,7 @@ fn regions(deck: &Deck, grammar: &Grammar, model: &Model, names: &[&Name]) -> Ve
     for block in deck.blocks() {
         let name = block.keyword_id().map(|id| grammar.keyword(id).name.as_str());
         match (name, block.keyword_id()) {
-            // They stand inside every block (S-51, S-66).
+            // They may occur inside any block (S-51, S-66).
             (Some("INCLUDE" | "PARAMETER"), _) => {}
             (Some("SURFACE INTERACTION"), _) => {
                 is_within = begins(block.span_of_keyword());
@@ -116,7 +116,7 @@ fn deciding(deck: &Deck, model: &Model, names: &[&Name]) -> Vec<Region> {
         model.procedures.iter().rfind(|procedure| solves(procedure) && procedure.regime().is_some())
     };
     let current = last(Procedure::solves_electrical).filter(|_| has_current);
-    // Pore fluid crosses an interface that says nothing of it (P-03).
+    // Pore fluid crosses an interface without an option for it (P-03).
     let fluid = last(Procedure::solves_pore_pressure);
     let starts = [current, fluid].into_iter().flatten().map(|procedure| procedure.option.span);
     let starts: HashSet<(SourceId, u64)> = starts.map(|span| (span.source(), span.start())).collect();
@@ -131,7 +131,7 @@ fn deciding(deck: &Deck, model: &Model, names: &[&Name]) -> Vec<Region> {
         .collect()
 }
 
-/// Whether a `<name>` stands in a block.
+/// Whether a block contains a `<name>`.
 fn names_parameters(deck: &Deck, block: &Block) -> bool {
     references(deck.text(block.span())).next().is_some()
 }

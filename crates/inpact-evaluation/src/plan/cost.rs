@@ -18,17 +18,17 @@ pub(crate) const COMPUTE_OUTPUT: f64 = 2.0;
 pub(crate) const KEEP_HISTORY: f64 = 35.0;
 
 impl TablePlan {
-    /// The cost of a value of the whole table.
+    /// The cost of a value of the original table.
     pub(crate) fn whole_cost(&self) -> f64 {
         self.shape.cost(&Method::Full)
     }
 
-    /// The cost of a value of what is left of it in f64.
+    /// The cost of a value of the folded table in f64.
     pub(crate) fn folded_full_cost(&self) -> f64 {
         self.form.as_ref().map_or_else(|| self.folded_cost(), |form| form.full_cost)
     }
 
-    /// The cost of a value of what is left of it.
+    /// The cost of a value of the folded table.
     pub(crate) fn folded_cost(&self) -> f64 {
         if let Some(form) = &self.form {
             return form.cost;

@@ -11,7 +11,7 @@ use crate::numbers::mean;
 use crate::results::Along;
 use crate::table::PiecewiseTable;
 
-/// A table as the plan shows it.
+/// A table in the plan.
 pub(crate) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along) -> TablePlan {
     let axes = table.axes().iter().enumerate().map(|(axis, summary)| AxisPlan {
         along: along(axis),
@@ -35,7 +35,7 @@ pub(crate) fn table_plan(table: &PiecewiseTable, along: impl Fn(usize) -> Along)
     }
 }
 
-/// Folds a table along every axis that `constant` knows one value of, and chooses its form; what came of it stands in the plan.
+/// Folds a table along every axis for which `constant` gives a value, and chooses its method; the result is recorded in the plan.
 pub(crate) fn fold_and_choose(
     planner: Planner<'_>,
     table: &PiecewiseTable,
@@ -51,7 +51,7 @@ pub(crate) fn fold_and_choose(
     plan.form = Some(form);
 }
 
-/// The form that a table will have.
+/// The method of a table.
 fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
     let choice = choose(table, wanted);
     let refused = choice.refused.iter().filter_map(|candidate| {
@@ -73,7 +73,7 @@ fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
 
 fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -> Option<f64>) -> PiecewiseTable {
     let mut folded = table.clone();
-    // The outermost first: what is left of the others is smaller then.
+    // The outermost first, which makes the others smaller.
     for (axis, of) in plan.axes.iter_mut().enumerate().rev().filter(|(_, of)| of.matters) {
         let Some(at) = constant(of.along) else { continue };
         match folded.folded(axis, at) {
@@ -93,7 +93,7 @@ fn fold(table: &PiecewiseTable, plan: &mut TablePlan, constant: impl Fn(Along) -
 }
 
 impl TablePlan {
-    /// The table as it is evaluated; `None` for one that no row reaches.
+    /// The evaluator of the table; `None` for one that no row reaches.
     pub(crate) fn evaluator(&self) -> Option<&Evaluator> {
         self.form.as_ref().map(|form| &form.evaluator)
     }
@@ -124,7 +124,7 @@ impl Planner<'_> {
         }
     }
 
-    /// The clearance at which a conductance table is read in every row that reads it; `of` tables there are, and beside another only open rows read it.
+    /// The clearance at which a conductance table is evaluated in every row that uses it; there are `of` tables, and beside another one only open rows use it.
     pub(crate) fn constant_clearance(self, tables: usize) -> Option<f64> {
         let open = || ContactState::Open.table_clearance(self.constant(Column::Clearance));
         match self.only_state() {
@@ -155,7 +155,7 @@ impl Planner<'_> {
         Some(mean(slave?, master?))
     }
 
-    /// The state that every row has.
+    /// The state common to all rows.
     fn only_state(self) -> Option<ContactState> {
         let of = self.of;
         match of.rows {

@@ -54,9 +54,9 @@ impl GovernedBy {
 pub struct RowInteractions<'a> {
     model: &'a Model,
     governed_by: GovernedBy,
-    /// The place of column `interaction` among the labels.
+    /// The index of column `interaction` among the labels.
     label: Option<usize>,
-    /// The spellings met so far; a table has few, however many rows.
+    /// The spellings so far; a table has few, however many rows.
     known: HashMap<Box<[u8]>, usize>,
     last: Option<(Vec<u8>, usize)>,
 }
@@ -80,7 +80,7 @@ impl<'a> RowInteractions<'a> {
         }
     }
 
-    /// Where the rows end that have the text of `first` in column `interaction`, and so its interaction.
+    /// The end of the run of rows with the text of `first` in column `interaction`, and so its interaction.
     pub(crate) fn end_of_run(&self, batch: &Batch, first: usize) -> usize {
         let Some(label) = self.label.filter(|_| self.governed_by == GovernedBy::Column) else { return batch.rows };
         let label = &batch.labels[label];
@@ -119,19 +119,19 @@ impl<'a> RowInteractions<'a> {
 pub enum NameFault {
     /// The deck has none of that name.
     Unknown,
-    /// Quoted names of the deck differ from it, and from each other, by case and blanks only.
+    /// Quoted names of the deck differ from it, and from each other, only by case and blanks.
     Ambiguous,
 }
 
-/// The place in the model of the interaction that a text names.
+/// The index in the model of the interaction that a text names.
 ///
-/// As a deck would name it (S-40, S-41) above all. The quotes of a cell are those of the table and not of the name, so the text of a quoted name
-/// names it too, and if there is only one, so does what differs from it by case and blanks only.
+/// A match as in a deck (S-40, S-41) takes precedence. The quotes of a cell belong to the table and not to the name, so the text of a quoted name
+/// matches too, and, if it is unique, so does a text that differs only by case and blanks.
 ///
 /// # Errors
-/// None of that name, or more than one that it may be.
+/// No match, or an ambiguous one.
 pub(crate) fn find_interaction(model: &Model, text: &str) -> Result<usize, NameFault> {
-    // In a deck of CalculiX quotes are letters of the name (CX-02); no name of Abaqus has any, so that one look serves both.
+    // In a deck of CalculiX quotes are part of the name (CX-02); no name of Abaqus has any, so one lookup serves both.
     if let Some(index) = model.interactions.get_index_of(&Name::in_dialect(text, Dialect::Calculix)) {
         return Ok(index);
     }

@@ -26,7 +26,7 @@ pub(crate) fn want_variables(table: &PiecewiseTable, along: impl Fn(usize) -> Al
     }
 }
 
-/// The columns that a temperature or a field variable may come from: both sides together, slave, master.
+/// The columns of a temperature or a field variable: both sides together, slave, master.
 pub(crate) fn columns_of(along: Along) -> Option<[Column; 3]> {
     let parts = [Part::Both, Part::Slave, Part::Master];
     match along {

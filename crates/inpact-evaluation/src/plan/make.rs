@@ -26,7 +26,7 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
     let mut unused = Vec::new();
     for (index, interaction) in model.interactions.values().enumerate() {
         let of = &survey.interactions[index];
-        // Of a table without rows nothing can be told but its columns.
+        // Only the columns of a table without rows are known.
         let is_candidate = match survey.governed_by {
             GovernedBy::Chosen(chosen) | GovernedBy::TheOnlyOne(chosen) => chosen == index,
             GovernedBy::Column => survey.rows == 0,
@@ -56,7 +56,7 @@ pub fn make(model: &Model, survey: &Survey, choices: &Choices) -> Plan {
     }
 }
 
-/// Gives the status of each law a column where some interaction has more than one law, or where it is asked for.
+/// Gives the status of each law a column where some interaction has more than one law, or where it is requested.
 fn give_status_by_law(interactions: &mut [InteractionPlan], choices: &Choices) {
     let laws = |plan: &InteractionPlan| {
         let laws = [

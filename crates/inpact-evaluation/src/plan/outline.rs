@@ -137,7 +137,7 @@ impl InteractionPlan {
             }
         }
         if self.has_user() {
-            // Whatever it costs, none of it can be cut.
+            // Its cost cannot be reduced.
             let node = Node::leaf("conductance by GAPELECTR, whose cost is not known", 0.0);
             before.parts.push(node.clone());
             after.parts.push(node);

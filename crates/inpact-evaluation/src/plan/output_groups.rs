@@ -79,7 +79,7 @@ pub(super) fn is_of_pore(output: &Output) -> bool {
     )
 }
 
-/// Whether an output may depend on the rows of a node before: integrals, the heat of an increment, and the rate of a gap.
+/// Whether an output may depend on earlier rows of a node: integrals, the heat of an increment, and the rate of a gap.
 pub(crate) fn is_of_history(output: &Output) -> bool {
     let is_of_heat = ELECTRICAL_HEAT.contains(output) || SUMS_OF_HEAT.contains(output);
     let is_of_gap = is_of_pore(output) && !matches!(output, Output::PermeabilitySlope(_) | Output::PoreStatus);

@@ -28,12 +28,12 @@ pub(crate) struct Planner<'a> {
 pub(crate) struct LeftOuts(pub(crate) Vec<LeftOut>);
 
 impl LeftOuts {
-    /// Leaves something out that has words of its own.
+    /// Leaves out a part that is named on its own.
     pub(crate) fn push(&mut self, what: impl Into<String>, reason: Reason) {
         self.0.push(LeftOut { what: what.into(), outputs: Vec::new(), reason });
     }
 
-    /// Leaves outputs out; those left out for one reason stand together.
+    /// Leaves outputs out; those left out for one reason are grouped.
     pub(crate) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
         let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
         self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
@@ -41,7 +41,7 @@ impl LeftOuts {
 }
 
 impl Planner<'_> {
-    /// Whether tables may be folded: slopes along every axis are those of the whole table, and a folded table is rounded once more than the reference allows.
+    /// Whether tables may be folded: slopes along every axis are those of the original table, and a folded table has one more rounding than the reference allows.
     pub(crate) fn may_fold(self, is_slope: impl Fn(&Output) -> bool) -> bool {
         if !self.choices.accuracy.allows_folding() {
             return false;
@@ -61,7 +61,7 @@ impl Planner<'_> {
         if was_read { self.presence(column).has_numbers() } else { self.survey.header.has(column) }
     }
 
-    /// The columns that tell contact, as far as they have numbers.
+    /// The columns of contact that have numbers.
     pub(crate) fn contact(self) -> ContactColumns {
         let found = |column| Some(column).filter(|column| self.presence(*column).has_numbers());
         ContactColumns {
@@ -77,7 +77,7 @@ impl Planner<'_> {
         cell(Column::Area, |column| self.presence(column))
     }
 
-    /// Whether the rows of a node are a history: `node` and `time` are there.
+    /// Whether the rows of a node are a history: `node` and `time` are present.
     pub(crate) fn history(self) -> Result<(), Missing> {
         let header = &self.survey.header;
         let columns: Vec<Column> =
@@ -88,7 +88,7 @@ impl Planner<'_> {
         cell(Column::Time, |column| self.presence(column)).map(drop)
     }
 
-    /// Refuses a table whose first variable some row needs and none has: a closed row needs no clearance.
+    /// Rejects a table whose first variable is needed by some row and present in none: a closed row needs no clearance.
     pub(crate) fn check_abscissa(self, against: Along, table: &PiecewiseTable) -> Result<(), Missing> {
         let is_clearance = against == Along::Clearance;
         if !matters(table, 0) || (is_clearance && self.never(self.of.open)) {
@@ -98,11 +98,11 @@ impl Planner<'_> {
         cell(column, |column| self.presence(column)).map(drop)
     }
 
-    /// Why no row reads the table against clearance or pressure, one of `count` tables of a conductance.
+    /// The reason why no row uses the table against clearance or pressure, one of `count` tables of a conductance.
     pub(crate) fn unreached(self, against: Along, count: usize) -> Option<Reason> {
         match against {
             Along::Pressure if self.never(self.of.closed) => Some(Reason::NoRowClosed),
-            // The table against clearance holds for closed rows too when it is the only one (section 4.2).
+            // The table against clearance applies to closed rows too when it is the only one (section 4.2).
             Along::Clearance if count == 2 && self.never(self.of.open) => Some(Reason::NoRowOpen),
             _ => None,
         }

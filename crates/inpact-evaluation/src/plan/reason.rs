@@ -17,7 +17,7 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
-    /// A law, or another thing that has words of its own.
+    /// A law, or another named part.
     pub(crate) fn law(what: &str, reason: Reason) -> Self {
         Self { what: what.to_owned(), outputs: Vec::new(), reason }
     }
@@ -41,9 +41,9 @@ pub enum Reason {
     BrokenCurves(Error),
     /// *PHYSICAL CONSTANTS does not give a constant that radiation needs (T-42).
     NoConstant(&'static str),
-    /// *GAP RADIATION has no two emissivities from 0 to 1.
+    /// *GAP RADIATION does not have two emissivities from 0 to 1.
     BadEmissivities,
-    /// CalculiX has no such keyword, or asks for another beside it.
+    /// CalculiX has no such keyword, or requires another beside it.
     NotInCalculix(&'static str),
     /// Pore pressure on one side only: the interface is impermeable (P-01).
     OneSided {
@@ -56,17 +56,17 @@ pub enum Reason {
     NoRowClosed,
     /// No row is open.
     NoRowOpen,
-    /// An infinite permeability is no number (P-30).
+    /// An infinite permeability is not a number (P-30).
     InfinitePermeability,
     /// USER of *SURFACE INTERACTION switches heat generation off (K-05).
     HeatSwitchedOff,
-    /// Current generates heat, and nobody knows how much.
+    /// Current generates heat of unknown amount.
     CurrentUnknown(Box<Reason>),
     /// The program has no such law.
     NotEvaluated,
     /// The contract has no column of that name.
     UnknownColumn,
-    /// An option of the command line has the say.
+    /// An option of the command line overrides it.
     Option(&'static str),
     /// A column of both sides together has the number in every row.
     GivenBy(Column),
@@ -74,11 +74,11 @@ pub enum Reason {
     NoTableDepends,
     /// Nothing that is evaluated needs it.
     NotNeeded,
-    /// Steady state has no use for it (C-24).
+    /// Steady state does not use it (C-24).
     SteadyState,
     /// It has no number in any row that could use it.
     Empty,
-    /// Other outputs were asked for by name.
+    /// Other outputs were requested by name.
     NotRequested,
     /// It has the same value in every row, and the tables are folded along it.
     Folded(f64),
@@ -98,7 +98,7 @@ pub struct Missing {
 /// In what way a column has no numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lack {
-    /// It is not there.
+    /// It is absent.
     Absent,
     /// It is empty in all rows of the interaction.
     Empty,

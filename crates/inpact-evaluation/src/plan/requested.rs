@@ -17,12 +17,12 @@ use crate::nodes::{Findings, MISSING_COLUMN, Place};
 use crate::results::{Along, Output};
 use inpact_parser::model::Regime;
 
-/// Leaves out of the plan of an interaction what no output that is asked for needs.
+/// Drops the parts of the plan of an interaction that no requested output needs.
 pub(crate) fn keep_requested(plan: &mut InteractionPlan, choices: &Choices) {
     if let Some(requested) = &choices.outputs {
         let dropped: Vec<Output> = plan.outputs.iter().copied().filter(|output| !requested.contains(output)).collect();
         plan.outputs.retain(|output| requested.contains(output));
-        // What is left out for another reason and was not asked for needs no words.
+        // Parts left out for another reason and not requested need no report.
         plan.left_out
             .retain(|left| left.outputs.is_empty() || left.outputs.iter().any(|output| requested.contains(output)));
         let has_status = plan.outputs.contains(&Output::Status);

@@ -64,7 +64,7 @@ pub(crate) fn cell(column: Column, presence: impl Fn(Column) -> Presence) -> Res
     }
 }
 
-/// The source of a quantity that may stand in one column or in those of the two sides; the one column wins.
+/// The source of a quantity in one column or in those of the two sides; the single column takes precedence.
 pub(crate) fn whole_or_sides(
     [whole, slave, master]: [Column; 3],
     presence: impl Fn(Column) -> Presence,

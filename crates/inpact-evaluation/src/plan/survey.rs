@@ -61,7 +61,7 @@ fn survey_rows(
     let Some(governed_by) = governed_by else { return Ok(None) };
     let columns = wanted_columns(model, governed_by, choices, &header);
     let histories = header.has(Column::Node) && columns.contains(&Column::Time);
-    // Without histories nobody looks at the order, and nothing must rely on it.
+    // Without histories the order is not determined, and must not be relied on.
     let order = if histories && kept.is_some() { HistoryOrder::ByNode } else { HistoryOrder::Interleaved };
     let labels = match kept {
         Some(_) => key_columns(&header),
@@ -91,26 +91,26 @@ pub(crate) fn key_columns(header: &Header) -> Vec<Column> {
     keys.into_iter().filter(|column| header.has(*column)).collect()
 }
 
-/// The labels that a first reading needs.
+/// The labels that the first pass needs.
 fn label_columns(governed_by: GovernedBy, histories: bool) -> Vec<Column> {
     let node = histories.then_some(Column::Node);
     let interaction = (governed_by == GovernedBy::Column).then_some(Column::Interaction);
     node.into_iter().chain(interaction).collect()
 }
 
-/// Rows whose states are found together.
+/// The block size in rows for states.
 const ROWS_OF_STATES: usize = 512;
 
-/// A survey in the making.
+/// A survey in progress.
 struct Surveyor<'a> {
     survey: Survey,
     model: &'a Model,
     rows: RowInteractions<'a>,
     contact: ContactPlaces,
     area: Option<usize>,
-    /// Lengths and permeabilities that may not be negative.
+    /// Lengths and permeabilities that must not be negative.
     properties: Vec<(usize, Column)>,
-    /// Steps and increments, which are whole numbers.
+    /// Steps and increments, which are integers.
     counters: Vec<(usize, Column)>,
     time: Option<usize>,
     node: Option<usize>,
@@ -118,12 +118,12 @@ struct Surveyor<'a> {
     runs: Option<NodeRuns>,
     nodes: NodeIndex,
     last_times: Vec<f64>,
-    /// How many nodes each interaction has.
+    /// The number of nodes of each interaction.
     histories: Vec<u64>,
     first_non_finite: Vec<Option<Place>>,
 }
 
-/// Where a batch has the columns that tell contact.
+/// The indices of the columns of contact in a batch.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ContactPlaces {
     /// `clearance`.
@@ -132,12 +132,12 @@ pub(crate) struct ContactPlaces {
     pub(crate) pressure: Option<usize>,
     /// `closed`.
     pub(crate) closed: Option<usize>,
-    /// The state of every row, where the plan knows it.
+    /// The state of all rows, where the plan knows it.
     pub(crate) state: Option<ContactState>,
 }
 
 impl ContactPlaces {
-    /// The state of a row ([`ContactState::of`]); `None` where the row has not enough to tell.
+    /// The state of a row ([`ContactState::of`]); `None` where the row has too little data.
     #[inline]
     pub(crate) fn state(&self, batch: &Batch, row: usize) -> Option<ContactState> {
         if self.state.is_some() {
@@ -147,7 +147,7 @@ impl ContactPlaces {
         ContactState::of(number(self.closed), number(self.clearance), number(self.pressure))
     }
 
-    /// The states of some rows, in their order, into as many places.
+    /// Writes the states of some rows, in order.
     pub(crate) fn states(&self, batch: &Batch, rows: Range<usize>, states: &mut [Option<ContactState>]) {
         // A column is plain where none of its numbers is missing.
         let plain = |place: Option<usize>| {
@@ -257,10 +257,10 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// Whether [`Self::check_cells`] may find something: one look at each column.
+    /// Whether [`Self::check_cells`] may find something, by one pass over each column.
     fn may_hold_what_it_must_not(&self, batch: &Batch) -> bool {
         let values = |place: usize| batch.numbers[place].values().iter();
-        // What is missing is NaN, which is not below zero, and neither 0 nor 1.
+        // A missing number is NaN, which is not negative, and neither 0 nor 1.
         let below_zero = |place: usize| scan::has_below_zero(batch.numbers[place].values());
         self.contact.closed.is_some_and(|place| values(place).any(|value| *value != 0.0 && *value != 1.0))
             || self.area.is_some_and(below_zero)
@@ -285,7 +285,7 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// Numbers that a cell must not hold.
+    /// Invalid numbers of cells.
     fn check_cells(&self, batch: &Batch, row: usize, findings: &mut Findings) {
         let name = |column| self.survey.header.name_of(column);
         let number = batch.first_row + row as u64 + 1;
@@ -321,7 +321,7 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// The times of a node must rise from row to row (D006).
+    /// The times of a node must ascend from row to row (D006).
     fn check_time(
         &mut self,
         interaction: usize,
@@ -361,7 +361,7 @@ impl<'a> Surveyor<'a> {
         Ok(())
     }
 
-    /// From here on the last time of every node counts, as the rows of a node do not stand together; those of the rows before are found once more.
+    /// From here on the last time of every node is tracked, as the rows of a node are not contiguous; those of earlier rows are scanned again.
     #[cold]
     fn remember_all_nodes(&mut self, batch: &Batch, row: usize, kept: Option<&mut KeptRows>) -> io::Result<()> {
         let (Some(node), Some(time)) = (self.node, self.time) else { return Ok(()) };

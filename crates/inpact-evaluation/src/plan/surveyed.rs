@@ -60,7 +60,7 @@ pub struct ColumnSurvey {
 }
 
 impl ColumnSurvey {
-    /// Takes some cells: their numbers, NaN where one is missing, and which of them are there.
+    /// Adds some cells: their numbers, NaN where one is missing, and flags of those present.
     pub(super) fn take(&mut self, values: &[f64], present: Option<&[bool]>) {
         let missing = present.map_or(0, |present| present.iter().filter(|is_there| !**is_there).count() as u64);
         let found = scan::extremes(values);

@@ -26,7 +26,7 @@ pub struct ContactColumns {
 pub enum History {
     /// They are: `node` and `time` are there.
     ByTime,
-    /// Every row stands for itself.
+    /// Rows are independent.
     None,
 }
 
@@ -70,7 +70,7 @@ pub struct FormPlan {
     pub full_cost: f64,
     /// The other methods considered, and why they were not chosen.
     pub refused: Vec<(String, String)>,
-    /// The table, folded, ready to be evaluated in that form.
+    /// The evaluator of the folded table.
     pub(crate) evaluator: Evaluator,
 }
 

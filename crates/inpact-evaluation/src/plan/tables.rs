@@ -71,7 +71,7 @@ impl InteractionTables {
     }
 }
 
-/// Which variable axis `axis` of a conductance table is (T-03).
+/// The variable of axis `axis` of a conductance table (T-03).
 pub(crate) fn electrical_axis(against: Along, axis: usize) -> Along {
     match axis {
         0 => against,
@@ -80,7 +80,7 @@ pub(crate) fn electrical_axis(against: Along, axis: usize) -> Along {
     }
 }
 
-/// Which variable axis `axis` of a permeability table is (T-03).
+/// The variable of axis `axis` of a permeability table (T-03).
 pub(crate) fn pore_axis(axis: usize) -> Along {
     match axis {
         0 => Along::Pressure,

@@ -37,7 +37,7 @@ pub(crate) fn wanted_columns(
         want_of_electrical_law(choices, &mut wanted);
         want_user(header, &mut wanted);
     }
-    // Of two cells that mean the same the first counts.
+    // Of two cells with the same meaning the first is used.
     let is_first = |(index, column): &(usize, Column)| header.position(*column) == Some(*index);
     let columns = header.cells.iter().enumerate().filter_map(|(index, cell)| Some((index, cell.column?)));
     columns.filter(is_first).map(|(_, column)| column).filter(|column| wanted.contains(column)).collect()

@@ -51,13 +51,13 @@ impl ResultBatch {
         self.reset_statuses(rows);
     }
 
-    /// Makes its numbers so many columns of so many rows without one.
+    /// Resets its numbers to this many columns and rows of missing numbers.
     pub(crate) fn reset_numbers(&mut self, rows: usize, columns: usize) {
         self.numbers.resize_with(columns, NumberColumn::default);
         self.numbers.iter_mut().for_each(|column| column.reset(rows));
     }
 
-    /// The same where every number of the columns that are `written` is about to be set: what they hold until then is of no meaning.
+    /// The same where every number of the columns that are `written` is about to be set: their contents until then are arbitrary.
     pub(crate) fn shape(&mut self, rows: usize, columns: usize, is_written: impl Fn(usize) -> bool) {
         self.numbers.resize_with(columns, NumberColumn::default);
         for (place, column) in self.numbers.iter_mut().enumerate() {
@@ -69,7 +69,7 @@ impl ResultBatch {
         }
     }
 
-    /// Makes it so many rows without a status.
+    /// Resets it to this many rows without a status.
     pub(crate) fn reset_statuses(&mut self, rows: usize) {
         let StatusByLaw { electrical, thermal, pore } = &mut self.status_by_law;
         for statuses in [&mut self.status, electrical, thermal, pore] {
@@ -78,7 +78,7 @@ impl ResultBatch {
         }
     }
 
-    /// Puts these results, of the rows with these numbers, into their places in `whole`.
+    /// Scatters these results, of the rows with these numbers, into `whole`.
     pub(crate) fn scatter(&self, rows: &[u32], whole: &mut Self) {
         for (column, of_whole) in self.numbers.iter().zip(&mut whole.numbers) {
             column.scatter(rows, of_whole);
@@ -109,7 +109,7 @@ impl ResultBatch {
         }
     }
 
-    /// Finds out which columns lack no number, so that nobody asks row by row.
+    /// Detects columns without missing numbers, which avoids checks row by row.
     pub(crate) fn settle(&mut self) {
         self.numbers.iter_mut().for_each(NumberColumn::settle);
     }

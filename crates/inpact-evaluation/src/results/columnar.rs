@@ -107,7 +107,7 @@ enum Source<'b> {
     Key(Column, &'b LabelColumn),
     Numbers(&'b NumberColumn),
     Statuses(&'b [Option<super::Status>]),
-    /// Those of a file whose encoder takes texts by their numbers.
+    /// Those of a file whose encoder takes dictionary indices.
     StatusesToEncode(&'b [Option<super::Status>]),
     /// A column of numbers that no row has.
     Nothing,
@@ -141,7 +141,7 @@ pub(super) fn key_array(key: Column, label: &LabelColumn, batch: &Batch) -> io::
     Ok(Arc::new((0..batch.rows).map(text).collect::<io::Result<StringArray>>()?))
 }
 
-/// A time as a number; the text itself where it is none.
+/// A time as a number; the text itself where it is not a number.
 fn time(text: &[u8]) -> Result<Option<f64>, String> {
     let text = String::from_utf8_lossy(text.trim_ascii());
     if text.is_empty() { Ok(None) } else { text.parse().map(Some).map_err(|_| text.into_owned()) }

@@ -5,7 +5,7 @@ use super::output::Output;
 use crate::nodes::{Column, NumberColumn};
 use std::fmt;
 
-/// A column behind the key columns.
+/// A column after the key columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Heading {
     /// Numbers of a node table.

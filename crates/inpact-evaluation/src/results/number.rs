@@ -95,14 +95,14 @@ mod tests {
         }
     }
 
-    /// The debug form of the standard library but for the `.0` of whole numbers.
+    /// The debug form of the standard library, except for the `.0` of integers.
     fn judge(value: f64) -> String {
         let text = format!("{value:?}");
         text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
     }
 
     proptest! {
-        /// The same number in as many digits as the standard library prints; the last one may differ where the number lies halfway between two.
+        /// The same number with as many digits as in the standard library; the last one may differ in ties.
         #[test]
         fn numbers_are_as_short_as_those_of_the_standard_library(bits in any::<u64>(), digits in -99_999..99_999_i32, power in -25..25_i32) {
             let short = f64::from(digits) * 10.0f64.powi(power);

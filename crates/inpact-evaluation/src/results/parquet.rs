@@ -15,25 +15,25 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::ColumnPath;
 use std::io::{self, Write};
 
-/// How many rows a row group has at most.
+/// The maximum number of rows of a row group.
 const ROWS_OF_A_GROUP: usize = 1 << 18;
 
-/// How many bytes a page of a column has at most: those of a batch or two, so that they are still in the cache when the page is written.
+/// The maximum number of bytes of a page: one or two batches, which are still in the cache when the page is written.
 const BYTES_OF_A_PAGE: usize = 1 << 17;
 
-/// A Parquet file under way.
+/// A Parquet file being written.
 pub(super) struct ParquetTable<W: Write + Send> {
     schema: SchemaRef,
     file: SerializedFileWriter<W>,
     groups: ArrowRowGroupWriterFactory,
-    /// The columns of the row group under way; empty between row groups.
+    /// The columns of the current row group; empty between row groups.
     columns: Vec<ArrowColumnWriter>,
-    /// How many rows they have.
+    /// Their number of rows.
     rows: usize,
 }
 
 impl<W: Write + Send> ParquetTable<W> {
-    /// Begins a file of these columns, so many of which are keys.
+    /// Begins a file with these columns, this many of which are keys.
     pub(super) fn begin(output: W, schema: SchemaRef, keys: usize) -> io::Result<Self> {
         let properties = properties(&schema, keys);
         let writer = ArrowWriter::try_new(output, schema.clone(), Some(properties)).map_err(of_parquet)?;
@@ -41,7 +41,7 @@ impl<W: Write + Send> ParquetTable<W> {
         Ok(Self { schema, file, groups, columns: Vec::new(), rows: 0 })
     }
 
-    /// Adds so many rows, the columns of which are flat and of the types of the schema, or dictionaries of these.
+    /// Adds rows, whose columns are flat and of the types of the schema, or dictionaries of these.
     pub(super) fn write(&mut self, arrays: &[ArrayRef], rows: usize) -> io::Result<()> {
         let mut first = 0;
         while first < rows {
@@ -65,13 +65,13 @@ impl<W: Write + Send> ParquetTable<W> {
         Ok(())
     }
 
-    /// Writes the last rows and what the file ends with.
+    /// Writes the last rows and the footer.
     pub(super) fn finish(mut self) -> io::Result<()> {
         self.finish_group()?;
         self.file.close().map(drop).map_err(of_parquet)
     }
 
-    /// Writes the row group under way, if there is one.
+    /// Writes the current row group, if any.
     fn finish_group(&mut self) -> io::Result<()> {
         let columns = std::mem::take(&mut self.columns);
         self.rows = 0;
@@ -97,7 +97,7 @@ fn properties(schema: &Schema, keys: usize) -> WriterProperties {
         let column = ColumnPath::from(field.name().as_str());
         properties = properties.set_column_dictionary_enabled(column.clone(), true);
         if keys <= index {
-            // The least and the greatest status by the alphabet help nobody, and cost as much as the column.
+            // Alphabetic minimum and maximum of statuses are useless, and cost as much as the column.
             properties = properties.set_column_statistics_enabled(column, EnabledStatistics::None);
         }
     }
@@ -106,7 +106,7 @@ fn properties(schema: &Schema, keys: usize) -> WriterProperties {
 
 fn of_parquet(error: ParquetError) -> io::Error {
     match error {
-        // A closed pipe must be known for what it is.
+        // A closed pipe must be recognisable.
         ParquetError::External(error) => match error.downcast::<io::Error>() {
             Ok(error) => *error,
             Err(error) => of_arrow(ArrowError::ExternalError(error)),

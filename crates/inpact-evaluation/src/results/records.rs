@@ -21,7 +21,7 @@ pub struct ResultRecords {
     given: Given,
 }
 
-/// The memory of the record batch before: whoever got it may have dropped it, and then it is room for the next.
+/// The memory of the previous record batch, reused if its receiver has dropped it.
 #[derive(Debug, Default)]
 struct Given {
     numbers: Vec<Buffer>,

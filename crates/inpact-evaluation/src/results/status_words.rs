@@ -5,10 +5,10 @@ use crate::arrow::array::{Array, ArrayRef, StringArray};
 use crate::arrow::buffer::{Buffer, NullBuffer, OffsetBuffer};
 use std::sync::Arc;
 
-/// As many bytes as are copied for a word, with what follows it, which the next word covers: no call for a few bytes.
+/// The number of bytes copied for a word, including trailing ones that the next word overwrites: a fixed size avoids a call for a few bytes.
 const BLOCK: usize = 16;
 
-/// Memory of an array before, for the next.
+/// Memory of the previous array, for reuse.
 #[derive(Debug, Default)]
 pub(super) struct StatusRoom {
     ends: Vec<i32>,
@@ -16,7 +16,7 @@ pub(super) struct StatusRoom {
 }
 
 impl StatusRoom {
-    /// The memory of an array that nobody else has any longer; none where somebody has it.
+    /// The memory of an array that is no longer shared; otherwise none.
     pub(super) fn of(offsets: Buffer, bytes: Buffer) -> Self {
         Self { ends: offsets.into_vec().unwrap_or_default(), bytes: bytes.into_vec().unwrap_or_default() }
     }
@@ -57,7 +57,7 @@ pub(super) fn buffers(array: &ArrayRef) -> Option<(Buffer, Buffer)> {
     Some((words.offsets().inner().inner().clone(), words.values().clone()))
 }
 
-/// The place of a status among all of them; that of none comes last.
+/// The index of a status; that of none is last.
 fn place(status: Option<Status>) -> usize {
     status.map_or(Status::ALL.len(), |status| status as usize)
 }

@@ -33,10 +33,10 @@ struct CsvWriter<'a> {
     blocks: Vec<Vec<u8>>,
 }
 
-/// How many rows are turned into text at a time; blocks of them are independent of each other.
+/// The block size in rows for formatting; blocks are independent.
 const ROWS_OF_A_BLOCK: usize = 1024;
 
-/// Where the cells of a column come from.
+/// Sources of the cells of a column.
 #[derive(Debug, Clone, Copy)]
 enum ResultColumn {
     /// A text of the node table.
@@ -216,14 +216,14 @@ fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, values:
             }
         }
     }
-    // A line of one empty cell would be a blank line, which is no row.
+    // A line of one empty cell would be a blank line, which is not a row.
     if text.len() == start {
         text.extend_from_slice(b"\"\"");
     }
     text.push(b'\n');
 }
 
-/// Adds a text, in quotes where commas, quotes or line ends in it would be taken for the table's.
+/// Adds a text, in quotes where it contains commas, quotes or line ends.
 fn push_text(line: &mut Vec<u8>, text: &[u8]) {
     if !text.iter().any(|byte| matches!(byte, b',' | b'"' | b'\n' | b'\r')) {
         line.extend_from_slice(text);

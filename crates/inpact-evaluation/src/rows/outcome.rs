@@ -9,13 +9,13 @@ use crate::results::Status;
 pub(crate) enum Outcome {
     /// The row lacks a number that the law needs.
     Incomplete,
-    /// It was evaluated, and this is the row's status as far as it goes.
+    /// It was evaluated, with this status.
     Evaluated(Option<Status>),
-    /// A user's routine gave what is no conductance: what there is to say of it, in the first rows.
+    /// A user's routine gave an invalid conductance, with a message in the first rows.
     Faulty(Option<Box<UserFaultInRow>>),
 }
 
-/// The status of a row as far as contact goes; `None` where it cannot be told.
+/// The status of a row by contact; `None` where it is undetermined.
 pub(crate) fn contact_status(state: ContactState) -> Option<Status> {
     match state {
         ContactState::Closed => Some(Status::Closed),

@@ -12,17 +12,17 @@ use std::borrow::Cow;
 #[derive(Debug)]
 pub(crate) struct Part<'a> {
     whole: &'a Batch,
-    /// Its rows as a batch; `None` where they are all of the batch.
+    /// Its rows as a batch; `None` where it has all rows of the batch.
     gathered: Option<Batch>,
-    /// Their numbers in the batch; `None` where they are all of it.
+    /// Their numbers in the batch; `None` where it has all rows.
     pub(crate) numbers: Option<Vec<u32>>,
-    /// The place of the interaction in the model.
+    /// The index of the interaction in the model.
     pub(crate) interaction: usize,
-    /// Whether each row is closed; `None` where that cannot be told.
+    /// Whether each row is closed; `None` where that is undetermined.
     pub(crate) states: Vec<Option<ContactState>>,
-    /// How many rows are closed.
+    /// The number of closed rows.
     pub(crate) closed: u64,
-    /// How many are open.
+    /// The number of open rows.
     pub(crate) open: u64,
     contact: ContactPlaces,
     time: Option<usize>,
@@ -59,12 +59,12 @@ impl<'a> Part<'a> {
         Self { whole, gathered, numbers, interaction, states, closed, open, contact, time }
     }
 
-    /// Whether every row is closed or open, and some are of each.
+    /// Whether all rows are determined, with both closed and open ones.
     pub(crate) fn is_mixed(&self) -> bool {
         0 < self.closed && 0 < self.open && self.closed + self.open == self.states.len() as u64
     }
 
-    /// Whether contact can be told in every row.
+    /// Whether contact is determined in every row.
     pub(crate) fn tells_contact(&self) -> bool {
         self.closed + self.open == self.states.len() as u64 || self.states.iter().all(Option::is_some)
     }
@@ -74,12 +74,12 @@ impl<'a> Part<'a> {
         self.gathered.as_ref().unwrap_or(self.whole)
     }
 
-    /// How many rows it has.
+    /// The number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.batch().rows
     }
 
-    /// Where a row stands in the table.
+    /// The position of a row in the table.
     pub(crate) fn place(&self, row: usize) -> Place {
         let row = self.numbers.as_ref().map_or(row, |numbers| numbers[row] as usize);
         self.whole.place(row, None)
@@ -91,7 +91,7 @@ impl<'a> Part<'a> {
         self.batch().numbers[place].get(row)
     }
 
-    /// A row whose contact can be told, with its results in row `to`.
+    /// A row whose contact is determined, with its results in row `to`.
     #[inline]
     pub(crate) fn row(&self, index: usize, to: usize) -> Option<Row<'_, 'a>> {
         let number = |place: Option<usize>| self.number(place?, index);
@@ -129,7 +129,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Whether every row has the first coordinates of a branch's table, however it reads them.
+    /// Whether every row has the first coordinate of its branch's table.
     pub(crate) fn has_all_abscissae(&self, branch: Branch) -> bool {
         let place = if branch == Branch::Pressure { self.contact.pressure } else { self.contact.clearance };
         place.is_some_and(|place| self.batch().numbers[place].presence().is_none())
@@ -154,7 +154,7 @@ impl Row<'_, '_> {
         self.part.number(place, self.index)
     }
 
-    /// The number of a source; `combine` makes one of slave and master.
+    /// The number of a source; `combine` combines slave and master.
     #[inline]
     pub(crate) fn fetch(&self, source: &Source<usize>, combine: impl Fn(f64, f64) -> f64) -> Option<f64> {
         let sides = |slave, master| Some(combine(self.number(slave)?, self.number(master)?));

@@ -9,13 +9,13 @@ use crate::table::{Sides, Tail};
 use inpact_diagnostics::Severity;
 use inpact_parser::model::Name;
 
-/// The place of the permeability table among the tables of an interaction; 0 is conductance against clearance, 1 against pressure.
+/// The index of the permeability table among the tables of an interaction; 0 is conductance against clearance, 1 against pressure.
 pub(crate) const PERMEABILITY: usize = 2;
 
-/// The place of the table of thermal conductance against clearance; that against pressure follows.
+/// The index of the table of thermal conductance against clearance; that against pressure follows.
 pub(crate) const THERMAL_CONDUCTANCE: usize = 3;
 
-/// The place of the table of view factors.
+/// The index of the table of view factors.
 pub(crate) const VIEW_FACTOR: usize = 5;
 
 /// Counts over all rows.
@@ -98,7 +98,7 @@ pub struct RemarkedRows {
 }
 
 impl RemarkedRows {
-    /// Counts a row; `what` is said of the first.
+    /// Counts a row; `what` is the remark on the first.
     pub(crate) fn count(&mut self, row: Row<'_, '_>, what: impl FnOnce() -> String) {
         self.rows += 1;
         if self.first.is_none() {
@@ -108,7 +108,7 @@ impl RemarkedRows {
 }
 
 impl RemarkedRows {
-    /// Takes those of another thread as well: what is said is said of the first of all.
+    /// Merges those of another thread; the remark is that of the first row of all.
     fn merge(&mut self, other: Self) {
         self.rows += other.rows;
         let row = |first: &Option<(Place, String)>| {
@@ -145,7 +145,7 @@ impl Tally {
         tally
     }
 
-    /// Takes the counts of another thread as well; the totals are added up elsewhere.
+    /// Merges the counts of another thread; the totals are summed elsewhere.
     pub(crate) fn merge(&mut self, other: Self) {
         self.rows += other.rows;
         for (own, other) in self.interactions.iter_mut().zip(other.interactions) {
@@ -251,7 +251,7 @@ impl Tally {
     }
 }
 
-/// How grave it is that rows lie beyond a table, and what to say of it.
+/// The severity and message for rows beyond a table.
 struct Beyond {
     severity: Severity,
     help: &'static str,
@@ -259,7 +259,7 @@ struct Beyond {
 
 fn beyond(planned: &TablePlan, table: usize, along: Along, side: &str) -> Beyond {
     if table >= THERMAL_CONDUCTANCE && along == Along::Clearance && side == "above" {
-        // No choice is made here: it is zero by the words of the manual (K-31, T-27).
+        // There is no choice: it is zero by the text of the manual (K-31, T-27).
         return Beyond { severity: Severity::Note, help: "it is zero there" };
     }
     if table != PERMEABILITY && along == Along::Clearance && side == "above" {
@@ -296,7 +296,7 @@ impl TableLabel<'_> {
     }
 }
 
-/// The tables of an interaction that are in use, with their places.
+/// The tables of an interaction in use, with their indices.
 fn tables(interaction: &InteractionPlan) -> impl Iterator<Item = (usize, &TablePlan)> {
     let electrical = interaction.electrical.iter().flat_map(|law| &law.tables);
     let electrical = electrical.map(|table| (usize::from(table.against == Along::Pressure), table));
@@ -341,10 +341,10 @@ impl InteractionTally {
         }
     }
 
-    /// Counts a row whose conductance is none; true for those few that are shown.
+    /// Counts a row with an invalid conductance; true for the few that are shown.
     #[cold]
     pub(crate) fn count_fault(&mut self) -> bool {
-        /// How many rows are shown.
+        /// The number of rows shown.
         const MOST: u64 = 20;
         self.user_faults += 1;
         self.user_faults <= MOST

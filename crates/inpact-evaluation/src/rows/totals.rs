@@ -18,7 +18,7 @@ pub struct Totals {
     sums: Vec<UnboundedSum>,
 }
 
-/// The outputs that are added up, those that are multiplied by the area of the node, with their places among the results.
+/// The outputs that are summed, those that are multiplied by the area of the node, with their indices in the results.
 pub(crate) fn summed(outputs: impl Iterator<Item = Output>) -> Vec<(Output, usize)> {
     use Output::{Ecda, Hfla, Pfla, Sfdra, Sjda};
     let is_summed = |output: &Output| matches!(output, Ecda | Sjda | Hfla | Sfdra | Pfla);
@@ -36,7 +36,7 @@ impl Totals {
     ) {
         let is_full = |(_, place): &(Output, usize)| results.numbers[*place].presence().is_none();
         let times = match times {
-            // A time that is missing counts with those of the latest only where there is none.
+            // Rows without a time count only where no row has one.
             Some(times) if times.presence().is_some() => {
                 return rows.for_each(|row| self.take_row(times.get(row), summed, results, row));
             }
@@ -57,7 +57,7 @@ impl Totals {
         }
     }
 
-    /// Adds the results of some rows of one time, none of which lacks one.
+    /// Adds the results of some rows of one time, without missing results.
     fn take_rows(&mut self, time: Option<f64>, summed: &[(Output, usize)], results: &ResultBatch, rows: Range<usize>) {
         if !self.is_of_latest(time) {
             return;
@@ -68,7 +68,7 @@ impl Totals {
         self.rows += rows.len() as u64;
     }
 
-    /// Whether rows of this time are added up: those of a later one begin anew.
+    /// Whether rows of this time are summed: a later time restarts the sums.
     fn is_of_latest(&mut self, time: Option<f64>) -> bool {
         let is_later = match (time, self.time) {
             (Some(time), Some(latest)) => latest < time,

@@ -32,10 +32,10 @@ pub(super) trait Arithmetic {
         self.between(axis, x, (x0, start), (x1, end))
     }
 
-    /// Is called where a point lies before or beyond all abscissae of a group that takes part in the value.
+    /// Called where a point lies before or beyond all abscissae of a group that contributes to the value.
     fn outside(&mut self, _axis: usize, _side: Ordering) {}
 
-    /// Whether at an abscissa of `axis` the segment to its right is looked at as well.
+    /// Whether at an abscissa of `axis` the segment to its right is evaluated as well.
     fn looks_right_of_a_knot(&self, _axis: usize) -> bool {
         false
     }
@@ -63,7 +63,7 @@ impl Arithmetic for Plain {
     }
 }
 
-/// [`Plain`], and on which sides of the groups that take part the point lies.
+/// [`Plain`], and on which sides of the contributing groups the point lies.
 #[derive(Default)]
 pub(super) struct NotingSides {
     pub(super) sides: Sides,
@@ -135,7 +135,7 @@ impl Arithmetic for WithSlope {
 /// Double-double: 2⁻⁹⁸ of the exact value, for ordinary exponents.
 #[derive(Default)]
 pub(super) struct Double {
-    /// A difference was so extreme that a part of the result could have under- or overflown; the result is of no use.
+    /// A difference was so extreme that a part of the result could have under- or overflowed; the result is invalid.
     pub(super) is_out_of_range: bool,
 }
 

@@ -33,7 +33,7 @@ impl PiecewiseTable {
         check_cells(cells, width)?;
         let axis_count = width - 1;
         let mut axes = vec![Vec::<f64>::new(); axis_count];
-        // For each axis but the first, where in the axis below the children of its knots begin.
+        // For each axis but the first, the start of the children of its knots in the axis below.
         let mut starts = vec![Vec::<usize>::new(); axis_count];
         let mut group_counts = vec![0; axis_count];
         let mut previous: Option<&[f64]> = None;
@@ -43,7 +43,7 @@ impl PiecewiseTable {
                 None => axis_count,
                 Some(previous) => first_change(previous, abscissae).map_err(|fault| Error::of_rows(row, fault))?,
             };
-            // The outermost changed axis goes on in its group; all inside it begin new groups.
+            // The outermost changed axis continues its group; all inside it begin new groups.
             for axis in (0..axis_count).take(changed + usize::from(changed < axis_count)).rev() {
                 if axis > 0 {
                     let children = axes[axis - 1].len();
@@ -76,7 +76,7 @@ impl PiecewiseTable {
     }
 }
 
-/// Refuses cells that are no complete rows of finite numbers.
+/// Rejects cells that are not complete rows of finite numbers.
 fn check_cells(cells: &[f64], width: usize) -> Result<(), Error> {
     let fault = |row, fault| Err(Error::of_rows(row, fault));
     if cells.is_empty() {
@@ -92,7 +92,7 @@ fn check_cells(cells: &[f64], width: usize) -> Result<(), Error> {
     }
 }
 
-/// The slowest axis on which a row differs from the one before, which must have risen.
+/// The slowest axis on which a row differs from the previous one, which must have risen.
 fn first_change(previous: &[f64], found: &[f64]) -> Result<usize, TableFault> {
     let changed = (0..found.len()).rev().find(|&axis| previous[axis] != found[axis]).unwrap_or(0);
     match (previous.get(changed), found.get(changed)) {
@@ -102,7 +102,7 @@ fn first_change(previous: &[f64], found: &[f64]) -> Result<usize, TableFault> {
     }
 }
 
-/// How many different abscissae an axis has over all its groups.
+/// The number of distinct abscissae of an axis over all its groups.
 fn distinct_count(knots: &[f64], group_count: usize) -> usize {
     if group_count == 1 {
         return knots.len();
@@ -113,7 +113,7 @@ fn distinct_count(knots: &[f64], group_count: usize) -> usize {
     sorted.len()
 }
 
-/// The levels of the axes that matter: some group has more than one knot, or the value drops beyond the last;
+/// The levels of the axes that the value depends on: some group has more than one knot, or the value drops beyond the last;
 /// each is linked to the next such axis inside it.
 ///
 /// An axis left out has one knot a group, so its knot j is the only child of knot j of the axis outside it:
@@ -134,7 +134,7 @@ fn levels_that_matter(axes: Vec<Vec<f64>>, mut starts: Vec<Vec<usize>>, summarie
     levels
 }
 
-/// The kernel slope from each row to the next of its group; of no meaning in the last row of a group.
+/// The kernel slope from each row to the next of its group; meaningless in the last row of a group.
 fn row_slopes(levels: &[Level], values: &[f64]) -> Vec<KernelSlope> {
     let Some(innermost) = levels.first() else {
         return vec![KernelSlope::UNUSED; values.len()];
@@ -144,7 +144,7 @@ fn row_slopes(levels: &[Level], values: &[f64]) -> Vec<KernelSlope> {
         .windows(2)
         .zip(values.windows(2))
         .map(|(knots, values)| {
-            // Within a group abscissae rise. Where they do not, the next row opens a group; where that happens unseen, the slope is never asked for.
+            // Within a group abscissae ascend. Where they do not, the next row opens a group; otherwise the slope is never used.
             if knots[0] < knots[1] {
                 KernelSlope::of_segment((knots[0], values[0]), (knots[1], values[1]))
             } else {

@@ -11,7 +11,7 @@ use super::arithmetic::{AnyExponent, Arithmetic, Double, NotingSides, Plain, Wit
 use super::{Level, PiecewiseTable, Point, Sides};
 use crate::numbers::Scaled;
 
-/// Where a coordinate lies among the abscissae of a group.
+/// Position of a coordinate among the abscissae of a group.
 pub(super) enum Place {
     Below,
     Knot(usize),
@@ -71,7 +71,7 @@ impl PiecewiseTable {
         found.map_or(f64::NAN, |(_, slope)| slope)
     }
 
-    /// [`Self::slope_at`] at the points of columns, one an axis, empty along axes that the value does not depend on; `axis` says for each row along which, `None` for no slope.
+    /// [`Self::slope_at`] at the points of columns, one per axis, empty along axes that the value does not depend on; `axis` gives the axis for each row, `None` for no slope.
     pub(crate) fn slopes_in_columns(
         &self,
         columns: &[&[f64]],
@@ -123,7 +123,7 @@ impl PiecewiseTable {
 
     /// The value of one group: `knots` of the level below `height`, or the row itself at height 0.
     ///
-    /// Goes down in a loop as long as one child decides, and into a recursion, at most one a level, where two are interpolated.
+    /// Descends in a loop as long as one child decides, and recursively, at most once per level, where two are interpolated.
     fn group_value<A: Arithmetic>(
         &self,
         arithmetic: &mut A,
@@ -180,7 +180,7 @@ impl PiecewiseTable {
 }
 
 impl Level {
-    /// Where `x` lies in the group of `knots`. A group of one knot is met by every `x` (T-07), unless the value drops beyond it.
+    /// The position of `x` in the group of `knots`. A group of one knot contains every `x` (T-07), unless the value drops beyond it.
     pub(super) fn place(&self, knots: &Range<usize>, x: f64) -> Place {
         if knots.len() == 1 && !self.drops {
             return Place::Knot(knots.start);

@@ -12,7 +12,7 @@ use super::{Level, PiecewiseTable, Sides, Tail};
 use crate::error::{Error, ErrorKind};
 use std::ops::Range;
 
-/// The most rows a folded table may have; groups without a common abscissa add up.
+/// The maximum number of rows of a folded table; groups without common abscissae add up.
 const MOST_ROWS: usize = 1 << 20;
 
 impl PiecewiseTable {
@@ -40,7 +40,7 @@ impl PiecewiseTable {
         self.folded_within(axis, at, MOST_ROWS)
     }
 
-    /// The same, in at most so many rows.
+    /// The same, with a limit of rows.
     fn folded_within(&self, axis: usize, at: f64, most: usize) -> Result<Self, Error> {
         let Some(target) = self.levels().iter().position(|level| level.axis == axis) else { return Ok(self.clone()) };
         let height = self.levels().len();
@@ -73,21 +73,21 @@ struct Folding<'a> {
     table: &'a PiecewiseTable,
     /// The level of the axis that is folded away.
     target: usize,
-    /// The coordinates of the row that is next, that along the folded axis among them.
+    /// The coordinates of the next row, including that along the folded axis.
     point: Vec<f64>,
     /// On which sides of the folded axis the point lies.
     sides: Sides,
-    /// For each level the coordinates below and above which a point counts as outside.
-    /// Of the folded one a range is noted as well: none but the sides of the point count.
+    /// For each level the bounds below and above which a point counts as outside.
+    /// For the folded level only the sides of the point matter.
     ranges: Vec<Option<(f64, f64)>>,
     /// The rows of the folded table.
     cells: Vec<f64>,
-    /// The most rows of it.
+    /// The limit of its rows.
     most: usize,
 }
 
 impl Folding<'_> {
-    /// Adds the rows of the groups below `height` that the folded table interpolates between: one group, or after the folded axis several that become one.
+    /// Adds the rows of the groups below `height` between which the folded table interpolates: one group, or after the folded axis several that are merged.
     fn fold(&mut self, height: usize, groups: &[Range<usize>]) -> Result<(), Error> {
         let Some(index) = height.checked_sub(1) else { return self.add_row() };
         let level = &self.table.levels()[index];
@@ -136,7 +136,7 @@ impl Folding<'_> {
             if greatest < self.point[level.axis] {
                 sides.mark_above(level.axis);
             }
-            // The range of the folded level says that a group of it was met before.
+            // A range of the folded level means that a group of it was processed before.
             let is_first = self.ranges[self.target].replace((least, greatest)).is_none();
             if !is_first && sides != self.sides {
                 return Err(ErrorKind::RangesDiffer { axis: level.axis }.into());
@@ -152,13 +152,13 @@ impl Folding<'_> {
             (Some(marks), _) => marks.range(level.axis),
             (None, [first, .., last]) => (*first, *last),
             (None, [only]) if level.drops => (*only, *only),
-            // Any other group of one row is met by every point (T-07).
+            // Any other group of one row contains every point (T-07).
             _ => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 }
 
-/// The groups below the level `index` that take part in the values of some of its groups at `x`.
+/// The groups below the level `index` that contribute to the values of some of its groups at `x`.
 fn inside(level: &Level, index: usize, groups: &[Range<usize>], x: f64) -> Vec<Range<usize>> {
     let child = |knot: usize| if index == 0 { knot..knot + 1 } else { level.children_of(knot) };
     let of_group = |group: &Range<usize>| match level.place(group, x) {
@@ -170,7 +170,7 @@ fn inside(level: &Level, index: usize, groups: &[Range<usize>], x: f64) -> Vec<R
     groups.iter().flat_map(of_group).collect()
 }
 
-/// The abscissae of some groups together; a group of one row is constant and adds none (T-07).
+/// The union of the abscissae of some groups; a group of one row is constant and adds none (T-07).
 fn common_knots(level: &Level, groups: &[Range<usize>]) -> Vec<f64> {
     let several: Vec<&Range<usize>> = groups.iter().filter(|group| group.len() > 1).collect();
     match several[..] {

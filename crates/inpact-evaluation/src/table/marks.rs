@@ -5,9 +5,9 @@ use super::{PiecewiseTable, Point, Sides};
 /// Which points lie outside a table that was folded from a larger one.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Marks {
-    /// Outside at every point: the coordinate that was folded away lies there.
+    /// Outside at every point: the folded coordinate lies there.
     pub(super) always: Sides,
-    /// For an axis the coordinates below and above which a point lies outside.
+    /// For an axis the bounds below and above which a point lies outside.
     pub(super) ranges: Vec<(usize, (f64, f64))>,
 }
 
@@ -39,7 +39,7 @@ impl Marks {
 }
 
 impl PiecewiseTable {
-    /// Whether it is not the rows that say which points lie outside: the table is what was left of a larger one.
+    /// Whether marks, not the rows, determine which points lie outside: the table was folded from a larger one.
     pub(crate) fn marks_sides(&self) -> bool {
         self.0.marks.is_some()
     }
@@ -58,7 +58,7 @@ impl PiecewiseTable {
                 }
             }
         }
-        // Where the value is undefined, so is the place.
+        // Where the value is undefined, so are the sides.
         for level in self.levels() {
             for (x, sides) in columns[level.axis].iter().zip(sides.iter_mut()) {
                 if x.is_nan() {
@@ -68,7 +68,7 @@ impl PiecewiseTable {
         }
     }
 
-    /// The same table with marks, where the groups of each axis have one range; then no search is needed to tell which points lie outside.
+    /// The same table with marks, where the groups of each axis have one range; then no search is needed to find points outside.
     pub(crate) fn with_marks(&self) -> Option<Self> {
         if self.marks_sides() {
             return Some(self.clone());

@@ -26,7 +26,7 @@ impl Sides {
         self.above & flag(axis) != 0
     }
 
-    /// The sides of either.
+    /// The union of the sides.
     #[must_use]
     pub(crate) fn or(self, other: Self) -> Self {
         Self { below: self.below | other.below, above: self.above | other.above }

@@ -146,7 +146,7 @@ impl Progress {
         let further = if contraction < 1.0 { contraction / (1.0 - contraction) } else { f64::INFINITY };
         match accuracy {
             Accuracy::Full => change * further,
-            // A bound where each change is no more than half of the one before.
+            // A bound where each change is no more than half of the previous one.
             Accuracy::Rough => change * further.max(1.0),
         }
     }

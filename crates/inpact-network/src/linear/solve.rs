@@ -76,7 +76,7 @@ impl Solver {
         self.tolerance
     }
 
-    /// Sets another tolerance; gives the one before.
+    /// Sets another tolerance; gives the previous one.
     pub(crate) fn set_tolerance(&mut self, tolerance: f64) -> f64 {
         std::mem::replace(&mut self.tolerance, tolerance)
     }

@@ -32,7 +32,7 @@ const MOST_SAID: usize = 100;
 /// So deep may lists and tables lie in one another; the parser of TOML goes no deeper.
 const DEEPEST: usize = 80;
 
-/// Finds what is no TOML.
+/// Finds what is not TOML.
 pub(super) fn sound(text: &str) -> Sound<'_> {
     let mut sound = Sound { text: None, without: Vec::new(), problems: Vec::new() };
     let mut rest = Cow::Borrowed(text);

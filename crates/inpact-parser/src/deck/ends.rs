@@ -198,7 +198,7 @@ impl Groups {
         (row[1] == 0.0).then_some(())
     }
 
-    /// Ends a group, which must have two rows or more, with the row before.
+    /// Ends a group, which must have two rows or more, with the previous row.
     fn end_group(&mut self) -> Option<()> {
         let is_whole = 2 <= self.rows && self.rows == self.abscissae.len();
         self.values.extend_from_slice(&self.before[..self.width]);

@@ -62,7 +62,7 @@ pub enum IncludeOutcome {
 
 /// Source of included files; the implementation does the input and output.
 pub trait IncludedFiles {
-    /// The identity of the deck among files; `None` when it is no file.
+    /// The identity of the deck among files; `None` when it is not a file.
     fn deck(&self) -> Option<PathBuf>;
 
     /// The folder that must not be left and does not contain the file; checked before the file is looked for.

@@ -22,7 +22,7 @@ use std::ops::Range;
 /// The most characters of a keyword or data line (S-06).
 const LINE_CHARACTERS: usize = 256;
 
-/// The number of bytes kept of the rows before the first keyword when only interpreted blocks are: enough to distinguish a fragment from a file that is no deck.
+/// The number of bytes kept of the rows before the first keyword when only interpreted blocks are: enough to distinguish a fragment from a file that is not a deck.
 const LEADING_ROWS_KEPT: u64 = 64 * 1024;
 
 /// The most rows of one block that are noted because they begin with the name of a keyword.
@@ -56,7 +56,7 @@ pub struct ScanOptions<'grammar> {
 pub(super) enum LeadingRows {
     /// All of them: they go on with a block whose rows are kept.
     All,
-    /// As much as distinguishes a fragment from a file that is no deck.
+    /// As much as distinguishes a fragment from a file that is not a deck.
     Some,
     /// None.
     None,
@@ -206,7 +206,7 @@ impl<'grammar> Scanner<'grammar> {
         self.pending.extend_from_slice(&bytes[complete..]);
     }
 
-    /// Takes whole lines of which it is known what they hold; rows that are not kept are passed over.
+    /// Takes whole lines of which it is known what they hold; rows that are not kept are skipped.
     pub(super) fn push_surveyed(&mut self, bytes: &[u8], survey: Survey) {
         let is_between_lines = self.pending.is_empty() && self.open_keyword.is_none();
         // A CR at the very end may be half of a CR LF, and a byte order mark is no part of a row.

@@ -48,7 +48,7 @@ pub(super) struct Columns {
 /// The room the items of a column need.
 #[derive(Debug, Default, Clone)]
 struct Column {
-    /// Some item is no number: then all begin at the left.
+    /// Some item is not a number: then all begin at the left.
     has_text: bool,
     width: usize,
     before: usize,

@@ -33,7 +33,7 @@ pub struct Definition {
     pub source: String,
     /// A piece of a deck that uses it and is right.
     pub example: String,
-    /// All parameters are listed; otherwise one that is not listed is no error.
+    /// All parameters are listed; otherwise one that is not listed is not an error.
     #[serde(default = "complete")]
     pub parameters_complete: bool,
     /// Its parameters, in the order of the manual.

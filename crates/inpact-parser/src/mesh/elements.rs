@@ -325,7 +325,7 @@ impl<'a> ElementRows<'a> {
     }
 }
 
-/// Adds the numbers of a line to a row; false where something is no number.
+/// Adds the numbers of a line to a row; false where something is not a number.
 ///
 /// In one pass: all elements go through here where free faces are wanted.
 fn integers(line: &[u8], row: &mut Vec<u32>) -> bool {

@@ -45,7 +45,7 @@ impl Mesh {
 /// A row: what it names, and its numbers.
 struct Row {
     target: String,
-    /// `None` for what is no number.
+    /// `None` for what is not a number.
     values: Vec<Option<f64>>,
     span: Span,
 }

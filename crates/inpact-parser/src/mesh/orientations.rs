@@ -72,7 +72,7 @@ impl Reader<'_, '_> {
 fn axes(rows: &[Option<Vec<f64>>], has_origin: bool) -> Option<[Point; 3]> {
     let mut rows = rows.iter();
     let mut points = rows.next()?.clone()?;
-    // A comma at the end is no number.
+    // A comma at the end is not a number.
     while 6 < points.len() && points.len() != 9 && points.last() == Some(&0.0) {
         points.pop();
     }

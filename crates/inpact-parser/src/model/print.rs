@@ -229,7 +229,7 @@ fn print_rows(out: &mut String, table: &Table, definition: Option<&Definition>) 
     });
     let texts: Vec<String> = texts.collect();
     for row in texts.chunks(width.max(1)) {
-        // A line that begins with an asterisk is no row: then the whole row is on one line (K-53).
+        // A line that begins with an asterisk is not a row: then the whole row is on one line (K-53).
         let begins_keyword = row.iter().skip(1).any(|item| item.starts_with('*'));
         let (first, further) = row.split_at(if begins_keyword { row.len() } else { first_line.min(row.len()) });
         for line in std::iter::once(first).chain(further.chunks(following)) {

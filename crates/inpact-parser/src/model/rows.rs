@@ -79,7 +79,7 @@ pub(super) fn read_table(
     let mut line_of_row = 0;
     for line in deck.data_lines(block) {
         if line.is_blank() {
-            // CalculiX passes over them (CX-01).
+            // CalculiX skips them (CX-01).
             if dialect == Dialect::Abaqus {
                 reader.report(ProblemKind::BlankRow, line.span);
             }

@@ -15,7 +15,7 @@ pub enum FortranNumber {
     Cut {
         /// The number.
         value: f64,
-        /// The value of all characters together; `None` when that is no number.
+        /// The value of all characters together; `None` when that is not a number.
         whole: Option<f64>,
     },
     /// The first 20 characters are no number, though all of them may be.
@@ -34,7 +34,7 @@ pub fn read_fortran(text: &[u8]) -> Result<FortranNumber, NumberError> {
     let whole = read_f20(&kept);
     match read_f20(&kept[..FLOAT_CHARACTERS]) {
         Ok(value) => Ok(FortranNumber::Cut { value, whole: whole.ok() }),
-        // A text that is no number at all is reported as such.
+        // A text that is not a number at all is reported as such.
         Err(_) if whole.is_ok() => Ok(FortranNumber::CutToNothing),
         Err(error) => Err(error),
     }

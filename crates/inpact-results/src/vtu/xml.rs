@@ -46,7 +46,7 @@ impl<'a> Tags<'a> {
         Self { bytes, at: 0 }
     }
 
-    /// The next tag; none at the end of the file. Text before it, comments and declarations are passed over.
+    /// The next tag; none at the end of the file. Text before it, comments and declarations are skipped.
     pub(super) fn next(&mut self) -> Result<Option<Tag<'a>>, Problem> {
         loop {
             let Some(begin) = memchr::memchr(b'<', &self.bytes[self.at..]).map(|found| self.at + found) else {

@@ -97,7 +97,7 @@ fn in_folder(folder: &Path, reading: &DeckArguments) -> Result<Vec<PathBuf>, Fai
             continue;
         }
         let path = entry.into_path();
-        // The configuration is no scene, whatever `include` says.
+        // The configuration is not a scene, whatever `include` says.
         if path.file_name().is_some_and(|name| name == FILE_NAME) {
             continue;
         }

@@ -119,7 +119,7 @@ impl<'a> Rows<'a> {
         let mut values = Vec::new();
         for row in 0..self.count() {
             let value = self.row(row)[column];
-            // Most rows have the value of the row before.
+            // Most rows have the value of the previous row.
             if values.last() != Some(&value) {
                 values.push(value);
             }

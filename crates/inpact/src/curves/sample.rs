@@ -133,7 +133,7 @@ pub(super) fn sort_and_dedup(values: &mut Vec<f64>) {
     values.dedup();
 }
 
-/// At most so many of some values, evenly spread, the first and the last among them.
+/// At most so many of some values, evenly spaced, the first and the last among them.
 pub(super) fn spread<T: Clone>(values: &[T], most: usize) -> Vec<T> {
     if values.len() <= most || most < 2 {
         return values.to_vec();

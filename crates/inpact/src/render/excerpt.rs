@@ -86,7 +86,7 @@ fn end_of_line(bytes: &[u8], at: usize) -> usize {
     memchr(b'\n', &bytes[at..]).map_or(bytes.len(), |found| at + found)
 }
 
-/// The bytes as text of the same length: what is no UTF-8 becomes `?`, and so do hidden characters but tabs and line ends.
+/// The bytes as text of the same length: what is not UTF-8 becomes `?`, and so do hidden characters but tabs and line ends.
 fn printable(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {

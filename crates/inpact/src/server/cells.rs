@@ -105,7 +105,7 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// The rows of a block, blank lines and comments passed over; none where the grammar does not describe them.
+/// The rows of a block, blank lines and comments skipped; none where the grammar does not describe them.
 pub(super) fn rows<'a>(analysis: &'a Analysis, entry: &Entry<'a>) -> impl Iterator<Item = Row<'a>> {
     let layout = Layout::of(analysis, entry);
     let shape = entry.definition.map(Definition::rows);

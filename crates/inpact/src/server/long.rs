@@ -53,7 +53,7 @@ pub(super) fn put_back(value: &mut Value, texts: &mut [EditedText]) {
 pub(super) enum Fault {
     /// The input broke off or failed.
     Input(io::Error),
-    /// A string that JSON does not allow; the rest of the message was passed over.
+    /// A string that JSON does not allow; the rest of the message was skipped.
     Text(&'static str),
 }
 

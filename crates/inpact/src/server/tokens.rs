@@ -77,7 +77,7 @@ fn on_keyword_line(entry: &Entry<'_>, found: &mut Vec<(Span, u32)>) {
     }
 }
 
-/// Tokens as the protocol has them: each by what it is after the one before.
+/// Tokens as the protocol has them: each by what it is after the previous one.
 fn encoded(view: View<'_>, found: &[(Span, u32)]) -> SemanticTokens {
     let mut data = Vec::with_capacity(found.len());
     let (mut line, mut character) = (0, 0);

@@ -124,15 +124,15 @@ fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Can
 /// The content after a header.
 enum Body {
     Whole(LongMessage),
-    /// It is no JSON, and was passed over.
+    /// It is not JSON, and was skipped.
     Faulty(&'static str),
-    /// It was passed over.
+    /// It was skipped.
     TooLong(u64),
 }
 
 /// Reads up to the end of the next message; `None` at the end of the input.
 ///
-/// A line that is no header is passed over: what follows nonsense may make sense again.
+/// A line that is no header is skipped: what follows nonsense may make sense again.
 fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
     let mut length: Option<u64> = None;
     loop {

@@ -89,7 +89,7 @@ impl Workspace {
         self.forget();
     }
 
-    /// Reads everything again when it is asked for: files may have changed, come or gone.
+    /// Reads everything again when it is requested: files may have changed, come or gone.
     pub(super) fn forget(&mut self) {
         self.stale = self.documents.keys().cloned().collect();
     }

@@ -19,10 +19,10 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct BranchColumns {
     pub(crate) tables: ConductanceTables,
-    /// The tables as they are evaluated: against clearance, against contact pressure.
+    /// The evaluators of the tables: against clearance, against contact pressure.
     forms: [Option<Evaluator>; 2],
     needs: [Needs; 2],
-    /// The variables behind clearance or contact pressure.
+    /// The variables after clearance or contact pressure.
     pub(crate) variables: Vec<Option<Variable>>,
 }
 
@@ -31,11 +31,11 @@ pub(crate) struct BranchColumns {
 pub(crate) struct Needs {
     /// Its first variable, clearance or contact pressure.
     pub(crate) abscissa: bool,
-    /// Others, by their place among the variables.
+    /// Others, by their index among the variables.
     pub(crate) variables: Vec<usize>,
 }
 
-/// Where a variable of a table comes from.
+/// Sources of a variable of a table.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Variable {
     /// The mean of both sides.
@@ -55,11 +55,11 @@ pub(crate) struct WantedSlope {
 #[derive(Debug, Default)]
 pub(crate) struct ConductanceColumn {
     pub(crate) values: Vec<f64>,
-    /// The rests that rounding took away; empty or NaN where that is not known.
+    /// The rounding errors; empty or NaN where unknown.
     pub(crate) rests: Vec<f64>,
     /// Where each row lies outside its table; empty where all of them lie within.
     pub(crate) sides: Vec<Sides>,
-    /// Which rows have all that their table needs; empty where all of them do.
+    /// Which rows have all inputs of their table; empty where all of them do.
     known: Vec<bool>,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct Gathered<'a> {
     /// `None` where all rows read it.
     pub(crate) rows: Option<Vec<u32>>,
     pub(crate) count: usize,
-    /// One column an axis of the table; empty where it is not read.
+    /// One column per axis of the table; empty where it is not read.
     pub(crate) columns: Vec<Cow<'a, [f64]>>,
 }
 
@@ -153,7 +153,7 @@ impl<'a> Gathered<'a> {
 }
 
 impl BranchColumns {
-    /// The branches of the tables that there are; those that the plan has in use as it folded them.
+    /// The branches of the existing tables; those in use as folded by the plan.
     pub(crate) fn new(
         tables: ConductanceTables,
         planned: &[TablePlan],
@@ -166,7 +166,7 @@ impl BranchColumns {
         };
         let tables = tables.map(|branch, table| evaluator(branch).map_or(table, |evaluator| evaluator.table().clone()));
         let branches = [Branch::Clearance, Branch::Pressure];
-        // A table that no row reaches stays as it is: it says what kind of conductance this is.
+        // A table that no row reaches stays unfolded: it determines the kind of conductance.
         let forms = branches.map(|branch| {
             let table = tables.table(branch)?;
             Some(evaluator(branch).cloned().unwrap_or_else(|| Evaluator::new(table, accuracy)))
@@ -197,7 +197,7 @@ impl BranchColumns {
         (reads, gathered)
     }
 
-    /// The points at which the tables are read, for whoever measures them there.
+    /// The points at which the tables are evaluated, for measurements.
     pub(crate) fn points<'a>(&self, part: &'a Part<'_>) -> [(Branch, Gathered<'a>); 2] {
         let [clearance, pressure] = self.gather(part).1;
         [(Branch::Clearance, clearance), (Branch::Pressure, pressure)]
@@ -207,7 +207,7 @@ impl BranchColumns {
     fn reads(&self, part: &Part<'_>, variables: &[Option<Cells<'_>>]) -> Vec<Reads> {
         let is_plain = [Branch::Clearance, Branch::Pressure].into_iter().all(|branch| {
             let needs = &self.needs[place(branch)];
-            // A table that no row reaches may depend on what the plan has no column of.
+            // A table that no row reaches may depend on variables without a column in the plan.
             let cells = |variable: &usize| variables.get(*variable)?.as_ref();
             let is_full = |variable: &usize| cells(variable).is_some_and(|cells| cells.present.is_none());
             (!needs.abscissa || part.has_all_abscissae(branch)) && needs.variables.iter().all(is_full)
@@ -242,7 +242,7 @@ impl BranchColumns {
         if needs.variables.iter().all(has) { Reads::Branch(branch) } else { Reads::Nothing }
     }
 
-    /// The conductance of every row; some of the values are compared with the reference, where that is wanted.
+    /// The conductance of every row; a sample of the values is compared with the reference on request.
     pub(crate) fn evaluate(&self, part: &Part<'_>, mut seen: Option<&mut SeenError>) -> ConductanceColumn {
         if let Some(column) = self.evaluate_both(part, seen.as_deref_mut()) {
             return column;
@@ -294,7 +294,7 @@ impl BranchColumns {
 }
 
 impl BranchColumns {
-    /// Slopes in every row, a column for each that is wanted: the bits of [`ConductanceTables::slopes`] where a row has all that its table needs.
+    /// Slopes in every row, one column for each requested slope: bitwise equal to [`ConductanceTables::slopes`] where a row has all inputs of its table.
     pub(crate) fn slopes(&self, part: &Part<'_>, wanted: &[WantedSlope]) -> Vec<Vec<f64>> {
         if wanted.is_empty() {
             return Vec::new();
@@ -321,7 +321,7 @@ impl BranchColumns {
         wanted.iter().map(|wanted| slopes_along(wanted.along)).collect()
     }
 
-    /// The slopes in one row, which has all that its table needs.
+    /// The slopes in one row, which has all inputs of its table.
     pub(crate) fn set_slopes(&self, row: Row<'_, '_>, wanted: &[WantedSlope], results: &mut ResultBatch) {
         if wanted.is_empty() {
             return;
@@ -335,7 +335,7 @@ impl BranchColumns {
 }
 
 impl ContactPoint<'_> {
-    /// A row as a conductance sees it.
+    /// The inputs of a conductance in a row.
     pub(crate) fn of_row<'v>(row: Row<'_, '_>, variables: &'v [f64]) -> ContactPoint<'v> {
         ContactPoint {
             clearance: Clearance(row.clearance.unwrap_or(f64::NAN)),
@@ -371,7 +371,7 @@ impl ConductanceColumn {
         self.sides.get(row).copied().unwrap_or_default()
     }
 
-    /// A conductance found row by row; `None` for a row that lacks a number.
+    /// A conductance row by row; `None` for a row that lacks a number.
     pub(crate) fn of_rows(found: impl Iterator<Item = Option<(f64, Sides)>>) -> Self {
         let mut column = Self::default();
         for found in found {
@@ -383,7 +383,7 @@ impl ConductanceColumn {
         column
     }
 
-    /// Whether a row has all that its table needs.
+    /// Whether a row has all inputs of its table.
     #[inline]
     pub(crate) fn is_known(&self, row: usize) -> bool {
         self.known.is_empty() || self.known[row]
@@ -394,7 +394,7 @@ impl ConductanceColumn {
         self.known.iter().all(|known| *known)
     }
 
-    /// The rest that rounding took away in a row, where that is known.
+    /// The rounding error in a row, where known.
     #[inline]
     pub(crate) fn rest(&self, row: usize) -> Option<f64> {
         self.rests.get(row).copied().filter(|rest| !rest.is_nan())
@@ -402,7 +402,7 @@ impl ConductanceColumn {
 }
 
 impl Binder<'_> {
-    /// Where the mean temperature and the field variables of a conductance stand in a batch.
+    /// The indices of the mean temperature and the field variables of a conductance in a batch.
     pub(crate) fn means(self, sources: &[Option<Source<Column>>]) -> Vec<Option<Variable>> {
         sources.iter().map(|source| self.source(*source).map(Variable::Mean)).collect()
     }
@@ -426,7 +426,7 @@ impl Binder<'_> {
     }
 }
 
-/// The places of some items, found without a branch: whether rows are closed or open is as good as random.
+/// The indices of some items, found without a branch: whether rows are closed or open is unpredictable.
 fn places_where<T>(items: &[T], is_one: impl Fn(&T) -> bool) -> Vec<u32> {
     let mut places = vec![0; items.len()];
     let mut count = 0;
@@ -438,7 +438,7 @@ fn places_where<T>(items: &[T], is_one: impl Fn(&T) -> bool) -> Vec<u32> {
     places
 }
 
-/// The place of a branch among the two.
+/// The index of a branch among the two.
 fn place(branch: Branch) -> usize {
     usize::from(branch == Branch::Pressure)
 }

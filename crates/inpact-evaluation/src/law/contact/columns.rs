@@ -36,7 +36,7 @@ impl Operation for FindStates<'_> {
 
 /// How many rows have a state.
 pub(crate) fn count_states(states: &[Option<ContactState>], state: Option<ContactState>) -> u64 {
-    /// So few that a byte counts them.
+    /// Few enough for a count in a byte.
     const BLOCK: usize = 128;
     let of_block = |block: &[Option<ContactState>]| {
         u64::from(block.iter().fold(0_u8, |count, found| count + u8::from(*found == state)))

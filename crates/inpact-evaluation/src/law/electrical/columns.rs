@@ -24,10 +24,10 @@ use std::ops::Range;
 mod alone;
 pub(crate) mod increments;
 
-/// Below this share of the potentials their difference has lost its digits.
+/// Below this fraction of the potentials their difference has lost its digits (cancellation).
 const LOST_DIGITS: f64 = 1e-8;
 
-/// Rows whose inputs are looked at together before the kernel takes them.
+/// The chunk size in rows for which inputs are checked before the kernel runs.
 const CHUNK: usize = 256;
 
 /// The electrical law with the columns it reads and fills.
@@ -54,7 +54,7 @@ enum ConductanceSource {
     User(Box<UserColumns>),
 }
 
-/// Where the results go.
+/// Indices of the results.
 #[derive(Debug, Clone, Copy)]
 struct Slots {
     ecd: Option<usize>,
@@ -71,12 +71,12 @@ struct Slots {
     heat_master: Option<usize>,
 }
 
-/// The columns that current and heat of some rows follow from.
+/// The input columns of current and heat of some rows.
 #[derive(Debug, Clone, Copy)]
 struct FlowInputs<'a> {
     conductance: &'a [f64],
     jump: Option<&'a [f64]>,
-    /// Where an increment starts otherwise than it ends.
+    /// Where the start of an increment differs from its end.
     jump_at_start: Option<&'a [f64]>,
     area: Option<&'a [f64]>,
 }
@@ -155,12 +155,12 @@ impl ElectricalColumns {
         }
     }
 
-    /// The conductances of a part by tables; none of a user's routine, which is asked row by row.
+    /// The conductances of a part by tables; none for a user's routine, which is called row by row.
     pub(crate) fn conductances(&self, part: &Part<'_>, seen: Option<&mut SeenError>) -> Option<ConductanceColumn> {
         Some(self.tables()?.evaluate(part, seen))
     }
 
-    /// The law in a row; gives its status and the heat of the current, where the row has a jump of potential.
+    /// The law in a row; returns its status and the heat of the current, where the row has a jump of potential.
     pub(crate) fn row(
         &self,
         row: Row<'_, '_>,
@@ -176,7 +176,7 @@ impl ElectricalColumns {
             }
             (ConductanceSource::User(routine), _) => match routine.conductance(row, tally) {
                 Some(Ok(value)) => {
-                    // The plan asks for no other slope.
+                    // The plan requests no other slope.
                     for wanted in &self.slopes {
                         results.set(Some(wanted.slot), row.to, Some(value.slope_along_mean_temperature()));
                     }
@@ -198,7 +198,7 @@ impl ElectricalColumns {
         (Outcome::Evaluated(self.status(row, sides, tally)), heat)
     }
 
-    /// The law in all rows of a part, none of which has a history; gives the outcomes, and the heat of the current where the thermal law `takes_heat`.
+    /// The law in all rows of a part without histories; returns the outcomes, and the heat of the current where the thermal law `takes_heat`.
     pub(crate) fn rows(
         &self,
         part: &Part<'_>,
@@ -231,7 +231,7 @@ impl ElectricalColumns {
                 for index in rows {
                     let (outcome, heat) = match part.row(index, index) {
                         Some(row) => self.row(row, found, None, results, tally),
-                        // Where contact cannot be told no law is asked.
+                        // Where contact is undetermined no law is evaluated.
                         None => (Outcome::Incomplete, None),
                     };
                     outcomes.push(outcome);
@@ -280,7 +280,7 @@ impl ElectricalColumns {
         (outcomes, heats)
     }
 
-    /// Whether rows can be evaluated by plain arithmetic: no number is missing, extreme, or wanted in twice the precision.
+    /// Whether rows can be evaluated by plain arithmetic: no number is missing or extreme, and double-double is not requested.
     fn are_plain(
         &self,
         found: &ConductanceColumn,
@@ -295,7 +295,7 @@ impl ElectricalColumns {
             && area.is_none_or(|area| are_moderate(&area.values[rows]))
     }
 
-    /// Conductance, current and heat of some rows by plain arithmetic; `flows` takes what is multiplied and summed up further.
+    /// Conductance, current and heat of some rows by plain arithmetic; `flows` takes the values that are multiplied and summed further.
     fn plain_flows(
         &self,
         inputs: FlowInputs<'_>,
@@ -351,7 +351,7 @@ impl ElectricalColumns {
         for (slot, values) in written {
             let Some(slot) = slot else { continue };
             let column = &mut results.numbers[slot].values_mut()[rows.clone()];
-            // No current is 0, not −0.
+            // Zero current is +0, not −0.
             column.iter_mut().zip(values).for_each(|(cell, value)| *cell = value + 0.0);
         }
     }
@@ -363,7 +363,7 @@ impl ElectricalColumns {
         }
     }
 
-    /// Current and heat, where the row has a jump of potential, for a conductance and what rounding took away from it.
+    /// Current and heat, where the row has a jump of potential, for a conductance and its rounding error.
     fn flow_of_row(
         &self,
         row: Row<'_, '_>,
@@ -386,7 +386,7 @@ impl ElectricalColumns {
         Some(self.flow_of_increment(row, (value, rest), jump, history, results, tally))
     }
 
-    /// Sets the integrals of a node in a row of results; no current is 0, not −0.
+    /// Sets the integrals of a node in a row of results; zero current is +0, not −0.
     fn set_integrals(&self, history: &ElectricalHistory, to: usize, results: &mut ResultBatch) {
         let slots = &self.slots;
         let integrals = [
@@ -434,10 +434,10 @@ impl ElectricalColumns {
         };
         let current_density = exact.map_or_else(|| Amount::new(flow.current_density), |exact| exact.current_density);
         let heat = exact.map_or_else(|| HeatAmounts::from(flow.heat), |exact| exact.heat);
-        // Of a flow out of the range of f64 the part of a small area may be within it.
+        // A flow beyond the range of f64 may be within it when multiplied by a small area.
         let of_area = |amount: Amount| area.map(|area| amount.times(area));
         let slots = &self.slots;
-        // No current is 0, not −0.
+        // Zero current is +0, not −0.
         let mut set = |slot, value: Option<f64>| results.set(slot, row.to, value.map(|value| value + 0.0));
         set(slots.ecd, Some(flow.current_density));
         set(slots.ecda, of_area(current_density));
@@ -455,7 +455,7 @@ impl ElectricalColumns {
         heat
     }
 
-    /// Counts a row that takes the jump of an open circuit into the heat of the increment that closes it (D022).
+    /// Counts a row that includes the jump of an open circuit in the heat of the increment that closes it (D022).
     fn count_closing(
         &self,
         row: Row<'_, '_>,
@@ -490,7 +490,7 @@ impl Slots {
     }
 }
 
-/// How many of some rows, each with its jump, have lost the digits of it ([`has_lost_digits`]).
+/// The number of rows whose jump has lost its digits ([`has_lost_digits`]).
 fn lost_digits(source: &Source<usize>, part: &Part<'_>, rows: impl Iterator<Item = (usize, f64)>) -> u64 {
     match *source {
         Source::Cell(_) => 0,
@@ -507,7 +507,7 @@ fn lost_digits(source: &Source<usize>, part: &Part<'_>, rows: impl Iterator<Item
     }
 }
 
-/// Whether the jump is the difference of potentials so much larger that few of its digits are left.
+/// Whether the jump is the difference of much larger potentials, so that few of its digits are left.
 #[inline]
 fn has_lost_digits(source: &Source<usize>, row: Row<'_, '_>, jump: f64) -> bool {
     let (slave, master) = match *source {

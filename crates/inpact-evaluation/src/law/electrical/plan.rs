@@ -43,7 +43,7 @@ pub struct ElectricalPlan {
 /// The name of the law where it is left out.
 pub(crate) const LAW: &str = "electrical law";
 
-/// Plans the electrical law; `None` after saying why there is none.
+/// Plans the electrical law; `None` after reporting why there is none.
 pub(crate) fn plan_electrical(
     planner: Planner<'_>,
     tables: &InteractionTables,
@@ -87,7 +87,7 @@ pub(crate) fn plan_electrical(
             Some(reason) => {
                 let what = format!("table against {against}");
                 let whole = electrical_table_plan(option, *against, table);
-                // No row reads it, so evaluating by branches it would cost nothing; without them every row reads both.
+                // No row reads it, so with separate branches it would cost nothing; without them every row reads both.
                 dropped.push(Dropped { what: what.clone(), cost: whole.whole_cost(), reason: reason.clone() });
                 left_out.push(what, reason);
             }
@@ -135,7 +135,7 @@ pub(crate) fn plan_electrical(
     Some(plan)
 }
 
-/// Plans the law with the conductance of a user's routine, which stands in the place of all tables (K-08).
+/// Plans the law with the conductance of a user's routine, which replaces all tables (K-08).
 fn plan_with_user(
     planner: Planner<'_>,
     user: UserPlan,
@@ -160,7 +160,7 @@ fn plan_with_user(
     plan
 }
 
-/// Where the variables of the tables in use come from, or what is missing.
+/// The sources of the variables of the tables in use, or the missing columns.
 fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Vec<Option<Source<Column>>>, Missing> {
     let presence = |column| planner.presence(column);
     let contact = planner.contact();
@@ -238,7 +238,7 @@ fn plan_flows(
     }
 }
 
-/// The place of a temperature or a field variable among the variables of the law.
+/// The index of a temperature or a field variable among the variables of the law.
 fn variable_index(along: Along) -> Option<usize> {
     match along {
         Along::Temperature => Some(0),
@@ -261,7 +261,7 @@ pub(crate) fn want_electrical(tables: &InteractionTables, choices: &Choices, wan
     }
 }
 
-/// Columns that every electrical law could use, whatever gives its conductance.
+/// Columns that every electrical law could use, whatever the source of its conductance.
 pub(crate) fn want_of_electrical_law(choices: &Choices, wanted: &mut BTreeSet<Column>) {
     want_of_any_law(choices, wanted);
     if choices.asks_for(&ELECTRICAL_FLOWS) || choices.asks_for(&SUMS_OF_HEAT) {

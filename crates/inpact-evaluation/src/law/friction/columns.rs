@@ -16,11 +16,11 @@ pub(crate) struct FrictionColumns {
     shear: usize,
     slip_rate: Speed,
     pub(crate) generation: HeatGeneration,
-    /// CalculiX takes shear and slip rate by their magnitudes.
+    /// CalculiX uses the magnitudes of shear and slip rate.
     dialect: Dialect,
 }
 
-/// Where the slip rate comes from.
+/// The source of the slip rate.
 #[derive(Debug, Clone, Copy)]
 enum Speed {
     Place(usize),
@@ -57,18 +57,18 @@ impl FrictionColumns {
                 Dialect::Abaqus => (shear, speed),
                 Dialect::Calculix => (shear.abs(), speed.abs()),
             };
-            // As `frictional_heat` has it of such numbers.
+            // Same expression as `frictional_heat` for such numbers.
             let total = fraction * shear * speed;
             let is_open = *state == Some(ContactState::Open);
             is_plain &= is_open | (is_moderate(shear) & is_moderate(speed) & is_zero_or_ordinary(total));
-            // No heat is 0, not −0.
+            // Zero heat is +0, not −0.
             let share = |weight: f64| if is_open { 0.0 } else { weight * total + 0.0 };
             (totals[row], slave[row], master[row]) = (share(1.0), share(slave_weight), share(1.0 - slave_weight));
         }
         is_plain
     }
 
-    /// The heat of friction; an open row has none, whatever it says of it.
+    /// The heat of friction; an open row has none, whatever its shear and slip rate.
     pub(crate) fn in_row(self, row: Row<'_, '_>, tally: &mut InteractionTally) -> Option<HeatAmounts> {
         if row.state == ContactState::Open {
             return Some(HeatAmounts::ZERO);

@@ -28,19 +28,19 @@ pub enum SlipRateSource {
     Given(f64),
 }
 
-/// Whether the options of an interaction tell of heat by friction: only then are `shear` and `slip_rate` its business.
+/// Whether the options of an interaction define heat by friction: only then are `shear` and `slip_rate` used.
 pub(crate) fn tells_of_friction(interaction: &Interaction) -> bool {
     tells_of_heat(interaction) || interaction.friction().is_some()
 }
 
-/// Whether one of the options is about heat: a deck without any has friction too, and says nothing of its heat.
+/// Whether one of the options concerns heat: a deck without any may have friction too, without its heat.
 fn tells_of_heat(interaction: &Interaction) -> bool {
     interaction.gap_heat_generation.is_some()
         || interaction.gap_conductance().is_some()
         || interaction.gap_radiation().is_some()
 }
 
-/// Plans friction: where the deck tells of it and `shear` and `slip_rate` have numbers, or the deck gives the speed (K-38).
+/// Plans friction: where the deck defines it and `shear` and `slip_rate` have numbers, or the deck gives the speed (K-38).
 pub(crate) fn plan_friction(
     planner: Planner<'_>,
     heat: Option<HeatGeneration>,

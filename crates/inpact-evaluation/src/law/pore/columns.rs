@@ -19,7 +19,7 @@ use std::borrow::Cow;
 #[derive(Debug, Clone)]
 pub(crate) struct PoreColumns {
     law: PoreLaw,
-    /// The table of permeabilities as it is evaluated.
+    /// The evaluator of the table of permeabilities.
     form: Option<Evaluator>,
     regime: Regime,
     /// The variables that the permeability needs; variable 0 is the mean pore pressure, which is always there.
@@ -40,7 +40,7 @@ pub(crate) struct PoreColumns {
     slopes: Vec<(usize, Along)>,
 }
 
-/// Where the characteristic element length comes from.
+/// The source of the characteristic element length.
 #[derive(Debug, Clone, Copy)]
 enum Length {
     Place(usize),
@@ -48,7 +48,7 @@ enum Length {
     Unknown,
 }
 
-/// Where the results go.
+/// Indices of the results.
 #[derive(Debug, Clone, Copy)]
 struct Slots {
     pfl: Option<usize>,
@@ -130,7 +130,7 @@ impl PoreColumns {
         });
         let nowhere = || Cells { values: vec![f64::NAN; part.rows()].into(), present: None };
         let variables = std::iter::once(pore_pressure).chain(others).enumerate().map(|(index, cells)| {
-            // A column that the table needs must be there, whatever is in it.
+            // A column that the table needs must be present, whatever its contents.
             cells.or_else(|| self.needs.variables.contains(&index).then(nowhere))
         });
         let variables: Vec<Option<Cells<'a>>> = variables.collect();
@@ -147,7 +147,7 @@ impl PoreColumns {
         found
     }
 
-    /// The slopes of the permeability by the table in every row, a column for each that is wanted; whether fluid crosses is not looked at.
+    /// The slopes of the permeability by the table in every row, one column for each requested slope, whether or not fluid crosses.
     pub(super) fn slope_columns(&self, part: &Part<'_>) -> Vec<Vec<f64>> {
         let points = self.points(part).filter(|_| !self.slopes.is_empty());
         let Some((form, gathered)) = points else { return Vec::new() };
@@ -164,7 +164,7 @@ impl PoreColumns {
         self.slopes.iter().map(column).collect()
     }
 
-    /// The law in a row; gives its status.
+    /// The law in a row; returns its status.
     pub(crate) fn row(
         &self,
         row: Row<'_, '_>,
@@ -256,7 +256,7 @@ impl PoreColumns {
                 Some(0) => Some(along_pressure),
                 axis => axis.and_then(|axis| slopes.get(axis - 1).copied()),
             };
-            // Without a permeability there is no slope of it either.
+            // Without a permeability there is no slope either.
             results.set(Some(*slot), row.to, slope.filter(|_| has_permeability));
         }
     }

@@ -47,13 +47,13 @@ pub struct PorePlan {
 /// Where the characteristic element length comes from (P-20, Q-5).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CharacteristicLength {
-    /// The deck gives both cutoffs, or nothing asks for it.
+    /// The deck gives both cutoffs, or it is not needed.
     NotNeeded,
     /// `char_length`.
     Column,
     /// One number for all rows.
     Given(f64),
-    /// Nowhere: rows that are open have no result that it decides.
+    /// None: open rows have no result that depends on it.
     Unknown,
 }
 
@@ -66,7 +66,7 @@ pub enum Rate {
     Column,
     /// The node's history alone.
     History,
-    /// Nowhere: the gap is taken as unchanging.
+    /// None: the gap is taken as constant.
     Unknown,
 }
 
@@ -79,7 +79,7 @@ pub enum Bulk {
     Halves,
 }
 
-/// Plans the pore fluid law; `None` after saying why there is none.
+/// Plans the pore fluid law; `None` after reporting why there is none.
 pub(crate) fn plan_pore(
     planner: Planner<'_>,
     tables: &InteractionTables,
@@ -99,7 +99,7 @@ pub(crate) fn plan_pore(
     let jump = cell(Column::PorePressure(Part::Both), |column| planner.presence(column)).ok();
     let lacking: Vec<Column> = sides.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
     let has_sides = lacking.is_empty();
-    // The table may depend on their mean, the flow across needs no more than their difference.
+    // The table may depend on their mean; the flow across needs only their difference.
     let needs_sides = jump.is_none() || tables.permeability().is_some_and(|table| matters(table, 1));
     match lacking[..] {
         _ if !needs_sides => {}
@@ -172,7 +172,7 @@ pub(crate) fn plan_pore(
     Some(plan)
 }
 
-/// Where the variables of the table come from, or what is missing.
+/// The sources of the variables of the table, or the missing columns.
 fn sources(planner: Planner<'_>, table: Option<&PiecewiseTable>) -> Result<Vec<Option<Source<Column>>>, Missing> {
     let presence = |column| planner.presence(column);
     cell(Column::Clearance, presence)?;

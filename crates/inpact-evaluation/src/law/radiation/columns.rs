@@ -20,7 +20,7 @@ impl RadiationColumns {
         Self { law: law.clone(), view_factor: TableKernel::new(&law.view_factor) }
     }
 
-    /// The view factor of every row; of those whose clearance is not known NaN ([`RadiationLaw::view_factor`]).
+    /// The view factor of every row; NaN where the clearance is unknown ([`RadiationLaw::view_factor`]).
     pub(crate) fn view_factors(&self, part: &Part<'_>) -> Vec<(f64, Sides)> {
         let clearances = part.clearances();
         let states = part.states.iter().zip(&*clearances);
@@ -33,7 +33,7 @@ impl RadiationColumns {
         let mut sides = vec![Sides::default(); clearances.len()];
         self.view_factor.values_and_sides(&[&clearances], &mut values, &mut sides);
         let found = values.into_iter().zip(sides).zip(&clearances);
-        // A table of one value does not depend on the clearance, but on whether it can be told.
+        // A table of one value does not depend on the clearance, but on whether it is determined.
         found.map(|(found, clearance)| if clearance.is_nan() { (f64::NAN, Sides::default()) } else { found }).collect()
     }
 

@@ -19,7 +19,7 @@ use crate::results::{Along, Output, ResultBatch, Status};
 use crate::rows::{Binder, InteractionTally, Outcome, Part, Row, THERMAL_CONDUCTANCE, contact_status};
 use crate::table::Sides;
 
-/// The place of the mass flow rate among the variables.
+/// The index of the mass flow rate among the variables.
 const MASS_FLOW: usize = 1;
 
 /// The thermal law with the columns it reads and fills.
@@ -51,7 +51,7 @@ enum ConductionSource {
     Calculix { curves: CalculixConductance, needs: Needs, variables: Vec<Option<Variable>> },
 }
 
-/// Where the results go.
+/// Indices of the results.
 #[derive(Debug, Clone, Copy)]
 struct Slots {
     hfl: Option<usize>,
@@ -70,7 +70,7 @@ struct Slots {
     into_master: Option<usize>,
 }
 
-/// Conductances and view factors of a part, found before the law goes through its rows.
+/// Conductances and view factors of a part, computed by column before the pass over its rows.
 #[derive(Debug, Default)]
 pub(crate) struct ThermalFound {
     conductances: ConductanceColumn,
@@ -131,7 +131,7 @@ impl ThermalColumns {
         }
     }
 
-    /// The law in a row, given the heat of the current there; gives its status.
+    /// The law in a row, given the heat of the current there; returns its status.
     pub(crate) fn row(
         &self,
         row: Row<'_, '_>,
@@ -147,7 +147,7 @@ impl ThermalColumns {
         });
         let across = temperatures.or_else(|| jump.map(Temperatures::of_jump));
         let (mut is_beyond, mut gives_something) = (false, false);
-        // A part that the plan does not have is known to be nothing.
+        // A part that the plan does not have counts as zero.
         let conduction = match &self.conduction {
             None => Some(Amount::ZERO),
             Some(part) => {
@@ -187,12 +187,12 @@ impl ThermalColumns {
         if !gives_something {
             return Outcome::Incomplete;
         }
-        // Without `HFL` in the plan nothing of it is missed.
+        // Without `HFL` in the plan a missing part does not matter.
         tally.incomplete_heat += u64::from((all.is_none() && self.slots.hfl.is_some()) || friction.is_none());
         Outcome::Evaluated(if is_beyond { Some(Status::BeyondTable) } else { contact_status(row.state) })
     }
 
-    /// The conductance with its slopes, what rounding took away from it where that is known, and along which axes the row lies outside its table; `None` where the row lacks a number for it.
+    /// The conductance with its slopes, its rounding error where that is known, and along which axes the row lies outside its table; `None` where the row lacks a number for it.
     fn conductance_in_row(
         &self,
         part: &Conduction,
@@ -308,7 +308,7 @@ impl Conduction {
         }
     }
 
-    /// Slopes in every row, a column for each that is wanted; of a row that lacks a number they are of no meaning.
+    /// Slopes in every row, one column for each requested slope; meaningless in a row that lacks a number.
     fn slopes(&self, part: &Part<'_>) -> Vec<Vec<f64>> {
         let (curves, variables) = match &self.source {
             ConductionSource::Tables(columns) => return columns.slopes(part, &self.slopes),

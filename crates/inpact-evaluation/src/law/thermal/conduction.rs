@@ -100,7 +100,7 @@ fn conduction_of_tables(
     }
     let tables = used.iter().map(|(against, table)| table_plan(table, |axis| thermal_axis(*against, axis)));
     let mut plan = ConductionPlan { dialect: planner.choices.dialect, tables: tables.collect(), variables, mass_flow };
-    // The curves of CalculiX are no plain table, and are evaluated as they are.
+    // The curves of CalculiX are not a plain table, and are not folded.
     if plan.dialect == Dialect::Abaqus {
         let tables: Vec<&PiecewiseTable> = used.iter().map(|(_, table)| *table).collect();
         fold_conduction(planner, (&tables, all.len()), &mut plan);
@@ -108,7 +108,7 @@ fn conduction_of_tables(
     Ok(plan)
 }
 
-/// Folds the tables in use, of `count` that there are, along what is the same in every row, and chooses their forms; what no table reads any more is left out.
+/// Folds the tables in use, of `count` that there are, along variables that are constant, and chooses their methods; variables that no table reads any more are left out.
 fn fold_conduction(planner: Planner<'_>, (tables, count): (&[&PiecewiseTable], usize), plan: &mut ConductionPlan) {
     let may_fold = planner.may_fold(|output| matches!(output, Output::ThermalConductanceSlope(_)));
     let variables = &plan.variables;

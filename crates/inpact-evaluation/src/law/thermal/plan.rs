@@ -53,9 +53,9 @@ pub struct ThermalPlan {
 /// Whether current generates heat in the rows of an interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurrentHeat {
-    /// It does, as the electrical law says.
+    /// It does, by the electrical law.
     Generated,
-    /// It does not, or is not known.
+    /// It does not, or is unknown.
     None,
 }
 
@@ -75,7 +75,7 @@ impl ThermalPlan {
     }
 }
 
-/// Plans the thermal law; `None` after saying why there is none.
+/// Plans the thermal law; `None` after reporting why there is none.
 pub(crate) fn plan_thermal(
     planner: Planner<'_>,
     tables: &ThermalTables,
@@ -150,7 +150,7 @@ pub(crate) fn plan_thermal(
     Some(plan)
 }
 
-/// Whether current generates heat; an error where it may and nobody knows how much.
+/// Whether current generates heat; an error where it may and the amount is unknown.
 fn current_heat(
     planner: Planner<'_>,
     electrical: Option<&ElectricalPlan>,
@@ -169,7 +169,7 @@ fn current_heat(
     if !procedures.is_empty() && !procedures.iter().any(Procedure::solves_electrical) {
         return Ok(CurrentHeat::None);
     }
-    // The law said why there is none of it, or why there is no current.
+    // The electrical law has reported why there is none, or why there is no current.
     let mut said = left_out.0.iter().filter(|left| left.what == ELECTRICAL_LAW || left.outputs.contains(&Output::Ecd));
     Err(said.next().map_or(Reason::NotEvaluated, |left| left.reason.clone()))
 }
@@ -194,7 +194,7 @@ fn plan_flows(
                 outputs.extend(plan.conduction.is_some().then_some(HeatConduction));
                 outputs.extend(plan.radiation.is_some().then_some(HeatRadiation));
             }
-            // Radiation was left out without them; conduction needs no more than their difference.
+            // Radiation was left out without them; conduction needs only their difference.
             Err(_) if planner.presence(Column::TemperatureJump).has_numbers() => {
                 plan.jump = Some(Column::TemperatureJump);
                 outputs.insert(HeatConduction);

@@ -22,7 +22,7 @@ impl<T> Planned<T> {
         }
     }
 
-    /// The part; says what is left out, and remembers the first reason.
+    /// The part; reports what is left out, and stores the first reason.
     pub(super) fn part(self, what: &str, left_out: &mut LeftOuts, first: &mut Option<Reason>) -> Option<T> {
         match self {
             Self::Absent => None,

@@ -38,12 +38,12 @@ pub(crate) enum ConductanceRows {
     Calculix(Result<CalculixConductance, Error>),
 }
 
-/// Why *GAP RADIATION gives no law.
+/// Reasons why *GAP RADIATION gives no law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum RadiationFault {
     /// The constant of that name is not given (T-42).
     NoConstant(&'static str),
-    /// The first row has no two emissivities from 0 to 1.
+    /// The first row does not have two emissivities from 0 to 1.
     BadEmissivities,
     /// The further rows form no table of view factors.
     BrokenTable(Error),
@@ -108,13 +108,13 @@ fn conductance(given: &GapConductance<'_>, dialect: Dialect) -> ConductanceRows 
         return ConductanceRows::User;
     }
     if dialect == Dialect::Calculix {
-        // Of any two tables the later governs.
+        // Of two tables the later one is in force.
         let curves = given.tables.last().filter(|table| table.width() == CalculixConductance::WIDTH);
         let curves = curves.map(|table| CalculixConductance::from_rows(&table.values));
         return curves.map_or(ConductanceRows::Nothing, ConductanceRows::Calculix);
     }
     let build = |table: &Table, tail| PiecewiseTable::from_rows(&table.values, table.width(), tail);
-    // Beyond the last clearance nothing is conducted, whatever is chosen for current (K-31, Q-1).
+    // Beyond the last clearance nothing is conducted, whatever the choice for current (K-31, Q-1).
     let clearance = given.clearance().map(|table| build(table, Tail::Zero));
     let pressure = given.pressure().map(|table| build(table, Tail::Constant));
     let is_empty = clearance.is_none() && pressure.is_none();
@@ -135,7 +135,7 @@ fn radiation_law(given: &GapRadiation<'_>, model: &Model) -> Result<RadiationLaw
     Ok(RadiationLaw { coefficient, absolute_zero, view_factor })
 }
 
-/// Which variable axis `axis` of a thermal conductance is (T-03).
+/// The variable of axis `axis` of a thermal conductance (T-03).
 pub(crate) fn thermal_axis(against: Along, axis: usize) -> Along {
     match axis {
         0 => against,

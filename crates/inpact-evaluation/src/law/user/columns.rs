@@ -5,7 +5,7 @@ use crate::nodes::{Column, Part, coordinates};
 use crate::plan::{Source, UserPlan};
 use crate::rows::{Binder, InteractionTally, Row, UserFaultInRow};
 
-/// The routine, and where a row has what it is called with.
+/// The routine, and the indices of its arguments in a row.
 #[derive(Debug, Clone)]
 pub(crate) struct UserColumns {
     law: UserLaw,
@@ -69,7 +69,7 @@ impl UserColumns {
         }))
     }
 
-    /// The fault of a row whose conductance is none, for users.
+    /// The fault of a row with an invalid conductance, for users.
     #[cold]
     pub(crate) fn fault_in_row(&self, row: Row<'_, '_>, fault: &UserFault) -> UserFaultInRow {
         let place = row.part.place(row.index);
@@ -80,7 +80,7 @@ impl UserColumns {
     }
 }
 
-/// Slave and master; the column of both sides has the say where a row lacks one of them.
+/// Slave and master; the column of both sides is used where a row lacks one of them.
 fn sides(source: &Source<usize>, row: Row<'_, '_>) -> Option<[f64; 2]> {
     let both = |cell| row.number(cell).map(|value| [value; 2]);
     let each = |slave, master| Some([row.number(slave)?, row.number(master)?]);
@@ -96,7 +96,7 @@ fn node_number(label: &[u8]) -> Option<i32> {
     std::str::from_utf8(label.trim_ascii()).ok()?.parse().ok()
 }
 
-/// A step or an increment: the first reading let only whole numbers of that size pass.
+/// A step or an increment: the first pass accepted only integers of that size.
 #[expect(clippy::cast_possible_truncation, reason = "whole and within the range of i32")]
 fn counter(value: f64) -> i32 {
     value as i32

@@ -27,7 +27,7 @@ pub struct UserPlan {
 }
 
 impl UserPlan {
-    /// The columns it reads, besides those that tell contact.
+    /// The columns it reads, besides those of contact.
     pub(crate) fn columns(&self) -> impl Iterator<Item = Column> {
         let sources = std::iter::once(&self.temperatures).chain(&self.field_variables);
         sources.flat_map(Source::cells).chain(self.others.iter().copied()).chain([Column::Clearance])
@@ -67,7 +67,7 @@ pub(crate) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result
     Ok(UserPlan { names, temperatures, field_variables, others })
 }
 
-/// The two sides of a quantity; where a row lacks one of them, the column that stands for both.
+/// The two sides of a quantity; where a row lacks one of them, the column of both sides.
 fn sides_or_whole(columns: [Column; 3], planner: Planner<'_>) -> Result<Source<Column>, Missing> {
     let presence = |column| planner.presence(column);
     let [whole, slave, master] = columns;
@@ -78,7 +78,7 @@ fn sides_or_whole(columns: [Column; 3], planner: Planner<'_>) -> Result<Source<C
     }
 }
 
-/// Field variables are numbered without gaps: what follows one is not handed over.
+/// Field variables are numbered without gaps: those after a gap are not passed.
 fn note_fields_after_a_gap(planner: Planner<'_>, count: usize, notes: &mut Vec<String>) {
     let is_after_gap =
         |column: &Column| matches!(column, Column::FieldVariable(number, _) if *number as usize > count + 1);
@@ -93,7 +93,7 @@ fn note_fields_after_a_gap(planner: Planner<'_>, count: usize, notes: &mut Vec<S
     }
 }
 
-/// Arguments of the routine instead of columns that are not there.
+/// Arguments of the routine in place of missing columns.
 fn note_defaults(planner: Planner<'_>, lacking: &[Column], notes: &mut Vec<String>) {
     let lacks = |column: &Column| lacking.contains(column);
     let mut defaults = Vec::new();
@@ -122,7 +122,7 @@ fn quoted(column: Column) -> String {
     format!("`{column}`")
 }
 
-/// The names, in the case user subroutines get them in (S-43): upper case, but for what is quoted.
+/// The names, in the case passed to user subroutines (S-43): upper case, except quoted parts.
 pub(crate) fn user_names(model: &Model, interaction: &Name, notes: &mut Vec<String>) -> UserNames {
     let of_this = model.contact_pairs.iter().filter(|pair| {
         let governed_by = pair.interaction.as_ref();
@@ -130,7 +130,7 @@ pub(crate) fn user_names(model: &Model, interaction: &Name, notes: &mut Vec<Stri
     });
     let mut pairs = of_this.flat_map(|pair| &pair.pairs);
     let (slave, master) = match (pairs.next(), pairs.next()) {
-        // One surface alone is in contact with itself.
+        // A single surface means self-contact.
         (Some(pair), None) => (Some(&pair.slave), Some(pair.master.as_ref().unwrap_or(&pair.slave))),
         (first, _) => {
             let why = if first.is_some() { "more than one contact pair names" } else { "no contact pair names" };

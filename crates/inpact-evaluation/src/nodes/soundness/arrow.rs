@@ -7,17 +7,17 @@ use std::io::{self, SeekFrom};
 
 const KIND: &str = "Arrow";
 
-/// The beginning of a file, padding included, and its end: the length of its footer and the mark.
+/// The beginning of a file, including padding, and its end: the length of its footer and the magic bytes.
 const HEAD: u64 = 8;
 const TAIL: u64 = 10;
 
-/// The mark before a length, in all but the oldest files.
+/// The continuation marker before a length, in all but the oldest files.
 const CONTINUATION: u32 = u32::MAX;
 
-/// The most rows that a byte of a packed file can stand for: zstd makes a few bytes of the most that a block has, of bits of one kind.
+/// The maximum number of rows per byte of a compressed file: zstd compresses a full block of equal bits to a few bytes.
 const ROWS_OF_A_BYTE: u64 = 8 << 15;
 
-/// A message: where its body is, and how long.
+/// A message: offset and length of its body.
 struct Place {
     body: u64,
     length: u64,
@@ -65,7 +65,7 @@ pub(in crate::nodes) fn check_file(input: &mut dyn ReadSeek) -> io::Result<()> {
 pub(in crate::nodes) fn check_stream(input: &mut dyn ReadSeek) -> io::Result<()> {
     let length = input.seek(SeekFrom::End(0))?;
     let mut at = 0;
-    // Less than a length is an end as good as any.
+    // Fewer bytes than a length count as the end.
     while at + 4 <= length {
         let mut header = u64::from(number(&read(input, at, 4)?));
         at += 4;
@@ -108,7 +108,7 @@ fn check_message(input: &mut dyn ReadSeek, bytes: &[u8], place: &Place, file: u6
     batch.map_or(Ok(()), |batch| check_batch(input, batch, place, file))
 }
 
-/// No buffer is longer than the body, and all of them together come to no more than they may.
+/// No buffer is longer than the body, and their total decompressed size is within the limit.
 fn check_batch(input: &mut dyn ReadSeek, batch: RecordBatch<'_>, place: &Place, file: u64) -> io::Result<()> {
     let lengths = batch.nodes().into_iter().flatten().map(FieldNode::length).chain([batch.length()]);
     let most_rows = file.saturating_mul(ROWS_OF_A_BYTE);
@@ -134,7 +134,7 @@ fn check_batch(input: &mut dyn ReadSeek, batch: RecordBatch<'_>, place: &Place, 
         }
         let stated = read(input, place.body + offset, 8)?;
         let stated = i64::from_le_bytes(stated.try_into().unwrap_or_default());
-        // −1 is said of a buffer that is not compressed.
+        // −1 marks an uncompressed buffer.
         unpacked = unpacked.saturating_add(match u64::try_from(stated) {
             Ok(stated) => stated,
             Err(_) if stated == -1 => length,
@@ -157,7 +157,7 @@ fn check_batch(input: &mut dyn ReadSeek, batch: RecordBatch<'_>, place: &Place, 
 
 fn read(input: &mut dyn ReadSeek, at: u64, length: u64) -> io::Result<Vec<u8>> {
     input.seek(SeekFrom::Start(at))?;
-    // The caller has held the length against the file.
+    // The caller has checked the length against the file.
     let mut bytes = vec![0; usize::try_from(length).map_err(|_| unsound(KIND, "it is larger than memory"))?];
     input.read_exact(&mut bytes)?;
     Ok(bytes)

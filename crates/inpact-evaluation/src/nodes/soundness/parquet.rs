@@ -14,19 +14,19 @@ use std::sync::Arc;
 
 const KIND: &str = "Parquet";
 
-/// The length of the footer and the mark behind it.
+/// The length of the footer and the magic bytes after it.
 const TAIL: u64 = 8;
 
-/// How deep groups of columns may lie in one another.
+/// The maximum nesting of groups of columns.
 const DEEPEST_GROUP: usize = 64;
 
-/// The longest header of a page; statistics of long texts are in it.
+/// The maximum length of a page header, which may contain statistics of long texts.
 const LONGEST_HEADER: u64 = 1 << 20;
 
-/// How many times their size bytes packed by Snappy may come to: a copy of 64 bytes takes three.
+/// The maximum decompression ratio of Snappy: a copy of 64 bytes takes three.
 const SNAPPY_TIMES: u64 = 32;
 
-/// Checks the footer, before anybody makes room for the lists in it.
+/// Checks the footer, before memory is allocated for its lists.
 ///
 /// # Errors
 /// Those of reading, and of kind [`io::ErrorKind::InvalidData`] for a footer that is not sound.
@@ -54,10 +54,10 @@ pub(in crate::nodes) fn check_footer<R: ChunkReader>(file: &R) -> io::Result<()>
     Ok(())
 }
 
-/// How deep the groups of a schema lie, from the number of children of each of its elements in their order.
+/// The nesting of the groups of a schema, from the number of children of each element in order.
 #[derive(Default)]
 struct Depths {
-    /// How many elements are still to come in each open group.
+    /// The number of remaining elements in each open group.
     open: Vec<i64>,
     deepest: usize,
     children: i64,
@@ -99,7 +99,7 @@ impl Visitor for Depths {
     }
 }
 
-/// Checks the pages of some columns, given by their places in the schema.
+/// Checks the pages of some columns, given by their indices in the schema.
 ///
 /// # Errors
 /// Those of reading, and of kind [`io::ErrorKind::InvalidData`] for a file that is not sound.
@@ -118,7 +118,7 @@ pub(in crate::nodes) fn check_pages<R: ChunkReader + Clone + 'static>(
         for leaf in (0..group.num_columns()).filter(|leaf| is_read(schema.get_column_root_idx(*leaf))) {
             let chunk = group.column(leaf);
             check_codec(chunk)?;
-            // A column that is no list has a value, if only none, in every row.
+            // A column that is not a list has a value, possibly null, in every row.
             if chunk.column_descr().max_rep_level() == 0 && chunk.num_values() != rows {
                 let name = chunk.column_descr().name();
                 let values = chunk.num_values();
@@ -136,10 +136,10 @@ pub(in crate::nodes) fn check_pages<R: ChunkReader + Clone + 'static>(
     Ok(())
 }
 
-/// Refuses a column that is packed in a way that this program was not built to unpack.
+/// Rejects a column with a compression that this build does not support.
 fn check_codec(chunk: &ColumnChunkMetaData) -> io::Result<()> {
     let codec = match chunk.compression() {
-        // What Brotli makes of a few bytes has no bound, and LZO has no reader.
+        // The decompression ratio of Brotli is unbounded, and LZO has no reader.
         Compression::BROTLI(_) => "Brotli",
         Compression::LZO => "LZO",
         _ => return Ok(()),
@@ -150,7 +150,7 @@ fn check_codec(chunk: &ColumnChunkMetaData) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::InvalidData, message))
 }
 
-/// Checks that a page packed by gzip, but for its levels, comes to no more than it says: the library unpacks it to its end.
+/// Checks that a page compressed by gzip, except its levels, does not exceed its declared size: the library decompresses it to its end.
 fn check_gzip(page: &[u8], levels: u64, unpacked: u64) -> io::Result<()> {
     let packed = usize::try_from(levels).ok().and_then(|levels| page.get(levels..));
     let (Some(packed), Some(most)) = (packed, unpacked.checked_sub(levels)) else {
@@ -164,7 +164,7 @@ fn check_gzip(page: &[u8], levels: u64, unpacked: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Checks the pages of a column in a group of rows; gives the length of all.
+/// Checks the pages of a column in a row group; returns their total length.
 fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Result<u64> {
     let begin = chunk.dictionary_page_offset().unwrap_or_else(|| chunk.data_page_offset());
     let sizes = (u64::try_from(begin), u64::try_from(chunk.compressed_size()));
@@ -219,7 +219,7 @@ fn check_chunk<R: ChunkReader>(file: &R, chunk: &ColumnChunkMetaData) -> io::Res
             let bytes = file.get_bytes(at, usize::try_from(packed).unwrap_or(usize::MAX)).map_err(invalid)?;
             check_gzip(&bytes, u64::try_from(page.levels).unwrap_or(u64::MAX), unpacked)?;
         }
-        // The values of a dictionary are written out, in a bit at least.
+        // The values of a dictionary are stored plainly, in at least one bit each.
         if page.is_dictionary && page.values.unsigned_abs() > unpacked.saturating_mul(8) {
             return Err(unsound(KIND, format!("a dictionary of {unpacked} bytes would have {} values", page.values)));
         }
@@ -236,7 +236,7 @@ struct PageSizes {
     packed: i64,
     unpacked: i64,
     values: i64,
-    /// How many bytes of levels come first, which are never packed: in data pages of the second version.
+    /// The number of bytes of levels, which come first and are never compressed: in data pages of version 2.
     levels: i64,
     is_dictionary: bool,
     is_packed: bool,
@@ -254,7 +254,7 @@ impl Visitor for PageSizes {
             [1] => self.is_dictionary = value == 2,
             [2] => self.unpacked = value,
             [3] => self.packed = value,
-            // The numbers of values in the headers of a data page, a dictionary, and a data page of the second version.
+            // The numbers of values in the headers of a data page, a dictionary, and a data page of version 2.
             [5 | 7 | 8, 1] => self.values = value,
             [8, 5 | 6] => self.levels = self.levels.saturating_add(value),
             [8, 7] => self.is_packed = value == 1,
@@ -263,12 +263,12 @@ impl Visitor for PageSizes {
     }
 }
 
-/// Whether an encoding begins with how many lengths of texts there are.
+/// Whether an encoding begins with the number of text lengths.
 fn is_of_lengths(encoding: Encoding) -> bool {
     matches!(encoding, Encoding::DELTA_LENGTH_BYTE_ARRAY | Encoding::DELTA_BYTE_ARRAY)
 }
 
-/// Checks that pages of texts say no more lengths than they have values: room is made for as many.
+/// Checks that pages of texts declare no more lengths than values, since memory is allocated for as many.
 fn check_lengths<R: ChunkReader + Clone + 'static>(file: &R, chunk: &ColumnChunkMetaData, rows: i64) -> io::Result<()> {
     let rows = usize::try_from(rows).unwrap_or(usize::MAX);
     let mut pages = SerializedPageReader::new(Arc::new(file.clone()), chunk, rows, None).map_err(invalid)?;
@@ -287,7 +287,7 @@ fn check_lengths<R: ChunkReader + Clone + 'static>(file: &R, chunk: &ColumnChunk
             }
             Page::DictionaryPage { .. } => continue,
         };
-        // The size of a block, how many parts it has, and how many numbers there are.
+        // The block size, the number of its parts, and the number of values.
         let mut numbers = Numbers(values.unwrap_or(&[]));
         let stated = (numbers.next(), numbers.next(), numbers.next());
         let most = u64::from(page.num_values());
@@ -298,7 +298,7 @@ fn check_lengths<R: ChunkReader + Clone + 'static>(file: &R, chunk: &ColumnChunk
     Ok(())
 }
 
-/// Numbers of seven bits a byte.
+/// Variable-length integers (7 bits per byte).
 struct Numbers<'a>(&'a [u8]);
 
 impl Iterator for Numbers<'_> {

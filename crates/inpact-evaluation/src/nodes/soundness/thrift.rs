@@ -3,20 +3,20 @@
 //! Nothing is built from the input; numbers are passed to a visitor: a list or a text longer than the remaining bytes is rejected
 //! before memory is allocated for it.
 
-/// How deep structures may lie in one another; Parquet's own go to five.
+/// The maximum nesting of structures; Parquet's own have five levels.
 const DEEPEST: usize = 16;
 
-/// Reasons why bytes cannot be walked over.
+/// Reasons why a walk fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stop {
-    /// They end too early, or hold what the protocol does not have.
+    /// The bytes end too early, or are invalid in the protocol.
     Broken,
-    /// Structures or lists lie too deep in one another.
+    /// Structures or lists are nested too deeply.
     TooDeep,
 }
 
 impl Stop {
-    /// The reason where `broken` says what is wrong otherwise.
+    /// The reason, with `broken` for the general case.
     pub(super) fn reason(self, broken: &str) -> String {
         match self {
             Self::Broken => broken.to_owned(),
@@ -37,7 +37,7 @@ pub(super) trait Visitor {
     fn structure(&mut self, _path: &[i16]) {}
 }
 
-/// Bytes that are being walked over.
+/// The walk over bytes.
 struct Walk<'a, V> {
     bytes: &'a [u8],
     at: usize,
@@ -46,7 +46,7 @@ struct Walk<'a, V> {
     is_too_deep: bool,
 }
 
-/// Walks over a structure; gives how many bytes it takes.
+/// Walks over a structure; returns its length in bytes.
 ///
 /// # Errors
 /// See [`Stop`].
@@ -124,7 +124,7 @@ impl<V: Visitor> Walk<'_, V> {
 
     fn elements(&mut self, count: u64, kinds: &[u8], depth: usize) -> Option<()> {
         self.go_deeper(depth)?;
-        // Every element takes a byte at least.
+        // Every element takes at least one byte.
         if count > self.left() {
             return None;
         }
@@ -169,7 +169,7 @@ impl<V: Visitor> Walk<'_, V> {
         None
     }
 
-    /// A number in zigzag.
+    /// A zigzag-encoded integer.
     fn integer(&mut self) -> Option<i64> {
         let value = self.unsigned()?;
         Some((value >> 1).cast_signed() ^ -(value & 1).cast_signed())

@@ -85,7 +85,7 @@ impl Quantity {
         self.ours.iter().zip(&self.solvers).filter(|(ours, solvers)| ours.is_none() && solvers.is_some()).count()
     }
 
-    /// The largest difference; one that is no number is the largest of all. `None` where nothing is compared.
+    /// The largest difference; one that is not a number is the largest of all. `None` where nothing is compared.
     pub(super) fn largest(&self) -> Option<Largest> {
         let scale = self.both().map(|(_, _, solvers)| solvers.abs()).fold(0.0, f64::max);
         let difference = |ours: f64, solvers: f64| if ours == solvers { 0.0 } else { (ours - solvers).abs() };

@@ -16,7 +16,7 @@ use crate::law::contact::columns::count_states;
 use crate::rows::Part;
 use crate::table::Sides;
 
-/// Rows that are taken through both tables together, so that what lies between stays in the first cache.
+/// The block size in rows, so that intermediate values stay in the L1 cache.
 const CHUNK: usize = 512;
 
 /// A table with the abscissa of the rows that do not read it.
@@ -86,7 +86,7 @@ impl BranchColumns {
     }
 }
 
-/// Compares some of the values of a branch, evenly spread over the rows that read it, with the reference.
+/// Compares some of the values of a branch, evenly spaced over the rows that read it, with the reference.
 fn compare(
     part: &Part<'_>,
     (state, branch): (ContactState, Branch),
@@ -110,7 +110,7 @@ fn rows_of(
     places: impl Iterator<Item = usize>,
 ) -> impl Iterator<Item = usize> {
     const BLOCK: usize = 128;
-    // So many of them come before this row.
+    // The number of them before this row.
     let (mut row, mut before) = (0, 0);
     places.map_while(move |place| {
         while row < states.len() {
@@ -142,7 +142,7 @@ impl Operation for FindAbscissae<'_> {
     fn call<L: Lanes>(self, _: L) {
         let Self { states, given: [clearances, pressures], neutral, abscissae: [of_clearance, of_pressure] } = self;
         for ((state, clearance), abscissa) in states.iter().zip(clearances).zip(of_clearance) {
-            // Overclosure is no clearance (J-5); NaN stays NaN.
+            // Overclosure counts as zero clearance (J-5); NaN stays NaN.
             let clearance = if *clearance < 0.0 { 0.0 } else { *clearance };
             *abscissa = if *state == Some(ContactState::Closed) { neutral[0] } else { clearance };
         }
@@ -152,7 +152,7 @@ impl Operation for FindAbscissae<'_> {
     }
 }
 
-/// Puts the values of open rows among those of closed ones.
+/// Merges the values of open rows into those of closed ones.
 struct Choose<'a> {
     states: &'a [Option<ContactState>],
     open: &'a [f64],

@@ -30,7 +30,7 @@ enum Jump<'a> {
 }
 
 impl<'a> Jump<'a> {
-    /// The jump of a source; `None` where a number is missing, or one column stands in for another.
+    /// The jump of a source; `None` where a number is missing, or one column is a fallback for another.
     fn of(batch: &'a Batch, source: &Source<usize>) -> Option<Self> {
         let full = |place: usize| full_values(batch, place);
         match *source {
@@ -54,7 +54,7 @@ fn full_values(batch: &Batch, place: usize) -> Option<&[f64]> {
 }
 
 impl ElectricalColumns {
-    /// The law in all rows of a part, none of which has a history or another law; `columns` is how many columns of numbers the results have.
+    /// The law in all rows of a part, none of which has a history or another law; `columns` is the number of columns of numbers in the results.
     pub(crate) fn rows_alone(
         &self,
         part: &Part<'_>,
@@ -123,7 +123,7 @@ impl ElectricalColumns {
         Some(Inputs { found, jump, area })
     }
 
-    /// Some rows one after the other; those whose contact cannot be told have no results.
+    /// Some rows, row by row; those whose contact is undetermined have no results.
     fn rows_one_by_one(
         &self,
         part: &Part<'_>,
@@ -140,7 +140,7 @@ impl ElectricalColumns {
         }
     }
 
-    /// Conductance, current and heat of some rows by plain arithmetic, and how many of them have lost the digits of their jump;
+    /// Conductance, current and heat of some rows in plain arithmetic, and the number of those whose jump has lost its digits;
     /// `None`, and nothing written, where a number is extreme.
     fn write_plain(&self, inputs: &Inputs<'_>, rows: &Range<usize>, results: &mut ResultBatch) -> Option<u64> {
         let mut written = Written::default();
@@ -200,7 +200,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Where the column of a slot goes, if it is one of the law's.
+    /// The column of a slot, if it is one of the law's.
     fn place(&mut self, slots: &Slots, slot: usize) -> Option<&mut Option<&'a mut [f64]>> {
         let slot = Some(slot);
         let places = [
@@ -263,7 +263,7 @@ impl Operation for WritePlain<'_> {
             column.fill(generation.slave_weight);
         }
         let Some(jump) = jump else { return Some(lost_digits) };
-        // No current is 0, not −0: that is what adding 0 does.
+        // Zero current is +0, not −0, by adding 0.
         if let Some(column) = written.current_density {
             for ((current, conductance), jump) in column.iter_mut().zip(conductance).zip(jump) {
                 *current = conductance * jump + 0.0;
@@ -308,7 +308,7 @@ fn all_moderate(column: &[f64]) -> bool {
     column.iter().fold(true, |all, value| all & is_moderate(*value))
 }
 
-/// Sets the statuses of some rows that lie within all tables.
+/// Sets the statuses of rows within all tables.
 pub(super) fn set_contact(states: &[Option<ContactState>], rows: Range<usize>, results: &mut ResultBatch) {
     let statuses = &mut results.status[rows.clone()];
     for (status, state) in statuses.iter_mut().zip(states) {

@@ -40,12 +40,12 @@ pub(crate) struct Chunk<'r> {
     begun: Vec<ElectricalIncrement>,
     /// Current and heat, where plain arithmetic gives them.
     flows: Option<Vec<PlainFlow>>,
-    /// What the rows add to the integrals, where all of it is moderate.
+    /// The contributions of the rows to the integrals, where all numbers are moderate.
     steps: Option<Vec<ElectricalSteps>>,
 }
 
 impl ElectricalColumns {
-    /// The rows of a part as columns; `None` where one of them lacks a number, or where they are wanted in twice the precision of f64.
+    /// The rows of a part as columns; `None` where one of them lacks a number, or where double-double is requested.
     pub(crate) fn increments<'p, 'a>(
         &'p self,
         part: &'p Part<'a>,
@@ -64,7 +64,7 @@ impl ElectricalColumns {
 }
 
 impl Increments<'_, '_> {
-    /// How many rows a chunk has at most.
+    /// The maximum number of rows in a chunk.
     pub(crate) const CHUNK: usize = CHUNK;
 
     /// Some rows, no more than [`Self::CHUNK`], the first of which fills row `first` of the results.
@@ -105,12 +105,12 @@ impl Increments<'_, '_> {
         chunk.flows = Some(flows);
     }
 
-    /// Whether the rows of a chunk differ in nothing but their steps: then [`Self::finish_steps`] and [`Self::set_statuses`] finish them.
+    /// Whether the rows of a chunk differ only in their steps: then [`Self::finish_steps`] and [`Self::set_statuses`] finish them.
     pub(crate) fn is_uniform(&self, chunk: &Chunk<'_>) -> bool {
         chunk.steps.is_some() && self.law.slopes.is_empty() && self.found.sides.is_empty()
     }
 
-    /// Adds row number `at` of a chunk, where they are uniform, to the integrals of its node, and counts what is to be said of it.
+    /// Adds row number `at` of a chunk, where they are uniform, to the integrals of its node, and counts remarks.
     #[inline]
     pub(crate) fn finish_steps(
         &self,
@@ -145,7 +145,7 @@ impl Increments<'_, '_> {
         }
     }
 
-    /// Adds row number `at` of a chunk to the integrals of its node; gives its status and the heat of its current.
+    /// Adds row number `at` of a chunk to the integrals of its node; returns its status and the heat of its current.
     pub(crate) fn finish(
         &self,
         chunk: &Chunk<'_>,
@@ -196,7 +196,7 @@ impl Increments<'_, '_> {
         (Outcome::Evaluated(law.status(row, self.found.sides_of(index), tally)), Some(heat))
     }
 
-    /// Counts the rows whose jump has lost its digits, and says that no number of the rows is missing.
+    /// Counts the rows whose jump has lost its digits, and marks all numbers of the rows as present.
     pub(crate) fn end(&self, rows: &[usize], results: &mut ResultBatch, tally: &mut InteractionTally) {
         if let Some(source) = &self.law.jump {
             let rows = rows.iter().map(|row| (*row, self.jump.values[*row]));
@@ -223,14 +223,14 @@ impl Chunk<'_> {
         self.first..self.first + self.rows.len()
     }
 
-    /// Goes on to the next row, whose node has this history.
+    /// Advances to the next row, whose node has this history.
     pub(crate) fn begin(&mut self, history: &mut ElectricalHistory) {
         let next = self.begun.len();
         let jump = PotentialJump(self.jump[next]);
         self.begun.push(history.begin(self.times[next], jump, self.conductance[next]));
     }
 
-    /// What the rows add to the integrals; `None` where a row has no area, or adds what is not moderate.
+    /// The contributions of the rows to the integrals; `None` where a row has no area, or a number is not moderate.
     fn steps(&self, flows: &[PlainFlow]) -> Option<Vec<ElectricalSteps>> {
         let durations: Vec<f64> = self.begun.iter().map(|increment| increment.duration.unwrap_or(0.0)).collect();
         let currents: Vec<f64> = flows.iter().map(|flow| flow.current_density).collect();

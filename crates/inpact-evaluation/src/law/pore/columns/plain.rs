@@ -11,10 +11,10 @@ use crate::rows::{InteractionTally, Outcome, PERMEABILITY, Part, contact_status}
 use inpact_parser::model::Regime;
 use std::ops::Range;
 
-/// Rows that are looked at together before any of them is written.
+/// The block size in rows; inputs are checked before any row of a block is written.
 const CHUNK: usize = 256;
 
-/// The numbers that the flow across a part follows from, NaN where one is missing.
+/// The inputs of the flow across a part, NaN where one is missing.
 #[derive(Clone, Copy)]
 struct Inputs<'p> {
     clearances: &'p [f64],
@@ -28,7 +28,7 @@ struct Inputs<'p> {
     gap: Option<GapInputs<'p>>,
 }
 
-/// The numbers that the filling of a changing gap follows from, NaN where one is missing.
+/// The inputs of the filling of a changing gap, NaN where one is missing.
 #[derive(Clone, Copy)]
 struct GapInputs<'p> {
     /// The given rates; without them no gap changes.
@@ -68,14 +68,14 @@ impl Flows {
         }
     }
 
-    /// Sums what crosses and what fills; false where a sum is not finite.
+    /// Sums flow across and gap filling; false where a sum is not finite.
     fn add_up(&mut self, count: usize) -> bool {
         let mut are_finite = true;
         for row in 0..count {
             let (crossing, [slave, master]) = (self.crossing[row], self.filling.each_ref().map(|filling| filling[row]));
             let sums = [[slave, crossing], [master, -crossing], [-slave, -crossing]].map(compensated_sum);
             are_finite &= sums.iter().all(|sum| sum.is_finite());
-            // No flow is 0, not −0.
+            // Zero flow is +0, not −0.
             let [into_slave, into_master, leaving] = sums.map(|sum| sum + 0.0);
             (self.into[0][row], self.into[1][row], self.leaving_slave[row]) = (into_slave, into_master, leaving);
         }
@@ -102,7 +102,7 @@ impl Cutoff<'_> {
 }
 
 impl PoreColumns {
-    /// The law in all rows of a part, none of which has a history; gives their statuses.
+    /// The law in all rows of a part without histories; returns their statuses.
     pub(crate) fn rows(
         &self,
         part: &Part<'_>,
@@ -142,7 +142,7 @@ impl PoreColumns {
             }
             outcomes.extend(rows.map(|index| match part.row(index, index) {
                 Some(row) => self.row(row, found, None, results, tally),
-                // Where contact cannot be told no law is evaluated.
+                // Where contact is undetermined no law is evaluated.
                 None => Outcome::Incomplete,
             }));
         }
@@ -158,7 +158,7 @@ impl PoreColumns {
             (None, Length::Unknown) => None,
         };
         let gap = match self.regime {
-            // A gap that does not change is filled by nothing, whatever its shares.
+            // A constant gap takes up no fluid, whatever the shares.
             Regime::SteadyState => None,
             Regime::Transient => Some(GapInputs {
                 rates: self.rate.map(column),
@@ -181,7 +181,7 @@ impl PoreColumns {
         (self.form.is_some() && is_difference_known && is_rounded).then_some(inputs)
     }
 
-    /// Finds the flow across some rows; false where a number is missing, extreme, infinite or NaN.
+    /// Computes the flow across some rows; false where a number is missing, extreme, infinite or NaN.
     fn find_flows(&self, inputs: Inputs<'_>, part: &Part<'_>, rows: Range<usize>, flows: &mut Flows) -> bool {
         let Inputs { clearances, permeabilities, pressures, jump, area, cutoff, gap } = inputs.of(rows.clone());
         let columns = [Some(clearances), Some(permeabilities), jump, area];
@@ -209,7 +209,7 @@ impl PoreColumns {
         is_plain && is_filled && flows.add_up(rows.len())
     }
 
-    /// Finds the flow out of the gap of some rows; false where a number is missing, negative, extreme, infinite or NaN.
+    /// Computes the flow out of the gap of some rows; false where a number is missing, negative, extreme, infinite or NaN.
     fn fill(&self, gap: GapInputs<'_>, clearances: &[f64], filling: &mut [[f64; CHUNK]; 2]) -> bool {
         let GapInputs { rates, cutoff, bulk } = gap;
         let mut is_plain = rates.is_none_or(are_moderate);

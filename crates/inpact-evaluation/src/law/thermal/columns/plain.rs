@@ -10,10 +10,10 @@ use crate::results::{ResultBatch, Status};
 use crate::rows::{InteractionTally, Outcome, Part, VIEW_FACTOR, contact_status};
 use std::ops::Range;
 
-/// Rows that are looked at together before any of them is written.
+/// The block size in rows; inputs are checked before any row of a block is written.
 const CHUNK: usize = 256;
 
-/// The numbers that the heat of a part follows from, NaN where one is missing.
+/// The inputs of the heat of a part, NaN where one is missing.
 #[derive(Clone, Copy)]
 struct Inputs<'p> {
     conductances: Option<&'p [f64]>,
@@ -25,7 +25,7 @@ struct Inputs<'p> {
     current: Option<&'p [Option<HeatAmounts>]>,
 }
 
-/// Heat of some rows: what crosses, what arises, and the sums of both.
+/// Heat of some rows: conducted, radiated and generated, and the sums.
 struct Heats {
     conduction: [f64; CHUNK],
     radiation: [f64; CHUNK],
@@ -36,7 +36,7 @@ struct Heats {
 }
 
 impl ThermalColumns {
-    /// The law in all rows of a part, none of which has a history, given the heat of the current in each; gives their statuses.
+    /// The law in all rows of a part without histories, given the heat of the current in each; returns their statuses.
     pub(crate) fn rows(
         &self,
         part: &Part<'_>,
@@ -67,14 +67,14 @@ impl ThermalColumns {
             }
             outcomes.extend(rows.map(|index| match part.row(index, index) {
                 Some(row) => self.row(row, found, current.get(index).copied().flatten(), None, results, tally),
-                // Where contact cannot be told no law is evaluated.
+                // Where contact is undetermined no law is evaluated.
                 None => Outcome::Incomplete,
             }));
         }
         outcomes
     }
 
-    /// The inputs of the heat of a part; `None` where a column lacks, or where it is wanted in twice the precision of f64.
+    /// The inputs of the heat of a part; `None` where a column is missing, or where double-double is requested.
     fn inputs<'p>(
         &self,
         part: &'p Part<'_>,
@@ -102,7 +102,7 @@ impl ThermalColumns {
         (is_crossing_known && gives_something && is_current_known && is_rounded).then_some(inputs)
     }
 
-    /// Finds the heat of some rows; false where a number is missing, extreme, infinite or NaN.
+    /// Computes the heat of some rows; false where a number is missing, extreme, infinite or NaN.
     fn find_heats(
         &self,
         inputs: Inputs<'_>,
@@ -120,7 +120,7 @@ impl ThermalColumns {
         let mut is_plain = true;
         if let Some(conductances) = conductances {
             let heat = heats.conduction[..count].iter_mut().zip(conductances);
-            // As `conducted_heat` has it of such numbers; no heat is 0, not −0.
+            // Same expression as `conducted_heat` for such numbers; zero heat is +0, not −0.
             match (jump, temperatures) {
                 (Some(jump), _) => heat.zip(jump).for_each(|((heat, k), jump)| *heat = k * jump + 0.0),
                 (None, Some([slave, master])) => {
@@ -169,7 +169,7 @@ impl ThermalColumns {
         }
     }
 
-    /// Counts what is to be said of some rows.
+    /// Counts remarks on some rows.
     fn count_heats(&self, inputs: Inputs<'_>, heats: &Heats, rows: Range<usize>, tally: &mut InteractionTally) {
         let count = rows.len();
         if let (Some(radiation), Some([slave, master])) = (&self.radiation, inputs.of(rows).temperatures) {
@@ -181,7 +181,7 @@ impl ThermalColumns {
         }
     }
 
-    /// The status of a row whose heat is found.
+    /// The status of a row with heat.
     #[inline]
     fn outcome(&self, part: &Part<'_>, found: &ThermalFound, index: usize, tally: &mut InteractionTally) -> Outcome {
         let Some(state) = part.states[index] else { return Outcome::Incomplete };
@@ -246,7 +246,7 @@ impl Heats {
             let leaving = compensated_sum([conduction, radiation, -into_slave, -slave]);
             let into_master = compensated_sum([conduction, radiation, into_master, master]);
             are_finite &= leaving.is_finite() & into_master.is_finite();
-            // No heat is 0, not −0.
+            // Zero heat is +0, not −0.
             (self.leaving_slave[row], self.into_master[row]) = (leaving + 0.0, into_master + 0.0);
         }
         are_finite
