@@ -19,12 +19,12 @@ pub(crate) struct RowTerms {
     pub(crate) slopes: Vec<Conducts>,
 }
 
-/// Heat of a current at nodes, with its slopes: what Newton's iteration needs of it.
+/// Heat of a current at nodes, with its slopes for Newton's iteration.
 #[derive(Debug, Clone)]
 pub(crate) struct HeatTerm {
-    /// The place among the flows of the potential: a link, or after all links a row.
+    /// The index among the flows of the potential: links first, then rows.
     pub(crate) flow: usize,
-    /// Places among the nodes of temperature, with their shares of the heat.
+    /// Indices among the nodes of temperature, with their shares of the heat.
     pub(crate) nodes: Vec<(u32, f64)>,
     /// ∂Q/∂Δφ.
     pub(crate) along_jump: f64,
@@ -32,7 +32,7 @@ pub(crate) struct HeatTerm {
     pub(crate) along_temperatures: f64,
 }
 
-/// Currents and the jumps that drive them in the field of potentials: of a solution or a step towards it.
+/// Currents and their jumps in the field of potentials, of a solution or an iterate.
 #[derive(Clone, Copy)]
 pub(crate) struct Currents<'a> {
     /// Through links, then rows.
@@ -40,10 +40,10 @@ pub(crate) struct Currents<'a> {
     pub(crate) rows: &'a RowTerms,
 }
 
-/// Asks the law of every row of a field.
+/// Evaluates the law of every row of a field.
 ///
 /// # Errors
-/// The first row that cannot be solved with.
+/// The first row that cannot be solved.
 pub(crate) fn row_terms(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNodes) -> Result<RowTerms, Error> {
     let mut terms = RowTerms::default();
     for &row in &nodes.rows {
@@ -151,7 +151,7 @@ pub(crate) fn sources(knowledge: &Knowledge<'_>, field: Field, nodes: &FieldNode
     sources
 }
 
-/// The heat of currents, added to the sources of temperature; with its slopes where they are wanted.
+/// The heat of currents, added to the sources of temperature; with its slopes on request.
 pub(crate) fn add_heat(
     knowledge: &Knowledge<'_>,
     potential: &FieldNodes,
@@ -183,7 +183,7 @@ pub(crate) fn add_heat(
         let conducts = currents.rows.slopes[place];
         let found = interface::heat_of_current(conducts.conductance, jump, knowledge.jump_at_start(row), generation);
         let weight = generation.slave_weight;
-        // The share of either side is rounded once where it is found.
+        // The share of each side is rounded once.
         let shares = if found.heat.total == 0.0 {
             [weight, 1.0 - weight]
         } else {
@@ -216,9 +216,9 @@ pub(crate) fn add_heat(
 pub(crate) enum Capacities {
     /// Not at all: steady state.
     None,
-    /// They are held at their initial values, so that all other nodes find theirs at the start of a transient.
+    /// They are held at their initial values, which determine all other nodes at the start of a transient.
     Held,
-    /// They take up what the increment brings.
+    /// They store the net inflow of the increment.
     Stored,
 }
 
@@ -272,10 +272,10 @@ pub(crate) fn network(
     network
 }
 
-/// Opens infinite conductances between nodes that begin with different values: at the start there is one value too many, in the increments they share what they hold.
+/// Opens infinite conductances between nodes with different initial values: at the start these are overdetermined, in the increments the nodes share their storage.
 fn part_initial_values(network: &mut LinearNetwork, is_fixed: impl Fn(u32) -> bool) {
     let mut sets = Sets::new(network.held.len());
-    // The value that a set has by one of its nodes, and whether it is fixed.
+    // The value of a set from one of its nodes, and whether it is fixed.
     let mut known: Vec<Option<(f64, bool)>> =
         (0..).zip(&network.held).map(|(place, held)| held.map(|value| (value, is_fixed(place)))).collect();
     for link in network.links.iter_mut().filter(|link| link.conductance.is_infinite()) {
@@ -297,7 +297,7 @@ fn part_initial_values(network: &mut LinearNetwork, is_fixed: impl Fn(u32) -> bo
     }
 }
 
-/// The number of a node whose name is one, for routines of the user's; 0 otherwise.
+/// The number of a node whose name is a number, for user routines; 0 otherwise.
 fn node_number(name: &str) -> i32 {
     name.trim().parse().unwrap_or(0)
 }

@@ -72,7 +72,7 @@ pub(crate) fn dependence_of_pore(laws: &InterfaceLaws, state: ContactState) -> D
     dependence
 }
 
-/// The temperatures, or pore pressures, between which the table of a row's law of a field changes along the unknown it depends on; `None` where it does not.
+/// The range of temperatures, or pore pressures, over which the table of a row's law varies with its unknown; `None` where it does not.
 pub(crate) fn range_of_unknown(laws: &InterfaceLaws, field: Field, state: ContactState) -> Option<[f64; 2]> {
     let table = match field {
         Field::Potential => match laws.electrical.as_ref()? {

@@ -4,7 +4,7 @@ use crate::problem::{FieldNodes, Problem};
 use crate::scene::Field;
 use crate::state::{FieldState, State};
 
-/// Below that part of what flows around it a flow is what refinement in 106 bits leaves of zero.
+/// Below this fraction of the surrounding flows a flow is the residue of refinement in 106 bits.
 const NOTHING: f64 = 1e-20;
 
 /// The distance between two states, of their numbers as printed: those that print alike are equal.
@@ -44,8 +44,8 @@ fn distance_of_values(found: &FieldState, wanted: &FieldState) -> f64 {
     differences.map(|difference| if difference == 0.0 { 0.0 } else { difference / size }).fold(0.0, f64::max)
 }
 
-/// A flow that is zero but for rounding has no digits to compare. What rounding makes of it is a small part of what its conductance would let through at the
-/// values of its ends, and of what passes through the quieter of them: what a strong conductance leads to a quiet end is known with all its digits.
+/// A flow that is zero up to rounding has no digits to compare. Its rounding is a small fraction of the flow through its conductance at the
+/// values of its ends, and of the flow through the end with less flow: a strong conductance to such an end is known with all its digits.
 fn distance_of_flows(
     problem: &Problem<'_>,
     field: Field,
@@ -66,7 +66,7 @@ fn distance_of_flows(
     {
         let [one, other] = of_nodes(ends, &values).map(f64::abs);
         let quieter = of_nodes(ends, &through).into_iter().fold(f64::INFINITY, f64::min);
-        // Between values of zero an infinite conductance lets through whatever passes there.
+        // Between values of zero an infinite conductance carries any flow.
         let rounding = NOTHING * quieter.min(conductance * one.max(other));
         let difference = (found - wanted).abs();
         if rounding < difference {
@@ -76,7 +76,7 @@ fn distance_of_flows(
     largest
 }
 
-/// The largest part of the balance of each node; of nodes that are held, or store something, there is no bound.
+/// The largest term of the balance of each node; unbounded for held nodes and nodes with a capacity.
 fn through(problem: &Problem<'_>, field: Field, nodes: &FieldNodes, state: &FieldState) -> Vec<f64> {
     let (scene, conditions) = (problem.scene, problem.scene.conditions(field));
     let mut through: Vec<f64> = state.sources.iter().map(|source| source.abs()).collect();

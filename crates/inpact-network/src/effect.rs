@@ -28,7 +28,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Reports shear and slip rate of opposite signs: what friction dissipates is never below zero.
+    /// Reports shear and slip rate of opposite signs: frictional dissipation is never negative.
     pub(crate) fn check_friction(&self, findings: &mut Findings) {
         for (_, row, laws) in self.rows_of(Field::Temperature) {
             let Some(source) = laws.friction.filter(|source| !source.takes_magnitudes) else { continue };
@@ -44,7 +44,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Reports given rates of a clearance that its course contradicts by more than 1 % (O-5, D021): where the gap fills, the rate has the say.
+    /// Reports given rates of a clearance that differ from its time course by more than 1 % (O-5, D021): the rate is used for gap filling.
     pub(crate) fn check_rates(&self, findings: &mut Findings) {
         let Procedure::Transient(span) = self.scene.procedure else { return };
         for (_, row, _) in self.rows_of(Field::PorePressure) {
@@ -67,7 +67,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Notes what is said without any effect, so that nobody counts on it.
+    /// Notes values without effect.
     pub(crate) fn note_without_effect(&mut self) {
         let mut notes = Vec::new();
         let mut note = |count: usize, what: &str, one: &str, why: &str| {

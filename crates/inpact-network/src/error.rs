@@ -44,7 +44,7 @@ pub enum ErrorKind {
         /// The held values of the two.
         values: [f64; 2],
     },
-    /// A law of a row gives nothing that can be solved with.
+    /// A law of a row cannot be evaluated to a solvable value.
     Row {
         /// The row, in the order of the scene.
         row: u32,
@@ -56,7 +56,7 @@ pub enum ErrorKind {
         /// The methods tried, each with the reason of its failure.
         tried: Vec<(Method, Shortcoming)>,
     },
-    /// A matrix was not factored, or its factor not solved with.
+    /// A factorisation or a solve with its factor failed.
     NotFactored(NoSolution),
     /// A temperature would be below absolute zero.
     BelowAbsoluteZero {
@@ -71,7 +71,7 @@ pub enum ErrorKind {
     NotConverged {
         /// The number of steps.
         steps: usize,
-        /// For each field where most is missing: the share of its largest flow, and the node.
+        /// For each field the largest residual, relative to its largest flow, and its node.
         worst: Vec<(Field, f64, Option<u32>)>,
         /// The relative distance of the conductances from those of the state, where its balances are met.
         inconsistency: Option<f64>,
@@ -82,7 +82,7 @@ pub enum ErrorKind {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RowFault {
-    /// A routine of the user's gives what is no conductance.
+    /// A user routine gives an invalid conductance.
     User(UserFault),
     /// The flow of fluid depends on the characteristic element length, which is not known.
     NeedsLength,
@@ -131,7 +131,7 @@ impl Error {
         ErrorKind::NotSolved { tried }.into()
     }
 
-    /// Whether an increment that is shorter may not fail so.
+    /// Whether a shorter increment may succeed.
     pub(crate) fn may_be_of_length(&self) -> bool {
         matches!(self.kind, ErrorKind::NotConverged { .. } | ErrorKind::BelowAbsoluteZero { .. })
     }

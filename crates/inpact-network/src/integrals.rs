@@ -11,13 +11,13 @@ use crate::state::State;
 /// The integrals: of current, of its heat, of heat, of pore fluid.
 const KINDS: usize = 4;
 
-/// Flows below that part of what their conductance would let through at the values of its sides are rounding.
+/// Flows below this fraction of the conductance times the values of its sides are rounding.
 const ROUNDING: f64 = 1e-16;
 
 /// Flows through the rows at one state.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RowFlows {
-    /// By kind, what flows in each row; of the heat of currents the conductances.
+    /// By kind, the flow in each row; for the heat of currents the conductances.
     flows: [Vec<f64>; KINDS],
     /// The jumps of potential.
     jumps: Vec<f64>,
@@ -28,7 +28,7 @@ pub(crate) struct RowFlows {
 /// The integrals so far and their errors, by kind.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Integrals {
-    /// The largest flow, or an estimate of it at the next corner.
+    /// The largest flow, or an estimate of it at the next kink.
     reach: [f64; KINDS],
     sum: [f64; KINDS],
     error: [f64; KINDS],
@@ -98,14 +98,14 @@ impl Added {
 }
 
 impl Integrals {
-    /// Lets what an increment to the next corner would add count in what the integrals come to.
+    /// Includes an increment to the next kink in the magnitude of the integrals.
     pub(crate) fn reach(&mut self, added: &Added) {
         for (kind, reach) in self.reach.iter_mut().enumerate() {
             *reach = reach.max(self.sum[kind] + added.amount[kind]);
         }
     }
 
-    /// The largest error of an increment, as a part of the integrals.
+    /// The largest error of an increment, relative to the integrals.
     pub(crate) fn share(&self, added: &Added) -> f64 {
         let share = |kind: usize| {
             let size = self.reach[kind].max(self.sum[kind] + added.amount[kind]).max(added.rounding[kind]);
@@ -114,7 +114,7 @@ impl Integrals {
         (0..KINDS).map(share).fold(0.0, f64::max)
     }
 
-    /// Takes an increment.
+    /// Accepts an increment.
     pub(crate) fn add(&mut self, added: &Added) {
         for kind in 0..KINDS {
             self.sum[kind] += added.amount[kind];
@@ -122,7 +122,7 @@ impl Integrals {
         }
     }
 
-    /// The estimated error of all increments so far, as a part of the integrals; the largest of any kind.
+    /// The estimated error of all increments so far, relative to the integrals; the largest of any kind.
     pub(crate) fn error(&self) -> f64 {
         let share = |kind: usize| if self.sum[kind] > 0.0 { self.error[kind] / self.sum[kind] } else { 0.0 };
         (0..KINDS).map(share).fold(0.0, f64::max)

@@ -34,10 +34,10 @@ pub(crate) struct Sides {
     pub(crate) pore_pressures: [DoubleDouble; 2],
 }
 
-/// The mean of both sides, and what that number has lost to rounding.
+/// The mean of both sides, and its rounding error.
 ///
-/// A table that is steep at a large value moves by more than a digit of its own within the last digit of that value: tables are read at the number,
-/// and what it has lost is added along their slope.
+/// A steep table changes by more than a digit within the last digit of a large value: tables are evaluated at the number,
+/// and its rounding error is added along their slope.
 #[derive(Debug, Clone, Copy)]
 struct Mean {
     number: f64,
@@ -51,15 +51,15 @@ impl Mean {
     }
 }
 
-/// A flow from slave to master per area: a conductance, and what its slopes along the values of both sides have beside ± the conductance.
+/// A flow from slave to master per area: a conductance, and the parts of its slopes along the values of both sides other than ± the conductance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Conducts {
     pub(crate) conductance: f64,
-    /// Along the mean temperature: ∂g/∂θ̄, half of which either side contributes.
+    /// Along the mean temperature: ∂g/∂θ̄, of which each side contributes half.
     pub(crate) along_temperature: f64,
     /// Along the mean pore pressure.
     pub(crate) along_pore_pressure: f64,
-    /// The part of radiation in the slopes along the temperatures of slave and master, beside its part in the conductance.
+    /// The part of radiation in the slopes along the temperatures of slave and master, other than that in the conductance.
     pub(crate) radiation_slopes: [f64; 2],
 }
 
@@ -101,7 +101,7 @@ impl Contact {
             Some(true) => ContactState::Closed,
             Some(false) => ContactState::Open,
             None => {
-                // Without pressure a row whose clearance is not known may be open as well as closed.
+                // Without pressure a row with unknown clearance may be open or closed.
                 let of_clearance = match (clearance, pressure) {
                     (Some(clearance), _) => Clearance(clearance),
                     (None, Some(pressure)) if pressure != 0.0 => Clearance(f64::INFINITY),
@@ -184,7 +184,7 @@ pub(crate) fn thermal(laws: &InterfaceLaws, row: &SceneInterface, contact: &Cont
     if let Some(law) = &laws.radiation {
         let (view_factor, _) = law.view_factor(contact.clearance, contact.state);
         let [a, b] = sides.temperatures.map(|temperature| temperature.to_f64() - law.absolute_zero);
-        // Below absolute zero, where a step of Newton's may look, nothing is radiated.
+        // Below absolute zero, which a Newton step may reach, nothing is radiated.
         let (a, b) = (a.max(0.0), b.max(0.0));
         let part = |powers: &[f64]| product(&[&[law.coefficient.0, view_factor], powers].concat());
         let radiation = part(&[a, a, a]) + part(&[a, a, b]) + part(&[a, b, b]) + part(&[b, b, b]);
@@ -222,7 +222,7 @@ pub(crate) fn heat_of_friction(laws: &InterfaceLaws, row: &SceneInterface) -> Op
     Some(frictional_heat(ShearStress(shear), SlipRate(slip_rate), generation))
 }
 
-/// The law of pore fluid of a row: its element, and what flows into slave and master out of the changing gap, per area.
+/// The pore fluid law of a row: its element, and the flows into slave and master out of the changing gap, per area.
 pub(crate) fn pore(
     laws: &InterfaceLaws,
     row: &SceneInterface,
@@ -275,15 +275,15 @@ fn variables(first: &[f64], field_variables: &[f64]) -> Vec<f64> {
     first.iter().chain(field_variables).copied().collect()
 }
 
-/// A conductance with what its variables have lost to rounding.
+/// A conductance corrected for the rounding errors of its variables.
 fn corrected(conductance: f64, slopes: &[(f64, Mean)]) -> f64 {
     let lost: f64 = slopes.iter().map(|(slope, mean)| slope * mean.lost).sum();
     let sum = conductance + lost;
-    // A table that falls to zero there stays at zero; what is not a number stays none.
+    // A table that falls to zero there stays at zero; NaN stays NaN.
     if conductance == 0.0 || sum < 0.0 { 0.0 } else { sum }
 }
 
-/// A slope that can be used; at a jump there may be none.
+/// A finite slope; at a jump there may be none.
 fn finite(slope: f64) -> f64 {
     if slope.is_finite() { slope } else { 0.0 }
 }

@@ -8,7 +8,7 @@ use inpact_evaluation::HistoryStart;
 use inpact_evaluation::law::{Clearance, ClearanceRate, ClosingHeat, ContactPressure, ContactState, Gap};
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// The least first guess of a temperature, above absolute zero, θ.
+/// The minimum initial guess of a temperature, above absolute zero, θ.
 const WARM: f64 = 300.0;
 
 /// An increment of time.
@@ -20,17 +20,17 @@ pub(crate) struct Increment<'a> {
     pub(crate) duration: f64,
 }
 
-/// The purpose of a first guess.
+/// The purpose of an initial guess.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Guess {
-    /// Rows conduct what their laws say there.
+    /// Rows have the conductances of their laws there.
     #[default]
     AsItIs,
-    /// A row whose law says nothing flows there conducts what it does elsewhere in its table, so that every node has a path at first.
+    /// A row whose conductance is zero there takes one from elsewhere in its table, so that every node has a path at first.
     WhereRowsConduct,
 }
 
-/// The values beside the unknowns of a stage.
+/// The values other than the unknowns of a stage.
 #[derive(Debug, Clone)]
 pub(crate) struct Knowledge<'a> {
     pub(crate) problem: &'a Problem<'a>,
@@ -38,16 +38,16 @@ pub(crate) struct Knowledge<'a> {
     pub(crate) time: f64,
     pub(crate) increment: Option<Increment<'a>>,
     pub(crate) number: i32,
-    /// By node of the scene; NaN where nothing is known.
+    /// By node of the scene; NaN where unknown.
     pub(crate) temperatures: Vec<DoubleDouble>,
     pub(crate) pore_pressures: Vec<DoubleDouble>,
-    /// The heat of currents that are solved already, by place among the nodes of temperature; empty where there is none.
+    /// The heat of currents already solved, by index among the nodes of temperature; empty where there is none.
     pub(crate) heat: Vec<f64>,
     pub(crate) guess: Guess,
 }
 
 impl<'a> Knowledge<'a> {
-    /// Nothing is known yet but where values begin.
+    /// Only initial values are known.
     pub(crate) fn at_start(problem: &'a Problem<'a>, time: f64) -> Self {
         let nodes = problem.scene.nodes.len();
         let mut knowledge = Self {
@@ -76,7 +76,7 @@ impl<'a> Knowledge<'a> {
         knowledge
     }
 
-    /// A field's values of a state are known from now on.
+    /// Adds the values of a field of a state.
     pub(crate) fn take(&mut self, field: Field, state: &State) {
         let (Some(nodes), Some(state)) = (self.problem.field(field), state.field(field)) else { return };
         let values = match field {
@@ -89,7 +89,7 @@ impl<'a> Knowledge<'a> {
         }
     }
 
-    /// A first guess of a field: initial and fixed values, and their middle where neither is given.
+    /// An initial guess of a field: initial and fixed values, and their middle where neither is given.
     fn begin(&mut self, field: Field) {
         let Some(nodes) = self.problem.field(field) else { return };
         let (scene, time) = (self.problem.scene, self.time);
@@ -114,7 +114,7 @@ impl<'a> Knowledge<'a> {
         }
     }
 
-    /// A first guess of temperatures at which everything that can radiate does: at absolute zero a body would seem to be joined to nothing.
+    /// An initial guess of temperatures at which every radiating surface radiates: at absolute zero a body would seem disconnected.
     fn warm(&self, guess: f64) -> f64 {
         let radiating = self.problem.laws.iter().flatten().filter_map(|laws| laws.radiation.as_ref());
         let coldest = radiating.map(|law| law.absolute_zero).fold(f64::NEG_INFINITY, f64::max);
@@ -127,7 +127,7 @@ impl<'a> Knowledge<'a> {
 
     /// The contact of a row now.
     pub(crate) fn contact(&self, row: u32) -> Contact {
-        // Rows without contact were refused before anything is solved.
+        // Rows with undetermined contact were rejected before solving.
         Contact::of(self.row(row), self.time).unwrap_or(Contact {
             clearance: Clearance(f64::NAN),
             pressure: ContactPressure(f64::NAN),
@@ -178,7 +178,7 @@ impl<'a> Knowledge<'a> {
         self.problem.scene.history_start() != HistoryStart::FirstRow && self.number == 1
     }
 
-    /// The gap of a row: in a transient it changes at the rate that is given, otherwise as its clearance has changed over the increment; and the length that its cutoffs default to.
+    /// The gap of a row: in a transient it changes at the given rate, otherwise by the change of its clearance over the increment; and the default length of its cutoffs.
     pub(crate) fn gap(&self, of: &SceneInterface) -> (Gap, Option<f64>) {
         let from_course = || {
             let (course, increment) = (of.clearance.as_ref()?, self.increment?);

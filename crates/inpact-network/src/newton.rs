@@ -31,31 +31,31 @@ use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use inpact_evaluation::numbers::DoubleDouble;
 use system::{Evaluated, System};
 
-/// Below that share of its flows a balance is met.
+/// The relative residual below which a balance is met.
 const MET: f64 = 1e-17;
 
-/// Below that share an iteration that gains nothing more has converged: conductances are found in f64.
+/// The relative residual below which a stagnating iteration has converged: conductances are computed in f64.
 const GOOD_ENOUGH: f64 = 1e-10;
 
-/// The most steps.
+/// The maximum number of steps.
 const MOST_STEPS: usize = 60;
 
-/// From so many unknowns on a step is found without a factor of the whole matrix.
+/// The number of unknowns from which a step is computed without factoring the whole matrix.
 const LARGE: usize = 20_000;
 
 /// Initial pseudo-capacity of an equation, as a multiple of the size of its slopes: more in a second attempt.
 const FIRST_PSEUDO_CAPACITIES: [f64; 2] = [1.0, 10.0];
 
-/// Growth of the pseudo-capacity where a step goes back.
+/// Growth of the pseudo-capacity after a rejected step.
 const GOING_BACK: f64 = 4.0;
 
-/// The residual below which pseudo-transient continuation ends and Newton's iteration goes on.
+/// The residual below which pseudo-transient continuation ends and Newton's iteration resumes.
 const AT_REST: f64 = 1e-6;
 
-/// The most steps of pseudo-transient continuation.
+/// The maximum number of steps of pseudo-transient continuation.
 const MOST_PSEUDO_TIME_STEPS: usize = 1000;
 
-/// A step is cut in halves that often before it is given up.
+/// The maximum number of halvings of a step.
 const MOST_HALVES: i32 = 12;
 
 /// Result of an iteration.
@@ -65,7 +65,7 @@ pub(crate) struct Iterated {
     pub(crate) steps: usize,
     /// Whether the balances are met.
     pub(crate) has_converged: bool,
-    /// The largest residual of each field, as a share of the largest flow, and its node of the scene.
+    /// The largest residual of each field, relative to the largest flow, and its node of the scene.
     pub(crate) missing: Vec<(f64, u32)>,
 }
 
@@ -78,7 +78,7 @@ pub(crate) struct Newton<'a> {
     orders: Vec<Option<krylov::Order>>,
 }
 
-/// The structure of a factor, good as long as the matrix has entries in the same places.
+/// The symbolic factorisation, valid as long as the pattern of the matrix is the same.
 struct Structure {
     places: Vec<(u32, u32)>,
     symbolic: SymbolicLu<u32>,
@@ -120,7 +120,7 @@ impl<'a> Newton<'a> {
         Ok(iterated)
     }
 
-    /// Takes steps that lessen the residuals.
+    /// Takes steps that reduce the residuals.
     fn descend(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Iterated, Error> {
         let mut states = self.evaluate(knowledge)?;
         let mut best = f64::INFINITY;
@@ -142,7 +142,7 @@ impl<'a> Newton<'a> {
                 return Ok(end(is_met, self, &states));
             }
             let mut moved = None;
-            // Without slopes a step leads to the solution of the conductances as they are now.
+            // Without slopes a step leads to the solution with the current conductances.
             for slopes in [Slopes::All, Slopes::Held] {
                 if moved.is_none()
                     && let Some(direction) = self.direction(knowledge, &states, slopes, 0.0)
@@ -158,7 +158,7 @@ impl<'a> Newton<'a> {
         unreachable!("the last pass returns")
     }
 
-    /// Pseudo-transient continuation until the residuals are small; gives the number of steps.
+    /// Pseudo-transient continuation until the residuals are small; returns the number of steps.
     fn pseudo_transient(&mut self, knowledge: &mut Knowledge<'a>, mut pseudo_capacity: f64) -> Result<usize, Error> {
         let mut states = self.evaluate(knowledge)?;
         let mut worst = self.worst(&states);
@@ -177,7 +177,7 @@ impl<'a> Newton<'a> {
                 states = balanced;
             }
             let before = std::mem::replace(&mut worst, self.worst(&states));
-            // A step that goes back where the one before came from has shown that one to be too long.
+            // A step that reverses the previous one has shown that it was too long.
             let goes_back = direction.iter().zip(&previous).map(|(now, before)| now * before).sum::<f64>() < 0.0;
             pseudo_capacity *= if goes_back { GOING_BACK } else { (worst / before).clamp(0.5, 2.0) };
             previous = direction;
@@ -185,7 +185,7 @@ impl<'a> Newton<'a> {
         Ok(MOST_PSEUDO_TIME_STEPS)
     }
 
-    /// Balances the currents of the conductances as they are: they take no time to follow, and from potentials of other conductances any heat may come. `None` where there are none.
+    /// Balances the currents with the current conductances: they have no time scale of their own, and potentials of other conductances could give any heat. `None` where there are none.
     fn balance_currents(
         &mut self,
         knowledge: &mut Knowledge<'a>,
@@ -204,7 +204,7 @@ impl<'a> Newton<'a> {
         self.evaluate(knowledge).map(Some)
     }
 
-    /// The largest share that is missing in a balance of any field.
+    /// The largest relative residual of any field.
     fn worst(&self, states: &[Evaluated]) -> f64 {
         largest_or_nan(self.fields.iter().zip(states).map(|(of, at)| of.worst(at)))
     }
@@ -225,7 +225,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Asks the laws and takes the balances at the jumps as they are.
+    /// Evaluates the laws and the balances at the current jumps.
     fn evaluate(&mut self, knowledge: &mut Knowledge<'a>) -> Result<Vec<Evaluated>, Error> {
         for system in &self.fields {
             system.tell(knowledge);
@@ -237,7 +237,7 @@ impl<'a> Newton<'a> {
             let mut sources = sources(knowledge, system.field, system.nodes);
             let mut heat = Vec::new();
             if system.field == Field::Temperature {
-                // Potential precedes temperature where both are of one stage.
+                // Potential precedes temperature where both are in one stage.
                 let before = found.first().zip(knowledge.problem.field(Field::Potential));
                 match before {
                     Some((potential, nodes)) => {
@@ -255,7 +255,7 @@ impl<'a> Newton<'a> {
         Ok(found)
     }
 
-    /// Goes along a direction as far as that lessens what is missing; `None` where no part of it does.
+    /// Backtracking line search along a direction; `None` where no step reduces the residuals.
     fn search(
         &mut self,
         knowledge: &mut Knowledge<'a>,
@@ -274,7 +274,7 @@ impl<'a> Newton<'a> {
             self.go(&start, direction, part);
             let trial = self.evaluate(knowledge)?;
             let after = merit(&self.fields, &trial);
-            // Near a solution the largest balances are at their rounding, and small ones still gain.
+            // Near a solution the largest balances are at their rounding, while small ones still improve.
             let gains = after < (1.0 - 1e-4 * part) * before || self.worst(&trial) < 0.5 * worst;
             if gains {
                 return Ok(Some(trial));
@@ -285,9 +285,9 @@ impl<'a> Newton<'a> {
         Ok(None)
     }
 
-    /// The step of Newton's: the change of all unknowns, on the scale of the matrix; `None` where the matrix cannot be factored.
+    /// The Newton step: the change of all unknowns, on the scale of the matrix; `None` where the matrix cannot be factored.
     ///
-    /// Each equation of temperature and pore pressure takes up `pseudo_capacity` times the size of its slopes.
+    /// Each equation of temperature and pore pressure has a pseudo-capacity of `pseudo_capacity` times the magnitude of its slopes.
     fn direction(
         &mut self,
         knowledge: &Knowledge<'a>,
@@ -298,7 +298,7 @@ impl<'a> Newton<'a> {
         let equations = self.equations(knowledge, states, slopes, pseudo_capacity);
         let scale = equations.scale;
         let mut direction = if LARGE <= equations.right.len() {
-            // The entries become the matrix; where it comes to nothing they are put together anew.
+            // The entries become the matrix in place; where GMRES fails they are assembled again.
             let found = self.without_factor(equations);
             found.or_else(|| self.by_factor(self.equations(knowledge, states, slopes, pseudo_capacity)))?
         } else {
@@ -311,7 +311,7 @@ impl<'a> Newton<'a> {
         direction.iter().all(|change| change.is_finite()).then_some(direction)
     }
 
-    /// The step by blocks of single fields.
+    /// The step preconditioned by blocks of single fields.
     fn without_factor(&mut self, equations: StepEquations) -> Option<Vec<f64>> {
         let StepEquations { entries, right, pseudo_capacity, .. } = equations;
         let matrix = krylov::Columns::of(right.len(), entries);

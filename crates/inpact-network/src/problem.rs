@@ -29,13 +29,13 @@ pub struct Problem<'a> {
     pub(crate) scene: &'a Scene,
     /// The laws of each interaction of the model that a row names.
     pub(crate) laws: Vec<Option<InterfaceLaws>>,
-    /// The interaction of each row, by its place in the model.
+    /// The interaction of each row, by its index in the model.
     pub(crate) interactions: Vec<usize>,
     /// The nodes of each field that is solved, by [`Field`].
     pub(crate) fields: [Option<FieldNodes>; 3],
     /// The fields in the order in which they are solved; those that depend on each other are one group.
     pub(crate) stages: Vec<Stage>,
-    /// The characteristic element length of rows that have none of their own.
+    /// The default characteristic element length of rows.
     pub(crate) characteristic_length: Option<f64>,
     /// θ of absolute zero, where the deck gives it.
     pub(crate) absolute_zero: Option<f64>,
@@ -48,7 +48,7 @@ pub struct Problem<'a> {
 pub(crate) struct FieldNodes {
     /// The nodes of the scene that carry it.
     pub(crate) nodes: Vec<u32>,
-    /// The place among them of each node of the scene; `NONE` for those that do not.
+    /// The index among them of each node of the scene; `NONE` for others.
     pub(crate) place: Vec<u32>,
     /// The links of the scene that conduct it.
     pub(crate) links: Vec<u32>,
@@ -60,7 +60,7 @@ pub(crate) struct FieldNodes {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Stage {
     pub(crate) fields: Vec<Field>,
-    /// Whether one solve is enough.
+    /// Whether one linear solve is enough.
     pub(crate) is_linear: bool,
 }
 
@@ -234,9 +234,9 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The dependence of a row's law of a field in any state of contact it may come to.
+    /// The dependence of a row's law of a field in any state of contact that may occur.
     pub(crate) fn dependence(row: &SceneInterface, laws: &InterfaceLaws, field: Field, time: f64) -> Dependence {
-        // Contact that follows time may come to be open or closed.
+        // Contact that varies with time may be open or closed.
         let follows_time = |course: &Option<Course>| course.as_ref().is_some_and(|of| of.corners().next().is_some());
         let changes = row.closed.is_none() && (follows_time(&row.clearance) || follows_time(&row.pressure));
         let now = Contact::of(row, time).map_or(ContactState::Undetermined, |contact| contact.state);
@@ -310,7 +310,7 @@ impl<'a> Problem<'a> {
         self.field(Field::Temperature).is_some_and(|of| row.nodes().into_iter().any(|node| of.carries(node)))
     }
 
-    /// The heat of friction of a row at a time, into slave and master; zero where nothing gives it, and where the surfaces are apart.
+    /// The heat of friction of a row at a time, into slave and master; zero where it is not given, and where the contact is open.
     pub(crate) fn friction(&self, row: usize, time: f64) -> [f64; 2] {
         let of = &self.scene.interfaces[row];
         if Contact::of(of, time).is_some_and(|contact| contact.state == ContactState::Open) {
@@ -321,7 +321,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Marks every node that pairs of nodes join to a marked one.
+/// Marks every node that is connected by pairs to a marked one.
 fn spread(is_marked: &mut [bool], pairs: impl Iterator<Item = [u32; 2]> + Clone) {
     let mut sets = Sets::new(is_marked.len());
     for [a, b] in pairs {

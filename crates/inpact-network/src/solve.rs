@@ -13,26 +13,26 @@ use crate::state::{FieldState, StageReport, State};
 use inpact_evaluation::numbers::DoubleDouble;
 use relaxation::{Relaxation, Walk};
 
-/// Conductances within this relative distance of those a solution was found with are the same.
+/// Conductances within this relative distance of those of the solution count as equal.
 const CONSISTENT: f64 = 1e-14;
 
-/// Conductances that come no nearer are taken within this distance; the report says how near they are.
+/// Conductances that come no closer are accepted within this distance, which is reported.
 const CONSISTENT_ENOUGH: f64 = 1e-10;
 
-/// Equations of which no larger share is missing are not named when others are not met.
+/// Equations with a smaller relative residual are not named when others are not met.
 const MET: f64 = 1e-10;
 
-/// So many units in the last place of a temperature or a pore pressure are no inconsistency of what depends on it.
+/// This many units in the last place of a temperature or a pore pressure do not count as an inconsistency of a conductance.
 const DIGITS: f64 = 4.0;
 
-/// The most passes of substitution, and the most nodes of all of them together.
+/// The maximum number of passes of fixed-point iteration, and of nodes in all of them together.
 const MOST_PASSES: usize = 2_000;
 const MOST_RELAXED_NODES: usize = 1_000_000;
 
-/// From so many nodes on factors are not kept for what may come.
+/// The number of nodes from which factors are not kept for reuse.
 const LARGE: usize = 10_000;
 
-/// The number of substitutions of a nonlinear stage before Newton's iteration.
+/// The number of fixed-point iterations of a nonlinear stage before Newton's iteration.
 const FIRST_PASSES: usize = 2;
 
 /// Solves a scene at successive times, reusing work from one to the next.
@@ -71,7 +71,7 @@ impl<'a> Equations<'a> {
         Self { solvers: self.solvers.map(|solver| solver.timed_by(clock)), ..self }
     }
 
-    /// Whether time integrals are wanted.
+    /// Whether time integrals are requested.
     pub(crate) fn histories(&self) -> Histories {
         self.histories
     }
@@ -137,7 +137,7 @@ impl<'a> Equations<'a> {
         Ok(at.state)
     }
 
-    /// Refuses temperatures below absolute zero: the laws say nothing there, and a balance that is met is met by accident.
+    /// Rejects temperatures below absolute zero: the laws are not defined there, and a balance would be met by accident.
     fn refuse_cold(&self, state: &State) -> Result<(), Error> {
         let (Some(zero), Some(nodes), Some(field)) =
             (self.problem.absolute_zero, self.problem.field(Field::Temperature), state.field(Field::Temperature))
@@ -151,7 +151,7 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// Solves the fields of a stage one after the other, each with the conductances that follow from what is known; then their values are known.
+    /// Solves the fields of a stage in turn, each with the conductances at the known values; then their own values are known.
     fn solve_fields(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(), Error> {
         let At { knowledge, capacities, state } = at;
         for &field in &stage.fields {
@@ -167,7 +167,7 @@ impl<'a> Equations<'a> {
             if field == Field::Potential {
                 knowledge.heat = self.heat_of(knowledge, nodes, &solution, &terms);
             }
-            // At the start of a transient infinite ones may have been opened.
+            // At the start of a transient infinite conductances may have been opened.
             let rows = network.links[nodes.links.len()..].iter().map(|link| link.conductance).collect();
             state.fields[field.index()] = Some(FieldState { solution, rows, sources });
             knowledge.take(field, state);
@@ -175,7 +175,7 @@ impl<'a> Equations<'a> {
         Ok(())
     }
 
-    /// The heat of currents, by place among the nodes of temperature; empty where no temperature is solved for.
+    /// The heat of currents, by index among the nodes of temperature; empty where no temperature is solved for.
     fn heat_of(
         &self,
         knowledge: &Knowledge<'_>,
@@ -190,9 +190,9 @@ impl<'a> Equations<'a> {
         heat
     }
 
-    /// Solves a stage in which fields depend on themselves or on each other; gives the number of Newton steps, and how consistent the conductances are.
+    /// Solves a stage in which fields depend on themselves or on each other; returns the number of Newton steps, and the consistency of the conductances.
     ///
-    /// A failure within a tolerance that is larger than need be is tried again to the last digit: conductances that are to agree leave no room for it.
+    /// A failure with a loose tolerance is tried again to the last digit, as consistent conductances may require it.
     fn solve_nonlinear(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(usize, f64), Error> {
         let begin = at.knowledge.clone();
         let found = self.solve_within(stage, at);
@@ -211,7 +211,7 @@ impl<'a> Equations<'a> {
         found
     }
 
-    /// Solves the fields with the conductances of a first guess; where nothing flows at that guess, with those they have elsewhere.
+    /// Solves the fields with the conductances at an initial guess; where nothing flows there, with those elsewhere in the tables.
     fn solve_first(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(), Error> {
         match self.solve_fields(stage, at) {
             Err(error) if matches!(error.kind(), ErrorKind::Floating { .. }) => {
@@ -224,7 +224,7 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// Solves a nonlinear stage within the tolerance of the solvers: by Newton's iteration and, where that ends short of a solution, from where substitution leads.
+    /// Solves a nonlinear stage within the tolerance of the solvers: by Newton's iteration and, where that fails, again from the result of fixed-point iteration.
     fn solve_within(&mut self, stage: &Stage, at: &mut At<'_>) -> Result<(usize, f64), Error> {
         for _ in 0..FIRST_PASSES {
             self.solve_first(stage, at)?;
@@ -233,13 +233,13 @@ impl<'a> Equations<'a> {
         let mut steps = 0;
         let mut attempt = self.converge(stage, at, &mut steps)?;
         if attempt.is_short() {
-            // From where the iteration began: it may have gone astray, and its state with it.
+            // From the initial state, as the iteration may have diverged.
             let mut ways = [Relaxation::Parts, Relaxation::Brackets].into_iter();
             while attempt.is_short()
                 && let Some(way) = ways.next()
             {
                 let mut relaxed = At { knowledge: begin.clone(), capacities: at.capacities, state: at.state.clone() };
-                // A failure of a last resort is no failure of the scene: that is where Newton's iteration ended short.
+                // A failure of the last resort is not reported: the failure is that of Newton's iteration.
                 if let Ok(true) = self.relax(way, stage, &mut relaxed, &mut steps)
                     && let Ok(again) = self.converge(stage, &mut relaxed, &mut steps)
                     && !again.is_short()
@@ -265,7 +265,7 @@ impl<'a> Equations<'a> {
             .into())
     }
 
-    /// Newton's iteration, until the conductances of its state are those it was found with.
+    /// Newton's iteration, until the conductances are consistent with its state.
     fn converge(&mut self, stage: &Stage, at: &mut At<'_>, steps: &mut usize) -> Result<Attempt, Error> {
         let (mut inconsistency, mut beyond) = (f64::INFINITY, f64::INFINITY);
         loop {
@@ -274,7 +274,7 @@ impl<'a> Equations<'a> {
             if !iterated.has_converged {
                 return Ok(Attempt { iterated, inconsistency, beyond });
             }
-            // The flows of the conductances that were found, to the last digit; the conductances there measure their error.
+            // The flows with these conductances, to the last digit; the conductances at that solution measure their error.
             self.solve_fields(stage, at)?;
             let before = inconsistency;
             (inconsistency, beyond) = self.inconsistency(stage, at)?;
@@ -284,7 +284,7 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// Substitutes the solution of the conductances as they are, a part of the way at each node. Whether it came to rest.
+    /// Fixed-point iteration with the current conductances, relaxed at each node. Whether it converged.
     fn relax(&mut self, way: Relaxation, stage: &Stage, at: &mut At<'_>, steps: &mut usize) -> Result<bool, Error> {
         let unknowns: usize = stage.fields.iter().map(|field| self.problem.nodes_of(*field).len()).sum();
         let passes = (MOST_RELAXED_NODES / unknowns.max(1)).min(MOST_PASSES);
@@ -319,7 +319,7 @@ impl<'a> Equations<'a> {
             let state = at.state.field(field)?;
             Some((field, state.solution.clone(), state.rows.clone()))
         });
-        // The conductances change, and with them the factors: in a large scene they only take room.
+        // The conductances change, and with them the factors, which in a large scene only take memory.
         if LARGE <= self.problem.scene.nodes.len() {
             self.solvers.iter_mut().for_each(Solver::release_factor);
         }
@@ -327,8 +327,8 @@ impl<'a> Equations<'a> {
         newton.iterate(&mut at.knowledge)
     }
 
-    /// The largest relative distance of the conductances at a state from those it was found with; and the largest of those that the last digits
-    /// of temperatures and pore pressures do not account for.
+    /// The largest relative distance of the conductances at a state from those of its solution; and the largest of those that the last digits
+    /// of temperatures and pore pressures do not explain.
     fn inconsistency(&self, stage: &Stage, At { knowledge, state, .. }: &At<'_>) -> Result<(f64, f64), Error> {
         let (mut largest, mut beyond) = (0.0_f64, 0.0_f64);
         for &field in &stage.fields {
@@ -357,7 +357,7 @@ impl<'a> Equations<'a> {
     }
 }
 
-/// A state in the making, and what is known for it.
+/// A state in progress, and its known values.
 struct At<'a> {
     knowledge: Knowledge<'a>,
     capacities: Capacities,
@@ -369,12 +369,12 @@ struct Attempt {
     iterated: Iterated,
     /// Relative distance of the conductances from those of the state.
     inconsistency: f64,
-    /// The largest distance that rounding does not account for.
+    /// The largest distance not explained by rounding.
     beyond: f64,
 }
 
 impl Attempt {
-    /// Whether it ended short of a solution.
+    /// Whether it failed to converge.
     fn is_short(&self) -> bool {
         let is_good = self.iterated.has_converged && self.beyond <= CONSISTENT_ENOUGH;
         !is_good

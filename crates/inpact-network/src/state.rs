@@ -103,7 +103,7 @@ impl State {
         place.zip(self.field(field)).is_some_and(|(place, state)| state.rows[place] == f64::INFINITY)
     }
 
-    /// The flow that leaves each node of a field through links and rows, less its sources; zero but at held values and stores.
+    /// The flow that leaves each node of a field through links and rows, minus its sources; zero except at held values and stores.
     pub(crate) fn leaving(&self, problem: &Problem<'_>, field: Field) -> Vec<DoubleDouble> {
         let (Some(nodes), Some(state)) = (problem.field(field), self.field(field)) else { return Vec::new() };
         let mut leaving: Vec<DoubleDouble> = state.sources.iter().map(|&source| -DoubleDouble::new(source)).collect();
@@ -151,10 +151,10 @@ impl State {
     }
 }
 
-/// Below that part of a turnover a sum is its rounding.
+/// The fraction of the turnover below which a sum is rounding.
 const NOTHING: f64 = 1e-27;
 
-/// The number nearest to one in 106 bits; none is 0, not −0.
+/// The nearest f64 to a number in 106 bits; zero is +0, not −0.
 fn number(value: DoubleDouble) -> f64 {
     value.to_f64() + 0.0
 }

@@ -24,7 +24,7 @@ impl Times {
     }
 }
 
-/// A line of comma-separated values in the making.
+/// A line of comma-separated values under construction.
 struct Line<'a> {
     text: &'a mut Vec<u8>,
     is_first: bool,
@@ -207,7 +207,7 @@ fn interface_labels(problem: &Problem<'_>) -> Vec<String> {
             shared.insert((row.slave, *interaction));
         }
     }
-    // A node may be called as a pair is, and two pairs may read alike.
+    // A node may have the name of a pair, and two pairs may have equal names.
     let names: HashSet<&str> =
         if shared.is_empty() { HashSet::new() } else { scene.nodes.iter().map(String::as_str).collect() };
     let mut taken: HashSet<(usize, String)> = HashSet::new();

@@ -14,10 +14,10 @@ use crate::scene::{Field, Procedure, Scene, Steps, TimeSpan};
 use crate::solve::{Equations, Histories};
 use crate::state::{FieldState, State};
 
-/// An increment is not cut below this part of the whole time.
+/// The minimum increment, relative to the total time.
 const SHORTEST: f64 = 1e-12;
 
-/// A remainder below this part of an increment is not an increment of its own.
+/// A remainder below this fraction of an increment is not an increment of its own.
 const REMAINDER: f64 = 1e-9;
 
 /// Increments of a transient.
@@ -83,15 +83,15 @@ pub fn begin<E: From<Error>>(
     take(equations.step(&start, (span.start + length).min(span.end))?)
 }
 
-/// A transient on its way.
+/// A transient in progress.
 struct March<'a, 'p> {
     problem: &'p Problem<'p>,
     equations: &'a mut Equations<'p>,
     /// The rate of each node with a capacity, for temperature and pore pressure.
     rates: [Vec<f64>; 2],
-    /// The least and the greatest value so far, of the same fields.
+    /// Minimum and maximum so far, of the same fields.
     ranges: [Option<[f64; 2]>; 2],
-    /// The flows of the last state, and their integrals, where they are wanted.
+    /// The flows of the last state, and their integrals, where they are requested.
     flows: Option<(RowFlows, Integrals)>,
     report: TransientReport,
 }
@@ -140,7 +140,7 @@ impl March<'_, '_> {
         let mut tried = f64::NEG_INFINITY;
         while state.time < span.end {
             let until = corners.iter().copied().find(|&corner| corner > state.time).unwrap_or(span.end);
-            // The rest is shared evenly by the last two increments, so that none is a splinter.
+            // The rest is split evenly into the last two increments, so that none is tiny.
             let left = until - state.time;
             if tried < until {
                 tried = until;
@@ -179,7 +179,7 @@ impl March<'_, '_> {
         Ok(())
     }
 
-    /// Lets the values of a state count in the ranges.
+    /// Includes the values of a state in the ranges.
     fn widen(&mut self, state: &State) {
         for (range, field) in self.ranges.iter_mut().zip(STORING) {
             let values = state.field(field).into_iter().flat_map(FieldState::values).filter(|value| value.is_finite());
@@ -199,7 +199,7 @@ impl March<'_, '_> {
         self.rates = rates;
     }
 
-    /// The error of time integrals in an increment, as a part of them; 0 where they are not wanted.
+    /// The relative error of time integrals in an increment; 0 where they are not requested.
     fn integral_share(&self, before: &State, after: &State) -> f64 {
         self.flows.as_ref().map_or(0.0, |(flows, integrals)| {
             let end = RowFlows::of(self.problem, after);
@@ -221,7 +221,7 @@ impl March<'_, '_> {
         })
     }
 
-    /// The estimated local error of an increment, as a part of the range of values so far.
+    /// The estimated local error of an increment, relative to the range of values so far.
     fn local_error(&self, before: &State, after: &State, rates: &[Vec<f64>; 2]) -> f64 {
         let duration = after.time - before.time;
         let mut largest = 0.0_f64;
@@ -248,14 +248,14 @@ fn initial_rates(problem: &Problem<'_>, start: &State) -> [Vec<f64>; 2] {
     })
 }
 
-/// The number of corners inside an increment, further than a distance from both its ends.
+/// The number of kinks inside an increment, further than a distance from both its ends.
 fn inside(corners: &[f64], [start, end]: [f64; 2], distance: f64) -> usize {
     let first = corners.partition_point(|corner| *corner <= start + distance);
     let after = corners.partition_point(|corner| *corner < end - distance);
     after.saturating_sub(first)
 }
 
-/// The times inside a span at which a course of the scene changes its slope, and the end.
+/// The times inside a span at which a time course of the scene changes its slope, and the end.
 fn corners(scene: &Scene, span: TimeSpan) -> Vec<f64> {
     let of_conditions = scene.conditions.iter().flat_map(|of| of.fixed.values().chain(of.sources.values()));
     let of_rows = scene.interfaces.iter().flat_map(|row| row.clearance.iter().chain(&row.pressure));

@@ -5,7 +5,7 @@ use super::sets::{Sets, index};
 use crate::error::{Error, ErrorKind};
 use std::collections::BTreeMap;
 
-/// Refuses a network with floating components.
+/// Rejects a network with floating components.
 ///
 /// # Errors
 /// [`ErrorKind::Floating`] with the nodes of each such body, in ascending order.

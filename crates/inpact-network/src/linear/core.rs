@@ -5,10 +5,10 @@ use super::sets::{Sets, index};
 use crate::error::{Error, ErrorKind};
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// Stands where there is no node, element or unknown.
+/// The index for no node, element or unknown.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// Relative rounding error of a handful of double-double operations.
+/// Relative rounding error of a few double-double operations.
 pub(crate) const ROUNDING: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// Conductances among free nodes and known values.
@@ -18,7 +18,7 @@ pub(crate) struct Core {
     pub(crate) free: u32,
     /// The known values.
     pub(crate) known: Vec<DoubleDouble>,
-    /// The conductances; finite, and above zero but for those that may change.
+    /// The conductances; finite, and positive except those that may change.
     pub(crate) elements: Vec<Element>,
     /// Net flow into each free node from sources, W, A or L³/T, one entry a node.
     pub(crate) sources: Vec<DoubleDouble>,
@@ -31,7 +31,7 @@ pub(crate) struct Element {
     pub(crate) conductance: DoubleDouble,
 }
 
-/// The place in the core of each node, link and store of a network.
+/// The index in the core of each node, link and store of a network.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Origins {
     /// The number in the core of each node: nodes of one value have one number.
@@ -45,7 +45,7 @@ pub(crate) struct Origins {
 }
 
 impl Core {
-    /// The network with the nodes of every infinite conductance made one; links that conduct nothing are left out unless they have to stay.
+    /// The network with the nodes of every infinite conductance merged; zero conductances are dropped unless they must stay.
     ///
     /// # Errors
     /// [`ErrorKind::Contradiction`] where such nodes are held at different values.
@@ -103,7 +103,7 @@ impl Core {
         number < self.free
     }
 
-    /// The value of a number: of a free node among `values`, otherwise known.
+    /// The value of a number: for a free node from `values`, otherwise known.
     pub(crate) fn value(&self, values: &[DoubleDouble], number: u32) -> DoubleDouble {
         if self.is_free(number) { values[number as usize] } else { self.known[(number - self.free) as usize] }
     }

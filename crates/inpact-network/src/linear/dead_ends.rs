@@ -18,10 +18,10 @@ pub(crate) struct DeadEnds {
     anchors: Vec<u32>,
 }
 
-/// Summary of the part below a node in the walk, the node included.
+/// Summary of the subtree of a node in the search.
 #[derive(Clone, Copy)]
 struct Below {
-    /// The earliest node of the walk that a conductance leads to.
+    /// The earliest node of the search reached by a conductance (low-link).
     earliest: u32,
     has_source: bool,
     known: Known,
@@ -31,7 +31,7 @@ struct Below {
 #[derive(Clone, Copy)]
 enum Known {
     None,
-    /// All of them are as this number's.
+    /// All of them equal the value of this number.
     One(u32),
     Different,
 }
@@ -53,7 +53,7 @@ impl DeadEnds {
         self.anchors.iter().filter(|&&anchor| anchor != NONE).count()
     }
 
-    /// Puts the nodes back: their values; their flows are none.
+    /// Recovers the nodes: their values, with zero flows.
     pub(super) fn put_back(&self, core: &Core, found: &mut CoreFound) {
         for (node, &anchor) in (0..).zip(&self.anchors).filter(|(_, anchor)| **anchor != NONE) {
             found.values[node as usize] = core.value(&found.values, anchor);
@@ -64,16 +64,16 @@ impl DeadEnds {
     }
 }
 
-/// A walk in depth over the free nodes of a core, from its known values.
+/// Depth-first search over the free nodes of a core, from its known values.
 struct Walk<'a> {
     core: &'a Core,
     /// The elements at each free node.
     start: Vec<u32>,
     elements: Vec<u32>,
-    /// The nodes in the order of the walk, and the place of each in it, from 1 on; 0 is the root's.
+    /// The nodes in the order of the search, and the number of each in it, from 1; 0 is the root.
     order: Vec<u32>,
     place: Vec<u32>,
-    /// The node above each node in the walk; `NONE` for the root.
+    /// The parent of each node in the search; `NONE` for the root.
     above: Vec<u32>,
     below: Vec<Below>,
 }
@@ -111,7 +111,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// For each free node the number whose value it has as nothing can flow between the two.
+    /// For each free node the number whose value it takes, as nothing can flow between the two.
     fn run(mut self) -> Vec<u32> {
         for element in &self.core.elements {
             let [a, b] = element.ends;
@@ -131,7 +131,7 @@ impl<'a> Walk<'a> {
         anchors
     }
 
-    /// The number whose value all below a node, the node included, takes as there is no source; `NONE` where something may flow.
+    /// The number whose value the subtree of a node takes, as it has no source; `NONE` where something may flow.
     fn anchor(&self, node: u32) -> u32 {
         let Below { earliest, has_source, known } = self.below[node as usize];
         let above = self.above[node as usize];
@@ -144,7 +144,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Walks from a node beside the root to all that are not reached yet.
+    /// Searches from a neighbour of the root to all nodes not reached yet.
     fn descend(&mut self, top: u32) {
         self.enter(top, NONE);
         let mut path = vec![(top, self.start[top as usize])];
@@ -177,7 +177,7 @@ impl<'a> Walk<'a> {
         self.below[node as usize].has_source = !self.core.sources[node as usize].is_zero();
     }
 
-    /// Adds what is below a node to what is below the one above it.
+    /// Merges the summary of a node into that of its parent.
     fn leave(&mut self, node: u32) {
         let above = self.above[node as usize];
         if above == NONE {

@@ -10,43 +10,43 @@ use super::sets::index;
 use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::{DoubleDouble, exponent_of, scale_by_power};
 
-/// The elements of a core in terms of the unknowns; conductances may change, what is there may not.
+/// The elements of a core in terms of the unknowns; conductances may change, the topology may not.
 #[derive(Clone, Debug)]
 pub(crate) struct Edges {
     pub(crate) form: Form,
-    /// The elements that are there.
+    /// The remaining elements.
     pub(crate) elements: Vec<u32>,
     /// The jumps along the forest between the ends of each of them, where there are not too many.
     ways: Option<Ways>,
 }
 
-/// For each element that is there, the unknowns whose jumps add up to its own, and whether they count in the opposite sense.
+/// For each remaining element, the unknowns whose jumps add up to its own, and their signs.
 #[derive(Clone, Debug)]
 struct Ways {
     start: Vec<u32>,
     steps: Vec<(u32, bool)>,
 }
 
-/// Up to so many steps an element on the average, ways along the forest are kept.
+/// Paths along the forest are stored up to this average number of steps per element.
 const STEPS_OF_AN_ELEMENT: usize = 16;
 
-/// Networks with more elements have too many ways; in smaller ones, those of a few nodes are kept whatever their length.
+/// Networks with more elements have too many paths; small ones store them whatever their length.
 const MOST_ELEMENTS: usize = 1 << 16;
 
-/// Steps that are kept in any case.
+/// Steps that are stored in any case.
 const LEAST_STEPS: usize = 1 << 16;
 
-/// Absolute rounding error of the smallest numbers, of which the second half has run out of exponents.
+/// Absolute rounding error of the smallest numbers, whose low part underflows.
 const LEAST: f64 = f64::MIN_POSITIVE / (1_u64 << 46) as f64;
 
 /// The flows at a state and their residuals.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Balance {
-    /// The flow from the first to the second end of each element of the core; zero for those taken out.
+    /// The flow from the first to the second end of each element of the core; zero for eliminated ones.
     pub(crate) flows: Vec<DoubleDouble>,
     /// The residual of the equation of each unknown.
     pub(crate) residuals: Vec<DoubleDouble>,
-    /// The magnitudes of all flows in the equation of each unknown, added up.
+    /// The sum of magnitudes of all flows in the equation of each unknown.
     pub(crate) magnitudes: Vec<f64>,
     /// A bound of the rounding error of each flow.
     pub(crate) roundings: Vec<f64>,
@@ -75,7 +75,7 @@ impl Edges {
         sources
     }
 
-    /// The unknowns that belong to jumps along the forest: each the sum of the jumps on its way to its top.
+    /// The unknowns that belong to jumps along the forest: each the sum of the jumps on the path to its top.
     fn unknowns(&self, jumps: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let form = &self.form;
         let mut unknowns = vec![DoubleDouble::ZERO; form.count()];
@@ -164,12 +164,12 @@ impl Edges {
         (0..index(form.count())).map(change).collect()
     }
 
-    /// The largest relative change of a flow when the unknowns change by `changes`; flows at their rounding count with what they are known to.
+    /// The largest relative change of a flow when the unknowns change by `changes`; flows at their rounding count with their accuracy.
     pub(crate) fn change_of_flows(&self, core: &Core, balance: &Balance, changes: &[f64]) -> f64 {
         self.largest_change(core, balance, |unknown, sign| sign * changes[unknown])
     }
 
-    /// The same when each unknown changes by what is missing in its equation, in the direction that is worst for each flow.
+    /// The same when each unknown changes by the residual of its equation, in the worst direction for each flow.
     pub(crate) fn missing_in_flows(&self, core: &Core, balance: &Balance) -> f64 {
         let missing: Vec<f64> = balance.missing().map(f64::abs).collect();
         self.largest_change(core, balance, |unknown, _| missing[unknown])
@@ -192,11 +192,11 @@ impl Edges {
         self.elements.iter().map(|&number| relative_change(number)).fold(0.0, f64::max)
     }
 
-    /// Makes nothing of the flows that rounding hides, and gives the largest part of another that rounding may have done.
+    /// Sets flows below their rounding to zero, and returns the largest relative rounding error of the others.
     ///
-    /// The flow along the forest is the sum of those below, so that it is known as well as the balances there: less well than to 106 bits where large flows nearly cancel in one.
-    /// Other flows are as open as the jumps along the forest that make theirs. Solving has spread what is open by up to the condition of the matrix.
-    /// Where ways along the forest are too many to be kept, only the flows' own rounding makes nothing of them, and zeros may come out as some 1e-30 of what flows around them.
+    /// The flow along the forest is the sum of those below, so its accuracy is that of the balances there: below 106 bits where large flows nearly cancel.
+    /// The uncertainty of other flows is that of their jumps along the forest. Solving has amplified it by up to the condition number of the matrix.
+    /// Where there are too many paths to be stored, only the flows' own rounding is used, and zeros may remain as some 1e-30 of the surrounding flows.
     pub(crate) fn settle(&self, core: &Core, condition: f64, balance: &mut Balance) -> f64 {
         let Some(ways) = &self.ways else { return self.settle_without_ways(core, condition, balance) };
         let steps = self.open_steps(core, condition, balance);
@@ -218,9 +218,9 @@ impl Edges {
         largest
     }
 
-    /// The same where ways are too long to be kept: flows are as open as both ways to known values together, which is no less.
+    /// The same where paths are too long to be stored: the uncertainty of both paths to known values together is an upper bound.
     ///
-    /// Only their own rounding makes nothing of them.
+    /// Only their own rounding sets them to zero.
     fn settle_without_ways(&self, core: &Core, condition: f64, balance: &mut Balance) -> f64 {
         let form = &self.form;
         let mut to_base = self.open_steps(core, condition, balance);
@@ -280,10 +280,10 @@ impl Edges {
         forest
     }
 
-    /// The values of the nodes, at those that are taken out nothing.
+    /// The values of the nodes, zero at eliminated ones.
     pub(crate) fn values(&self, core: &Core, jumps: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let form = &self.form;
-        // Jumps are added up before the known value, beside which they may be small.
+        // Jumps are summed before adding the known value, compared with which they may be small.
         let mut sums = vec![DoubleDouble::ZERO; form.count()];
         let mut values = vec![DoubleDouble::ZERO; core.free as usize];
         for &unknown in &form.order {
@@ -309,7 +309,7 @@ impl Balance {
         })
     }
 
-    /// The largest share of its flows that is missing in an equation; NaN or infinite where a flow is.
+    /// The largest residual of an equation relative to its flows; NaN or infinite where a flow is.
     pub(crate) fn worst_share(&self) -> f64 {
         let shares = self
             .missing()
@@ -333,7 +333,7 @@ impl Balance {
 }
 
 impl Ways {
-    /// The ways of some elements; `None` where they are too long to be kept.
+    /// The paths of some elements; `None` where they are too long to be stored.
     fn of(core: &Core, form: &Form, elements: &[u32]) -> Option<Self> {
         if elements.len() > MOST_ELEMENTS {
             return None;

@@ -16,10 +16,10 @@ use super::sets::index;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::collections::HashMap;
 
-/// Above so many different known values the filled network is too dense.
+/// Above this number of distinct known values the filled network is too dense.
 const MOST_KNOWN: usize = 256;
 
-/// The most conductances that an elimination may add between nodes that are not neighbours.
+/// The maximum fill-in of an elimination.
 pub(super) const MOST_FILLED: usize = 20_000_000;
 
 /// Result of an elimination: the values of the free nodes, and the flow through each element that is there.
@@ -29,7 +29,7 @@ pub(crate) struct Eliminated {
     pub(crate) flows: Vec<DoubleDouble>,
 }
 
-/// One node that was eliminated.
+/// An eliminated node.
 struct Step {
     node: u32,
     /// Its neighbours at that time and the conductances to them.
@@ -38,7 +38,7 @@ struct Step {
     source: DoubleDouble,
 }
 
-/// Eliminates every free node that is there, with at most `most_filled` conductances more.
+/// Eliminates every remaining free node, with at most `most_filled` additional conductances.
 ///
 /// # Errors
 /// It would take too much memory.
@@ -88,7 +88,7 @@ pub(super) fn eliminate(
     Ok(Eliminated { values, flows })
 }
 
-/// The number of each known value, from the number of free nodes on, and the values: equal ones are one.
+/// The number of each known value, after the free nodes, and the distinct values.
 fn terminals(core: &Core) -> (Vec<u32>, Vec<DoubleDouble>) {
     let mut terminals: Vec<DoubleDouble> = Vec::new();
     let mut places: HashMap<[u64; 2], u32> = HashMap::new();
@@ -102,9 +102,9 @@ fn terminals(core: &Core) -> (Vec<u32>, Vec<DoubleDouble>) {
     (core.known.iter().map(place_of).collect(), terminals)
 }
 
-/// Eliminates the nodes, each time one with the fewest neighbours.
+/// Eliminates the nodes in minimum degree order.
 ///
-/// `None` where they leave more than `most_filled` conductances behind.
+/// `None` where the fill-in exceeds `most_filled` conductances.
 fn forward(
     core: &Core,
     mut stars: Vec<HashMap<u32, DoubleDouble>>,
@@ -157,7 +157,7 @@ fn backward(core: &Core, steps: &[Step], terminals: &[DoubleDouble]) -> HashMap<
     differences
 }
 
-/// The difference of two numbers of the filled network that are neighbours, or known both.
+/// The difference of two numbers of the filled network that are neighbours, or both known.
 fn difference_of(
     core: &Core,
     differences: &HashMap<[u32; 2], DoubleDouble>,
@@ -184,7 +184,7 @@ mod tests {
     use super::super::network::{LinearNetwork, Link};
     use super::{Core, Shortcoming, eliminate};
 
-    /// A node amid others that are held: at `held` different values.
+    /// A node among held ones, with `held` distinct values.
     fn star(held: u32) -> Core {
         let mut network = LinearNetwork::of_nodes(held as usize + 1);
         for node in 1..=held {

@@ -13,12 +13,12 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 use inpact_evaluation::numbers::{exponent_of, scale_by_power};
 use std::sync::Arc;
 
-/// One thread: with more the order of sums, and so the last digits, would depend on how many there are.
+/// One thread: otherwise the order of sums, and so the last digits, would depend on the number of threads.
 pub(crate) const PAR: Par = Par::Seq;
 
-/// Something that solves for the scaled jumps, roughly or well.
+/// An approximate or accurate solver for the scaled jumps.
 pub(crate) trait Solves {
-    /// Solves in place; the right-hand side is of the size of one.
+    /// Solves in place; the right-hand side has magnitude about 1.
     ///
     /// # Errors
     /// It cannot.
@@ -32,12 +32,12 @@ pub(crate) trait Solves {
         self.solve(right)
     }
 
-    /// Whether it corrects small flows as well as large ones, relative to each; one that stops when most is corrected does not.
+    /// Whether its relative accuracy is the same for small and large flows; not for one that stops by the norm of the residual.
     fn is_even(&self) -> bool {
         true
     }
 
-    /// How good one correction is by itself.
+    /// The accuracy of a single correction.
     fn accuracy(&self) -> Accuracy {
         Accuracy::Full
     }
@@ -46,12 +46,12 @@ pub(crate) trait Solves {
     fn norm(&self) -> f64;
 }
 
-/// How good a correction is.
+/// The accuracy of a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Accuracy {
-    /// As good as f64 is: what is left behind it follows from how the changes shrink.
+    /// That of f64: the remaining error follows from the convergence factor of the changes.
     Full,
-    /// So rough that changes shrink unevenly: what is left is only known to be less than the last change.
+    /// So low that changes shrink unevenly: the remaining error is only known to be less than the last change.
     Rough,
 }
 
@@ -61,20 +61,20 @@ pub(crate) struct Factor<T> {
     analysis: Arc<Analysis>,
     values: Vec<T>,
     norm: f64,
-    /// The matrix was multiplied by two to this power, and right-hand sides are.
+    /// Matrix and right-hand sides are multiplied by 2 to this power.
     shift: i32,
     right: Vec<T>,
 }
 
-/// Numbers a factor can be made of.
+/// Scalar types of a factor.
 pub(crate) trait FactorNumber: ComplexField + Copy {
-    /// The exponent that the norm of a matrix is brought to; `None` leaves it as it is.
+    /// The exponent to which the norm of a matrix is scaled; `None` leaves it unscaled.
     ///
-    /// Entries that fill in far away from where they come from become as small as numbers can be: in f32 they would soon be subnormal, with which processors are twenty times as slow.
-    /// Their magnitudes go with those of the matrix, which is made as large as leaves room for the condition.
+    /// Fill-in far from its origin becomes tiny: in f32 it would soon be subnormal, which is twenty times as slow on processors.
+    /// Its magnitude scales with the matrix, which is therefore scaled as large as the condition number permits.
     const EXPONENT: Option<i32>;
 
-    /// How good a correction by a factor in such numbers is.
+    /// The accuracy of a correction by a factor in this type.
     const ACCURACY: Accuracy;
 
     fn rounded(value: f64) -> Self;

@@ -3,13 +3,13 @@
 use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// Flows up to this have lost digits to the range of f64.
+/// Flows up to this have lost digits to underflow.
 pub(super) const SMALL: f64 = f64::MIN_POSITIVE / f64::EPSILON / f64::EPSILON;
 
 /// The solution of a core: values of its free nodes, flows of its elements.
 pub(super) struct CoreFound {
     pub(super) values: Vec<DoubleDouble>,
     pub(super) flows: Vec<DoubleDouble>,
-    /// The spanning forest with its steps; an elimination has none.
+    /// The spanning forest with its jumps; `None` for elimination.
     pub(super) forest: Option<SpanningForest>,
 }

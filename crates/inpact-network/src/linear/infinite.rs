@@ -11,7 +11,7 @@ use super::sets::{Sets, index};
 use super::solution::LinearSolution;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// Finds the flows through the infinite conductances of a network that is solved otherwise; `solve` solves a network of finite ones.
+/// Computes the flows through the infinite conductances of an otherwise solved network; `solve` solves a network of finite ones.
 pub(super) fn find_flows<E>(
     network: &LinearNetwork,
     solution: &mut LinearSolution,
@@ -30,14 +30,14 @@ pub(super) fn find_flows<E>(
             free += 1;
         }
     }
-    // One known value, of the nodes from which all others are counted.
+    // One known value, at the reference nodes.
     let number_of = |node: u32| if is_reference[node as usize] { free } else { number[node as usize] };
     let element =
         |&link: &usize| Element { ends: network.links[link].nodes.map(number_of), conductance: DoubleDouble::new(1.0) };
     let mut core = Core {
         free,
         known: vec![DoubleDouble::ZERO],
-        // Between two nodes that are held nothing is known of the flow but that none is needed.
+        // The flow between two held nodes is undetermined, and taken as zero.
         elements: infinite.iter().map(element).collect(),
         sources,
     };
@@ -49,7 +49,7 @@ pub(super) fn find_flows<E>(
     Ok(())
 }
 
-/// The net flow into each node by everything but infinite conductances, zero where it is within rounding; and the sum of the magnitudes.
+/// The net flow into each node except through infinite conductances, zero where it is within rounding; and the sum of the magnitudes.
 fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<DoubleDouble>, Vec<f64>) {
     let mut missing: Vec<DoubleDouble> = network.sources.iter().map(|&source| DoubleDouble::new(source)).collect();
     let mut magnitudes: Vec<f64> = network.sources.iter().map(|source| source.abs()).collect();
@@ -74,7 +74,7 @@ fn missing(network: &LinearNetwork, solution: &LinearSolution) -> (Vec<DoubleDou
 
 /// The reference node of each cluster: held nodes, or the one with the largest flows.
 ///
-/// The residual of a cluster that is within its tolerance ends up there, where it is least relative to the flows.
+/// The residual of a cluster within its tolerance ends up there, where it is smallest relative to the flows.
 fn references(network: &LinearNetwork, infinite: &[usize], magnitudes: &[f64]) -> Vec<bool> {
     let mut sets = Sets::new(network.nodes());
     for &link in infinite {

@@ -14,13 +14,13 @@ use faer::matrix_free::conjugate_gradient::{CgParams, conjugate_gradient, conjug
 use faer::matrix_free::{InitialGuessStatus, LinOp, Precond};
 use faer::{MatMut, MatRef, Par};
 
-/// The part of dropped fill-in that is added to the diagonal; all of it would be better still on a grid and could break down elsewhere.
+/// The fraction of dropped fill-in that is added to the diagonal; 1 would be better on a grid but could break down elsewhere.
 const KEPT: f64 = 0.97;
 
-/// The most iterations for one correction.
+/// The maximum number of iterations for one correction.
 const MOST_ITERATIONS: usize = 5_000;
 
-/// By how much the residual shrinks in one correction, unless less is needed.
+/// The reduction of the residual in one correction, unless less is needed.
 const CORRECTION: f64 = 1e-8;
 
 /// A symmetric matrix with its incomplete factor.
@@ -35,13 +35,13 @@ pub(crate) struct ConjugateGradients {
 }
 
 impl ConjugateGradients {
-    /// Prepares to solve with a matrix to a relative residual of `tolerance` at most.
+    /// Prepares to solve with a matrix to a relative residual of at most `tolerance`.
     pub(crate) fn new(matrix: &Matrix<'_>, tolerance: f64) -> Self {
         Self {
             matrix: Rows::of(matrix),
             preconditioner: Incomplete::of(matrix),
             norm: matrix.norm(),
-            // The error is some orders above the residual; the refinement sees what is left.
+            // The error is some orders above the residual; refinement corrects the rest.
             reduction: CORRECTION.max(1e-3 * tolerance),
             iterations: 0,
         }
@@ -96,7 +96,7 @@ impl Solves for ConjugateGradients {
     }
 }
 
-/// A symmetric matrix by its rows, both triangles, so that a product reads it once from front to back.
+/// A symmetric matrix in compressed rows, both triangles, so that a product streams through it once.
 #[derive(Debug)]
 struct Rows {
     starts: Vec<u32>,
@@ -157,7 +157,7 @@ impl Incomplete {
         let mut factor = Self { starts, rows, values: matrix.values.clone() };
         let diagonal: Vec<f64> =
             (0..factor.count()).map(|column| factor.values[factor.starts[column] as usize]).collect();
-        // The place of each row below the diagonal in the column that is being updated.
+        // The position of each row below the diagonal in the column that is being updated.
         let mut place_of = vec![u32::MAX; factor.count()];
         for (column, &diagonal) in diagonal.iter().enumerate() {
             factor.finish_column(column, diagonal);
@@ -174,7 +174,7 @@ impl Incomplete {
         self.starts[column] as usize..self.starts[column + 1] as usize
     }
 
-    /// Divides a column, of which all updates are in, by the root of its pivot.
+    /// Divides a fully updated column by the square root of its pivot.
     fn finish_column(&mut self, column: usize, diagonal: f64) {
         const SAFE: f64 = 1e-3;
         let range = self.range(column);
@@ -186,7 +186,7 @@ impl Incomplete {
         }
     }
 
-    /// Takes the products of a finished column from the later columns, where they have an entry for it, and from their diagonals.
+    /// Subtracts the products of a finished column from the later columns, at existing entries, and from their diagonals.
     fn update_from(&mut self, column: usize, place_of: &mut [u32]) {
         let range = self.range(column);
         for first in range.start + 1..range.end {

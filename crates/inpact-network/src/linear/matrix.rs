@@ -7,14 +7,14 @@ use super::sets::index;
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use inpact_evaluation::numbers::{exponent_of, scale_by_power};
 
-/// The lower triangle of the matrix of some edges: which entries there are, and where the parts of each element go.
+/// The sparsity pattern of the lower triangle of the matrix of some edges, and the positions of the contributions of each element.
 #[derive(Debug)]
 pub(crate) struct Pattern {
     symbolic: SymbolicSparseColMat<u32>,
     order: Argsort<u32>,
 }
 
-/// A symmetric matrix, by its lower triangle in compressed columns.
+/// A symmetric matrix: its lower triangle in compressed sparse column format.
 #[derive(Debug)]
 pub(crate) struct Matrix<'a> {
     pub(crate) pattern: SymbolicSparseColMatRef<'a, u32>,
@@ -86,7 +86,7 @@ impl Matrix<'_> {
 pub(crate) fn each_part(core: &Core, edges: &Edges, mut take: impl FnMut(u32, u32, f64)) {
     let Edges { form, elements, .. } = edges;
     for unknown in 0..index(form.count()) {
-        // An unknown whose every conductance underflows has a diagonal all the same.
+        // An unknown whose conductances all underflow still has a diagonal.
         take(unknown, unknown, 0.0);
     }
     let mut way: Vec<(u32, f64, i32)> = Vec::new();
@@ -104,20 +104,20 @@ pub(crate) fn each_part(core: &Core, edges: &Edges, mut take: impl FnMut(u32, u3
     }
 }
 
-/// Brings flows to the scale of the matrix: divides each by the square root of its unknown's scale, and multiplies all by 2^`shift`.
+/// Scales flows to the matrix: divides each by the square root of its unknown's scale, and multiplies all by 2^`shift`.
 pub(crate) fn scaled_flows(form: &Form, flows: impl Iterator<Item = f64>, shift: i32) -> Vec<f64> {
     let scaled = flows.zip(&form.levels);
     scaled.map(|(flow, level)| scale_by_power(flow, shift - form.scales[*level as usize] / 2)).collect()
 }
 
-/// The exponent that brings the largest of some flows near one on the scale of the matrix; `None` where all are zero.
+/// The exponent that scales the largest of some flows to about 1 on the scale of the matrix; `None` where all are zero.
 pub(crate) fn shift(form: &Form, flows: impl Iterator<Item = f64>) -> Option<i32> {
     let exponent =
         |(flow, level): (f64, &u16)| (flow != 0.0).then(|| exponent_of(flow) - form.scales[*level as usize] / 2);
     flows.zip(&form.levels).filter_map(exponent).max().map(|exponent| -exponent)
 }
 
-/// Brings unknowns from the scale of the matrix back to that of flows.
+/// Scales unknowns back from the matrix to flows.
 pub(crate) fn unscale(form: &Form, unknowns: &mut [f64], shift: i32) {
     for (unknown, level) in unknowns.iter_mut().zip(&form.levels) {
         *unknown = scale_by_power(*unknown, form.scales[*level as usize] / 2 - shift);

@@ -12,19 +12,19 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 
-/// Operations of a factorization for each unknown above which nested dissection is tried: about what it costs to find.
+/// Operations of a factorisation per unknown above which nested dissection is tried: about the cost of the ordering.
 ///
-/// Measured: 1e6 unknowns in two dimensions need 1.4e4 for each, and dissection takes five times as long as the factor it would save a tenth of;
-/// 46³ in three need 6e5, and dissection takes a tenth of the factor it saves half of.
+/// Measured: 1e6 unknowns in two dimensions need 1.4e4 each, and dissection takes five times as long as the factorisation, of which it would save a tenth;
+/// 46³ in three need 6e5 each, and dissection takes a tenth of the factorisation, of which it saves half.
 const WORTH_DISSECTING: f64 = 1e5;
 
 /// Fewer unknowns are ordered by minimum degree first, which may be good enough: from 22³ on it is not.
 const LEAST_IN_SPACE: usize = 10_000;
 
-/// Entries below the diagonal for each unknown from which a network may be one of three dimensions: a grid in the plane has two, one in space three.
+/// Entries below the diagonal per unknown from which a network may be three-dimensional: a grid in the plane has two, one in space three.
 const NEIGHBOURS_IN_SPACE: f64 = 2.5;
 
-/// A network is one of three dimensions where its levels have so many times the square root of all unknowns: grids in the plane have at most as many as that root, 46³ in space have 2.3 times as many.
+/// A network counts as three-dimensional where the width of its levels exceeds this multiple of the square root of the unknowns: grids in the plane have at most that root, 46³ in space 2.3 times as many.
 const WIDTH_IN_SPACE: f64 = 1.5;
 
 /// The order and the structure of a factor.
@@ -85,7 +85,7 @@ impl Analysis {
         self.symbolic.len_val()
     }
 
-    /// The number of multiplications of the factorisation, about: the squares of the heights of all columns.
+    /// The approximate number of multiplications of the factorisation: the squares of the heights of all columns.
     fn operations(&self) -> f64 {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(columns) => {
@@ -114,7 +114,7 @@ fn graph_of(pattern: SymbolicSparseColMatRef<'_, u32>) -> Graph {
     Graph::from_edges(pattern.ncols(), (0..pattern.ncols()).flat_map(column))
 }
 
-/// Whether most of a network is plainly one of three dimensions, by the width of its levels: the unknowns at one distance from an outermost one.
+/// Whether most of a network is clearly three-dimensional, by the width of its levels: the unknowns at equal distance from a peripheral one.
 fn is_in_space(graph: &Graph) -> bool {
     let (outermost, ..) = walk(graph, 0);
     let (_, levels, reached) = walk(graph, outermost);
@@ -122,7 +122,7 @@ fn is_in_space(graph: &Graph) -> bool {
     2 * reached > graph.nodes() && width > WIDTH_IN_SPACE * (reached as f64).sqrt()
 }
 
-/// Walks outward from an unknown, level by level: the last that is reached, how many levels there are, how many unknowns in them.
+/// Breadth-first search from an unknown: the last one reached, the number of levels, and of unknowns in them.
 fn walk(graph: &Graph, from: usize) -> (usize, usize, usize) {
     let mut is_reached = vec![false; graph.nodes()];
     is_reached[from] = true;

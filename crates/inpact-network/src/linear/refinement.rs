@@ -15,16 +15,16 @@ use super::matrix::{scaled_flows, shift, unscale};
 use super::report::{NoSolution, Quality, Shortcoming};
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// The most steps of a refinement: a body without any flow comes down from rounding to zero by some sixteen decades a step, through all six hundred of f64 if need be.
+/// The maximum number of steps of a refinement: a body without any flow decreases from rounding to zero by some sixteen decades a step, if necessary through all six hundred of f64.
 const MOST_STEPS: usize = 100;
 
-/// Steps without gain after which a refinement gives up.
+/// Steps without progress after which a refinement fails.
 const PATIENCE: usize = 24;
 
-/// Steps without gain after which a solution is taken whose estimated error rounding can account for.
+/// Steps without progress after which a solution is accepted whose estimated error is explained by rounding.
 const AT_ROUNDING: usize = 4;
 
-/// A step has gained something where the largest flow that is missing falls by this factor.
+/// A step makes progress where the largest residual decreases by this factor.
 const FALLS: f64 = 1e-3;
 
 /// Result of a refinement.
@@ -36,12 +36,12 @@ pub(crate) struct Refined {
     pub(crate) quality: Quality,
 }
 
-/// Reasons why a refinement gave up.
+/// Reasons why a refinement failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum GaveUp {
-    /// The rough solver cannot.
+    /// The approximate solver failed.
     Solver(NoSolution),
-    /// The steps gain nothing more: what had been reached.
+    /// The steps make no more progress; the accuracy reached.
     Stalled(Quality),
     /// A flow is beyond the range of f64.
     Overflow,
@@ -88,8 +88,8 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
             let largest = balance.missing().map(f64::abs).fold(0.0, f64::max);
             let idle = progress.idle_after(quality.residual, largest);
             if AT_ROUNDING <= idle && quality.residual <= tolerance {
-                // What rounding may have done to a flow is more than what is left of its error: no further step, and no
-                // other method, gives more than this. (What is made nothing of here is found anew by the next balance.)
+                // The rounding error of a flow exceeds its remaining error: no further step, and no
+                // other method, improves this. (Flows set to zero here are recomputed by the next balance.)
                 let open = edges.settle(core, quality.condition.max(1.0), &mut balance);
                 if quality.error <= open {
                     quality.error = open;
@@ -136,7 +136,7 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// The estimated error after a step that changed flows by `change`: all the further changes, which shrink by the same factor.
+    /// The estimated error after a step that changed flows by `change`: the sum of all further changes, a geometric series.
     fn error_after(&mut self, change: f64, accuracy: Accuracy) -> f64 {
         let before = std::mem::replace(&mut self.change, change);
         if !before.is_finite() || change == 0.0 {
@@ -151,10 +151,10 @@ impl Progress {
         }
     }
 
-    /// The number of steps in a row that have gained nothing, now that this share of a balance and this flow, the largest of all, are missing.
+    /// The number of consecutive steps without progress, given the largest relative and absolute residuals.
     fn idle_after(&mut self, residual: f64, largest: f64) -> usize {
         let left = residual + self.change;
-        // A flow that ought to be zero is missing as a whole until it is, however small it has become.
+        // A flow that should be zero has a relative residual of 1 until it is, however small it has become.
         if left < 0.5 * self.best || largest < FALLS * self.least {
             self.best = self.best.min(left);
             self.least = self.least.min(largest);
@@ -166,7 +166,7 @@ impl Progress {
     }
 }
 
-/// A lower estimate of the norm of the inverse of a matrix: how much it stretches a first solution, in which its slow modes prevail already.
+/// A lower bound estimate of the norm of the inverse of a matrix: its amplification of a first solution, in which slow modes already dominate.
 fn inverse_norm(solution: &[f64], solver: &mut dyn Solves) -> Result<f64, NoSolution> {
     let length = |vector: &[f64]| vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
     let first = length(solution);
@@ -188,9 +188,9 @@ mod tests {
     use crate::linear::report::{NoSolution, Quality};
     use crate::linear::{Core, Edges, Form, LAST_DIGIT, LinearNetwork, Link, Series};
 
-    /// Conjugate gradients that find nothing more after some corrections, of which the last falls short by a part.
+    /// Conjugate gradients that stagnate after some corrections, the last of which is incomplete.
     ///
-    /// So it is on large plates, where rounding hides the last digits of small flows.
+    /// This happens on large plates, where rounding hides the last digits of small flows.
     struct Exhausted {
         solver: ConjugateGradients,
         corrections: usize,
@@ -225,7 +225,7 @@ mod tests {
         }
     }
 
-    /// A grid between two held edges, whose conductances differ by so little that next to nothing flows across.
+    /// A grid between two held edges, whose conductances differ so little that almost nothing flows across.
     fn grid(side: u32, difference: f64) -> LinearNetwork {
         let node = |i: u32, j: u32| i * side + j;
         let mut network = LinearNetwork::of_nodes((side * side) as usize);
@@ -259,7 +259,7 @@ mod tests {
         refine(&core, &edges, &mut solver, LAST_DIGIT).map(|refined| refined.quality)
     }
 
-    /// The flow that is missing when the corrections end is more than the rounding of any balance, and less than rounding may have done to the flows.
+    /// The residual when the corrections end is more than the rounding of any balance, and less than the rounding error of the flows.
     #[test]
     fn a_solution_at_rounding_is_taken() {
         let network = grid(12, 1e-12);
@@ -267,7 +267,7 @@ mod tests {
         assert_eq!(taken.solves, 4 + AT_ROUNDING + 1);
         assert!(LAST_DIGIT < taken.error && taken.error < 1e-11, "{taken:?}");
         assert!(0.0 < taken.residual && taken.residual < LAST_DIGIT, "{taken:?}");
-        // Ten times as much is not for rounding to account for.
+        // Ten times as much is not explained by rounding.
         let refused = refined(&network, 4, 1e-3);
         assert!(matches!(refused, Err(GaveUp::Stalled(quality)) if PATIENCE < quality.solves), "{refused:?}");
         // Nothing falls short.

@@ -34,10 +34,10 @@ use super::sets::{Sets, index};
 use super::strength::Levels;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// The unknowns of a core: one for each free node that is there.
+/// The unknowns of a core: one for each remaining free node.
 #[derive(Clone, Debug)]
 pub(crate) struct Form {
-    /// The unknown of each free node; `NONE` for nodes that are taken out.
+    /// The unknown of each free node; `NONE` for eliminated nodes.
     pub(crate) of_node: Vec<u32>,
     /// The node of each unknown.
     pub(crate) nodes: Vec<u32>,
@@ -53,12 +53,12 @@ pub(crate) struct Form {
     pub(crate) tops: Vec<u32>,
     /// The known value at the root of its tree; a number of the core.
     pub(crate) bases: Vec<u32>,
-    /// For each level an even exponent s: unknowns and jumps are kept times 2^s, so that they are of the size of flows.
+    /// For each level an even exponent s: unknowns and jumps are stored times 2^s, so that they have the magnitude of flows.
     pub(crate) scales: Vec<i32>,
 }
 
 impl Form {
-    /// Chooses the unknowns of the nodes and elements that are there.
+    /// Chooses the unknowns of the remaining nodes and elements.
     pub(crate) fn choose(core: &Core, is_there: &[bool], is_free: &[bool]) -> Self {
         let conducts = |(number, element): &(usize, &Element)| is_there[*number] && element.conductance.to_f64() > 0.0;
         let there = || core.elements.iter().enumerate().filter(conducts);
@@ -101,7 +101,7 @@ impl Form {
         self.tops.iter().filter(|top| **top != NONE).count()
     }
 
-    /// The exponent that unknown `unknown` and its jump in the forest are scaled by.
+    /// The scaling exponent of unknown `unknown` and its jump in the forest.
     #[inline]
     pub(crate) fn scale(&self, unknown: u32) -> i32 {
         self.scales[self.levels[unknown as usize] as usize]
@@ -123,7 +123,7 @@ impl Form {
     /// Calls `take` with each unknown in the difference between two, and the sign with which it counts in first − second.
     #[inline]
     pub(crate) fn on_way(&self, [mut first, mut second]: [u32; 2], mut take: impl FnMut(u32, f64)) {
-        // Levels ascend on the way to a known value, so that both ways meet where they first can.
+        // Levels ascend on the path to a known value, so both paths meet at the lowest common ancestor.
         while first != second {
             let level = |unknown: u32| if unknown == NONE { u16::MAX } else { self.levels[unknown as usize] };
             let (of_first, of_second) = (level(first), level(second));
@@ -140,7 +140,7 @@ impl Form {
 
     /// The elements of a forest that joins every unknown to a known value, from the strongest level on.
     fn forest(&self, core: &Core, by_level: &[Vec<u32>]) -> Vec<u32> {
-        // All known values are one set: a tree needs no way from one to another.
+        // All known values are one set: a tree needs no path between them.
         let known = index(self.count());
         let mut sets = Sets::new(self.count() + 1);
         let mut forest = Vec::with_capacity(self.count());
@@ -157,7 +157,7 @@ impl Form {
         forest
     }
 
-    /// Hangs every unknown on the next one towards a known value.
+    /// Links every unknown to the next one towards a known value.
     fn orient(&mut self, core: &Core, levels: &Levels, forest: &[u32]) {
         let mut start = vec![0_u32; self.count() + 1];
         let ends: Vec<[u32; 2]> =

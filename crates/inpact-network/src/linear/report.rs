@@ -16,9 +16,9 @@ pub enum Method {
     Direct,
     /// A Cholesky factor in f32: half the memory and, in three dimensions, about half the time.
     Mixed,
-    /// Conjugate gradients with an incomplete factor: memory of a few entries a node.
+    /// Conjugate gradients with an incomplete factor: memory of a few entries per node.
     Iterative,
-    /// Elimination without subtraction in 106 bits: slow, and exact at any contrast but where a jump leaves the range of f64 or steps of both signs nearly cancel, which it refuses.
+    /// Subtraction-free (GTH) elimination in 106 bits: slow, and exact at any contrast, except where a jump exceeds the range of f64 or jumps of opposite sign nearly cancel, which it rejects.
     Elimination,
 }
 
@@ -89,15 +89,15 @@ pub enum Reused {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shortcoming {
-    /// It could not begin.
+    /// It could not start.
     NoSolution(NoSolution),
     /// It came no nearer than this.
     Stalled(Quality),
-    /// A flow is beyond the range of f64, or what a rough factor made of it.
+    /// A flow, or its approximation by an inaccurate factor, is beyond the range of f64.
     Overflow,
     /// The filled network would be too large.
     TooLarge {
-        /// The most conductances that it may add between nodes that are not neighbours.
+        /// The maximum fill-in.
         most: usize,
     },
     /// There are too many different held values: every two of them would be neighbours.
@@ -112,7 +112,7 @@ pub enum Shortcoming {
 /// Reasons why a factorisation or iteration has no solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoSolution {
-    /// A pivot was not above zero: rounding has made the matrix indefinite.
+    /// A pivot was not positive: rounding has made the matrix indefinite.
     Pivot,
     /// There is not enough memory.
     Memory,

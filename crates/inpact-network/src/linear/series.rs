@@ -14,17 +14,17 @@ use super::sets::index;
 use super::spanning_forest::SpanningForest;
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// The nodes taken out, in order.
+/// The eliminated nodes, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Series {
     steps: Vec<Step>,
-    /// The elements that are still there, those that were made included.
+    /// The remaining elements, including new ones.
     pub(crate) is_there: Vec<bool>,
-    /// Whether a free node is still there.
+    /// Whether a free node remains.
     pub(crate) is_free: Vec<bool>,
 }
 
-/// One node taken out.
+/// An eliminated node.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     node: u32,
@@ -36,7 +36,7 @@ struct Step {
 }
 
 impl Series {
-    /// Takes out of a core what is still, and every free node with one or two conductances, but for those that have to stay.
+    /// Eliminates dead ends from a core, and every free node with one or two conductances, except those that must stay.
     pub(crate) fn take_out(core: &mut Core, dead_ends: &DeadEnds, stays: &dyn Fn(u32) -> bool) -> Self {
         let is_dead_end = |&end: &u32| dead_ends.is_dead_end(end);
         let mut series = Self {
@@ -65,12 +65,12 @@ impl Series {
         series
     }
 
-    /// The number of nodes taken out.
+    /// The number of eliminated nodes.
     pub(crate) fn count(&self) -> usize {
         self.steps.len()
     }
 
-    /// Puts the nodes back: their values, and what flows from the first to the second end of each element.
+    /// Recovers the nodes: their values, and the flow from the first to the second end of each element.
     pub(super) fn put_back(&self, core: &Core, found: &mut CoreFound) {
         let CoreFound { values, flows, forest } = found;
         for step in self.steps.iter().rev() {
@@ -104,7 +104,7 @@ impl Series {
     }
 }
 
-/// The difference between a node in series and the far end of its stronger element, as a part of the jump between both far ends: for flows so small that their quotient is inexact.
+/// The difference between a node in series and the far end of its stronger element, relative to the jump between both far ends: for flows so small that their quotient is inexact.
 fn step_of_two(core: &Core, forest: &SpanningForest, [first, second]: [(u32, u32); 2]) -> DoubleDouble {
     let conductance = |element: u32| core.elements[element as usize].conductance;
     let (weaker, stronger) =
@@ -122,7 +122,7 @@ fn strength(core: &Core, element: u32) -> f64 {
     core.elements[element as usize].conductance.to_f64()
 }
 
-/// The conductance of two in series: of the quotient of the smaller and the larger nothing overflows.
+/// The conductance of two in series: the quotient of the smaller and the larger does not overflow.
 fn in_series(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
     let (smaller, larger) = if a.to_f64() <= b.to_f64() { (a, b) } else { (b, a) };
     smaller / (DoubleDouble::new(1.0) + smaller / larger)
@@ -132,7 +132,7 @@ fn in_series(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
 struct Incident {
     start: Vec<u32>,
     elements: Vec<u32>,
-    /// The element that replaced each; `NONE` for those still there.
+    /// The element that replaced each; `NONE` for remaining ones.
     replaced_by: Vec<u32>,
 }
 
@@ -158,7 +158,7 @@ impl Incident {
         Self { start, elements, replaced_by: vec![NONE; core.elements.len()] }
     }
 
-    /// The elements that are there now at a node.
+    /// The current elements at a node.
     fn at(&mut self, node: u32, is_there: &[bool]) -> Vec<u32> {
         let range = self.start[node as usize] as usize..self.start[node as usize + 1] as usize;
         let now = range.map(|place| self.now(self.elements[place]));
@@ -179,7 +179,7 @@ impl Incident {
     }
 }
 
-/// A walk over the nodes that can be taken out.
+/// A walk over the nodes that can be eliminated.
 struct Walk<'a> {
     core: &'a mut Core,
     series: &'a mut Series,
@@ -201,14 +201,14 @@ impl Walk<'_> {
         }
     }
 
-    /// Takes out a node; gives the numbers at the far ends of its elements.
+    /// Eliminates a node; returns the numbers at the far ends of its elements.
     fn take(&mut self, node: u32) -> Vec<u32> {
         let elements = self.incident.at(node, &self.series.is_there);
         let far = |element: u32| far_end(self.core, element, node);
         let source = self.core.sources[node as usize];
         if let [first, second] = *elements.as_slice() {
             let [a, b] = [first, second].map(|element| self.core.elements[element as usize].conductance);
-            // A conductance below the range of f64 would cut the network in two.
+            // A conductance that underflows would split the network.
             let is_lost = in_series(a, b).is_zero() && !a.is_zero() && !b.is_zero();
             if is_lost || !source.is_zero() {
                 return Vec::new();

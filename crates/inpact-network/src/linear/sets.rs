@@ -1,6 +1,6 @@
 //! Disjoint sets of nodes (union–find).
 
-/// Sets of the numbers below some count; at first each is a set of its own.
+/// Disjoint sets of the numbers below some count; initially singletons.
 #[derive(Clone, Debug)]
 pub(crate) struct Sets {
     parent: Vec<u32>,

@@ -61,7 +61,7 @@ impl Solver {
         Self { clock, ..self }
     }
 
-    /// The same, with an order of elimination that is known.
+    /// The same, with a known elimination ordering.
     pub(super) fn with_order(
         method: Method,
         tolerance: f64,
@@ -81,7 +81,7 @@ impl Solver {
         std::mem::replace(&mut self.tolerance, tolerance)
     }
 
-    /// Lets the factor of the last network go, and keeps its order, if it has one.
+    /// Drops the factor of the last network, and keeps its ordering, if any.
     pub(crate) fn release_factor(&mut self) {
         self.kept = self.kept.take().filter(|kept| kept.analysis.is_some());
         if let Some(kept) = &mut self.kept {
@@ -150,7 +150,7 @@ impl Solver {
         Ok((found, report))
     }
 
-    /// Solves for the unknowns, by the chosen method and, where that falls short, by safer ones.
+    /// Solves for the unknowns, by the chosen method and, where that fails, by more robust ones.
     fn solve_form(
         &mut self,
         core: &Core,
@@ -174,7 +174,7 @@ impl Solver {
                     return Err(Error::not_solved(std::mem::take(&mut report.given_up)));
                 }
                 (Method::Direct, _) => Method::Elimination,
-                // A rough factor may have left the range of numbers by itself, that of f32 before all.
+                // An inaccurate factor may itself have overflowed, especially in f32.
                 (Method::Mixed | Method::Iterative, _) => Method::Direct,
             };
         }
@@ -260,13 +260,13 @@ impl Solver {
         Ok(found(core, edges, &jumps, balance))
     }
 
-    /// The pattern of some edges with its analysis, those of the network before where they are the same.
+    /// The pattern of some edges with its analysis, reused from the previous network where they are the same.
     fn pattern(&mut self, core: &Core, edges: &Edges) -> Arc<Pattern> {
         let pattern = Pattern::of(core, edges);
         if let Some(kept) = &mut self.kept
             && kept.pattern.has_entries_of(pattern.symbolic())
         {
-            // The parts may come in another order.
+            // The contributions may be in another order.
             kept.pattern = Arc::new(pattern);
             return Arc::clone(&kept.pattern);
         }
@@ -276,7 +276,7 @@ impl Solver {
     }
 }
 
-/// The largest share of its flows that is missing in the balance of a node; not finite where a flow is not.
+/// The largest residual of the balance of a node relative to its flows; not finite where a flow is not.
 fn worst_share(core: &Core, series: &Series, flows: &[DoubleDouble]) -> f64 {
     let mut missing = core.sources.clone();
     let mut magnitudes: Vec<f64> = core.sources.iter().map(|source| source.to_f64().abs()).collect();
@@ -296,7 +296,7 @@ fn worst_share(core: &Core, series: &Series, flows: &[DoubleDouble]) -> f64 {
     largest_or_nan(shares)
 }
 
-/// The content of `place`, made first where it is empty.
+/// The content of `place`, created if it is empty.
 fn get_or_try<T>(place: &mut Option<T>, make: impl FnOnce() -> Result<T, NoSolution>) -> Result<&mut T, NoSolution> {
     if place.is_none() {
         *place = Some(make()?);
@@ -342,7 +342,7 @@ fn put_together(
     }
 }
 
-/// Solves for no unknown.
+/// Solves a core without unknowns.
 struct Nothing;
 
 impl Solves for Nothing {

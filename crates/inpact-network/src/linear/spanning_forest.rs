@@ -7,15 +7,15 @@
 use super::core::{Core, NONE, ROUNDING};
 use inpact_evaluation::numbers::DoubleDouble;
 
-/// The parent of each free node of a core, and the step from there.
+/// The parent of each free node of a core, and the jump from there.
 #[derive(Clone, Debug)]
 pub(super) struct SpanningForest {
     /// The parent of each free node: the number of a free node or of a known value.
     parents: Vec<u32>,
     steps: Vec<DoubleDouble>,
-    /// The depth of each node: 1 beside a known value.
+    /// The depth of each node: 1 next to a known value.
     depths: Vec<u32>,
-    /// The nearest number, on the way up from each node, whose value differs from its parent's.
+    /// The nearest ancestor of each node whose value differs from its parent's.
     representatives: Vec<u32>,
 }
 
@@ -38,7 +38,7 @@ impl SpanningForest {
         self.steps[node as usize] = step;
     }
 
-    /// The jump from the second to the first of two numbers; nothing where it is not more than rounding.
+    /// The jump from the second to the first of two numbers; `None` where it is within rounding.
     pub(super) fn jump(&self, core: &Core, ends: [u32; 2]) -> DoubleDouble {
         let [mut first, mut second] = ends.map(|end| self.representative(end));
         let (mut jump, mut parts) = (DoubleDouble::ZERO, 0.0);
@@ -63,7 +63,7 @@ impl SpanningForest {
         if jump.to_f64().abs() <= ROUNDING * parts { DoubleDouble::ZERO } else { jump }
     }
 
-    /// Nothing for a known value.
+    /// Zero for a known value.
     fn depth(&self, number: u32) -> u32 {
         self.depths.get(number as usize).copied().unwrap_or(0)
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// Within a level the largest conductance is less than 2^WIDTH times the smallest.
 ///
-/// Plain assembly loses as many digits as the strengths of a level differ, and refinement gives them back at one more solve;
+/// Plain assembly loses as many digits as the strengths of a level differ, which refinement recovers with one more solve;
 /// more levels mean unknowns that are coupled to more others. The measured optimum is flat between 6 and 14.
 const WIDTH: i32 = 10;
 
@@ -18,7 +18,7 @@ pub(crate) struct Levels {
 }
 
 impl Levels {
-    /// The levels of some elements: cut where the gap between strengths is widest until each is narrow enough.
+    /// The levels of some elements: split at the widest gap between strengths until each is narrow enough.
     pub(crate) fn of<'a>(elements: impl Iterator<Item = &'a Element>) -> Self {
         let exponents: BTreeSet<i32> = elements.map(exponent).collect();
         let ascending: Vec<i32> = exponents.into_iter().collect();
@@ -51,14 +51,14 @@ fn exponent(element: &Element) -> i32 {
     exponent_of(element.conductance.to_f64())
 }
 
-/// Cuts ascending exponents into levels and gives the greatest exponent of each, ascending.
+/// Splits ascending exponents into levels and returns the greatest exponent of each, ascending.
 fn cut(ascending: &[i32], greatest: &mut Vec<i32>) {
     let (Some(first), Some(last)) = (ascending.first(), ascending.last()) else { return };
     if last - first < WIDTH {
         greatest.push(*last);
         return;
     }
-    // Of equal gaps the one nearest the middle.
+    // Of equal gaps the one closest to the middle.
     let middle = f64::from(first + last) / 2.0;
     let gap = |place: &usize| ascending[*place] - ascending[place - 1];
     let off = |place: &usize| (f64::from(ascending[*place] + ascending[place - 1]) / 2.0 - middle).abs();

@@ -6,12 +6,12 @@ use std::time::Duration;
 /// A monotonic clock of the caller: the time since some instant. No other clock is read here.
 pub type Clock = fn() -> Duration;
 
-/// The clock of those who want no times.
+/// A clock that measures nothing.
 pub(super) fn no_clock() -> Duration {
     Duration::ZERO
 }
 
-/// The time since a clock said this, in seconds.
+/// The time since this reading of a clock, in seconds.
 pub(super) fn seconds_since(clock: Clock, then: Duration) -> f64 {
     clock().saturating_sub(then).as_secs_f64()
 }

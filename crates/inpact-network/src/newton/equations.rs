@@ -19,11 +19,11 @@ pub(super) struct StepEquations {
     pub(super) scale: [f64; 3],
 }
 
-/// The slopes that a step takes into account.
+/// The slopes included in a step.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Slopes {
     All,
-    /// Conductances and heat are held.
+    /// Conductances and heat are frozen.
     Held,
 }
 
@@ -62,7 +62,7 @@ impl<'a> Newton<'a> {
         StepEquations { entries, right, pseudo_capacity, scale }
     }
 
-    /// Lets each equation of temperature and pore pressure take up so many times the magnitudes of all its slopes; gives how much each does.
+    /// Gives each equation of temperature and pore pressure a pseudo-capacity of this multiple of the magnitudes of all its slopes; returns them.
     pub(super) fn add_pseudo_capacities(&self, times: f64, entries: &mut Vec<Triplet<u32, u32, f64>>) -> Vec<f64> {
         let all = self.fields.last().map_or(0, |last| last.start as usize + last.edges.form.count());
         let mut pseudo_capacity = vec![0.0; all];
@@ -89,7 +89,7 @@ impl<'a> Newton<'a> {
         knowledge: &Knowledge<'_>,
         entries: &mut Vec<Triplet<u32, u32, f64>>,
     ) {
-        // Jumps that no flow determines need the values of all nodes: they are put together once, where a row reads them.
+        // Jumps that no flow determines need the values of all nodes, which are assembled once, where a row uses them.
         let values = LazyCell::new(|| system.values());
         for (place, &row) in system.nodes.rows.iter().enumerate() {
             let (conducts, of) = (state.terms.slopes[place], knowledge.row(row));
@@ -163,7 +163,7 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// Chooses the unit of each field so that what couples two fields has one size in both directions; gives the factors.
+/// Chooses the unit of each field so that the coupling of two fields has equal magnitude in both directions; returns the factors.
 pub(super) fn balance_fields(
     fields: &[System<'_>],
     entries: &mut [Triplet<u32, u32, f64>],

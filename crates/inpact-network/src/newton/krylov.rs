@@ -14,26 +14,26 @@ use crate::linear::{Analysis, Factor, Incomplete, Matrix, Method, NoSolution, Pa
 use faer::sparse::Triplet;
 use std::sync::Arc;
 
-/// The patience of GMRES with its preconditioner.
+/// Parameters of GMRES by preconditioner.
 struct Patience {
-    /// The number of vectors that it keeps before it restarts.
+    /// The restart length.
     restart: usize,
-    /// The most times it begins anew.
+    /// The maximum number of restarts.
     most_restarts: usize,
-    /// It gives up where a restart leaves more than this part of what was missing.
+    /// It fails where more than this fraction of the residual remains after a restart.
     stagnation: f64,
 }
 
-/// Factors are nearly inverses: what they do not solve soon they do not solve.
+/// Complete factors are nearly inverses: without fast convergence there is none.
 const WITH_FACTORS: Patience = Patience { restart: 24, most_restarts: 16, stagnation: 0.9 };
 
-/// Incomplete factors leave the slow modes of large plates, which many vectors find; these need a tenth of the memory of the factor of the whole that would be next.
+/// Incomplete factors leave the slow modes of large plates, which need many vectors; these take a tenth of the memory of the factor of the whole matrix that would be next.
 const WITH_INCOMPLETE_FACTORS: Patience = Patience { restart: 60, most_restarts: 60, stagnation: 0.98 };
 
-/// By how much it lessens what is missing.
+/// The reduction of the residual.
 const REDUCTION: f64 = 1e-9;
 
-/// A step that lessens what is missing by less than this is not worth trying.
+/// A step that reduces the residual by less than this is not worth trying.
 const WORTH_TRYING: f64 = 1e-2;
 
 /// The order of the block of a field, good as long as its matrix has entries in the same places.
@@ -43,7 +43,7 @@ pub(super) struct Order {
     analysis: Option<Arc<Analysis>>,
 }
 
-/// A matrix by its columns: it is only multiplied by.
+/// A matrix in compressed columns, for products only.
 pub(super) struct Columns {
     starts: Vec<u32>,
     rows: Vec<u32>,
@@ -51,9 +51,9 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// The square matrix of entries that are in parts, in any order.
+    /// The square matrix of entries given as contributions, in any order.
     ///
-    /// The parts are put together where they are: of a large scene there are three for each entry, and no room for both.
+    /// The contributions are summed in place: a large scene has three for each entry, and no memory for both.
     pub(super) fn of(count: usize, mut parts: Vec<Triplet<u32, u32, f64>>) -> Self {
         parts.sort_unstable_by_key(|part| (part.col, part.row));
         parts.dedup_by(|part, entry| {
@@ -81,7 +81,7 @@ impl Columns {
     }
 }
 
-/// The block of one field, and what solves with it roughly.
+/// The block of one field, and its approximate solver.
 pub(super) struct Block {
     start: usize,
     count: usize,
@@ -105,7 +105,7 @@ impl Block {
         let (start, count) = (system.start as usize, system.edges.form.count());
         let pattern = Pattern::of(&system.core, &system.edges);
         if method == Method::Iterative {
-            // Without an order there is nothing to keep.
+            // Without an ordering there is nothing to reuse.
             let inverse = Inverse::Incomplete(Incomplete::of(&matrix(&pattern, system, pseudo_capacity)));
             return Some(Self { start, count, inverse });
         }
@@ -156,7 +156,7 @@ impl Inverse {
     }
 }
 
-/// Solves for a step; `None` where it comes to nothing.
+/// Solves for a step; `None` where it does not converge.
 pub(super) fn solve(matrix: &Columns, blocks: &mut [Block], right: &[f64]) -> Option<Vec<f64>> {
     let mut solution = vec![0.0; right.len()];
     let mut residual = right.to_vec();
@@ -183,7 +183,7 @@ pub(super) fn solve(matrix: &Columns, blocks: &mut [Block], right: &[f64]) -> Op
     (norm(&residual) <= WORTH_TRYING * size).then_some(solution)
 }
 
-/// Adds to a solution the best of a few directions.
+/// Adds the least-squares combination of the basis to a solution.
 fn extend(
     matrix: &Columns,
     blocks: &mut [Block],
@@ -193,7 +193,7 @@ fn extend(
 ) -> Option<()> {
     let size = norm(residual);
     let mut basis = vec![narrowed(residual, size)];
-    // The columns of the triangle, the rotations that made it, and the right-hand side.
+    // The columns of the triangle, the Givens rotations, and the right-hand side.
     let (mut triangle, mut rotations, mut rest) = (Vec::<Vec<f64>>::new(), Vec::<(f64, f64)>::new(), vec![size]);
     for step in 0..restart {
         let mut next = product(matrix, &preconditioned(matrix, blocks, widened(&basis[step]))?);
@@ -243,7 +243,7 @@ fn extend(
     Some(())
 }
 
-/// Solves with the blocks, each with what the ones before have left of its part.
+/// Block forward substitution.
 fn preconditioned(matrix: &Columns, blocks: &mut [Block], vector: Vec<f64>) -> Option<Vec<f64>> {
     let mut rest = vector;
     let last = blocks.len();
@@ -279,7 +279,7 @@ fn dot(one: &[f64], other: &[f32]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * f64::from(*other)).sum()
 }
 
-/// A vector in parts of its length, as it is kept.
+/// A stored vector, normalised.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "no entry is larger than the whole, and what is lost of it is found again"
@@ -351,7 +351,7 @@ mod tests {
         assert_eq!(solve(&matrix, &mut blocks, &[0.0; 1000]), Some(vec![0.0; 1000]));
     }
 
-    /// A permutation in one cycle, of which no direction but the last brings anything: as slow modes are with an incomplete factor.
+    /// A permutation in one cycle, for which only the last direction makes progress, like slow modes with an incomplete factor.
     #[test]
     fn slow_progress_is_waited_for_with_incomplete_factors() {
         const COUNT: u32 = 40;

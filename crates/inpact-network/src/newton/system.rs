@@ -17,7 +17,7 @@ pub(super) struct System<'a> {
     pub(super) origins: Origins,
     pub(super) edges: Edges,
     pub(super) jumps: Vec<DoubleDouble>,
-    /// The first of its unknowns among those of all fields.
+    /// The offset of its unknowns among those of all fields.
     pub(super) start: u32,
 }
 
@@ -44,7 +44,7 @@ impl<'a> System<'a> {
         let network = network(knowledge, field, nodes, rows, &no_sources, capacities);
         let links = nodes.links.len();
         let (mut core, origins) = Core::merged(&network, &|link| link >= links).ok()?;
-        // Nodes at which something depends on the state have to stay.
+        // Nodes with state-dependent conductances or sources must stay.
         let mut stays = vec![false; core.free as usize];
         let scene = knowledge.problem.scene;
         let ends = scene.interfaces.iter().flat_map(SceneInterface::nodes);
@@ -105,12 +105,12 @@ impl<'a> System<'a> {
         (0..index(form.count())).map(jump).collect()
     }
 
-    /// Half the exponent that an unknown is scaled by.
+    /// Half the scaling exponent of an unknown.
     pub(super) fn half(&self, unknown: u32) -> i32 {
         self.edges.form.scale(unknown) / 2
     }
 
-    /// Tells what the jumps make of temperatures or pore pressures.
+    /// Updates temperatures or pore pressures from the jumps.
     pub(super) fn tell(&self, knowledge: &mut Knowledge<'_>) {
         let known = match self.field {
             Field::Potential => return,
@@ -128,7 +128,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Puts in conductances of rows and sources.
+    /// Sets conductances of rows and sources.
     pub(super) fn set(&mut self, rows: &[f64], sources: &[f64]) {
         let links = self.nodes.links.len();
         for (&element, &conductance) in self.origins.of_link[links..].iter().zip(rows) {
@@ -151,16 +151,16 @@ impl<'a> System<'a> {
         balance
     }
 
-    /// The flows of the field's links and rows; zero for links whose nodes are taken out.
+    /// The flows of the field's links and rows; zero for links whose nodes are eliminated.
     pub(super) fn flows(&self, balance: &Balance) -> Vec<DoubleDouble> {
         let flow = |&element: &u32| if element == NONE { DoubleDouble::ZERO } else { balance.flows[element as usize] };
         self.origins.of_link.iter().map(flow).collect()
     }
 
-    /// The largest share that is missing in a balance, of what would flow there if every jump were as large as the field.
+    /// The largest residual of a balance, relative to the flow there if every jump were as large as the field.
     ///
-    /// That is what rounding of the field may do to a balance: it is met when no better values can be found.
-    /// A body in which nothing flows is judged by its conductances as every other.
+    /// This measures the effect of rounding of the field on a balance: it is met when no better values are possible.
+    /// A body without flow is judged by its conductances like any other.
     pub(super) fn worst(&self, state: &Evaluated) -> f64 {
         let form = &self.edges.form;
         let size = self.size();
@@ -176,7 +176,7 @@ impl<'a> System<'a> {
         largest_or_nan(shares)
     }
 
-    /// The largest value of a field, from whatever it is counted; of potentials, on which nothing depends but by their jumps, the largest jump.
+    /// The largest magnitude of a field; for potentials, which matter only through their jumps, the largest jump.
     fn size(&self) -> f64 {
         let form = &self.edges.form;
         let jumps = (0..).zip(&self.jumps).map(|(unknown, jump)| jump.times_power_of_two(-form.scale(unknown)));
@@ -188,7 +188,7 @@ impl<'a> System<'a> {
         self.values().into_iter().chain(self.core.known.iter().copied()).fold(of_jumps, largest)
     }
 
-    /// The largest residual, as a share of the largest flow, and its node of the scene.
+    /// The largest residual, relative to the largest flow, and its node of the scene.
     pub(super) fn worst_node(&self, state: &Evaluated) -> (f64, u32) {
         let largest = state.balance.magnitudes.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let missing = (0_usize..).zip(state.balance.missing().map(f64::abs));
@@ -198,7 +198,7 @@ impl<'a> System<'a> {
         (worst / largest, place.map_or(NONE, |place| self.nodes.nodes[place]))
     }
 
-    /// The size of the flows of its equations, on the scale of the matrix.
+    /// The magnitude of the flows of its equations, on the scale of the matrix.
     pub(super) fn unit(&self, state: &Evaluated) -> f64 {
         let scaled =
             (0..).zip(&state.balance.magnitudes).map(|(unknown, &flow)| scale_by_power(flow, -self.half(unknown)));
@@ -213,7 +213,7 @@ impl<'a> System<'a> {
         scaled.map(|share| share * share).sum()
     }
 
-    /// Goes from `jumps` a part of the way along a direction of all fields.
+    /// Moves from `jumps` by a fraction along a direction of all fields.
     pub(super) fn go(&mut self, jumps: &[DoubleDouble], direction: &[f64], part: f64) {
         let form = &self.edges.form;
         let changes: Vec<f64> = (0..index(form.count()))
@@ -248,7 +248,7 @@ impl<'a> System<'a> {
         });
     }
 
-    /// Calls `take` with the column of each unknown that the jump of an element is made of, and what turns a slope along the jump into one along the unknown.
+    /// Calls `take` with the column of each unknown in the jump of an element, and the factor from a slope along the jump to one along the unknown.
     pub(super) fn on_jump(&self, element: u32, mut take: impl FnMut(u32, &dyn Fn(f64) -> f64)) {
         let ends = self.edges.form.ends(&self.core, &self.core.elements[element as usize]);
         self.edges.form.on_way(ends, |unknown, sign| {

@@ -28,7 +28,7 @@ impl Problem<'_> {
         failures
     }
 
-    /// The rows that conduct nothing, whatever is sought.
+    /// The rows with zero conductance for any values of the unknowns.
     fn sealed(&self, field: Field, nodes: &FieldNodes) -> Result<HashSet<u32>, Error> {
         let start = self.start();
         let is_known = |row: &u32| {
@@ -72,7 +72,7 @@ impl Problem<'_> {
         (!components.is_empty()).then(|| Error::from(ErrorKind::Floating { components }).of_field(field))
     }
 
-    /// Nodes that infinite links make one and that are held at different values at the start.
+    /// Nodes merged by infinite links and held at different values at the start.
     fn held_apart(&self, field: Field) -> Option<Error> {
         let nodes = self.field(field)?;
         let mut sets = Sets::new(self.scene.nodes.len());

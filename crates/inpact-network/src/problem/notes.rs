@@ -8,7 +8,7 @@ use inpact_evaluation::nodes::{Findings, Place, UNKNOWN_INTERACTION};
 use inpact_parser::model::{Model, Name};
 
 impl Problem<'_> {
-    /// Reports each row that lacks what its laws depend on.
+    /// Reports each row that lacks an input of its laws.
     pub(super) fn check_rows(&self, findings: &mut Findings) {
         for field in Field::ALL {
             for (_, row, laws) in self.rows_of(field) {
@@ -50,7 +50,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Reports rows of which a law cannot be evaluated: without it the interface would be sealed in silence.
+    /// Reports rows with a law that cannot be evaluated: without it the interface would silently be sealed.
     pub(super) fn check_laws(&self, findings: &mut Findings) {
         for (row, of) in self.scene.interfaces.iter().enumerate() {
             let left_out = self.laws_of(row).map_or(&[][..], |laws| &laws.left_out);
@@ -66,7 +66,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Reports nodes with a capacity of which nothing says where they begin.
+    /// Reports nodes with a capacity but without an initial value.
     pub(super) fn check_initial(&self, findings: &mut Findings) {
         if !self.scene.is_transient() {
             return;
@@ -89,7 +89,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Notes what goes to nodes that do not carry the field it belongs to.
+    /// Notes heat and fluid at nodes that do not carry the field.
     pub(super) fn note_one_sided(&mut self) {
         let [temperature, pore] = [Field::Temperature, Field::PorePressure].map(|field| self.field(field));
         let impermeable = self.scene.interfaces.iter().enumerate().filter(|(row, of)| {
@@ -150,7 +150,7 @@ fn report_row(row: &SceneInterface, findings: &mut Findings, message: &str, help
     findings.report(&MISSING_QUANTITY, place, message, help);
 }
 
-/// The interaction of a row, by its place in the model.
+/// The interaction of a row, by its index in the model.
 pub(super) fn interaction_of(row: &SceneInterface, model: &Model) -> Option<usize> {
     match &row.interaction {
         Some(name) => model.interactions.get_index_of(name),

@@ -1,22 +1,22 @@
 //! Fixed-point iteration of each value, under-relaxed or by bisection.
 
-/// The part of the way that substitution goes at most.
+/// The maximum relaxation factor.
 const FIRST_PART: f64 = 0.5;
 
-/// A node that goes on in one direction for longer is not between the values where it once turned.
+/// A node that moves in one direction for longer has left the bracket of its reversals.
 const LONGEST_RUN: u32 = 40;
 
-/// Relaxation of substitution.
+/// Relaxation of fixed-point iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Relaxation {
-    /// By half the part at a node that comes back from where it went, and by more where it goes on.
+    /// The factor is halved at a node that reverses, and increased where it continues.
     Parts,
-    /// The middle of the bracket in which a node turns: finds the solution of a scene of one unknown at any step of its table.
+    /// Bisection of the bracket in which a node reverses: solves a scene of one unknown at any step of its table.
     Brackets,
 }
 
 impl Relaxation {
-    /// Substitution that changes, or brackets, no value by more than this part of the largest has come to rest.
+    /// Converged when no value changes, or is bracketed, by more than this fraction of the largest.
     pub(super) fn at_rest(self) -> f64 {
         match self {
             Self::Parts => 1e-9,
@@ -25,12 +25,12 @@ impl Relaxation {
     }
 }
 
-/// The way of a node through substitution.
+/// The history of a node in the iteration.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Walk {
     part: f64,
     last: f64,
-    /// The last values from which it went up, and down.
+    /// The last values from which it increased, and decreased.
     bracket: [f64; 2],
     /// The number of steps in one direction.
     run: u32,
@@ -43,7 +43,7 @@ impl Default for Walk {
 }
 
 impl Walk {
-    /// The step from a value which substitution would change by `change`.
+    /// The step from a value that the unrelaxed iteration would change by `change`.
     pub(super) fn step(&mut self, way: Relaxation, value: f64, change: f64) -> f64 {
         let turns = change * self.last < 0.0;
         self.part = if turns { 0.5 * self.part } else { (1.1 * self.part).min(FIRST_PART) };
@@ -55,7 +55,7 @@ impl Walk {
         let goes_up = 0.0 < change;
         self.bracket[usize::from(!goes_up)] = value;
         let [lower, upper] = self.bracket;
-        // Other nodes have moved the place where it turns.
+        // Other nodes have moved the reversal point.
         if upper <= lower || LONGEST_RUN < self.run {
             self.bracket[usize::from(goes_up)] = if goes_up { f64::INFINITY } else { f64::NEG_INFINITY };
             self.run = 0;
